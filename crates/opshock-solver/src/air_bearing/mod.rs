@@ -1,0 +1,34 @@
+//! Air bearing: compressible Reynolds equation with rarefaction under one slider.
+
+/// Rarefaction model of the flow factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlowModel {
+    /// Continuum.
+    Continuum,
+    /// First-order slip (Burgdorfer).
+    Slip1,
+    /// Second-order slip (Hsia and Domoto).
+    Slip2,
+    /// Fukui-Kaneko, three-range fit with blended branches.
+    FukuiKaneko,
+}
+
+/// Numerical resolution of the film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmResolution {
+    /// Wanted number of cells; the grid fits the surface's edges and comes close to it.
+    pub cells: usize,
+    /// Height h0 of the C1 floor the film sees, m.
+    pub floor_m: f64,
+}
+
+/// Pose of the slider's reference plane over the disk's local plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Attitude {
+    /// Height of the reference plane over the disk at the slider's centre (no crown), m.
+    pub centre_height_m: f64,
+    /// Pitch, rad; positive: leading edge up.
+    pub pitch_rad: f64,
+    /// Roll, rad; positive: outer side (+y) up.
+    pub roll_rad: f64,
+}

@@ -1,0 +1,1 @@
+//! Graded tensor grids: cells, faces, spacing.

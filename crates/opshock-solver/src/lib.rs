@@ -1,0 +1,37 @@
+//! Physics of a hard disk drive's head-disk interface under operational shock.
+//!
+//! A [`scene::Scene`] (plain SI data) is built once into an immutable [`simulation::Model`];
+//! [`simulation::simulate`] runs one shock of a signed amplitude through it and returns an
+//! [`simulation::Outcome`]. The crate opens no file, reads no clock or environment, prints
+//! nothing and starts no thread.
+//!
+//! Conventions used everywhere (design reference, section 2):
+//!
+//! * SI units, `f64`; displacements are relative to the drive's base; z points from the disk
+//!   towards the slider.
+//! * Signed amplitude A: the inertia load per mass felt in the base frame is a(t) = A s(t) along
+//!   +z. A > 0 moves the disk towards the slider first.
+//! * Time 0 of the solver is the **onset of the pulse**; the study's axis adds `start_ms`.
+//! * Slider axes: x from leading to trailing edge (the way the disk moves at zero skew), y across
+//!   from the inner edge. Film height h = h_c - pitch (x - x_c) + roll (y - y_c) + recess + crown.
+//! * Contact: gap g >= 0 open, multiplier lambda >= 0 pushes apart, 0 <= g complementary to lambda.
+#![forbid(unsafe_code)]
+
+pub mod air_bearing;
+pub mod complementarity;
+pub mod disk;
+pub mod fixed_point;
+pub mod gas;
+pub mod grid;
+pub mod head;
+pub mod integrator;
+pub mod linalg;
+pub mod modal;
+pub mod quantity;
+pub mod ramp;
+pub mod scene;
+pub mod shock;
+pub mod simulation;
+pub mod slider;
+pub mod structure;
+pub mod suspension;

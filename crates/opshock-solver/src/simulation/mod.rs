@@ -1,0 +1,5 @@
+//! One simulation: structure, then head; criterion, outcome, histories, energy book.
+
+pub mod outcome;
+
+pub use outcome::*;

@@ -1,0 +1,1 @@
+//! Content identities: digests of studies and stages.

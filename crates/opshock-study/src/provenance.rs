@@ -1,0 +1,1 @@
+//! Version, commit and physics versions that every product carries.

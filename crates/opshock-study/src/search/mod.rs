@@ -1,0 +1,1 @@
+//! Search for the critical amplitude: ask and tell, no physics, no files.

@@ -1,0 +1,1 @@
+//! Journal, HDF5 results, lock, resume.

@@ -1,0 +1,1 @@
+//! Study files: reading, validation, axes, points.

@@ -1,0 +1,1 @@
+//! Sweeps: points in parallel, one writer, progress.

@@ -1,0 +1,1 @@
+//! Study files, search, store, report and command line.

@@ -1,0 +1,1 @@
+//! Floors, names, architecture page.
