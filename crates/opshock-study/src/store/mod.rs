@@ -1,1 +1,3 @@
 //! Journal, HDF5 results, lock, resume.
+
+pub mod history;

@@ -1,0 +1,93 @@
+//! History as HDF5.
+
+use super::{Column, HISTORY_FORMAT, HistoryFileError, HistoryHeader, head_columns, root_columns};
+use hdf5::types::VarLenUnicode;
+use hdf5::{File, Group, Location};
+use opshock_solver::simulation::History;
+use std::path::Path;
+
+/// Writes a history in the layout of the [module](super). Root attributes: `format`
+/// (`opshock history`), `format_version`, `program_version`, `commit`, `study`, `study_digest`,
+/// `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none), `effects`, and one
+/// attribute `point_KEY` per coordinate of the simulated point. Every dataset has `units`,
+/// `description` and `time`, the path of the dataset it is given on.
+///
+/// # Errors
+///
+/// [`HistoryFileError`]; an existing file is then left as it was.
+pub fn write_hdf5(
+    path: &Path,
+    history: &History,
+    header: &HistoryHeader,
+) -> Result<(), HistoryFileError> {
+    let io = |source| HistoryFileError::Io {
+        path: path.display().to_string(),
+        source,
+    };
+    let aside = super::aside(path).map_err(io)?;
+    fill(aside.path(), history, header).map_err(|source| HistoryFileError::Hdf5 {
+        path: path.display().to_string(),
+        source,
+    })?;
+    aside.persist(path).map_err(|error| io(error.error))?;
+    Ok(())
+}
+
+fn fill(path: &Path, history: &History, header: &HistoryHeader) -> hdf5::Result<()> {
+    let file = File::create(path)?;
+    let root = file.as_group()?;
+    text(&root, "format", "opshock history")?;
+    number(&root, "format_version", HISTORY_FORMAT)?;
+    text(&root, "program_version", &header.program_version)?;
+    text(&root, "commit", &header.commit)?;
+    text(&root, "study", &header.study)?;
+    text(&root, "study_digest", &header.digest)?;
+    for (key, value) in &header.point {
+        text(&root, &format!("point_{key}"), value)?;
+    }
+    number(&root, "amplitude_g", header.amplitude_g)?;
+    number(&root, "start_s", header.start_s)?;
+    text(&root, "verdict", &header.verdict)?;
+    number(&root, "t_fail_s", header.t_fail_s.unwrap_or(f64::NAN))?;
+    text(&root, "effects", &header.effects.join(" "))?;
+
+    datasets(&root, &root_columns(history, header.start_s), "/time_s")?;
+    if !history.head.time_s.is_empty() {
+        let head = root.create_group("head")?;
+        text(&head, "description", "head at its own accepted steps")?;
+        datasets(
+            &head,
+            &head_columns(&history.head, header.start_s),
+            "/head/time_s",
+        )?;
+    }
+    file.close()
+}
+
+fn datasets(group: &Group, columns: &[Column], time: &str) -> hdf5::Result<()> {
+    for column in columns {
+        let dataset = group
+            .new_dataset_builder()
+            .with_data(&column.values)
+            .create(column.name)?;
+        text(&dataset, "units", column.units)?;
+        text(&dataset, "description", column.description)?;
+        text(&dataset, "time", time)?;
+    }
+    Ok(())
+}
+
+fn text(at: &Location, name: &str, value: &str) -> hdf5::Result<()> {
+    // A NUL cannot be stored; it can only come from a study's name.
+    let value: VarLenUnicode = value
+        .replace('\0', "")
+        .parse()
+        .map_err(|error| hdf5::Error::from(format!("attribute {name}: {error}")))?;
+    at.new_attr::<VarLenUnicode>()
+        .create(name)?
+        .write_scalar(&value)
+}
+
+fn number<T: hdf5::H5Type>(at: &Location, name: &str, value: T) -> hdf5::Result<()> {
+    at.new_attr::<T>().create(name)?.write_scalar(&value)
+}
