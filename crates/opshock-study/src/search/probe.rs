@@ -1,0 +1,283 @@
+//! A probe of the search and what it answers.
+//!
+//! The verdict has three values and is never the sign of a stored number: a clearance that is not
+//! a number decides nothing.
+
+use serde::Serialize;
+
+/// Which way the disk moves first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub enum Sign {
+    /// Inertia load along +z: the disk first moves towards the slider.
+    #[serde(rename = "+")]
+    Plus,
+    /// The disk first moves away from the slider.
+    #[serde(rename = "-")]
+    Minus,
+}
+
+impl Sign {
+    /// `"+"` or `"-"`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Sign::Plus => "+",
+            Sign::Minus => "-",
+        }
+    }
+
+    /// 1 or -1.
+    pub fn factor(self) -> f64 {
+        match self {
+            Sign::Plus => 1.0,
+            Sign::Minus => -1.0,
+        }
+    }
+
+    /// Reads `"+"` or `"-"`.
+    pub fn parse(text: &str) -> Option<Sign> {
+        match text {
+            "+" => Some(Sign::Plus),
+            "-" => Some(Sign::Minus),
+            _ => None,
+        }
+    }
+}
+
+/// How the run is made when the plain run has no verdict; tried in this order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Retry {
+    /// As the study says.
+    #[default]
+    None,
+    /// Half the steps (structure and head).
+    HalfStep,
+    /// A quarter of the steps.
+    QuarterStep,
+    /// The other coupling of film and slider, at the study's steps.
+    OtherCoupling,
+    /// The other contact method of disk and ramp, at the study's steps.
+    OtherContact,
+}
+
+impl Retry {
+    /// All levels in the order tried.
+    pub const LADDER: [Retry; 5] = [
+        Retry::None,
+        Retry::HalfStep,
+        Retry::QuarterStep,
+        Retry::OtherCoupling,
+        Retry::OtherContact,
+    ];
+
+    /// Place on the ladder, 0 is the plain run.
+    pub fn level(self) -> u8 {
+        match self {
+            Retry::None => 0,
+            Retry::HalfStep => 1,
+            Retry::QuarterStep => 2,
+            Retry::OtherCoupling => 3,
+            Retry::OtherContact => 4,
+        }
+    }
+
+    /// The retry of a level, `None` beyond the ladder.
+    pub fn from_level(level: u8) -> Option<Retry> {
+        Self::LADDER.get(usize::from(level)).copied()
+    }
+
+    /// The next thing to try.
+    pub fn next(self) -> Option<Retry> {
+        Self::from_level(self.level() + 1)
+    }
+
+    /// Label of products.
+    pub fn label(self) -> &'static str {
+        match self {
+            Retry::None => "",
+            Retry::HalfStep => "dt/2",
+            Retry::QuarterStep => "dt/4",
+            Retry::OtherCoupling => "other_coupling",
+            Retry::OtherContact => "other_contact",
+        }
+    }
+}
+
+/// One simulation asked for: a node of the amplitude lattice and how to run it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Probe {
+    /// Node of the lattice.
+    pub index: i32,
+    /// Multiple of the study's window simulated: 1, or 2 for the window check.
+    pub window_factor: u8,
+    /// How the run is made.
+    pub retry: Retry,
+}
+
+impl Probe {
+    /// A plain probe of a node.
+    pub fn at(index: i32) -> Probe {
+        Probe {
+            index,
+            window_factor: 1,
+            retry: Retry::None,
+        }
+    }
+}
+
+/// Why the search asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Looking for a bracket from the hint.
+    Hunt,
+    /// Halving the bracket.
+    Bisect,
+    /// Looking for lower failures.
+    Scan,
+    /// A lower failure of a neighbouring width.
+    FollowUp,
+    /// The highest survivor in a doubled window.
+    Window,
+}
+
+impl Purpose {
+    /// Word in products.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Purpose::Hunt => "hunt",
+            Purpose::Bisect => "bisect",
+            Purpose::Scan => "scan",
+            Purpose::FollowUp => "follow_up",
+            Purpose::Window => "window",
+        }
+    }
+
+    /// Reads the word back.
+    pub fn parse(text: &str) -> Option<Purpose> {
+        [
+            Purpose::Hunt,
+            Purpose::Bisect,
+            Purpose::Scan,
+            Purpose::FollowUp,
+            Purpose::Window,
+        ]
+        .into_iter()
+        .find(|purpose| purpose.as_str() == text)
+    }
+}
+
+/// Survives, fails or undecided; nothing else, and never derived from a clearance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// No failure within the window.
+    Survives,
+    /// Failed.
+    Fails {
+        /// Time of touch after the onset, s.
+        t_fail_s: f64,
+        /// Place on the slider from its leading edge, m.
+        x_m: f64,
+        /// Place on the slider from its inner edge, m.
+        y_m: f64,
+    },
+    /// No answer.
+    Undecided {
+        /// Why, as a stable word.
+        cause: UndecidedCause,
+        /// A sentence with figures.
+        message: String,
+    },
+}
+
+impl Verdict {
+    /// `survives`, `fails`, `undecided`.
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Verdict::Survives => "survives",
+            Verdict::Fails { .. } => "fails",
+            Verdict::Undecided { .. } => "undecided",
+        }
+    }
+}
+
+/// Why a run has no verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum UndecidedCause {
+    /// The coupled solve did not converge at the smallest step.
+    NotConverged,
+    /// The step limit of the study was reached.
+    StepLimit,
+    /// A number that is not finite appeared.
+    NotFinite,
+    /// The simulation panicked.
+    Panicked,
+    /// The scene could not be built or has no steady flying state.
+    NotBuilt,
+}
+
+impl UndecidedCause {
+    const ALL: [UndecidedCause; 5] = [
+        UndecidedCause::NotConverged,
+        UndecidedCause::StepLimit,
+        UndecidedCause::NotFinite,
+        UndecidedCause::Panicked,
+        UndecidedCause::NotBuilt,
+    ];
+
+    /// Word in products.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            UndecidedCause::NotConverged => "not_converged",
+            UndecidedCause::StepLimit => "step_limit",
+            UndecidedCause::NotFinite => "not_finite",
+            UndecidedCause::Panicked => "panicked",
+            UndecidedCause::NotBuilt => "not_built",
+        }
+    }
+
+    /// Reads the word back.
+    pub fn parse(text: &str) -> Option<UndecidedCause> {
+        Self::ALL.into_iter().find(|cause| cause.as_str() == text)
+    }
+}
+
+/// Work of a run in counts that do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct RunCost {
+    /// Accepted head steps.
+    pub steps: u64,
+    /// Rejected head steps.
+    pub rejected: u64,
+    /// Film linear solves.
+    pub film_solves: u64,
+    /// Film factorisations.
+    pub factorisations: u64,
+    /// Structure steps.
+    pub structure_steps: u64,
+    /// Film unknowns.
+    pub film_unknowns: u64,
+}
+
+impl RunCost {
+    /// Adds the work of another run; unknowns keep the larger.
+    pub fn add(&mut self, other: &RunCost) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.film_solves += other.film_solves;
+        self.factorisations += other.factorisations;
+        self.structure_steps += other.structure_steps;
+        self.film_unknowns = self.film_unknowns.max(other.film_unknowns);
+    }
+}
+
+/// What a simulation answered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeResult {
+    /// Verdict.
+    pub verdict: Verdict,
+    /// Smallest clearance, m; absent when there is none (never NaN).
+    pub h_min_m: Option<f64>,
+    /// Its time after the onset, s.
+    pub t_min_s: Option<f64>,
+    /// Work.
+    pub cost: RunCost,
+}

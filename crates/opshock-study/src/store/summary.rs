@@ -1,0 +1,339 @@
+//! Critical shocks of a study as rows: what tables, curves and JSON are made from.
+//!
+//! The JSON is `{"study", "digest", "points": [{"ramp", "pulse_ms", "sign", ...axes, "a_crit_g",
+//! "a_fail_g", "err_low_g", "err_high_g", "err_parts", "onset_g", "runs", "status", "flags",
+//! "brackets_g", "certified_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
+//! null. Nothing in it depends on the machine, the number of threads or the time of day, so that
+//! equal results are equal bytes.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use crate::search::{RunCost, Sign};
+
+/// Value of a further axis of the study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum AxisValue {
+    /// A number in the unit that the axis' name carries.
+    Number(f64),
+    /// A word, a file, a truth value.
+    Text(String),
+}
+
+impl std::fmt::Display for AxisValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            AxisValue::Number(number) => write!(f, "{number}"),
+            AxisValue::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+/// How the search of a point ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Bracketed.
+    Ok,
+    /// No failure up to the highest amplitude of the range: `a_crit_g` is that bound.
+    AboveRange,
+    /// Fails at the lowest amplitude of the range already: `a_fail_g` is that bound.
+    BelowRange,
+    /// Runs without a verdict left no bracket.
+    Undecided,
+    /// The search has not ended.
+    Open,
+}
+
+impl Status {
+    /// Word in products.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Status::Ok => "ok",
+            Status::AboveRange => "above_range",
+            Status::BelowRange => "below_range",
+            Status::Undecided => "undecided",
+            Status::Open => "open",
+        }
+    }
+
+    /// Reads the word back.
+    pub fn parse(text: &str) -> Option<Status> {
+        [
+            Status::Ok,
+            Status::AboveRange,
+            Status::BelowRange,
+            Status::Undecided,
+            Status::Open,
+        ]
+        .into_iter()
+        .find(|status| status.as_str() == text)
+    }
+}
+
+/// Something a reader of the row must know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Flag {
+    /// A survivor lies above a failure; see `brackets_g`.
+    NonMonotone,
+    /// The highest survivor fails in a doubled window.
+    Window,
+    /// The doubled window has no verdict.
+    WindowUndecided,
+    /// A verdict needed another step, coupling or contact method.
+    Retry,
+    /// A node without verdict widens the bracket or leaves a gap in the scan.
+    UndecidedNode,
+    /// A run without verdict did not converge.
+    NotConverged,
+    /// A run without verdict reached the step limit.
+    StepLimit,
+    /// A run without verdict met a number that is not finite.
+    NotFinite,
+    /// A run panicked.
+    Panicked,
+    /// A scene could not be built.
+    NotBuilt,
+    /// The answer is the no-ramp answer: the disk does not reach the ramp.
+    NoTouch,
+    /// The amplitude of first touch is not known, so nothing is taken from the no-ramp answer.
+    OnsetUnknown,
+}
+
+impl Flag {
+    const ALL: [Flag; 12] = [
+        Flag::NonMonotone,
+        Flag::Window,
+        Flag::WindowUndecided,
+        Flag::Retry,
+        Flag::UndecidedNode,
+        Flag::NotConverged,
+        Flag::StepLimit,
+        Flag::NotFinite,
+        Flag::Panicked,
+        Flag::NotBuilt,
+        Flag::NoTouch,
+        Flag::OnsetUnknown,
+    ];
+
+    /// Word in products.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Flag::NonMonotone => "non_monotone",
+            Flag::Window => "window",
+            Flag::WindowUndecided => "window_undecided",
+            Flag::Retry => "retry",
+            Flag::UndecidedNode => "undecided_node",
+            Flag::NotConverged => "not_converged",
+            Flag::StepLimit => "step_limit",
+            Flag::NotFinite => "not_finite",
+            Flag::Panicked => "panicked",
+            Flag::NotBuilt => "not_built",
+            Flag::NoTouch => "no_touch",
+            Flag::OnsetUnknown => "onset_unknown",
+        }
+    }
+
+    /// Reads the word back.
+    pub fn parse(text: &str) -> Option<Flag> {
+        Self::ALL.into_iter().find(|flag| flag.as_str() == text)
+    }
+}
+
+/// One source of a row's error bar, G.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ErrorPart {
+    /// Below the reported value, G.
+    pub low_g: f64,
+    /// Above the reported value, G.
+    pub high_g: f64,
+}
+
+/// Critical shock of one point.
+///
+/// The bar is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`. `a_fail_g` is the lowest failing
+/// amplitude in the evidence, `a_crit_g` the highest surviving one below it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointSummary {
+    /// Name of the ramp model.
+    pub ramp: String,
+    /// Pulse width, ms.
+    pub pulse_ms: f64,
+    /// Sign of the shock.
+    pub sign: Sign,
+    /// Values of the study's further axes, in the order of [`Summary::axes`].
+    pub axes: Vec<AxisValue>,
+    /// Highest survivor below the lowest failure, G.
+    pub a_crit_g: Option<f64>,
+    /// Lowest failure, G.
+    pub a_fail_g: Option<f64>,
+    /// Error bar below `a_crit_g`, G.
+    pub err_low_g: Option<f64>,
+    /// Error bar above `a_crit_g`, G.
+    pub err_high_g: Option<f64>,
+    /// What the bar is made of, by name; the parts add up.
+    pub err_parts: Vec<(String, ErrorPart)>,
+    /// Amplitude at which the disk first touches the ramp within the window, G.
+    pub onset_g: Option<f64>,
+    /// Simulations of the canonical sequence.
+    pub runs: u64,
+    /// How the search ended.
+    pub status: Status,
+    /// What a reader must know, sorted.
+    pub flags: Vec<Flag>,
+    /// Every (survivor, next higher failure) pair of the evidence, G, ascending.
+    pub brackets_g: Vec<[f64; 2]>,
+    /// Lower end of what was searched: below it the no-ramp answer or nothing is known, G.
+    pub certified_from_g: Option<f64>,
+    /// Largest untested step between survivors from there to `a_crit_g`, per cent.
+    pub largest_gap_pct: Option<f64>,
+}
+
+/// Counts over all points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Totals {
+    /// Points of the study.
+    pub points: u64,
+    /// Bracketed.
+    pub ok: u64,
+    /// Above the range.
+    pub above_range: u64,
+    /// Below the range.
+    pub below_range: u64,
+    /// Without a bracket for want of verdicts.
+    pub undecided: u64,
+    /// Not ended.
+    pub open: u64,
+    /// Simulations of the canonical sequences.
+    pub runs: u64,
+    /// Of these without verdict.
+    pub undecided_runs: u64,
+    /// Work of these runs.
+    pub cost: RunCost,
+}
+
+/// Table of a study's critical shocks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Name of the study.
+    pub study: String,
+    /// Digest of the study.
+    pub digest: String,
+    /// Names of the further axes.
+    pub axes: Vec<String>,
+    /// Rows in the study's order.
+    pub points: Vec<PointSummary>,
+    /// Counts.
+    pub totals: Totals,
+}
+
+struct Row<'a> {
+    axes: &'a [String],
+    point: &'a PointSummary,
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let point = self.point;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("ramp", &point.ramp)?;
+        map.serialize_entry("pulse_ms", &point.pulse_ms)?;
+        map.serialize_entry("sign", point.sign.as_str())?;
+        for (name, value) in self.axes.iter().zip(&point.axes) {
+            map.serialize_entry(name, value)?;
+        }
+        map.serialize_entry("a_crit_g", &point.a_crit_g)?;
+        map.serialize_entry("a_fail_g", &point.a_fail_g)?;
+        map.serialize_entry("err_low_g", &point.err_low_g)?;
+        map.serialize_entry("err_high_g", &point.err_high_g)?;
+        map.serialize_entry("err_parts", &Parts(&point.err_parts))?;
+        map.serialize_entry("onset_g", &point.onset_g)?;
+        map.serialize_entry("runs", &point.runs)?;
+        map.serialize_entry("status", &point.status)?;
+        map.serialize_entry("flags", &point.flags)?;
+        map.serialize_entry("brackets_g", &point.brackets_g)?;
+        map.serialize_entry("certified_from_g", &point.certified_from_g)?;
+        map.serialize_entry("largest_gap_pct", &point.largest_gap_pct)?;
+        map.end()
+    }
+}
+
+struct Parts<'a>(&'a [(String, ErrorPart)]);
+
+impl Serialize for Parts<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, part)| (name, part)))
+    }
+}
+
+impl Serialize for Summary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rows: Vec<Row<'_>> = self
+            .points
+            .iter()
+            .map(|point| Row {
+                axes: &self.axes,
+                point,
+            })
+            .collect();
+        let mut map = serializer.serialize_map(Some(4))?;
+        map.serialize_entry("study", &self.study)?;
+        map.serialize_entry("digest", &self.digest)?;
+        map.serialize_entry("points", &rows)?;
+        map.serialize_entry("totals", &self.totals)?;
+        map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_carry_their_axes_between_sign_and_answer_and_nulls_for_what_is_missing() {
+        let summary = Summary {
+            study: "s".into(),
+            digest: "d".into(),
+            axes: vec!["clearance_um".into()],
+            points: vec![PointSummary {
+                ramp: "rigid".into(),
+                pulse_ms: 0.5,
+                sign: Sign::Minus,
+                axes: vec![AxisValue::Number(60.0)],
+                a_crit_g: Some(2000.0),
+                a_fail_g: None,
+                err_low_g: None,
+                err_high_g: None,
+                err_parts: vec![],
+                onset_g: None,
+                runs: 3,
+                status: Status::AboveRange,
+                flags: vec![Flag::NonMonotone],
+                brackets_g: vec![],
+                certified_from_g: None,
+                largest_gap_pct: None,
+            }],
+            totals: Totals::default(),
+        };
+        let text = serde_json::to_string(&summary).expect("serialises");
+        assert!(text.starts_with(
+            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"err_parts":{},"onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
+        ), "{text}");
+    }
+
+    #[test]
+    fn every_word_reads_back() {
+        for flag in Flag::ALL {
+            assert_eq!(Flag::parse(flag.as_str()), Some(flag));
+            assert_eq!(
+                serde_json::to_string(&flag).expect("word"),
+                format!("\"{}\"", flag.as_str())
+            );
+        }
+        for status in ["ok", "above_range", "below_range", "undecided", "open"] {
+            assert_eq!(Status::parse(status).expect("known").as_str(), status);
+        }
+    }
+}
