@@ -1,1 +1,5 @@
 //! Floors, names, architecture page.
+
+mod architecture;
+mod floors;
+mod wording;

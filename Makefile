@@ -1,0 +1,53 @@
+# opshock: what a user and a developer run. `make help` lists the targets.
+SHELL := /bin/bash
+OPSHOCK := target/release/opshock
+JOBS ?= $(shell nproc)
+
+.DEFAULT_GOAL := help
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-structure verify-durability clean-results
+
+help: ## this list
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
+
+bootstrap: ## install what the machine lacks (apt; --verify adds outside checks)
+	@scripts/bootstrap
+
+build: bootstrap ## build the optimised program
+	cargo build --release --locked
+
+fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
+	$(OPSHOCK) sweep studies/fig13/study.toml --store results/fig13/fig13.opshock -j $(JOBS)
+	$(OPSHOCK) report results/fig13/fig13.opshock --out results/fig13
+
+study: build ## run another study: make study NAME=drive-2.5in
+	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }
+	$(OPSHOCK) sweep studies/$(NAME)/study.toml --store results/$(NAME)/$(NAME).opshock -j $(JOBS)
+	$(OPSHOCK) report results/$(NAME)/$(NAME).opshock --out results/$(NAME)
+
+test: bootstrap ## every test (slow ones are in `make verify`)
+	cargo test --workspace --locked
+
+fmt: ## check the formatting
+	cargo fmt --all -- --check
+
+clippy: ## lints, warnings are errors
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+
+doc: ## API documentation, warnings are errors
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+check: fmt clippy doc test ## what CI runs
+
+bench: bootstrap ## benchmarks; each prints what it compares
+	cargo bench --workspace --locked
+
+verify: verify-structure verify-film verify-durability ## heavy evidence, in parts
+
+verify-structure: bootstrap ## slow structure checks
+	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture structure_slow
+
+verify-film: bootstrap ## film convergence to the reference limit
+	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
+
+verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow

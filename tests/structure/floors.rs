@@ -1,0 +1,185 @@
+//! Who may import whom: a module uses modules of lower floors and itself.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Module of the solver, its floor.
+const SOLVER: &[(&str, u8)] = &[
+    ("quantity", 0),
+    ("gas", 0),
+    ("linalg", 0),
+    ("grid", 0),
+    ("modal", 1),
+    ("complementarity", 1),
+    ("integrator", 1),
+    ("fixed_point", 1),
+    ("shock", 2),
+    ("disk", 2),
+    ("ramp", 2),
+    ("suspension", 2),
+    ("slider", 2),
+    ("air_bearing", 2),
+    ("structure", 3),
+    ("head", 3),
+    ("scene", 4),
+    ("simulation", 5),
+];
+
+/// Imports that cross one floor on purpose, with the reason.
+const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[(
+    "air_bearing",
+    "slider",
+    "the film is cut to the slider's surface, which is geometry and no physics",
+)];
+
+/// Module of the study crate, its floor.
+const STUDY: &[(&str, u8)] = &[
+    ("identity", 0),
+    ("provenance", 0),
+    ("study", 1),
+    ("search", 1),
+    ("store", 2),
+    ("sweep", 3),
+    ("report", 4),
+    ("cli", 5),
+];
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(&next).expect("a source folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Names after every `crate::` in code, with comments left out; `crate::{a, b::c}` gives a and b.
+fn imported(text: &str) -> Vec<String> {
+    let code: String = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    let mut names = Vec::new();
+    for (at, _) in code.match_indices("crate::") {
+        let rest = &code[at + "crate::".len()..];
+        if let Some(group) = rest.strip_prefix('{') {
+            let mut depth = 0;
+            let mut word = String::new();
+            for c in group.chars() {
+                match c {
+                    '{' => depth += 1,
+                    '}' if depth == 0 => break,
+                    '}' => depth -= 1,
+                    ',' if depth == 0 => names.push(std::mem::take(&mut word)),
+                    _ if depth == 0 => word.push(c),
+                    _ => {}
+                }
+            }
+            names.push(word);
+        } else {
+            names.push(rest.to_string());
+        }
+    }
+    names
+        .iter()
+        .map(|name| {
+            name.trim()
+                .chars()
+                .take_while(|c| c.is_alphanumeric() || *c == '_')
+                .collect::<String>()
+        })
+        .filter(|name| !name.is_empty())
+        .collect()
+}
+
+fn check(crate_folder: &str, floors: &[(&str, u8)], exceptions: &[(&str, &str, &str)]) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(crate_folder).join("src");
+    let floor: BTreeMap<&str, u8> = floors.iter().copied().collect();
+    let mut wrong = Vec::new();
+    let mut seen = std::collections::BTreeSet::new();
+    for path in sources(&root) {
+        let inside = path.strip_prefix(&root).expect("inside src");
+        let first = inside.components().next().expect("a name");
+        let module = Path::new(first.as_os_str())
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .expect("a module name")
+            .to_string();
+        if module == "lib" || module == "main" {
+            continue;
+        }
+        let Some(&own) = floor.get(module.as_str()) else {
+            wrong.push(format!("{module} has no floor"));
+            continue;
+        };
+        seen.insert(module.clone());
+        let text = std::fs::read_to_string(&path).expect("readable source");
+        for name in imported(&text) {
+            // Names that are no module (macros, re-exports at the root) have no floor to break.
+            let Some(&other) = floor.get(name.as_str()) else { continue };
+            let allowed = name == module
+                || other < own
+                || exceptions.iter().any(|(from, to, _)| *from == module && *to == name);
+            if !allowed {
+                wrong.push(format!("{}: {module} (floor {own}) imports {name} (floor {other})", inside.display()));
+            }
+        }
+    }
+    for (name, _) in floors {
+        if !seen.contains(*name) {
+            wrong.push(format!("{name} is in the table of floors but not in the crate"));
+        }
+    }
+    assert!(wrong.is_empty(), "{crate_folder}:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn solver_modules_import_lower_floors_only() {
+    check("opshock-solver", SOLVER, SOLVER_EXCEPTIONS);
+}
+
+#[test]
+fn study_modules_import_lower_floors_only() {
+    check("opshock-study", STUDY, &[]);
+}
+
+#[test]
+fn reader_of_imports_sees_groups_and_skips_comments() {
+    let text = "use crate::{disk::DiskPose, ramp};\n// crate::head is only named\nfn f() { crate::gas::x() }";
+    assert_eq!(imported(text), ["disk", "ramp", "gas"]);
+}
+
+/// Only one place may name each heavy library, so that it can be replaced.
+#[test]
+fn libraries_stay_in_their_place() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let mut wrong = Vec::new();
+    for path in sources(&crates) {
+        let name = path.strip_prefix(&crates).expect("inside").display().to_string();
+        let text = std::fs::read_to_string(&path).expect("readable");
+        let code = |word: &str| {
+            text.lines()
+                .any(|line| !line.trim_start().starts_with("//") && line.contains(word))
+        };
+        if code("faer::") && !name.contains("/linalg/") {
+            wrong.push(format!("{name} names faer"));
+        }
+        if name.starts_with("opshock-solver") {
+            for word in ["std::fs", "std::time", "std::env", "std::thread", "println!", "eprintln!"] {
+                if code(word) && !name.ends_with("tests.rs") {
+                    wrong.push(format!("{name} uses {word}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
