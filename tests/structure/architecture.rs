@@ -10,7 +10,11 @@ fn every_module_is_on_the_map_and_every_path_on_it_exists() {
     for folder in ["crates/opshock-solver/src", "crates/opshock-study/src"] {
         for entry in std::fs::read_dir(root.join(folder)).expect("a source folder") {
             let path = entry.expect("an entry").path();
-            let stem = path.file_stem().and_then(|s| s.to_str()).expect("a name").to_string();
+            let stem = path
+                .file_stem()
+                .and_then(|s| s.to_str())
+                .expect("a name")
+                .to_string();
             if ["lib", "main"].contains(&stem.as_str()) {
                 continue;
             }
@@ -23,9 +27,11 @@ fn every_module_is_on_the_map_and_every_path_on_it_exists() {
         let looks_like_a_path = quoted.contains('/')
             && !quoted.contains(' ')
             && !quoted.contains('*')
-            && ["crates/", "tests/", "studies/", "scripts/", "docs/", "results/"]
-                .iter()
-                .any(|top| quoted.starts_with(top));
+            && [
+                "crates/", "tests/", "studies/", "scripts/", "docs/", "results/",
+            ]
+            .iter()
+            .any(|top| quoted.starts_with(top));
         if looks_like_a_path && !root.join(quoted).exists() {
             wrong.push(format!("{quoted} does not exist"));
         }

@@ -102,7 +102,10 @@ fn imported(text: &str) -> Vec<String> {
 }
 
 fn check(crate_folder: &str, floors: &[(&str, u8)], exceptions: &[(&str, &str, &str)]) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(crate_folder).join("src");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../crates")
+        .join(crate_folder)
+        .join("src");
     let floor: BTreeMap<&str, u8> = floors.iter().copied().collect();
     let mut wrong = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
@@ -125,18 +128,27 @@ fn check(crate_folder: &str, floors: &[(&str, u8)], exceptions: &[(&str, &str, &
         let text = std::fs::read_to_string(&path).expect("readable source");
         for name in imported(&text) {
             // Names that are no module (macros, re-exports at the root) have no floor to break.
-            let Some(&other) = floor.get(name.as_str()) else { continue };
+            let Some(&other) = floor.get(name.as_str()) else {
+                continue;
+            };
             let allowed = name == module
                 || other < own
-                || exceptions.iter().any(|(from, to, _)| *from == module && *to == name);
+                || exceptions
+                    .iter()
+                    .any(|(from, to, _)| *from == module && *to == name);
             if !allowed {
-                wrong.push(format!("{}: {module} (floor {own}) imports {name} (floor {other})", inside.display()));
+                wrong.push(format!(
+                    "{}: {module} (floor {own}) imports {name} (floor {other})",
+                    inside.display()
+                ));
             }
         }
     }
     for (name, _) in floors {
         if !seen.contains(*name) {
-            wrong.push(format!("{name} is in the table of floors but not in the crate"));
+            wrong.push(format!(
+                "{name} is in the table of floors but not in the crate"
+            ));
         }
     }
     assert!(wrong.is_empty(), "{crate_folder}:\n{}", wrong.join("\n"));
@@ -164,7 +176,11 @@ fn libraries_stay_in_their_place() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     let mut wrong = Vec::new();
     for path in sources(&crates) {
-        let name = path.strip_prefix(&crates).expect("inside").display().to_string();
+        let name = path
+            .strip_prefix(&crates)
+            .expect("inside")
+            .display()
+            .to_string();
         let text = std::fs::read_to_string(&path).expect("readable");
         let code = |word: &str| {
             text.lines()
@@ -174,7 +190,14 @@ fn libraries_stay_in_their_place() {
             wrong.push(format!("{name} names faer"));
         }
         if name.starts_with("opshock-solver") {
-            for word in ["std::fs", "std::time", "std::env", "std::thread", "println!", "eprintln!"] {
+            for word in [
+                "std::fs",
+                "std::time",
+                "std::env",
+                "std::thread",
+                "println!",
+                "eprintln!",
+            ] {
                 if code(word) && !name.ends_with("tests.rs") {
                     wrong.push(format!("{name} uses {word}"));
                 }
