@@ -1,1 +1,48 @@
 //! Graded tensor grids: cells, faces, spacing.
+//!
+//! A [`Lines`] is a strictly rising list of grid lines; cells lie between neighbours, their
+//! centres half way. Lines of a tensor grid run through every edge they are given, and between two
+//! edges cells grow away from those ends that ask for fine cells.
+
+/// Grid lines of one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lines {
+    lines: Vec<f64>,
+}
+
+impl Lines {
+    /// Lines as given; `None` unless at least two and strictly rising.
+    pub fn new(lines: Vec<f64>) -> Option<Self> {
+        let rising = lines.windows(2).all(|w| w[0] < w[1]) && lines.iter().all(|x| x.is_finite());
+        (lines.len() >= 2 && rising).then_some(Self { lines })
+    }
+
+    /// `n` equal cells from `from` to `to`.
+    pub fn uniform(from: f64, to: f64, n: usize) -> Option<Self> {
+        Self::new(
+            (0..=n)
+                .map(|i| from + (to - from) * (i as f64 / n as f64))
+                .collect(),
+        )
+    }
+
+    /// Number of cells.
+    pub fn n_cells(&self) -> usize {
+        self.lines.len() - 1
+    }
+
+    /// All lines, one more than cells.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.lines
+    }
+
+    /// Centre of cell `i`.
+    pub fn centre(&self, i: usize) -> f64 {
+        0.5 * (self.lines[i] + self.lines[i + 1])
+    }
+
+    /// Width of cell `i`.
+    pub fn width(&self, i: usize) -> f64 {
+        self.lines[i + 1] - self.lines[i]
+    }
+}

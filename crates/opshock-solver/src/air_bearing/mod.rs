@@ -1,5 +1,16 @@
 //! Air bearing: compressible Reynolds equation with rarefaction under one slider.
 
+mod film;
+mod flow_factor;
+mod flux;
+mod layout;
+mod thickness;
+
+#[cfg(test)]
+mod tests;
+
+pub use film::{Film, FilmError, FilmLinearisation, FilmScratch};
+
 /// Rarefaction model of the flow factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FlowModel {

@@ -1,5 +1,9 @@
 //! Slider: rigid body and air-bearing surface (rails, recess, crown, camber, twist).
 
+pub mod body;
+pub mod clearance;
+pub mod surface;
+
 /// Slider body and its place over the disk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SliderParameters {
@@ -26,11 +30,12 @@ pub struct SliderParameters {
 pub struct SurfaceParameters {
     /// Recess of everything no rail covers, m.
     pub base_recess_m: f64,
-    /// Crown: rise of the middle over the ends along x, m.
+    /// Crown: how much closer to the disk the middle lies than the ends along x, m.
     pub crown_m: f64,
-    /// Camber: rise of the middle over the sides along y, m.
+    /// Camber: how much closer to the disk the middle lies than the sides along y, m.
     pub camber_m: f64,
-    /// Twist, m.
+    /// Twist: how much farther from the disk the trailing outer and leading inner corners lie
+    /// than the middle, the other two as much closer, m.
     pub twist_m: f64,
     /// Leading-edge taper length (0 = none), m.
     pub taper_length_m: f64,

@@ -1,0 +1,216 @@
+//! Derivatives of the discrete film against differences, and exact states.
+
+use super::*;
+use crate::gas::GasParameters;
+use crate::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
+
+fn air() -> GasParameters {
+    GasParameters {
+        pressure_pa: 101_325.0,
+        viscosity_pa_s: 1.806e-5,
+        mean_free_path_m: 6.35e-8,
+    }
+}
+
+/// A femto slider with a step, a pad, a slanted rail and every kind of form.
+fn slider() -> SliderParameters {
+    let rectangle = |x_m, y_m, recess_m| Rail {
+        outline: RailOutline::Rectangle { x_m, y_m },
+        recess_m,
+    };
+    SliderParameters {
+        radius_m: 0.021,
+        angle_rad: 0.0,
+        skew_rad: 0.1,
+        length_m: 850e-6,
+        width_m: 700e-6,
+        height_m: 230e-6,
+        density_kg_per_m3: 4300.0,
+        surface: SurfaceParameters {
+            base_recess_m: 1.5e-6,
+            crown_m: 15e-9,
+            camber_m: 2e-9,
+            twist_m: 1e-9,
+            taper_length_m: 50e-6,
+            taper_angle_rad: 1e-3,
+            rails: vec![
+                rectangle([50e-6, 240e-6], [30e-6, 670e-6], 0.25e-6),
+                rectangle([120e-6, 240e-6], [50e-6, 650e-6], 0.0),
+                Rail {
+                    outline: RailOutline::Polygon {
+                        points_m: vec![
+                            [600e-6, 250e-6],
+                            [840e-6, 200e-6],
+                            [840e-6, 500e-6],
+                            [600e-6, 450e-6],
+                        ],
+                    },
+                    recess_m: 0.0,
+                },
+            ],
+        },
+    }
+}
+
+fn film(cells: usize, floor_m: f64) -> Film {
+    let resolution = FilmResolution { cells, floor_m };
+    Film::build(
+        &slider(),
+        &air(),
+        FlowModel::FukuiKaneko,
+        565.0,
+        &resolution,
+    )
+    .unwrap()
+}
+
+fn wavy_state(film: &Film, attitude: &Attitude) -> Vec<f64> {
+    let mut psi = vec![0.0; film.n_cells()];
+    film.ambient_psi(attitude, &mut psi);
+    for (k, v) in psi.iter_mut().enumerate() {
+        *v *= 1.5 + 0.7 * (k as f64 * 0.37).sin();
+    }
+    psi
+}
+
+#[test]
+fn jacobian_matches_differences_above_and_inside_the_floor() {
+    for floor_m in [3e-10, 2e-8] {
+        let film = film(400, floor_m);
+        let attitude = Attitude {
+            centre_height_m: 55e-9,
+            pitch_rad: 1.1e-4,
+            roll_rad: 1e-5,
+        };
+        let psi = wavy_state(&film, &attitude);
+        let mut scratch = film.scratch();
+        let mut lin = film.linearisation();
+        film.linearise(&psi, &attitude, &mut lin, &mut scratch);
+        let n = film.n_cells();
+        let residual = |psi: &[f64], attitude: &Attitude| {
+            let mut out = vec![0.0; n];
+            film.flux_residual(psi, attitude, &mut out, &mut film.scratch());
+            out
+        };
+        assert_eq!(residual(&psi, &attitude), lin.residual);
+
+        // A direction in psi.
+        let direction: Vec<f64> = (0..n).map(|k| psi[k] * (k as f64 * 1.3).cos()).collect();
+        let shifted =
+            |e: f64| -> Vec<f64> { psi.iter().zip(&direction).map(|(p, d)| p + e * d).collect() };
+        let e = 1e-6;
+        let (plus, minus) = (
+            residual(&shifted(e), &attitude),
+            residual(&shifted(-e), &attitude),
+        );
+        let mut product = vec![0.0; n];
+        lin.by_psi.multiply(&direction, &mut product);
+        let scale = product.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        for k in 0..n {
+            let numeric = (plus[k] - minus[k]) / (2.0 * e);
+            assert!(
+                (numeric - product[k]).abs() < 2e-7 * scale,
+                "cell {k}: {numeric} {}",
+                product[k]
+            );
+        }
+
+        // The three attitude columns.
+        for (q, step) in [1e-14, 1e-10, 1e-10].into_iter().enumerate() {
+            let moved = |s: f64| {
+                let mut a = attitude;
+                match q {
+                    0 => a.centre_height_m += s,
+                    1 => a.pitch_rad += s,
+                    _ => a.roll_rad += s,
+                }
+                residual(&psi, &a)
+            };
+            let (plus, minus) = (moved(step), moved(-step));
+            let scale = lin.by_attitude[q]
+                .iter()
+                .fold(0.0_f64, |m, v| m.max(v.abs()));
+            for k in 0..n {
+                let numeric = (plus[k] - minus[k]) / (2.0 * step);
+                let analytic = lin.by_attitude[q][k];
+                assert!(
+                    (numeric - analytic).abs() < 3e-6 * scale,
+                    "column {q}, cell {k}: {numeric} {analytic}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn force_gradients_match_differences() {
+    let film = film(400, 2e-8);
+    let attitude = Attitude {
+        centre_height_m: 55e-9,
+        pitch_rad: 1.1e-4,
+        roll_rad: 1e-5,
+    };
+    let psi = wavy_state(&film, &attitude);
+    let n = film.n_cells();
+    let mut by_psi: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; n]);
+    let mut by_attitude = [[0.0; 3]; 3];
+    film.force_gradients(&psi, &attitude, &mut by_psi, &mut by_attitude);
+    let direction: Vec<f64> = (0..n).map(|k| psi[k] * (k as f64 * 1.3).cos()).collect();
+    let e = 1e-6;
+    let at = |e: f64| {
+        let psi: Vec<f64> = psi.iter().zip(&direction).map(|(p, d)| p + e * d).collect();
+        film.force(&psi, &attitude)
+    };
+    let (plus, minus) = (at(e), at(-e));
+    for f in 0..3 {
+        let numeric = (plus[f] - minus[f]) / (2.0 * e);
+        let analytic: f64 = by_psi[f].iter().zip(&direction).map(|(g, d)| g * d).sum();
+        assert!((numeric - analytic).abs() < 1e-7 * analytic.abs().max(1e-6));
+    }
+    for q in 0..3 {
+        let step = [1e-13, 1e-9, 1e-9][q];
+        let at = |s: f64| {
+            let mut a = attitude;
+            match q {
+                0 => a.centre_height_m += s,
+                1 => a.pitch_rad += s,
+                _ => a.roll_rad += s,
+            }
+            film.force(&psi, &a)
+        };
+        let (plus, minus) = (at(step), at(-step));
+        for f in 0..3 {
+            let numeric = (plus[f] - minus[f]) / (2.0 * step);
+            let scale = by_attitude[f][q]
+                .abs()
+                .max((by_attitude[f][f] * by_attitude[q][q]).abs().sqrt());
+            assert!(
+                (numeric - by_attitude[f][q]).abs() < 1e-5 * scale,
+                "{f} {q}"
+            );
+        }
+    }
+}
+
+#[test]
+fn fluxes_leave_one_cell_and_enter_the_next() {
+    let film = film(300, 3e-10);
+    let attitude = Attitude {
+        centre_height_m: 60e-9,
+        pitch_rad: 1e-4,
+        roll_rad: 0.0,
+    };
+    let psi = wavy_state(&film, &attitude);
+    let mut lin = film.linearisation();
+    film.linearise(&psi, &attitude, &mut lin, &mut film.scratch());
+    // Columns of cells away from the slider's edges sum to zero, off-diagonals are not positive.
+    let [nx, ny] = film.lines_m().map(|l| l.len() - 1);
+    let n = film.n_cells();
+    for i in 1..nx - 1 {
+        for j in 1..ny - 1 {
+            let c = film.cell_index(i, j);
+            let sum: f64 = (0..n).map(|r| lin.by_psi.get(r, c)).sum();
+            assert!(sum.abs() < 1e-12 * lin.by_psi.get(c, c).abs());
+        }
+    }
+}
