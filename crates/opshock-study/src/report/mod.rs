@@ -1,1 +1,15 @@
 //! Summary, tables and plots; never simulates.
+
+pub mod chart;
+mod critical_shock;
+mod outcome_map;
+pub mod run_json;
+mod run_plots;
+mod run_text;
+pub mod table;
+
+pub use critical_shock::critical_shock_figure;
+pub use outcome_map::{RunDot, outcome_map};
+pub use run_json::{RunJson, cause_text, verdict_word};
+pub use run_plots::{NamedFigure, PlotError, RunCaption, run_figures, write_figures};
+pub use run_text::run_text;

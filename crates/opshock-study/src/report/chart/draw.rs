@@ -1,0 +1,581 @@
+//! Layout of a figure and its primitives.
+
+use super::axis::ResolvedAxis;
+use super::colour::{GREY, Rgb};
+use super::{
+    ChartError, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Scale, Series, Value, lines,
+};
+use kuva::backend::raster::RasterBackend;
+use kuva::backend::svg::SvgBackend;
+use kuva::render::color::Color;
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+
+const OUTER_PX: f64 = 16.0;
+const TITLE_SIZE: u32 = 16;
+const TEXT_SIZE: u32 = 12;
+/// Length of a line's sample in the legend.
+const KEY_PX: f64 = 38.0;
+const FONT: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
+const GRID: Rgb = (0xe4, 0xe4, 0xe4);
+const FAINT_GRID: Rgb = (0xf2, 0xf2, 0xf2);
+const SHADE: Rgb = (0xf4, 0xf1, 0xea);
+const TEXT: Rgb = (0x22, 0x22, 0x22);
+const QUIET_TEXT: Rgb = (0x66, 0x66, 0x66);
+
+pub(super) fn svg(figure: &Figure) -> String {
+    let scene = scene(figure);
+    let (width, height) = (scene.width, scene.height);
+    // The view box lets a page or a document scale the picture.
+    SvgBackend::new().render_scene(&scene).replacen(
+        "<svg ",
+        &format!(r#"<svg viewBox="0 0 {width} {height}" role="img" "#),
+        1,
+    )
+}
+
+pub(super) fn png(figure: &Figure, scale: f32) -> Result<Vec<u8>, ChartError> {
+    RasterBackend::new()
+        .with_scale(scale)
+        .render_scene(&scene(figure))
+        .map_err(ChartError)
+}
+
+/// A canvas in SVG pixels, y down.
+struct Canvas {
+    scene: Scene,
+}
+
+fn scene(figure: &Figure) -> Scene {
+    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
+    let rows = figure.panels.len().div_ceil(columns);
+    let width = 2.0 * OUTER_PX + columns as f64 * figure.panel_px.0;
+    let legend = legend_rows(figure, width - 2.0 * OUTER_PX);
+
+    let mut y = OUTER_PX;
+    let title_y = y + f64::from(TITLE_SIZE);
+    if !figure.title.is_empty() {
+        y += f64::from(TITLE_SIZE) + 8.0;
+    }
+    let subtitle_y = y + f64::from(TEXT_SIZE);
+    if !figure.subtitle.is_empty() {
+        y += f64::from(TEXT_SIZE) + 8.0;
+    }
+    let legend_y = y + 4.0;
+    y += 20.0 * legend.len() as f64 + 6.0;
+    let height = y + rows as f64 * figure.panel_px.1 + 0.5 * OUTER_PX;
+
+    let mut canvas = Canvas {
+        scene: Scene::new(width.ceil(), height.ceil()),
+    };
+    canvas.scene.font_family = Some(FONT.into());
+    canvas.scene.text_color = Some(rgb(TEXT).to_svg_string());
+    canvas.text(
+        (OUTER_PX, title_y),
+        &figure.title,
+        TITLE_SIZE,
+        TEXT,
+        TextAnchor::Start,
+    );
+    canvas.text(
+        (OUTER_PX, subtitle_y),
+        &figure.subtitle,
+        TEXT_SIZE,
+        QUIET_TEXT,
+        TextAnchor::Start,
+    );
+    for (row, entries) in legend.iter().enumerate() {
+        let mut x = OUTER_PX;
+        for (series, advance) in entries {
+            canvas.legend_entry((x, legend_y + 20.0 * row as f64 + 8.0), series);
+            x += advance;
+        }
+    }
+    for (index, panel) in figure.panels.iter().enumerate() {
+        let (column, row) = (index % columns, index / columns);
+        let left = OUTER_PX + column as f64 * figure.panel_px.0;
+        let top = y + row as f64 * figure.panel_px.1;
+        canvas.panel(panel, (left, top), figure.panel_px);
+    }
+    // Keeps the titles of samples as tooltips without the style sheet that would come with them.
+    canvas.scene.has_tooltips = false;
+    canvas.scene
+}
+
+/// Rows of legend entries with the room each takes.
+fn legend_rows(figure: &Figure, room: f64) -> Vec<Vec<(&Series, f64)>> {
+    let mut rows: Vec<Vec<(&Series, f64)>> = Vec::new();
+    let mut used = f64::INFINITY;
+    let mut seen: Vec<&str> = Vec::new();
+    for series in figure.panels.iter().flat_map(|panel| &panel.series) {
+        if series.name.is_empty() || seen.contains(&series.name.as_str()) {
+            continue;
+        }
+        seen.push(&series.name);
+        let advance = KEY_PX + 8.0 + text_width(&series.name, TEXT_SIZE) + 20.0;
+        if used + advance - 20.0 > room {
+            rows.push(Vec::new());
+            used = 0.0;
+        }
+        used += advance;
+        if let Some(row) = rows.last_mut() {
+            row.push((series, advance));
+        }
+    }
+    rows
+}
+
+impl Canvas {
+    fn panel(&mut self, panel: &Panel, (left, top): (f64, f64), (width, height): (f64, f64)) {
+        let x_axis = ResolvedAxis::new(&panel.x, abscissae(panel));
+        let y_axis = ResolvedAxis::new(&panel.y, ordinates(panel));
+        let widest = y_axis
+            .ticks
+            .iter()
+            .map(|(_, label)| text_width(label, TEXT_SIZE))
+            .fold(0.0, f64::max);
+        let heading = if panel.title.is_empty() { 6.0 } else { 26.0 };
+        let plot = Plot {
+            x0: left + 26.0 + widest + 10.0,
+            y0: top + heading,
+            x1: left + width - 16.0,
+            y1: top + height - 50.0,
+            shift: 0.0,
+            x: x_axis,
+            y: y_axis,
+        };
+        if !panel.title.is_empty() {
+            self.text(
+                (plot.x0, top + 14.0),
+                &panel.title,
+                13,
+                TEXT,
+                TextAnchor::Start,
+            );
+        }
+        self.background(panel, &plot);
+        for rule in &panel.rules {
+            self.rule(rule, &plot);
+        }
+        for series in &panel.series {
+            self.series(series, &plot.shifted(series.dodge_px));
+        }
+        self.frame(panel, &plot, left);
+    }
+
+    fn background(&mut self, panel: &Panel, plot: &Plot) {
+        if let Some((from, to)) = panel.shaded {
+            let x0 = plot.px(from).max(plot.x0);
+            let x1 = plot.px(to).min(plot.x1);
+            if x1 > x0 {
+                self.scene.add(Primitive::Rect {
+                    x: x0,
+                    y: plot.y0,
+                    width: x1 - x0,
+                    height: plot.y1 - plot.y0,
+                    fill: rgb(SHADE),
+                    stroke: None,
+                    stroke_width: None,
+                    opacity: None,
+                });
+            }
+        }
+        for value in &plot.y.minor {
+            let y = plot.py(*value);
+            self.segment((plot.x0, y), (plot.x1, y), FAINT_GRID, 1.0);
+        }
+        for (value, _) in &plot.y.ticks {
+            let y = plot.py(*value);
+            self.segment((plot.x0, y), (plot.x1, y), GRID, 1.0);
+        }
+        for (value, _) in &plot.x.ticks {
+            let x = plot.px(*value);
+            self.segment((x, plot.y0), (x, plot.y1), GRID, 1.0);
+        }
+        let zero = plot.py(0.0);
+        if plot.y.scale == Scale::Linear && zero > plot.y0 + 1.0 && zero < plot.y1 - 1.0 {
+            self.segment((plot.x0, zero), (plot.x1, zero), (0xb0, 0xb0, 0xb0), 1.0);
+        }
+    }
+
+    fn frame(&mut self, panel: &Panel, plot: &Plot, left: f64) {
+        self.segment((plot.x0, plot.y0), (plot.x0, plot.y1), TEXT, 1.0);
+        self.segment((plot.x0, plot.y1), (plot.x1, plot.y1), TEXT, 1.0);
+        for (value, label) in &plot.y.ticks {
+            let y = plot.py(*value);
+            self.segment((plot.x0 - 5.0, y), (plot.x0, y), TEXT, 1.0);
+            self.text(
+                (plot.x0 - 8.0, y + 4.2),
+                label,
+                TEXT_SIZE,
+                TEXT,
+                TextAnchor::End,
+            );
+        }
+        for value in &plot.y.minor {
+            let y = plot.py(*value);
+            self.segment((plot.x0 - 3.0, y), (plot.x0, y), TEXT, 1.0);
+        }
+        let mut free_from = f64::NEG_INFINITY;
+        for (value, label) in &plot.x.ticks {
+            let x = plot.px(*value);
+            self.segment((x, plot.y1), (x, plot.y1 + 5.0), TEXT, 1.0);
+            let half = 0.5 * text_width(label, TEXT_SIZE);
+            if x - half >= free_from {
+                self.text(
+                    (x, plot.y1 + 19.0),
+                    label,
+                    TEXT_SIZE,
+                    TEXT,
+                    TextAnchor::Middle,
+                );
+                free_from = x + half + 4.0;
+            }
+        }
+        let middle_x = 0.5 * (plot.x0 + plot.x1);
+        self.text(
+            (middle_x, plot.y1 + 39.0),
+            &panel.x.label,
+            TEXT_SIZE,
+            TEXT,
+            TextAnchor::Middle,
+        );
+        self.scene.add(Primitive::Text {
+            x: left + 14.0,
+            y: 0.5 * (plot.y0 + plot.y1),
+            content: panel.y.label.clone(),
+            size: TEXT_SIZE,
+            anchor: TextAnchor::Middle,
+            rotate: Some(-90.0),
+            bold: false,
+            color: Some(rgb(TEXT)),
+        });
+    }
+
+    fn rule(&mut self, rule: &Rule, plot: &Plot) {
+        match rule {
+            Rule::Horizontal { y, label } => {
+                let y = plot.py(*y);
+                if y < plot.y0 || y > plot.y1 {
+                    return;
+                }
+                self.polyline(&[(plot.x0, y), (plot.x1, y)], GREY, 1.2, Dash::Dashed);
+                let above = if y - plot.y0 < 18.0 { 14.0 } else { -5.0 };
+                self.text(
+                    (plot.x1 - 4.0, y + above),
+                    label,
+                    11,
+                    QUIET_TEXT,
+                    TextAnchor::End,
+                );
+            }
+            Rule::Vertical { x, label } => {
+                let x = plot.px(*x);
+                if x < plot.x0 || x > plot.x1 {
+                    return;
+                }
+                self.polyline(&[(x, plot.y0), (x, plot.y1)], GREY, 1.2, Dash::Dashed);
+                let room = plot.x1 - x > text_width(label, 11) + 8.0;
+                let (dx, anchor) = if room {
+                    (5.0, TextAnchor::Start)
+                } else {
+                    (-5.0, TextAnchor::End)
+                };
+                self.text((x + dx, plot.y0 + 12.0), label, 11, QUIET_TEXT, anchor);
+            }
+        }
+    }
+
+    fn series(&mut self, series: &Series, plot: &Plot) {
+        let bounds = (plot.x0, plot.y0, plot.x1, plot.y1);
+        let dash = series.line.unwrap_or(Dash::Solid);
+        let curve: Vec<_> = series.curve.iter().map(|p| plot.at(p.0, p.1)).collect();
+        for piece in lines::clipped(&lines::thinned(&curve), bounds) {
+            self.polyline(&piece, series.colour, series.width, dash);
+        }
+        if series.line.is_some() {
+            for pair in series.samples.windows(2) {
+                if let (Value::Known { y: a, .. }, Value::Known { y: b, .. }) =
+                    (pair[0].value, pair[1].value)
+                {
+                    let ends = [plot.at(pair[0].x, a), plot.at(pair[1].x, b)];
+                    for piece in lines::clipped(&ends, bounds) {
+                        self.polyline(&piece, series.colour, series.width, dash);
+                    }
+                }
+            }
+        }
+        for sample in &series.samples {
+            self.sample(sample, series, plot);
+        }
+    }
+
+    fn sample(&mut self, sample: &Sample, series: &Series, plot: &Plot) {
+        let (marker, fill) = series.marker.unwrap_or((Marker::Circle, Fill::Full));
+        let fill = if sample.open { Fill::Open } else { fill };
+        let noted = !sample.note.is_empty();
+        if noted {
+            self.scene.add(Primitive::GroupStart {
+                transform: None,
+                title: Some(sample.note.clone()),
+                extra_attrs: None,
+            });
+        }
+        match sample.value {
+            Value::Known { y, low, high } => {
+                let (x, y) = plot.at(sample.x, y);
+                let inside = |v: f64| plot.py(v).clamp(plot.y0, plot.y1);
+                let (top, bottom) = (inside(high), inside(low));
+                if bottom - top > 0.5 {
+                    self.segment((x, top), (x, bottom), series.colour, 1.2);
+                    for end in [top, bottom] {
+                        self.segment((x - 4.0, end), (x + 4.0, end), series.colour, 1.2);
+                    }
+                }
+                if (plot.y0..=plot.y1).contains(&y) && (plot.x0..=plot.x1).contains(&x) {
+                    self.marker((x, y), marker, fill, series);
+                }
+            }
+            Value::Above(y) | Value::Below(y) => {
+                let up = if matches!(sample.value, Value::Above(_)) {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let (x, y) = plot.at(sample.x, y);
+                self.open_arrow((x, y.clamp(plot.y0, plot.y1)), up, series.colour);
+                self.marker((x, y.clamp(plot.y0, plot.y1)), marker, Fill::Open, series);
+            }
+        }
+        if noted {
+            self.scene.add(Primitive::GroupEnd);
+        }
+    }
+
+    /// Shaft and open head; `up` is -1 (up) or 1 (down).
+    fn open_arrow(&mut self, (x, y): (f64, f64), up: f64, colour: Rgb) {
+        let tip = y + 24.0 * up;
+        self.segment((x, y), (x, tip - 7.0 * up), colour, 1.4);
+        self.path(
+            &[
+                (x - 4.5, tip - 8.0 * up),
+                (x, tip),
+                (x + 4.5, tip - 8.0 * up),
+            ],
+            Some((255, 255, 255)),
+            colour,
+        );
+    }
+
+    fn marker(&mut self, (x, y): (f64, f64), marker: Marker, fill: Fill, series: &Series) {
+        let (colour, r) = (series.colour, series.marker_px);
+        let inside = match fill {
+            Fill::Full => colour,
+            Fill::Open => (255, 255, 255),
+        };
+        match marker {
+            Marker::Circle => self.scene.add(Primitive::Circle {
+                cx: x,
+                cy: y,
+                r,
+                fill: rgb(inside),
+                fill_opacity: None,
+                stroke: Some(rgb(colour)),
+                stroke_width: Some(1.4),
+            }),
+            Marker::Square => {
+                let corners = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
+                self.path(
+                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
+                    Some(inside),
+                    colour,
+                );
+            }
+            Marker::Triangle => {
+                let corners = [(0.0, -1.25), (1.15, 0.85), (-1.15, 0.85)];
+                self.path(
+                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
+                    Some(inside),
+                    colour,
+                );
+            }
+            Marker::Diamond => {
+                let corners = [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)];
+                self.path(
+                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
+                    Some(inside),
+                    colour,
+                );
+            }
+            Marker::Cross => {
+                let d = 0.9 * r;
+                self.segment((x - d, y - d), (x + d, y + d), colour, 1.8);
+                self.segment((x - d, y + d), (x + d, y - d), colour, 1.8);
+            }
+        }
+    }
+
+    fn legend_entry(&mut self, (x, y): (f64, f64), series: &Series) {
+        if let Some(dash) = series.line {
+            self.polyline(
+                &[(x, y), (x + KEY_PX, y)],
+                series.colour,
+                series.width.max(1.6),
+                dash,
+            );
+        }
+        if let Some((marker, fill)) = series.marker {
+            self.marker((x + 0.5 * KEY_PX, y), marker, fill, series);
+        }
+        self.text(
+            (x + KEY_PX + 8.0, y + 4.2),
+            &series.name,
+            TEXT_SIZE,
+            TEXT,
+            TextAnchor::Start,
+        );
+    }
+
+    fn text(
+        &mut self,
+        (x, y): (f64, f64),
+        content: &str,
+        size: u32,
+        colour: Rgb,
+        anchor: TextAnchor,
+    ) {
+        if content.is_empty() {
+            return;
+        }
+        self.scene.add(Primitive::Text {
+            x,
+            y,
+            // The backend reads `$` as the start of a formula.
+            content: content.replace('$', "\\$"),
+            size,
+            anchor,
+            rotate: None,
+            bold: false,
+            color: Some(rgb(colour)),
+        });
+    }
+
+    fn segment(&mut self, a: (f64, f64), b: (f64, f64), colour: Rgb, width: f64) {
+        self.scene.add(Primitive::Line {
+            x1: a.0,
+            y1: a.1,
+            x2: b.0,
+            y2: b.1,
+            stroke: rgb(colour),
+            stroke_width: width,
+            stroke_dasharray: None,
+        });
+    }
+
+    fn polyline(&mut self, points: &[(f64, f64)], colour: Rgb, width: f64, dash: Dash) {
+        // Dashes are cut here: the raster backend would start the pattern anew at every point.
+        for piece in lines::dashed(points, dash) {
+            self.scene.add(Primitive::PolyLine {
+                points: piece,
+                stroke: rgb(colour),
+                stroke_width: width,
+                stroke_dasharray: None,
+            });
+        }
+    }
+
+    /// A closed polygon.
+    fn path(&mut self, corners: &[(f64, f64)], fill: Option<Rgb>, stroke: Rgb) {
+        let mut d = String::new();
+        for (index, (x, y)) in corners.iter().enumerate() {
+            let command = if index == 0 { 'M' } else { 'L' };
+            d.push_str(&format!("{command} {x:.2} {y:.2} "));
+        }
+        d.push('Z');
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d,
+            fill: fill.map(rgb),
+            stroke: rgb(stroke),
+            stroke_width: 1.4,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
+    }
+}
+
+/// Plotting area and its axes.
+struct Plot {
+    x0: f64,
+    y0: f64,
+    x1: f64,
+    y1: f64,
+    shift: f64,
+    x: ResolvedAxis,
+    y: ResolvedAxis,
+}
+
+impl Plot {
+    /// The same axes with everything drawn `dx` to the right.
+    fn shifted(&self, dx: f64) -> Plot {
+        Plot {
+            shift: dx,
+            x: self.x.clone(),
+            y: self.y.clone(),
+            ..*self
+        }
+    }
+
+    fn px(&self, x: f64) -> f64 {
+        self.shift + self.x0 + self.x.share(x) * (self.x1 - self.x0)
+    }
+
+    fn py(&self, y: f64) -> f64 {
+        self.y1 - self.y.share(y) * (self.y1 - self.y0)
+    }
+
+    fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.px(x), self.py(y))
+    }
+}
+
+fn abscissae(panel: &Panel) -> impl Iterator<Item = f64> {
+    panel.series.iter().flat_map(|series| {
+        let curve = series.curve.iter().map(|p| p.0);
+        curve.chain(series.samples.iter().map(|sample| sample.x))
+    })
+}
+
+fn ordinates(panel: &Panel) -> impl Iterator<Item = f64> {
+    let series = panel.series.iter().flat_map(|series| {
+        let curve = series.curve.iter().map(|p| p.1);
+        let samples = series.samples.iter().flat_map(|sample| match sample.value {
+            Value::Known { y, low, high } => [y, low, high],
+            Value::Above(y) | Value::Below(y) => [y; 3],
+        });
+        curve.chain(samples)
+    });
+    let rules = panel.rules.iter().filter_map(|rule| match rule {
+        Rule::Horizontal { y, .. } => Some(*y),
+        Rule::Vertical { .. } => None,
+    });
+    series.chain(rules)
+}
+
+/// Width of a text in DejaVu Sans, px; within some percent, for spacing only.
+fn text_width(text: &str, size: u32) -> f64 {
+    let em: f64 = text
+        .chars()
+        .map(|c| match c {
+            'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' => 0.31,
+            'f' | 't' | 'r' | '(' | ')' | '/' | '-' => 0.39,
+            'm' | 'w' | 'M' | 'W' | '%' => 0.92,
+            '+' | '\u{2212}' | '=' | '<' | '>' | '\u{00b1}' => 0.84,
+            c if c.is_ascii_uppercase() => 0.70,
+            _ => 0.62,
+        })
+        .sum();
+    em * f64::from(size)
+}
+
+fn rgb((r, g, b): Rgb) -> Color {
+    Color::Rgb(r, g, b)
+}

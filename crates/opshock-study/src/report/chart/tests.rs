@@ -1,0 +1,80 @@
+use super::axis::ResolvedAxis;
+use super::*;
+
+#[test]
+fn linear_ticks_are_round_and_inside() {
+    let axis = ResolvedAxis::new(&Axis::linear("x"), [-52.0, 118.0].into_iter());
+    let values: Vec<f64> = axis.ticks.iter().map(|t| t.0).collect();
+    assert_eq!(values, [-50.0, 0.0, 50.0, 100.0]);
+    let labels: Vec<&str> = axis.ticks.iter().map(|t| t.1.as_str()).collect();
+    assert_eq!(labels, ["\u{2212}50", "0", "50", "100"]);
+}
+
+#[test]
+fn a_log_axis_labels_1_2_5_and_ignores_zero() {
+    let axis = ResolvedAxis::new(&Axis::log("x"), [0.0, 60.0, 4000.0].into_iter());
+    let values: Vec<f64> = axis.ticks.iter().map(|t| t.0).collect();
+    assert_eq!(values, [50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]);
+    assert!((axis.share(axis.low)).abs() < 1e-12 && (axis.share(axis.high) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn one_value_or_none_still_makes_an_axis() {
+    for data in [vec![], vec![0.0], vec![7.0], vec![f64::NAN]] {
+        for axis in [Axis::linear("x"), Axis::log("x")] {
+            let axis = ResolvedAxis::new(&axis, data.clone().into_iter());
+            assert!(axis.low < axis.high, "{data:?}");
+            assert!(!axis.ticks.is_empty(), "{data:?}");
+        }
+    }
+}
+
+#[test]
+fn thinning_keeps_a_spike_of_one_sample() {
+    let mut points: Vec<(f64, f64)> = (0..100_000).map(|i| (i as f64 * 1e-3, 0.0)).collect();
+    points[31_234].1 = 9.0;
+    let kept = lines::thinned(&points);
+    assert!(kept.len() < 1000, "{}", kept.len());
+    assert!(kept.contains(&(31.234, 9.0)));
+    assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
+}
+
+#[test]
+fn clipping_breaks_where_the_line_leaves_and_at_nan() {
+    let bounds = (0.0, 0.0, 10.0, 10.0);
+    let pieces = lines::clipped(
+        &[
+            (-5.0, 5.0),
+            (5.0, 5.0),
+            (5.0, 20.0),
+            (6.0, 20.0),
+            (6.0, 4.0),
+        ],
+        bounds,
+    );
+    assert_eq!(
+        pieces,
+        [
+            vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)],
+            vec![(6.0, 10.0), (6.0, 4.0)]
+        ]
+    );
+    let broken = lines::clipped(
+        &[(1.0, 1.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 1.0)],
+        bounds,
+    );
+    assert_eq!(broken, [vec![(3.0, 1.0), (4.0, 1.0)]]);
+}
+
+#[test]
+fn dashes_run_on_across_many_short_segments() {
+    let line: Vec<(f64, f64)> = (0..=1000).map(|i| (i as f64 * 0.1, 0.0)).collect();
+    let dashes = lines::dashed(&line, Dash::Dashed);
+    assert_eq!(
+        dashes.len(),
+        10,
+        "100 px of 7 on, 4 off: nine whole and one begun"
+    );
+    let drawn: f64 = dashes.iter().map(|d| d[d.len() - 1].0 - d[0].0).sum();
+    assert!((drawn - 64.0).abs() < 1e-9, "9 x 7 + 1: {drawn}");
+}

@@ -1,0 +1,202 @@
+//! Critical shock against pulse width: the curve a study is made for.
+
+use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
+use crate::search::Sign;
+use crate::store::summary::{PointSummary, Status, Summary};
+
+const MARKERS: [Marker; 4] = [
+    Marker::Circle,
+    Marker::Square,
+    Marker::Triangle,
+    Marker::Diamond,
+];
+const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+
+/// Critical shock of every ramp model (and further axis value) against pulse width, a panel for
+/// each sign on one common ordinate.
+///
+/// Marks are `a_crit_g` with its error bar; an open mark has a reservation (see the table's
+/// status and flags); an open arrow is only a bound: no failure up to, or failure already at, the
+/// end of the searched range. Series of equal values are set some pixels apart.
+pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
+    let names = series_names(summary);
+    let range = ordinate_range(summary);
+    let widths = distinct(summary.points.iter().map(|point| point.pulse_ms));
+    let span = match (widths.first(), widths.last()) {
+        (Some(first), Some(last)) if last > first => {
+            (first - 0.08 * (last - first), last + 0.08 * (last - first))
+        }
+        (Some(first), _) => (0.5 * first, 1.5 * first),
+        _ => (0.0, 1.0),
+    };
+    let panels: Vec<Panel> = [Sign::Plus, Sign::Minus]
+        .into_iter()
+        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
+        .map(|sign| Panel {
+            title: match sign {
+                Sign::Plus => "Sign +: disk first moves towards the slider".into(),
+                Sign::Minus => "Sign \u{2212}: disk first moves away from the slider".into(),
+            },
+            x: Axis {
+                range: Some(span),
+                ticks: (widths.len() <= 9).then(|| readable(&widths, span)),
+                ..Axis::linear("Pulse width (ms)")
+            },
+            y: Axis {
+                range,
+                ..if range.is_some_and(|(low, high)| high > 6.0 * low) {
+                    Axis::log("Critical shock (G)")
+                } else {
+                    Axis::linear("Critical shock (G)")
+                }
+            },
+            series: names
+                .iter()
+                .enumerate()
+                .map(|(index, name)| series(summary, name, index, names.len(), sign))
+                .collect(),
+            rules: Vec::new(),
+            shaded: None,
+        })
+        .collect();
+    let bounded = summary
+        .points
+        .iter()
+        .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
+    let mut subtitle = "highest surviving amplitude with its error bar".to_owned();
+    if bounded {
+        subtitle.push_str("; open arrow: no bracket within the searched range");
+    }
+    if !provenance.is_empty() {
+        subtitle = format!("{subtitle}   [{provenance}]");
+    }
+    Figure {
+        title: summary.study.clone(),
+        subtitle,
+        columns: 2,
+        panel_px: (if panels.len() > 1 { 470.0 } else { 720.0 }, 400.0),
+        panels,
+    }
+}
+
+/// One name per ramp model and combination of further axis values, in the study's order.
+pub(super) fn series_names(summary: &Summary) -> Vec<String> {
+    distinct(
+        summary
+            .points
+            .iter()
+            .map(|point| series_name(summary, point)),
+    )
+}
+
+/// Name of the series a row belongs to.
+pub(super) fn series_name(summary: &Summary, point: &PointSummary) -> String {
+    let mut name = match point.ramp.as_str() {
+        "none" => "no ramp".to_owned(),
+        ramp => format!("{ramp} ramp"),
+    };
+    for (axis, value) in summary.axes.iter().zip(&point.axes) {
+        name.push_str(&format!(", {axis} = {value}"));
+    }
+    name
+}
+
+fn series(summary: &Summary, name: &str, index: usize, count: usize, sign: Sign) -> Series {
+    let mut samples: Vec<Sample> = summary
+        .points
+        .iter()
+        .filter(|point| point.sign == sign && series_name(summary, point) == *name)
+        .filter_map(|point| sample(name, point))
+        .collect();
+    samples.sort_by(|a, b| a.x.total_cmp(&b.x));
+    Series {
+        dodge_px: 4.0 * (index as f64 - 0.5 * (count as f64 - 1.0)),
+        ..Series::marked(
+            name,
+            colour::CYCLE[index % colour::CYCLE.len()],
+            Some(DASHES[index % DASHES.len()]),
+            (MARKERS[index % MARKERS.len()], Fill::Full),
+            samples,
+        )
+    }
+}
+
+fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
+    let value = match (point.status, point.a_crit_g, point.a_fail_g) {
+        (Status::AboveRange, Some(bound), _) => Value::Above(bound),
+        (Status::BelowRange, _, Some(bound)) => Value::Below(bound),
+        (_, Some(y), _) => Value::Known {
+            y,
+            low: y - point.err_low_g.unwrap_or(0.0),
+            high: y + point.err_high_g.unwrap_or(0.0),
+        },
+        _ => return None,
+    };
+    let g = |v: Option<f64>| v.map_or("-".to_owned(), |v| format!("{v:.1}"));
+    let mut note = format!(
+        "{name}, {} ms, {}: survives {} G, fails {} G, error -{} +{} G, {}",
+        point.pulse_ms,
+        point.sign.as_str(),
+        g(point.a_crit_g),
+        g(point.a_fail_g),
+        g(point.err_low_g),
+        g(point.err_high_g),
+        point.status.as_str()
+    );
+    for flag in &point.flags {
+        note.push_str(&format!(", {}", flag.as_str()));
+    }
+    Some(Sample {
+        x: point.pulse_ms,
+        value,
+        open: point.status != Status::Ok,
+        note,
+    })
+}
+
+/// One range for all panels, error bars and room for arrows included.
+fn ordinate_range(summary: &Summary) -> Option<(f64, f64)> {
+    let mut values = Vec::new();
+    for point in summary.points.iter().filter_map(|point| sample("", point)) {
+        match point.value {
+            Value::Known { y, low, high } => values.extend([y, low, high]),
+            Value::Above(y) => values.extend([y, 1.25 * y]),
+            Value::Below(y) => values.extend([y, y / 1.25]),
+        }
+    }
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low > high {
+        return None;
+    }
+    if low > 0.0 && high > 5.0 * low {
+        return Some((low / 1.15, high * 1.15));
+    }
+    let margin = 0.06 * (high - low).max(0.05 * high);
+    // A linear ordinate starts at zero: heights then compare as they are.
+    Some((0.0, high + margin))
+}
+
+/// The widths themselves as ticks, those that would sit on one another left out.
+fn readable(widths: &[f64], span: (f64, f64)) -> Vec<f64> {
+    let mut kept: Vec<f64> = Vec::new();
+    for &width in widths {
+        if kept
+            .last()
+            .is_none_or(|last| width - last > 0.06 * (span.1 - span.0))
+        {
+            kept.push(width);
+        }
+    }
+    kept
+}
+
+fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut seen: Vec<T> = Vec::new();
+    for value in values {
+        if !seen.contains(&value) {
+            seen.push(value);
+        }
+    }
+    seen
+}

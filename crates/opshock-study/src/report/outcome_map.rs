@@ -1,0 +1,122 @@
+//! Outcome map: every simulation of a study in the plane of pulse width and amplitude.
+
+use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
+use super::critical_shock::{series_name, series_names};
+use crate::search::Sign;
+use crate::store::summary::Summary;
+
+/// One simulation of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunDot {
+    /// Row of the summary it belongs to.
+    pub point: usize,
+    /// Amplitude without sign, G.
+    pub amplitude_g: f64,
+    /// `survives`, `fails` or `undecided`.
+    pub verdict: String,
+    /// Smallest clearance, m.
+    pub h_min_m: Option<f64>,
+}
+
+/// A panel for every series (ramp model and further axis values) and sign; every simulation a
+/// dot, the critical shock as a line, the amplitude of first touch as a dotted line.
+pub fn outcome_map(summary: &Summary, runs: &[RunDot]) -> Figure {
+    let names = series_names(summary);
+    let amplitudes = || {
+        let touches = summary.points.iter().filter_map(|point| point.onset_g);
+        runs.iter().map(|run| run.amplitude_g).chain(touches)
+    };
+    let low = amplitudes().fold(f64::INFINITY, f64::min);
+    let high = amplitudes().fold(f64::NEG_INFINITY, f64::max);
+    let signs: Vec<Sign> = [Sign::Plus, Sign::Minus]
+        .into_iter()
+        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
+        .collect();
+    let mut panels = Vec::new();
+    for name in &names {
+        for sign in &signs {
+            let mut y = Axis::log("Amplitude (G)");
+            if low < high {
+                y = y.between(low / 1.12, high * 1.12);
+            }
+            panels.push(Panel {
+                title: format!("{name}, sign {}", sign.as_str().replace('-', "\u{2212}")),
+                x: Axis::linear("Pulse width (ms)"),
+                y,
+                series: panel_series(summary, runs, name, *sign),
+                rules: Vec::new(),
+                shaded: None,
+            });
+        }
+    }
+    Figure {
+        title: "Every simulation".into(),
+        subtitle: String::new(),
+        columns: signs.len().max(1),
+        panel_px: (470.0, 330.0),
+        panels,
+    }
+}
+
+fn panel_series(summary: &Summary, runs: &[RunDot], name: &str, sign: Sign) -> Vec<Series> {
+    let rows: Vec<usize> = (0..summary.points.len())
+        .filter(|&row| {
+            let point = &summary.points[row];
+            point.sign == sign && series_name(summary, point) == name
+        })
+        .collect();
+    let curve = |value: fn(&crate::store::summary::PointSummary) -> Option<f64>| {
+        let mut curve: Vec<(f64, f64)> = rows
+            .iter()
+            .map(|&row| &summary.points[row])
+            .map(|point| (point.pulse_ms, value(point).unwrap_or(f64::NAN)))
+            .collect();
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curve
+    };
+    let mut series = vec![
+        Series::curve(
+            "critical shock",
+            colour::BLACK,
+            Dash::Solid,
+            curve(|p| p.a_crit_g),
+        ),
+        Series::curve(
+            "first touch of the ramp",
+            colour::GREY,
+            Dash::Dotted,
+            curve(|p| p.onset_g),
+        ),
+    ];
+    for (verdict, colour, marker) in [
+        ("survives", colour::BLUE, (Marker::Circle, Fill::Open)),
+        ("fails", colour::VERMILLION, (Marker::Square, Fill::Full)),
+        ("undecided", colour::PURPLE, (Marker::Cross, Fill::Full)),
+    ] {
+        let samples: Vec<Sample> = runs
+            .iter()
+            .filter(|run| run.verdict == verdict && rows.contains(&run.point))
+            .map(|run| dot(summary, run))
+            .collect();
+        if !samples.is_empty() {
+            series.push(Series {
+                marker_px: 3.0,
+                ..Series::marked(verdict, colour, None, marker, samples)
+            });
+        }
+    }
+    series
+}
+
+fn dot(summary: &Summary, run: &RunDot) -> Sample {
+    let clearance = run
+        .h_min_m
+        .map_or(String::new(), |h| format!(", clearance {:.2} nm", 1e9 * h));
+    let y = run.amplitude_g;
+    Sample {
+        x: summary.points[run.point].pulse_ms,
+        value: Value::Known { y, low: y, high: y },
+        open: false,
+        note: format!("{y:.1} G: {}{clearance}", run.verdict),
+    }
+}

@@ -1,0 +1,310 @@
+//! What one simulation answered, for machines: the JSON of `opshock run --json`.
+
+use opshock_solver::simulation::{
+    ArmContact, Cause, Complementarity, EnergyBook, Outcome, Verdict, Warning,
+};
+use serde::Serialize;
+
+/// `opshock run --json`. Times are on the study's axis; what does not exist is `null`.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct RunJson {
+    pub verdict: &'static str,
+    pub cause: Option<String>,
+    pub t_fail_s: Option<f64>,
+    pub place: Option<PlaceJson>,
+    pub min_clearance_m: Option<f64>,
+    pub t_min_clearance_s: Option<f64>,
+    pub steady: Option<SteadyJson>,
+    pub disk: DiskJson,
+    pub contact: ContactJson,
+    pub dimple: Option<DimpleJson>,
+    pub energy: EnergyJson,
+    pub complementarity: ComplementarityJson,
+    pub effects: Vec<&'static str>,
+    pub warnings: Vec<WarningJson>,
+    pub cost: CostJson,
+}
+
+/// Place of touch, slider coordinates.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct PlaceJson {
+    pub x_m: f64,
+    pub y_m: f64,
+}
+
+/// Steady flight before the shock.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct SteadyJson {
+    pub min_clearance_m: f64,
+    pub pitch_rad: f64,
+    pub roll_rad: f64,
+}
+
+/// Extremes of the disk over the window.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct DiskJson {
+    pub slider_max_m: Option<f64>,
+    pub slider_min_m: Option<f64>,
+    pub ramp_max_m: Option<f64>,
+    pub ramp_min_m: Option<f64>,
+    pub rim_max_m: Option<f64>,
+}
+
+/// Contact with both arms.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct ContactJson {
+    pub top: ArmJson,
+    pub bottom: ArmJson,
+}
+
+/// Contact with one arm.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct ArmJson {
+    pub first_touch_s: Option<f64>,
+    pub impulse_n_s: f64,
+    pub episodes: Vec<EpisodeJson>,
+}
+
+/// One contact spell.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct EpisodeJson {
+    pub on_s: f64,
+    pub off_s: f64,
+    pub impulse_n_s: f64,
+    pub peak_20us_n: f64,
+}
+
+/// Dimple over the simulated head.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct DimpleJson {
+    pub min_force_n: f64,
+    pub open_s: f64,
+}
+
+/// Energy book of disk and ramp.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct EnergyJson {
+    pub kinetic_j: f64,
+    pub elastic_j: f64,
+    pub h_end_j: f64,
+    pub h_peak_j: f64,
+    pub shock_work_j: f64,
+    pub damping_loss_j: f64,
+    pub impact_loss_j: f64,
+    pub algorithmic_j: f64,
+    pub spindle_work_j: f64,
+    pub closure: f64,
+}
+
+/// How well 0 <= gap complementary to multiplier >= 0 was met.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct ComplementarityJson {
+    pub max_penetration_m: f64,
+    pub min_multiplier_n_s: f64,
+    pub max_product_n_s_m: f64,
+}
+
+/// A warning with its stable code.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct WarningJson {
+    pub code: &'static str,
+    pub message: String,
+}
+
+/// What the run cost; `wall_s` is the only number that differs from run to run.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct CostJson {
+    pub steps: u64,
+    pub rejected: u64,
+    pub film_solves: u64,
+    pub factorisations: u64,
+    pub film_unknowns: u64,
+    pub structure_steps: u64,
+    pub wall_s: f64,
+}
+
+impl RunJson {
+    /// Arranges `outcome`; `start_s` is the onset of the pulse on the study's axis.
+    pub fn new(outcome: &Outcome, start_s: f64, wall_s: f64) -> Self {
+        let at = |time_s: f64| time_s + start_s;
+        let (t_fail_s, place) = match &outcome.verdict {
+            Verdict::Fails { t_fail_s, place } => (
+                Some(at(*t_fail_s)),
+                Some(PlaceJson {
+                    x_m: place.x_m,
+                    y_m: place.y_m,
+                }),
+            ),
+            Verdict::Survives | Verdict::Undecided { .. } => (None, None),
+        };
+        let finite = |v: f64| v.is_finite().then_some(v);
+        let disk = &outcome.disk;
+        let cost = &outcome.cost;
+        Self {
+            verdict: verdict_word(&outcome.verdict),
+            cause: match &outcome.verdict {
+                Verdict::Undecided { cause } => Some(cause_text(cause, start_s)),
+                Verdict::Survives | Verdict::Fails { .. } => None,
+            },
+            t_fail_s,
+            place,
+            min_clearance_m: outcome.min_clearance_m.and_then(finite),
+            t_min_clearance_s: outcome.t_min_clearance_s.map(at).and_then(finite),
+            steady: outcome.steady.map(|steady| SteadyJson {
+                min_clearance_m: steady.min_clearance_m,
+                pitch_rad: steady.pitch_rad,
+                roll_rad: steady.roll_rad,
+            }),
+            disk: DiskJson {
+                slider_max_m: finite(disk.slider_max_m),
+                slider_min_m: finite(disk.slider_min_m),
+                ramp_max_m: finite(disk.ramp_max_m),
+                ramp_min_m: finite(disk.ramp_min_m),
+                rim_max_m: finite(disk.rim_max_m),
+            },
+            contact: ContactJson {
+                top: arm(&outcome.top, start_s),
+                bottom: arm(&outcome.bottom, start_s),
+            },
+            dimple: outcome.dimple.map(|dimple| DimpleJson {
+                min_force_n: dimple.min_force_n,
+                open_s: dimple.open_s,
+            }),
+            energy: energy(&outcome.energy),
+            complementarity: complementarity(&outcome.complementarity),
+            effects: outcome.effects.clone(),
+            warnings: outcome.warnings.iter().map(warning).collect(),
+            cost: CostJson {
+                steps: cost.steps,
+                rejected: cost.rejected,
+                film_solves: cost.film_solves,
+                factorisations: cost.factorisations,
+                film_unknowns: cost.film_unknowns,
+                structure_steps: cost.structure_steps,
+                wall_s,
+            },
+        }
+    }
+}
+
+/// `survives`, `fails` or `undecided`.
+pub fn verdict_word(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Survives => "survives",
+        Verdict::Fails { .. } => "fails",
+        Verdict::Undecided { .. } => "undecided",
+    }
+}
+
+/// One sentence on why a run has no verdict; times on the study's axis.
+pub fn cause_text(cause: &Cause, start_s: f64) -> String {
+    let ms = |time_s: &f64| 1e3 * (time_s + start_s);
+    match cause {
+        Cause::NotConverged { time_s, residual } => format!(
+            "the coupled solve did not converge at {:.6} ms: scaled residual {residual:.1e} at the smallest step",
+            ms(time_s)
+        ),
+        Cause::StepLimit { time_s, max_steps } => format!(
+            "the limit of {max_steps} steps was reached at {:.6} ms",
+            ms(time_s)
+        ),
+        Cause::NotFinite { time_s, quantity } => {
+            format!("{quantity} was not finite at {:.6} ms", ms(time_s))
+        }
+    }
+}
+
+fn arm(contact: &ArmContact, start_s: f64) -> ArmJson {
+    ArmJson {
+        first_touch_s: contact.first_touch_s.map(|t| t + start_s),
+        impulse_n_s: contact.impulse_n_s,
+        episodes: contact
+            .episodes
+            .iter()
+            .map(|episode| EpisodeJson {
+                on_s: episode.on_s + start_s,
+                off_s: episode.off_s + start_s,
+                impulse_n_s: episode.impulse_n_s,
+                peak_20us_n: episode.peak_20us_n,
+            })
+            .collect(),
+    }
+}
+
+fn energy(book: &EnergyBook) -> EnergyJson {
+    EnergyJson {
+        kinetic_j: book.kinetic_j,
+        elastic_j: book.elastic_j,
+        h_end_j: book.h_end_j,
+        h_peak_j: book.h_peak_j,
+        shock_work_j: book.shock_work_j,
+        damping_loss_j: book.damping_loss_j,
+        impact_loss_j: book.impact_loss_j,
+        algorithmic_j: book.algorithmic_j,
+        spindle_work_j: book.spindle_work_j,
+        closure: book.closure,
+    }
+}
+
+fn complementarity(numbers: &Complementarity) -> ComplementarityJson {
+    ComplementarityJson {
+        max_penetration_m: numbers.max_penetration_m,
+        min_multiplier_n_s: numbers.min_multiplier_n_s,
+        max_product_n_s_m: numbers.max_product_n_s_m,
+    }
+}
+
+fn warning(warning: &Warning) -> WarningJson {
+    WarningJson {
+        code: warning.code,
+        message: warning.message.clone(),
+    }
+}

@@ -1,0 +1,198 @@
+//! Critical shocks as a table: terminal, Markdown, CSV.
+
+use crate::store::summary::{PointSummary, Status, Summary};
+
+/// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,
+/// runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
+/// digits. Nothing in it depends on the machine.
+pub fn csv(summary: &Summary) -> String {
+    let mut header: Vec<String> = ["ramp", "pulse_ms", "sign"].map(String::from).to_vec();
+    header.extend(summary.axes.iter().cloned());
+    header.extend(
+        [
+            "a_crit_g",
+            "a_fail_g",
+            "err_low_g",
+            "err_high_g",
+            "onset_g",
+            "runs",
+            "status",
+            "flags",
+        ]
+        .map(String::from),
+    );
+    let mut text = csv_line(&header);
+    for point in &summary.points {
+        let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+        let mut row = vec![
+            point.ramp.clone(),
+            point.pulse_ms.to_string(),
+            point.sign.as_str().to_owned(),
+        ];
+        row.extend(point.axes.iter().map(ToString::to_string));
+        row.extend([
+            number(point.a_crit_g),
+            number(point.a_fail_g),
+            number(point.err_low_g),
+            number(point.err_high_g),
+            number(point.onset_g),
+            point.runs.to_string(),
+            point.status.as_str().to_owned(),
+            flags(point, ";"),
+        ]);
+        text.push_str(&csv_line(&row));
+    }
+    text
+}
+
+/// A line of CSV (RFC 4180: a cell with comma, quote or line break is quoted).
+fn csv_line(cells: &[String]) -> String {
+    let quoted: Vec<String> = cells
+        .iter()
+        .map(|cell| {
+            if cell.contains([',', '"', '\n', '\r']) {
+                format!("\"{}\"", cell.replace('"', "\"\""))
+            } else {
+                cell.clone()
+            }
+        })
+        .collect();
+    quoted.join(",") + "\n"
+}
+
+/// Markdown table with its heading, and what the columns mean.
+pub fn markdown(summary: &Summary, provenance: &str) -> String {
+    let (header, rows) = readable(summary);
+    let escape = |cell: &String| cell.replace('|', "\\|");
+    let mut text = format!("# {}\n\n", summary.study);
+    let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    text.push_str(&line(header.iter().map(escape).collect()));
+    let words = 1 + summary.axes.len();
+    text.push_str(&line(
+        (0..header.len())
+            .map(|column| {
+                let wordy = column == 0
+                    || column == 2
+                    || (3..2 + words).contains(&column)
+                    || column + 2 >= header.len();
+                if wordy {
+                    "---".into()
+                } else {
+                    "---:".to_owned()
+                }
+            })
+            .collect(),
+    ));
+    for row in &rows {
+        text.push_str(&line(row.iter().map(escape).collect()));
+    }
+    text.push_str(
+        "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; error: \
+         bar of `A_crit`; first touch: amplitude at which the disk first reaches the ramp. \
+         `> A`: no failure up to A; `< A`: failure already at A.\n",
+    );
+    if !provenance.is_empty() {
+        text.push_str(&format!("\n{provenance}\n"));
+    }
+    text
+}
+
+/// Aligned table for a terminal.
+pub fn terminal(summary: &Summary) -> String {
+    let (header, rows) = readable(summary);
+    let width = |column: usize| {
+        std::iter::once(&header)
+            .chain(&rows)
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let last = header.len() - 1;
+    let mut text = format!("{}\n", summary.study);
+    for row in std::iter::once(&header).chain(&rows) {
+        let cells: Vec<String> = row
+            .iter()
+            .enumerate()
+            .map(|(column, cell)| {
+                let pad = " ".repeat(widths[column] - cell.chars().count());
+                if column == 0 || column + 1 >= last {
+                    format!("{cell}{pad}")
+                } else {
+                    format!("{pad}{cell}")
+                }
+            })
+            .collect();
+        text.push_str(cells.join("  ").trim_end());
+        text.push('\n');
+    }
+    let totals = &summary.totals;
+    text.push_str(&format!(
+        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open; {} runs\n",
+        totals.points,
+        totals.ok,
+        totals.above_range,
+        totals.below_range,
+        totals.undecided,
+        totals.open,
+        totals.runs
+    ));
+    text
+}
+
+/// Header and rows as a person reads them.
+pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut header: Vec<String> = ["ramp", "pulse (ms)", "sign"].map(String::from).to_vec();
+    header.extend(summary.axes.iter().cloned());
+    header.extend(
+        [
+            "A_crit (G)",
+            "A_fail (G)",
+            "error (G)",
+            "first touch (G)",
+            "runs",
+            "status",
+            "flags",
+        ]
+        .map(String::from),
+    );
+    let rows = summary
+        .points
+        .iter()
+        .map(|point| {
+            let mut row = vec![
+                point.ramp.clone(),
+                point.pulse_ms.to_string(),
+                point.sign.as_str().to_owned(),
+            ];
+            row.extend(point.axes.iter().map(ToString::to_string));
+            row.extend([
+                bounded(point.a_crit_g, point.status == Status::AboveRange, '>'),
+                bounded(point.a_fail_g, point.status == Status::BelowRange, '<'),
+                match (point.err_low_g, point.err_high_g) {
+                    (Some(low), Some(high)) => format!("-{low:.1} +{high:.1}"),
+                    _ => String::new(),
+                },
+                point.onset_g.map_or(String::new(), |v| format!("{v:.1}")),
+                point.runs.to_string(),
+                point.status.as_str().to_owned(),
+                flags(point, ", "),
+            ]);
+            row
+        })
+        .collect();
+    (header, rows)
+}
+
+fn bounded(value: Option<f64>, bound: bool, sign: char) -> String {
+    match value {
+        None => String::new(),
+        Some(value) if bound => format!("{sign} {value:.1}"),
+        Some(value) => format!("{value:.1}"),
+    }
+}
+
+fn flags(point: &PointSummary, between: &str) -> String {
+    let words: Vec<&str> = point.flags.iter().map(|flag| flag.as_str()).collect();
+    words.join(between)
+}
