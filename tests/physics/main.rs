@@ -1,1 +1,3 @@
 //! Physics against references, invariants and relations.
+
+mod suspension;

@@ -1,4 +1,28 @@
-//! Suspension: hinge, load beam, flexure, dimple, gimbal.
+//! Suspension: hinge, load beam with flanges, flexure mass, dimple, gimbal.
+//!
+//! [`beam`] turns the geometry into bending and torsion finite elements of a clamped strip of
+//! varying section ([`section`]); [`reduction`] condenses them to the motion of the dimple plus a
+//! few dimple-pinned modes (Craig and Bampton 1968). The result is what a head integrates:
+//!
+//! ```text
+//! M ü + C u̇ + K u = f a(t) + e₀ F        u = (dimple z, pinned bending modes)
+//! Mₜ v̈ + Cₜ v̇ + Kₜ v = e₀ T            v = (dimple roll, pinned torsion modes)
+//! ```
+//!
+//! with a(t) the inertia load per mass in the base frame, F and T the force and the roll moment
+//! that the slider exerts at the dimple. All displacements are increments from the loaded state;
+//! the gram load itself enters as the steady dimple force.
+//!
+//! Left out: in-plane motion (sway), the coupling of bending and torsion by asymmetry, the
+//! stiffening by preload, and the rotatory inertia of bending.
+
+mod beam;
+mod reduction;
+mod section;
+
+pub use beam::{BeamMatrices, SuspensionError};
+pub use reduction::{ReducedSuspension, Reduction};
+pub use section::{FLANGED_TORSION_FACTOR, FLEXURE_ROLL_RADIUS_M, HINGE_TORSION_FACTOR, Section};
 
 /// Geometry and material of the suspension; x is measured from the root of the hinge.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +35,7 @@ pub struct SuspensionParameters {
     pub load_beam: LoadBeam,
     /// Flanges along both sides of the load beam.
     pub flange: Flange,
-    /// Flexure, as mass smeared evenly from `from_m` to the end of the beam.
+    /// Flexure, as mass smeared evenly from `from_m` to the dimple.
     pub flexure: Flexure,
     /// Young's modulus, Pa.
     pub youngs_modulus_pa: f64,

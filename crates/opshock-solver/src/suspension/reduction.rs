@@ -1,0 +1,241 @@
+//! Craig-Bampton reduction of the beam to its dimple.
+//!
+//! Coordinates: the dimple's displacement with the static shape ψ that belongs to a force there,
+//! and the lowest modes φᵢ of the beam pinned at the dimple (mass-normalised):
+//!
+//! ```text
+//! w = ψ u₀ + Σ φᵢ uᵢ,   K = diag(k₀, ω₁², ω₂², …),   M = [ψᵀMψ  ψᵀMφ ; ·  1],   f = (ψᵀM1, φᵀM1)
+//! ```
+//!
+//! ψᵀM1 is the mass that a shock seems to have at the dimple ("effective shock mass"): the static
+//! reaction at a held dimple under a uniform inertia load a is f₀ a.
+//!
+//! Damping is the same ratio for every mode of the free reduced beam,
+//! C = M Φ diag(2 ζ ω) Φᵀ M.
+//!
+//! Source: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313.
+
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
+
+use super::{BeamMatrices, SuspensionError, SuspensionParameters};
+
+/// One reduced set: coordinate 0 is the dimple's, the others are pinned modes.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    /// Mass, n × n.
+    pub mass: DMatrix<f64>,
+    /// Stiffness, diagonal, n.
+    pub stiffness: DVector<f64>,
+    /// Damping, n × n.
+    pub damping: DMatrix<f64>,
+    /// Generalised force of a unit inertia load per mass, n.
+    pub inertia_load: DVector<f64>,
+    /// Slope dw/dx at the dimple per coordinate, n (zero for torsion), 1/m and 1/(√kg m).
+    pub slope_row: DVector<f64>,
+    /// Frequencies of the finite elements with the dimple free, Hz, as many as coordinates.
+    pub free_hz: Vec<f64>,
+    /// Frequencies with the dimple held, Hz, one for each pinned mode kept.
+    pub pinned_hz: Vec<f64>,
+}
+
+impl Reduction {
+    /// Coordinates.
+    pub fn len(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// Whether there are no coordinates; never true for one that was built.
+    pub fn is_empty(&self) -> bool {
+        self.stiffness.is_empty()
+    }
+}
+
+/// The suspension as a head sees it.
+#[derive(Clone, Debug)]
+pub struct ReducedSuspension {
+    /// Mass of hinge, load beam and flexure, kg.
+    pub mass_kg: f64,
+    /// Bending: coordinate 0 is the dimple's z, m.
+    pub bending: Reduction,
+    /// Torsion: coordinate 0 is the dimple's roll, rad.
+    pub torsion: Reduction,
+}
+
+impl ReducedSuspension {
+    /// Builds and reduces a suspension, keeping `bending_modes` pinned bending modes and half as
+    /// many (rounded up) pinned torsion modes, which lie twice as far apart.
+    ///
+    /// # Errors
+    /// Geometry that cannot be, or more modes than elements carry.
+    pub fn build(
+        parameters: &SuspensionParameters,
+        bending_modes: usize,
+    ) -> Result<Self, SuspensionError> {
+        let beam = BeamMatrices::assemble(parameters)?;
+        let zeta = parameters.damping_ratio;
+        let bending = reduce(
+            &beam.bending_stiffness,
+            &beam.bending_mass,
+            &beam.inertia_load,
+            beam.dimple_bending,
+            Some(beam.dimple_bending + 1),
+            bending_modes,
+            zeta,
+        )?;
+        let no_load = DVector::zeros(beam.torsion_mass.nrows());
+        let torsion = reduce(
+            &beam.torsion_stiffness,
+            &beam.torsion_mass,
+            &no_load,
+            beam.dimple_torsion,
+            None,
+            bending_modes.div_ceil(2),
+            zeta,
+        )?;
+        Ok(Self {
+            mass_kg: beam.mass_kg,
+            bending,
+            torsion,
+        })
+    }
+
+    /// Stiffness against a vertical force at the dimple, N/m.
+    pub fn dimple_stiffness_n_per_m(&self) -> f64 {
+        self.bending.stiffness[0]
+    }
+
+    /// Roll stiffness at the dimple, N m/rad.
+    pub fn roll_stiffness_n_m_per_rad(&self) -> f64 {
+        self.torsion.stiffness[0]
+    }
+
+    /// Reaction at a held dimple per uniform inertia load, kg.
+    pub fn effective_shock_mass_kg(&self) -> f64 {
+        self.bending.inertia_load[0]
+    }
+}
+
+fn reduce(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    load: &DVector<f64>,
+    interface: usize,
+    slope: Option<usize>,
+    n_modes: usize,
+    damping_ratio: f64,
+) -> Result<Reduction, SuspensionError> {
+    let n = stiffness.nrows();
+    if n_modes + 1 > n {
+        return Err(SuspensionError::TooManyModes {
+            wanted: n_modes,
+            available: n - 1,
+        });
+    }
+    let factor = Cholesky::new(stiffness.clone()).ok_or(SuspensionError::Singular {
+        matrix: "stiffness",
+    })?;
+    let mut unit = DVector::zeros(n);
+    unit[interface] = 1.0;
+    let flexibility = factor.solve(&unit);
+    let interface_stiffness = 1.0 / flexibility[interface];
+    let shape = flexibility * interface_stiffness;
+
+    let pinned_stiffness = stiffness
+        .clone()
+        .remove_row(interface)
+        .remove_column(interface);
+    let pinned_mass = mass.clone().remove_row(interface).remove_column(interface);
+    let (pinned, modes) = lowest_modes(pinned_stiffness, &pinned_mass, n_modes)?;
+    let modes = modes.insert_row(interface, 0.0);
+
+    let size = n_modes + 1;
+    let mut basis = DMatrix::zeros(n, size);
+    basis.set_column(0, &shape);
+    basis.columns_mut(1, n_modes).copy_from(&modes);
+    let mut reduced_mass = basis.transpose() * mass * &basis;
+    // The pinned block is the identity and the whole is symmetric by construction; rounding is
+    // not allowed to say otherwise.
+    for i in 0..size {
+        for j in 0..size {
+            if i > 0 && j > 0 {
+                reduced_mass[(i, j)] = f64::from(i == j);
+            } else if j > i {
+                reduced_mass[(j, i)] = reduced_mass[(i, j)];
+            }
+        }
+    }
+    let mut reduced_stiffness = DVector::from_element(size, interface_stiffness);
+    for (k, omega) in reduced_stiffness.iter_mut().skip(1).zip(&pinned) {
+        *k = omega * omega;
+    }
+    let (omega, free_modes) = lowest_modes(
+        DMatrix::from_diagonal(&reduced_stiffness),
+        &reduced_mass,
+        size,
+    )?;
+    let weighted = &reduced_mass * free_modes;
+    let rates = DMatrix::from_diagonal(&DVector::from_iterator(
+        size,
+        omega.iter().map(|w| 2.0 * damping_ratio * w),
+    ));
+    let damping = &weighted * rates * weighted.transpose();
+
+    let (free, _) = lowest_modes(stiffness.clone(), mass, size)?;
+    let to_hz = |omega: &[f64]| omega.iter().map(|w| w / std::f64::consts::TAU).collect();
+    Ok(Reduction {
+        mass: reduced_mass,
+        stiffness: reduced_stiffness,
+        damping,
+        inertia_load: basis.transpose() * load,
+        slope_row: slope.map_or_else(|| DVector::zeros(size), |row| basis.row(row).transpose()),
+        free_hz: to_hz(&free),
+        pinned_hz: to_hz(&pinned),
+    })
+}
+
+/// Lowest `n_modes` of K φ = ω² M φ: circular frequencies in rising order and mass-normalised
+/// modes with a positive entry of largest magnitude.
+///
+/// With K = L Lᵀ it solves (L⁻¹ M L⁻ᵀ) y = ω⁻² y: the wanted modes are then the largest
+/// eigenvalues and keep full relative accuracy, however high the highest frequency is.
+fn lowest_modes(
+    stiffness: DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    n_modes: usize,
+) -> Result<(Vec<f64>, DMatrix<f64>), SuspensionError> {
+    let n = stiffness.nrows();
+    if n_modes == 0 {
+        return Ok((Vec::new(), DMatrix::zeros(n, 0)));
+    }
+    let factor = Cholesky::new(stiffness).ok_or(SuspensionError::Singular {
+        matrix: "stiffness",
+    })?;
+    let lower = factor.l();
+    let singular = SuspensionError::Singular {
+        matrix: "stiffness",
+    };
+    let half = lower.solve_lower_triangular(mass).ok_or(singular)?;
+    let standard = lower
+        .solve_lower_triangular(&half.transpose())
+        .ok_or(singular)?;
+    let standard = (&standard + standard.transpose()) * 0.5;
+    let eigen = SymmetricEigen::new(standard);
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let mut frequencies = Vec::with_capacity(n_modes);
+    let mut modes = DMatrix::zeros(n, n_modes);
+    for (column, &k) in order.iter().take(n_modes).enumerate() {
+        let value = eigen.eigenvalues[k];
+        if value <= 0.0 {
+            return Err(SuspensionError::Singular { matrix: "mass" });
+        }
+        frequencies.push(value.sqrt().recip());
+        let y = eigen.eigenvectors.column(k).into_owned();
+        let mut mode = lower.tr_solve_lower_triangular(&y).ok_or(singular)?;
+        let norm = mode.dot(&(mass * &mode)).sqrt();
+        let largest = mode[mode.icamax()];
+        mode *= largest.signum() / norm;
+        modes.set_column(column, &mode);
+    }
+    Ok((frequencies, modes))
+}
