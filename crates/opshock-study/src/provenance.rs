@@ -1,1 +1,13 @@
 //! Version, commit and physics versions that every product carries.
+
+/// Version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Commit the program was built from: twelve hexadecimal digits, with `+changes` when the sources
+/// differed from it, or `unknown` when they were in no repository.
+pub const COMMIT: &str = env!("OPSHOCK_COMMIT");
+
+/// `opshock VERSION (COMMIT)`, the line under every figure and table.
+pub fn program() -> String {
+    format!("opshock {VERSION} ({COMMIT})")
+}

@@ -110,7 +110,7 @@ fn series(summary: &Summary, name: &str, index: usize, count: usize, sign: Sign)
         .collect();
     samples.sort_by(|a, b| a.x.total_cmp(&b.x));
     Series {
-        dodge_px: 4.0 * (index as f64 - 0.5 * (count as f64 - 1.0)),
+        dodge_px: 6.0 * (index as f64 - 0.5 * (count as f64 - 1.0)),
         ..Series::marked(
             name,
             colour::CYCLE[index % colour::CYCLE.len()],
