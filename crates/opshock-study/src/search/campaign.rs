@@ -1,0 +1,387 @@
+//! Search of all points: starts each when its predecessors are answered, follows lower failures
+//! from width to width, and reads the rows.
+//!
+//! A point passes three stages. *Waiting*: a predecessor has no answer or the amplitude of first
+//! touch is not known. *Searching*: it asks its own probes. *Settled*: it has its base answer, from
+//! which its successors start. When all widths of one ramp, sign and axes (a chain) are settled,
+//! lower failures found at one width are given to its neighbours; these rounds go on until none is
+//! left to give. Then the chain is final. Each round looks at all widths as the round before left
+//! them, so the order in which probes come back does not matter.
+
+use std::collections::BTreeSet;
+
+use super::findings::{Findings, Inheritance};
+use super::follow;
+use super::order::{Coordinates, HintSource, Order};
+use super::outcome::Status;
+use super::point::{Asked, PointSearch, Start};
+use super::probe::Verdict;
+use super::settings::SearchSettings;
+
+/// Share above first touch at which a rigid ramp is expected to fail.
+const RIGID_HINT: f64 = 1.03;
+
+/// First touch of disk and ramp of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Touch {
+    /// No ramp.
+    NoRamp,
+    /// At this amplitude and above.
+    At {
+        /// Positive amplitude, G.
+        onset_g: f64,
+    },
+    /// Not known.
+    Unknown,
+}
+
+#[derive(Clone, Debug)]
+enum Stage {
+    Waiting,
+    Searching(Box<PointSearch>),
+    Copied { onset_node: i32 },
+}
+
+#[derive(Clone, Debug)]
+struct PointState {
+    touch: Option<Touch>,
+    stage: Stage,
+    base: Option<Findings>,
+}
+
+/// Search of all points of a study.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    settings: SearchSettings,
+    pulse_ms: Vec<f64>,
+    order: Order,
+    successors: Vec<Vec<usize>>,
+    points: Vec<PointState>,
+    chain_final: Vec<bool>,
+    /// (source, low end of its window, neighbour) already given.
+    given: BTreeSet<(usize, i32, usize)>,
+}
+
+impl Campaign {
+    /// Campaign over the points of a study, given in any order.
+    pub fn new(settings: SearchSettings, coordinates: &[Coordinates]) -> Campaign {
+        let order = Order::of(coordinates);
+        let mut successors = vec![Vec::new(); coordinates.len()];
+        for (point, relations) in order.relations.iter().enumerate() {
+            for before in relations.predecessors() {
+                successors[before].push(point);
+            }
+        }
+        Campaign {
+            settings,
+            pulse_ms: coordinates.iter().map(|at| at.pulse_ms).collect(),
+            successors,
+            points: vec![
+                PointState {
+                    touch: None,
+                    stage: Stage::Waiting,
+                    base: None,
+                };
+                coordinates.len()
+            ],
+            chain_final: vec![false; order.chains.len()],
+            order,
+            given: BTreeSet::new(),
+        }
+    }
+
+    /// Order and relations of the points.
+    pub fn order(&self) -> &Order {
+        &self.order
+    }
+
+    /// Settings of the searches.
+    pub fn settings(&self) -> &SearchSettings {
+        &self.settings
+    }
+
+    /// Tells the amplitude of first touch of a point. Every point needs it before it starts.
+    pub fn set_touch(&mut self, point: usize, touch: Touch) {
+        self.points[point].touch = Some(touch);
+        self.start_ready(vec![point]);
+    }
+
+    /// Amplitude of first touch as told.
+    pub fn touch(&self, point: usize) -> Option<Touch> {
+        self.points[point].touch
+    }
+
+    /// The next probe of a point; `None` while it waits and when it has nothing to ask.
+    pub fn ask(&self, point: usize) -> Option<Asked> {
+        match &self.points[point].stage {
+            Stage::Searching(search) => search.ask(),
+            Stage::Waiting | Stage::Copied { .. } => None,
+        }
+    }
+
+    /// Takes the verdict of the probe that `point` asks.
+    ///
+    /// # Panics
+    ///
+    /// The point asks nothing.
+    pub fn tell(&mut self, point: usize, verdict: &Verdict) {
+        let Stage::Searching(search) = &mut self.points[point].stage else {
+            panic!("verdict for point {point}, which does not search");
+        };
+        search.tell(verdict);
+        if search.ask().is_none() {
+            if self.points[point].base.is_none() {
+                self.settle(point);
+            } else {
+                self.close_round(self.order.relations[point].chain);
+            }
+        }
+    }
+
+    /// Search of a point, once it has started.
+    pub fn search(&self, point: usize) -> Option<&PointSearch> {
+        match &self.points[point].stage {
+            Stage::Searching(search) => Some(search),
+            Stage::Waiting | Stage::Copied { .. } => None,
+        }
+    }
+
+    /// The point has its base answer.
+    pub fn is_settled(&self, point: usize) -> bool {
+        self.points[point].base.is_some()
+    }
+
+    /// The point's answer will not change any more.
+    pub fn is_final(&self, point: usize) -> bool {
+        let relations = &self.order.relations[point];
+        self.chain_final[relations.chain]
+            && relations
+                .companion
+                .is_none_or(|companion| self.chain_final[self.order.relations[companion].chain])
+    }
+
+    /// All answers are final.
+    pub fn is_done(&self) -> bool {
+        self.chain_final.iter().all(|is_final| *is_final)
+    }
+
+    /// Answer of a point as the evidence has it; `Open` until it is final.
+    pub fn findings(&self, point: usize) -> Findings {
+        let state = &self.points[point];
+        let companion = self.order.relations[point].companion;
+        let onset_node = self.onset_node(point);
+        let mut findings = match (&state.stage, companion, onset_node) {
+            (Stage::Searching(search), Some(companion), Some(node)) => search
+                .findings()
+                .lowered_by(&self.findings(companion), node),
+            (Stage::Searching(search), _, _) => search.findings(),
+            (Stage::Copied { onset_node }, Some(companion), _) => {
+                self.findings(companion).copied_below(*onset_node)
+            }
+            (Stage::Copied { .. } | Stage::Waiting, _, _) => Findings {
+                status: Status::Open,
+                survivor: None,
+                failure: None,
+                brackets: Vec::new(),
+                certified_from: None,
+                largest_gap: None,
+                flags: BTreeSet::new(),
+                runs: 0,
+                undecided_runs: 0,
+            },
+        };
+        if state.touch == Some(Touch::Unknown) {
+            findings.flags.insert(super::outcome::Flag::OnsetUnknown);
+        }
+        if !self.is_final(point) {
+            findings.status = Status::Open;
+        }
+        findings
+    }
+
+    /// Search that a waiting point would make if only its companion's answer, still open, turned
+    /// out to lie above first touch: what idle cores may compute ahead.
+    pub fn likely_search(&self, point: usize) -> Option<PointSearch> {
+        let state = &self.points[point];
+        if !matches!(state.stage, Stage::Waiting) {
+            return None;
+        }
+        let touch = state.touch?;
+        let relations = &self.order.relations[point];
+        let hint_g = self.hint_g(point, touch)?;
+        let onset_node = self.onset_node(point)?;
+        if onset_node > self.settings.range.high {
+            return None;
+        }
+        Some(PointSearch::new(
+            self.settings,
+            Start {
+                hint_g,
+                onset_node: relations.companion.map(|_| onset_node),
+                width_rank: relations.width_rank,
+            },
+        ))
+    }
+
+    fn onset_node(&self, point: usize) -> Option<i32> {
+        match self.points[point].touch {
+            Some(Touch::At { onset_g }) => Some(self.settings.lattice.at_or_above(onset_g)),
+            Some(Touch::NoRamp | Touch::Unknown) | None => None,
+        }
+    }
+
+    /// Starts whatever can start, beginning with `ready`.
+    fn start_ready(&mut self, mut ready: Vec<usize>) {
+        while let Some(point) = ready.pop() {
+            if !self.start(point) {
+                continue;
+            }
+            if self.points[point].base.is_some() {
+                ready.extend(self.successors[point].iter().copied());
+                self.close_round(self.order.relations[point].chain);
+            }
+        }
+    }
+
+    /// Starts a waiting point whose predecessors are settled; says whether it did.
+    fn start(&mut self, point: usize) -> bool {
+        let state = &self.points[point];
+        let (Stage::Waiting, Some(touch)) = (&state.stage, state.touch) else {
+            return false;
+        };
+        let relations = &self.order.relations[point];
+        let companion = match relations.companion {
+            None => None,
+            Some(companion) => match &self.points[companion].base {
+                None => return false,
+                settled => settled.as_ref(),
+            },
+        };
+        let Some(hint_g) = self.hint_g(point, touch) else {
+            return false;
+        };
+        let inheritance = match (companion, self.onset_node(point)) {
+            (Some(findings), Some(node)) => findings.bequeath(node, self.settings.range.high),
+            _ => Inheritance::Nothing,
+        };
+        let start = |onset_node| Start {
+            hint_g,
+            onset_node,
+            width_rank: relations.width_rank,
+        };
+        let (stage, base) = match (inheritance, companion, self.onset_node(point)) {
+            (Inheritance::Whole, Some(findings), Some(onset_node)) => (
+                Stage::Copied { onset_node },
+                Some(findings.copied_below(onset_node)),
+            ),
+            (Inheritance::Below { onset_node }, _, _) => {
+                let search = PointSearch::new(self.settings, start(Some(onset_node)));
+                (Stage::Searching(Box::new(search)), None)
+            }
+            _ => {
+                let search = PointSearch::new(self.settings, start(None));
+                (Stage::Searching(Box::new(search)), None)
+            }
+        };
+        self.points[point].stage = stage;
+        self.points[point].base = base;
+        true
+    }
+
+    /// Records the base answer of a point and starts its successors.
+    fn settle(&mut self, point: usize) {
+        if let Stage::Searching(search) = &self.points[point].stage {
+            self.points[point].base = Some(search.findings());
+        }
+        let successors = self.successors[point].clone();
+        self.start_ready(successors);
+        self.close_round(self.order.relations[point].chain);
+    }
+
+    /// Gives lower failures to neighbours when every width of a chain has nothing to ask.
+    fn close_round(&mut self, chain: usize) {
+        let widths = self.order.chains[chain].clone();
+        let idle = |point: usize| self.points[point].base.is_some() && self.ask(point).is_none();
+        if self.chain_final[chain] || !widths.iter().all(|&point| idle(point)) {
+            return;
+        }
+        let spacing = (self.settings.scan_gap / 3).max(1);
+        let mut gifts = Vec::new();
+        for &source in &widths {
+            let Some(search) = self.search(source) else {
+                continue;
+            };
+            let Some(window) = follow::lower_window(search) else {
+                continue;
+            };
+            for neighbour in self.order.relations[source]
+                .neighbours
+                .into_iter()
+                .flatten()
+            {
+                let Some(other) = self.search(neighbour) else {
+                    continue;
+                };
+                let gift = (source, window.0, neighbour);
+                if !self.given.contains(&gift) {
+                    gifts.push((gift, follow::targets(search, window, other, spacing)));
+                }
+            }
+        }
+        for (gift, nodes) in gifts {
+            self.given.insert(gift);
+            let (.., neighbour) = gift;
+            if let Stage::Searching(search) = &mut self.points[neighbour].stage {
+                search.follow(&nodes);
+            }
+        }
+        self.chain_final[chain] = widths.iter().all(|&point| self.ask(point).is_none());
+    }
+
+    /// Starting amplitude: `None` while a point it comes from is open, `Some(None)` when there is
+    /// nothing to start from.
+    fn hint_g(&self, point: usize, touch: Touch) -> Option<Option<f64>> {
+        match self.order.relations[point].hint {
+            HintSource::Onset => Some(match touch {
+                Touch::At { onset_g } => Some(onset_g * RIGID_HINT),
+                Touch::NoRamp | Touch::Unknown => None,
+            }),
+            HintSource::Nothing => Some(None),
+            HintSource::Point(other) => self.answer_g(other),
+            HintSource::Widths { below, above } => {
+                let mut known = Vec::new();
+                for other in below.into_iter().chain(above) {
+                    if let Some(answer_g) = self.answer_g(other)? {
+                        known.push((self.pulse_ms[other], answer_g));
+                    }
+                }
+                Some(interpolate(&known, self.pulse_ms[point]))
+            }
+        }
+    }
+
+    /// Amplitude that a settled point hands on; `None` while it is open.
+    fn answer_g(&self, point: usize) -> Option<Option<f64>> {
+        let findings = self.points[point].base.as_ref()?;
+        let SearchSettings { lattice, range, .. } = &self.settings;
+        let node = match findings.status {
+            Status::Ok => findings.failure,
+            Status::AboveRange => Some(range.high),
+            Status::BelowRange => Some(range.low),
+            Status::Undecided | Status::Open => None,
+        };
+        Some(node.map(|node| lattice.amplitude_g(node)))
+    }
+}
+
+/// Power law through two (width, amplitude) pairs, the one amplitude if there is one.
+fn interpolate(known: &[(f64, f64)], at: f64) -> Option<f64> {
+    match *known {
+        [] => None,
+        [(_, amplitude)] => Some(amplitude),
+        [(width_a, a), (width_b, b), ..] => {
+            let share = (at / width_a).ln() / (width_b / width_a).ln();
+            Some(a * ((b / a).ln() * share).exp())
+        }
+    }
+}

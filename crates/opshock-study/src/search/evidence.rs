@@ -1,0 +1,149 @@
+//! What is known about a point: nodes with their verdicts.
+
+use std::collections::BTreeMap;
+
+/// Verdict of a node after all its retries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeVerdict {
+    /// Survives.
+    Survives,
+    /// Fails.
+    Fails,
+    /// No verdict, whatever was tried.
+    Undecided,
+}
+
+/// Nodes tested, by index. Every verdict is kept; survival need not be monotone.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Evidence {
+    nodes: BTreeMap<i32, NodeVerdict>,
+}
+
+impl Evidence {
+    /// Records a node.
+    pub fn insert(&mut self, index: i32, verdict: NodeVerdict) {
+        self.nodes.insert(index, verdict);
+    }
+
+    /// Verdict of a node, if tested.
+    pub fn get(&self, index: i32) -> Option<NodeVerdict> {
+        self.nodes.get(&index).copied()
+    }
+
+    /// Nothing was tested.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Highest tested node, decided or not.
+    pub fn top(&self) -> Option<i32> {
+        self.nodes.keys().next_back().copied()
+    }
+
+    /// Lowest tested node, decided or not.
+    pub fn bottom(&self) -> Option<i32> {
+        self.nodes.keys().next().copied()
+    }
+
+    /// Lowest failing node.
+    pub fn lowest_failure(&self) -> Option<i32> {
+        self.nodes
+            .iter()
+            .find(|(_, verdict)| **verdict == NodeVerdict::Fails)
+            .map(|(index, _)| *index)
+    }
+
+    /// Highest survivor below `limit` (exclusive), of all nodes when there is no limit.
+    pub fn highest_survivor_below(&self, limit: Option<i32>) -> Option<i32> {
+        let below = match limit {
+            Some(limit) => self.nodes.range(..limit),
+            None => self.nodes.range(..),
+        };
+        below
+            .rev()
+            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .map(|(index, _)| *index)
+    }
+
+    /// Undecided nodes strictly between two nodes, ascending.
+    pub fn undecided_between(&self, low: i32, high: i32) -> Vec<i32> {
+        if low + 1 >= high {
+            return Vec::new();
+        }
+        self.nodes
+            .range(low + 1..high)
+            .filter(|(_, verdict)| **verdict == NodeVerdict::Undecided)
+            .map(|(index, _)| *index)
+            .collect()
+    }
+
+    /// Number of undecided nodes.
+    pub fn n_undecided(&self) -> usize {
+        self.nodes
+            .values()
+            .filter(|verdict| **verdict == NodeVerdict::Undecided)
+            .count()
+    }
+
+    /// Every (survivor, next higher decided node that fails), ascending.
+    pub fn brackets(&self) -> Vec<(i32, i32)> {
+        let mut brackets = Vec::new();
+        let mut survivor = None;
+        for (&index, verdict) in &self.nodes {
+            match verdict {
+                NodeVerdict::Survives => survivor = Some(index),
+                NodeVerdict::Fails => {
+                    if let Some(low) = survivor.take() {
+                        brackets.push((low, index));
+                    }
+                }
+                NodeVerdict::Undecided => {}
+            }
+        }
+        brackets
+    }
+
+    /// A survivor lies above a failure.
+    pub fn is_non_monotone(&self) -> bool {
+        match (self.lowest_failure(), self.highest_survivor_below(None)) {
+            (Some(failure), Some(survivor)) => survivor > failure,
+            _ => false,
+        }
+    }
+
+    /// The lowest failure and the last node before the next higher survivor: where the lowest
+    /// window of failure lies.
+    pub fn window_of_failure(&self) -> Option<(i32, i32)> {
+        let low = self.lowest_failure()?;
+        let top = self.top()?;
+        let above = self
+            .nodes
+            .range(low..)
+            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .map_or(top, |(index, _)| index - 1);
+        Some((low, above))
+    }
+
+    /// Largest step between neighbouring survivors from `low` up to `high`, nodes.
+    ///
+    /// `low` counts as a survivor whether tested or not.
+    pub fn largest_gap(&self, low: i32, high: i32) -> i32 {
+        let mut last = low;
+        let mut largest = 0;
+        for (&index, verdict) in self.nodes.range(low..=high) {
+            if *verdict == NodeVerdict::Survives {
+                largest = largest.max(index - last);
+                last = index;
+            }
+        }
+        largest.max(high - last)
+    }
+
+    /// Lowest survivor.
+    pub fn lowest_survivor(&self) -> Option<i32> {
+        self.nodes
+            .iter()
+            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .map(|(index, _)| *index)
+    }
+}

@@ -1,0 +1,125 @@
+//! From a starting amplitude to a bracket: gallop, then halve.
+//!
+//! The gallop starts with a 4 % step and doubles it at every further step up to an octave; without
+//! a hint every step is an octave. Its direction is that of the last decided verdict. Nodes without
+//! a verdict are stepped over.
+
+use super::evidence::{Evidence, NodeVerdict};
+use super::lattice::{Lattice, NodeRange};
+
+/// First step of a gallop from a hint, as a share.
+const FIRST_STEP: f64 = 0.04;
+
+/// Gallop of one point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Hunt {
+    start: i32,
+    first_step: i32,
+    octave: i32,
+    ups: u32,
+    downs: u32,
+}
+
+/// What the gallop makes of the evidence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum HuntStep {
+    /// Test this node.
+    Test(i32),
+    /// A failure has a survivor below it.
+    Bracketed {
+        /// Survivor.
+        survivor: i32,
+        /// Failure.
+        failure: i32,
+    },
+    /// The ends of the range are reached.
+    Exhausted,
+}
+
+impl Hunt {
+    /// Gallop over `nodes` from a hint in G, or from the middle of the range.
+    pub(super) fn new(lattice: &Lattice, nodes: NodeRange, hint_g: Option<f64>) -> Hunt {
+        let octave = lattice.nodes_per_octave;
+        let (start, first_step) = match hint_g {
+            Some(hint_g) => (lattice.nearest(hint_g), lattice.nodes_within(FIRST_STEP)),
+            None => (nodes.low + (nodes.high - nodes.low) / 2, octave),
+        };
+        Hunt {
+            start: start.clamp(nodes.low, nodes.high),
+            first_step,
+            octave,
+            ups: 0,
+            downs: 0,
+        }
+    }
+
+    /// Next step. `assumed_survivor` is a node below `nodes` known to survive without a run.
+    pub(super) fn step(
+        &self,
+        evidence: &Evidence,
+        nodes: NodeRange,
+        assumed_survivor: Option<i32>,
+    ) -> HuntStep {
+        let (Some(bottom), Some(top)) = (evidence.bottom(), evidence.top()) else {
+            return HuntStep::Test(self.start);
+        };
+        let Some(failure) = evidence.lowest_failure() else {
+            let any_survivor = evidence.highest_survivor_below(None).is_some();
+            // Nothing decided yet: smaller shocks are easier to compute.
+            if !any_survivor && bottom > nodes.low {
+                return HuntStep::Test((bottom - self.stride(self.downs)).max(nodes.low));
+            }
+            if top < nodes.high {
+                return HuntStep::Test((top + self.stride(self.ups)).min(nodes.high));
+            }
+            return HuntStep::Exhausted;
+        };
+        if let Some(survivor) = evidence.highest_survivor_below(Some(failure)) {
+            return HuntStep::Bracketed { survivor, failure };
+        }
+        let next = bottom - self.stride(self.downs);
+        match assumed_survivor {
+            Some(survivor) if next < nodes.low => HuntStep::Bracketed { survivor, failure },
+            _ if bottom > nodes.low => HuntStep::Test(next.max(nodes.low)),
+            _ => HuntStep::Exhausted,
+        }
+    }
+
+    /// Counts a step that was told a verdict.
+    pub(super) fn count(&mut self, tested: i32) {
+        if tested > self.start {
+            self.ups += 1;
+        } else if tested < self.start {
+            self.downs += 1;
+        }
+    }
+
+    fn stride(&self, steps: u32) -> i32 {
+        // Beyond 2^20 the octave has long been reached.
+        (self.first_step << steps.min(20)).min(self.octave.max(self.first_step))
+    }
+}
+
+/// Next node between a survivor and a failure, `None` when nothing testable is left between them.
+///
+/// Undecided nodes split the bracket; only the two outer pieces can move its ends, the wider first.
+pub(super) fn bisect(evidence: &Evidence, survivor: i32, failure: i32) -> Option<i32> {
+    let undecided = evidence.undecided_between(survivor, failure);
+    let (low_end, high_start) = match (undecided.first(), undecided.last()) {
+        (Some(&first), Some(&last)) => (first, last),
+        _ => (failure, failure),
+    };
+    let middle = |low: i32, high: i32| (high - low > 1).then(|| low + (high - low) / 2);
+    let lower = middle(survivor, low_end);
+    let upper = middle(high_start, failure);
+    if low_end - survivor >= failure - high_start {
+        lower.or(upper)
+    } else {
+        upper.or(lower)
+    }
+}
+
+/// The verdict of the highest node of the range, if the range was exhausted upwards.
+pub(super) fn survives_at_top(evidence: &Evidence, nodes: NodeRange) -> bool {
+    evidence.get(nodes.high) == Some(NodeVerdict::Survives)
+}

@@ -1,0 +1,94 @@
+//! Probes that will probably be asked: work for cores that would otherwise idle.
+//!
+//! The search is run ahead on assumed verdicts. What is computed ahead only answers a probe sooner
+//! when the search comes to ask it; it never enters the evidence by itself.
+
+use super::point::PointSearch;
+use super::probe::{Probe, Purpose, Verdict};
+
+/// Where a probe's answer is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lookup {
+    /// Finished.
+    Known(Verdict),
+    /// Being computed.
+    Running,
+    /// Nobody computes it.
+    Free,
+}
+
+/// A probe that may be asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The probe.
+    pub probe: Probe,
+    /// Why it would be asked.
+    pub purpose: Purpose,
+    /// Chance that it will be asked, 1 for the probe that is asked now.
+    pub likelihood: f64,
+}
+
+/// Less likely probes are not worth a core.
+const LEAST_LIKELIHOOD: f64 = 0.2;
+
+/// Chance that a probe survives.
+fn survival_chance(purpose: Purpose) -> f64 {
+    match purpose {
+        Purpose::Hunt | Purpose::Bisect => 0.5,
+        Purpose::Scan | Purpose::Window => 0.95,
+        Purpose::FollowUp => 0.6,
+    }
+}
+
+/// Free probes that `search` asks now or may ask next, at most `limit`.
+pub fn candidates(
+    search: &PointSearch,
+    likelihood: f64,
+    limit: usize,
+    lookup: &dyn Fn(Probe) -> Lookup,
+) -> Vec<Candidate> {
+    let mut found = Vec::new();
+    let mut open = vec![(search.clone(), likelihood)];
+    // Best first: a branch is followed only while it is the most likely one left.
+    while let Some(best) = (0..open.len()).max_by(|&a, &b| open[a].1.total_cmp(&open[b].1)) {
+        let (mut search, likelihood) = open.swap_remove(best);
+        let Some(asked) = search.ask() else { continue };
+        match lookup(asked.probe) {
+            Lookup::Known(verdict) => {
+                search.tell(&verdict);
+                open.push((search, likelihood));
+                continue;
+            }
+            Lookup::Running => {}
+            Lookup::Free => {
+                found.push(Candidate {
+                    probe: asked.probe,
+                    purpose: asked.purpose,
+                    likelihood,
+                });
+                if found.len() >= limit {
+                    break;
+                }
+            }
+        }
+        let survives = survival_chance(asked.purpose);
+        for (verdict, chance) in [
+            (Verdict::Survives, survives),
+            (
+                Verdict::Fails {
+                    t_fail_s: 0.0,
+                    x_m: 0.0,
+                    y_m: 0.0,
+                },
+                1.0 - survives,
+            ),
+        ] {
+            if likelihood * chance >= LEAST_LIKELIHOOD {
+                let mut next = search.clone();
+                next.tell(&verdict);
+                open.push((next, likelihood * chance));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,352 @@
+//! Order of the points, and who learns from whom.
+//!
+//! The order is a property of the points' values, never of their place in the study: widths ends
+//! first and then midpoints; ramps none, rigid, deformable; `+` before `-`. Each point takes its
+//! starting amplitude from points earlier in that order alone, so that a sequential search and
+//! any parallel one ask the same probes:
+//!
+//! 1. rigid ramp: amplitude of first touch times 1.03;
+//! 2. neighbouring widths already answered (same ramp, sign and axes), interpolated in the
+//!    logarithms of width and amplitude;
+//! 3. the other sign; 4. the previous ramp; 5. the previous values of the further axes;
+//! 6. none: the middle of the range, by doublings.
+//!
+//! A point with a ramp also has a *companion*: the same point without ramp. Below the amplitude of
+//! first touch its answers are the companion's.
+
+use super::probe::Sign;
+
+/// Class of a ramp model, in the order searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum RampClass {
+    /// No ramp.
+    None,
+    /// Contact points fixed to the base.
+    Rigid,
+    /// Arms that deform.
+    Deformable,
+}
+
+/// Coordinates of a point in the study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinates {
+    /// Class of the ramp model.
+    pub ramp_class: RampClass,
+    /// Name of the ramp model.
+    pub ramp: String,
+    /// Pulse width, ms.
+    pub pulse_ms: f64,
+    /// Sign.
+    pub sign: Sign,
+    /// Further axes as sortable text; equal text = equal values.
+    pub axes: Vec<String>,
+}
+
+/// Where the starting amplitude of a point comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HintSource {
+    /// First touch x 1.03.
+    Onset,
+    /// Answered widths below and above (places in the study).
+    Widths {
+        /// Next smaller answered width.
+        below: Option<usize>,
+        /// Next larger answered width.
+        above: Option<usize>,
+    },
+    /// Another point's answer.
+    Point(usize),
+    /// Nothing to learn from.
+    Nothing,
+}
+
+/// A point's relations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relations {
+    /// Starting amplitude.
+    pub hint: HintSource,
+    /// The same point without ramp.
+    pub companion: Option<usize>,
+    /// Next smaller and next larger width of the same ramp, sign and axes.
+    pub neighbours: [Option<usize>; 2],
+    /// Points of the same ramp, sign and axes, by width: a number naming the group.
+    pub chain: usize,
+    /// Place of the width in its chain.
+    pub width_rank: usize,
+}
+
+impl Relations {
+    /// Points that must have their answer before this one can start.
+    pub fn predecessors(&self) -> Vec<usize> {
+        let mut all: Vec<usize> = self.companion.into_iter().collect();
+        match self.hint {
+            HintSource::Widths { below, above } => all.extend(below.into_iter().chain(above)),
+            HintSource::Point(point) => all.push(point),
+            HintSource::Onset | HintSource::Nothing => {}
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
+/// Order and relations of all points.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Order {
+    /// Places in the study in canonical order.
+    pub sequence: Vec<usize>,
+    /// Relations by place in the study.
+    pub relations: Vec<Relations>,
+    /// Points of each chain, ascending width.
+    pub chains: Vec<Vec<usize>>,
+}
+
+/// Order of `count` things on a line: both ends, then midpoints level by level, each with the
+/// earlier things next to it. Returns `(place, below, above)`.
+pub fn ends_first(count: usize) -> Vec<(usize, Option<usize>, Option<usize>)> {
+    let mut order = Vec::with_capacity(count);
+    if count == 0 {
+        return order;
+    }
+    order.push((0, None, None));
+    if count == 1 {
+        return order;
+    }
+    order.push((count - 1, Some(0), None));
+    let mut level = vec![(0, count - 1)];
+    while !level.is_empty() {
+        let mut next = Vec::new();
+        for (low, high) in level {
+            if high - low < 2 {
+                continue;
+            }
+            let middle = (low + high) / 2;
+            order.push((middle, Some(low), Some(high)));
+            next.push((low, middle));
+            next.push((middle, high));
+        }
+        level = next;
+    }
+    order
+}
+
+impl Order {
+    /// Order of the points.
+    pub fn of(points: &[Coordinates]) -> Order {
+        let mut by_value: Vec<usize> = (0..points.len()).collect();
+        by_value.sort_by(|&a, &b| {
+            let (a, b) = (&points[a], &points[b]);
+            a.axes
+                .cmp(&b.axes)
+                .then(a.ramp_class.cmp(&b.ramp_class))
+                .then_with(|| a.ramp.cmp(&b.ramp))
+                .then(a.sign.cmp(&b.sign))
+                .then(a.pulse_ms.total_cmp(&b.pulse_ms))
+        });
+
+        let mut chains: Vec<Vec<usize>> = Vec::new();
+        for &place in &by_value {
+            let same = chains
+                .last()
+                .and_then(|chain| chain.first())
+                .is_some_and(|&first| {
+                    let (a, b) = (&points[first], &points[place]);
+                    a.axes == b.axes
+                        && a.ramp_class == b.ramp_class
+                        && a.ramp == b.ramp
+                        && a.sign == b.sign
+                });
+            match chains.last_mut() {
+                Some(chain) if same => chain.push(place),
+                _ => chains.push(vec![place]),
+            }
+        }
+
+        let unknown = Relations {
+            hint: HintSource::Nothing,
+            companion: None,
+            neighbours: [None, None],
+            chain: 0,
+            width_rank: 0,
+        };
+        let mut relations = vec![unknown; points.len()];
+        // (axes, rank in ends-first order, ramp, sign) sorts into the canonical sequence.
+        let mut keys: Vec<(usize, usize, usize, usize)> = vec![(0, 0, 0, 0); points.len()];
+        let (mut group, mut ramp_rank) = (0, 0);
+        for (number, chain) in chains.iter().enumerate() {
+            if number > 0 {
+                let (a, b) = (&points[chains[number - 1][0]], &points[chain[0]]);
+                if a.axes != b.axes {
+                    group += 1;
+                    ramp_rank = 0;
+                } else if a.ramp != b.ramp || a.ramp_class != b.ramp_class {
+                    ramp_rank += 1;
+                }
+            }
+            for (rank, (place, below, above)) in ends_first(chain.len()).into_iter().enumerate() {
+                let point = chain[place];
+                let at = &points[point];
+                let hint = if at.ramp_class == RampClass::Rigid {
+                    HintSource::Onset
+                } else if below.is_some() || above.is_some() {
+                    HintSource::Widths {
+                        below: below.map(|place| chain[place]),
+                        above: above.map(|place| chain[place]),
+                    }
+                } else {
+                    first_width_hint(points, &chains[..number], at)
+                };
+                relations[point] = Relations {
+                    hint,
+                    companion: companion(points, at),
+                    neighbours: [
+                        place.checked_sub(1).map(|place| chain[place]),
+                        chain.get(place + 1).copied(),
+                    ],
+                    chain: number,
+                    width_rank: place,
+                };
+                let sign = usize::from(at.sign == Sign::Minus);
+                keys[point] = (group, rank, ramp_rank, sign);
+            }
+        }
+        let mut sequence = by_value;
+        sequence.sort_by_key(|&point| keys[point]);
+        Order {
+            sequence,
+            relations,
+            chains,
+        }
+    }
+}
+
+/// Hint of a chain's first width from the chains before it.
+fn first_width_hint(
+    points: &[Coordinates],
+    earlier: &[Vec<usize>],
+    at: &Coordinates,
+) -> HintSource {
+    let find = |wanted: &dyn Fn(&Coordinates) -> bool| {
+        earlier
+            .iter()
+            .rev()
+            .flatten()
+            .copied()
+            .find(|&point| points[point].pulse_ms == at.pulse_ms && wanted(&points[point]))
+    };
+    let other_sign =
+        find(&|other| other.axes == at.axes && other.ramp == at.ramp && other.sign != at.sign);
+    let previous_ramp = || find(&|other| other.axes == at.axes && other.sign == at.sign);
+    let previous_axes = || find(&|other| other.ramp == at.ramp && other.sign == at.sign);
+    other_sign
+        .or_else(previous_ramp)
+        .or_else(previous_axes)
+        .map_or(HintSource::Nothing, HintSource::Point)
+}
+
+fn companion(points: &[Coordinates], at: &Coordinates) -> Option<usize> {
+    if at.ramp_class == RampClass::None {
+        return None;
+    }
+    points.iter().position(|other| {
+        other.ramp_class == RampClass::None
+            && other.axes == at.axes
+            && other.sign == at.sign
+            && other.pulse_ms == at.pulse_ms
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fig13() -> Vec<Coordinates> {
+        let mut points = Vec::new();
+        for (class, ramp) in [
+            (RampClass::None, "none"),
+            (RampClass::Rigid, "rigid"),
+            (RampClass::Deformable, "deformable"),
+        ] {
+            for pulse_ms in [0.5, 0.75, 1.0, 1.5, 2.0, 3.0] {
+                for sign in [Sign::Plus, Sign::Minus] {
+                    points.push(Coordinates {
+                        ramp_class: class,
+                        ramp: ramp.into(),
+                        pulse_ms,
+                        sign,
+                        axes: vec![],
+                    });
+                }
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn widths_go_ends_first_then_midpoints() {
+        let order: Vec<usize> = ends_first(6).iter().map(|entry| entry.0).collect();
+        assert_eq!(order, [0, 5, 2, 1, 3, 4]);
+        assert_eq!(ends_first(6)[4], (3, Some(2), Some(5)));
+        for count in 0..40 {
+            let mut all: Vec<usize> = ends_first(count).iter().map(|entry| entry.0).collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..count).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn predecessors_always_come_earlier() {
+        let points = fig13();
+        let order = Order::of(&points);
+        let mut seen = vec![false; points.len()];
+        for &point in &order.sequence {
+            for before in order.relations[point].predecessors() {
+                assert!(seen[before], "{point} before {before}");
+            }
+            seen[point] = true;
+        }
+        assert!(seen.iter().all(|seen| *seen));
+        let first: Vec<(&str, f64, &str)> = order.sequence[..7]
+            .iter()
+            .map(|&p| {
+                (
+                    points[p].ramp.as_str(),
+                    points[p].pulse_ms,
+                    points[p].sign.as_str(),
+                )
+            })
+            .collect();
+        assert_eq!(
+            first,
+            [
+                ("none", 0.5, "+"),
+                ("none", 0.5, "-"),
+                ("rigid", 0.5, "+"),
+                ("rigid", 0.5, "-"),
+                ("deformable", 0.5, "+"),
+                ("deformable", 0.5, "-"),
+                ("none", 3.0, "+"),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_shuffled_study_has_the_same_relations() {
+        let points = fig13();
+        let order = Order::of(&points);
+        // 5 is prime to 36.
+        let shuffle: Vec<usize> = (0..36).map(|i| (5 * i + 7) % 36).collect();
+        let shuffled: Vec<Coordinates> = shuffle.iter().map(|&i| points[i].clone()).collect();
+        let other = Order::of(&shuffled);
+        let back: Vec<usize> = other.sequence.iter().map(|&i| shuffle[i]).collect();
+        assert_eq!(back, order.sequence);
+        for (i, relation) in other.relations.iter().enumerate() {
+            let same = &order.relations[shuffle[i]];
+            assert_eq!(relation.companion.map(|p| shuffle[p]), same.companion);
+            assert_eq!(
+                relation.neighbours.map(|p| p.map(|p| shuffle[p])),
+                same.neighbours
+            );
+        }
+    }
+}
