@@ -2,6 +2,8 @@
 
 pub mod chart;
 mod critical_shock;
+mod files;
+pub mod html;
 mod outcome_map;
 pub mod run_json;
 mod run_plots;
@@ -9,6 +11,8 @@ mod run_text;
 pub mod table;
 
 pub use critical_shock::critical_shock_figure;
+pub use files::{ReportError, write_report};
+pub use html::ReportSource;
 pub use outcome_map::{RunDot, outcome_map};
 pub use run_json::{RunJson, cause_text, verdict_word};
 pub use run_plots::{NamedFigure, PlotError, RunCaption, run_figures, write_figures};
