@@ -1,1 +1,34 @@
-//! integrator
+//! L-stable, stiffly accurate one-step integrators with step control and dense output.
+//!
+//! An ESDIRK scheme of s stages advances y' = f(t, y) by
+//!
+//! ```text
+//! Yᵢ = yₙ + Δt Σⱼ<ᵢ aᵢⱼ kⱼ + d kᵢ,   kᵢ = f(tₙ + cᵢ Δt, Yᵢ),   d = γ Δt
+//! k₁ = last k of the step before,    yₙ₊₁ = Yₛ
+//! ```
+//!
+//! The first stage is explicit and the last one is the new value, so every implicit stage has the
+//! same iteration matrix I − d J. Rates are taken as kᵢ = (Yᵢ − known)/d instead of evaluating f
+//! once more: an error of the stage solve then enters the next step with a factor of order one,
+//! not multiplied by the stiffness.
+//!
+//! | scheme | order | implicit stages | γ | source |
+//! |---|---|---|---|---|
+//! | TR-BDF2 | 2 (3 embedded) | 2 | 1 − √2/2 | Bank et al. 1985; Hosea and Shampine, Appl. Numer. Math. 20 (1996) 21 |
+//! | ESDIRK3(2)4L\[2\]SA | 3 (2 embedded) | 3 | 0.43586652… | Kennedy and Carpenter, NASA/CR-2001-211038, ARK3(2)4L\[2\]SA implicit part |
+//!
+//! [`Stepper`] takes one trial step of any [`StageSystem`]; [`StepControl`] turns its error into
+//! the next step on a coarse ladder, so that factorisations keyed on d live long; [`hermite`] holds
+//! the cubic dense output.
+
+mod control;
+pub mod hermite;
+mod stepper;
+mod tableau;
+
+#[cfg(test)]
+mod tests;
+
+pub use control::StepControl;
+pub use stepper::{StageSystem, Stepper};
+pub use tableau::{ESDIRK3, TR_BDF2, Tableau};

@@ -1,0 +1,89 @@
+//! Step size from the error of the last step, on a ladder of fixed ratio.
+//!
+//! ```text
+//! Δt_new = Δt · 0.9 (1/e)^(1/p)      e error over tolerance, p power of the estimate
+//! ```
+//!
+//! rounded down to a rung Δt₀ ρ^k. A step grows by one rung at least or not at all: the iteration
+//! matrix depends on Δt alone, and keeping it is worth more than the last few percent of step.
+
+/// Ratio of neighbouring rungs.
+const RUNG: f64 = 1.25;
+
+/// Keeps steps on the rungs of a ladder between a smallest and a largest step.
+#[derive(Clone, Copy, Debug)]
+pub struct StepControl {
+    smallest_s: f64,
+    largest_s: f64,
+    error_order: f64,
+    previous_error: f64,
+}
+
+impl StepControl {
+    /// Safety factor on the step that the error would allow.
+    const SAFETY: f64 = 0.9;
+    /// Largest growth after one step.
+    const GROWTH: f64 = 4.0;
+    /// Largest cut after one rejection by error.
+    const CUT: f64 = 0.2;
+
+    /// Control for an estimate that falls with Δt to the power `error_order`.
+    pub fn new(error_order: u32, smallest_s: f64, largest_s: f64) -> Self {
+        Self {
+            smallest_s,
+            largest_s,
+            error_order: f64::from(error_order),
+            previous_error: 1.0,
+        }
+    }
+
+    /// Smallest step, s.
+    pub fn smallest_s(&self) -> f64 {
+        self.smallest_s
+    }
+
+    /// `dt_s` rounded down to a rung and into the allowed range.
+    pub fn rung(&self, dt_s: f64) -> f64 {
+        if dt_s >= self.largest_s {
+            return self.largest_s;
+        }
+        let k = ((dt_s / self.largest_s).ln() / RUNG.ln() + 1e-9).floor();
+        (self.largest_s * RUNG.powf(k)).max(self.smallest_s)
+    }
+
+    /// Step after an accepted step of `dt_s` with error `error` (1 = tolerance).
+    pub fn after_accept(&mut self, dt_s: f64, error: f64) -> f64 {
+        let error = error.max(1e-10);
+        // The trend of the error damps the growth after a step that was already getting worse
+        // (Gustafsson 1994).
+        let trend = (self.previous_error / error).clamp(0.2, 1.0);
+        self.previous_error = error;
+        let p = self.error_order;
+        let factor = Self::SAFETY * error.powf(-1.0 / p) * trend.powf(0.3 / p);
+        if factor >= RUNG {
+            self.rung(dt_s * factor.min(Self::GROWTH))
+        } else if factor < 1.0 / RUNG {
+            self.rung(dt_s * factor)
+        } else {
+            dt_s
+        }
+    }
+
+    /// Step after a rejection for its error.
+    pub fn after_reject(&mut self, dt_s: f64, error: f64) -> f64 {
+        self.previous_error = 1.0;
+        let wanted = Self::SAFETY * error.powf(-1.0 / self.error_order);
+        let factor = if wanted.is_finite() {
+            wanted.clamp(Self::CUT, 1.0 / RUNG)
+        } else {
+            Self::CUT
+        };
+        self.rung(dt_s * factor)
+    }
+
+    /// Step after a stage that did not converge.
+    pub fn after_failure(&mut self, dt_s: f64) -> f64 {
+        self.previous_error = 1.0;
+        self.rung(0.35 * dt_s)
+    }
+}

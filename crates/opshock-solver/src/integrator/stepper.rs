@@ -1,0 +1,129 @@
+//! One trial step of an ESDIRK scheme on any system that can solve its stage equation.
+
+use super::Tableau;
+
+/// A stiff system y' = f(t, y) that solves its own implicit stages.
+pub trait StageSystem {
+    /// Why a stage could not be solved.
+    type Failure;
+
+    /// Solves y = `known` + d f(`time_s`, y); `y` holds a guess on entry.
+    ///
+    /// # Errors
+    /// When the iteration does not converge; `y` is then worthless.
+    fn solve_stage(
+        &mut self,
+        time_s: f64,
+        d_s: f64,
+        known: &[f64],
+        y: &mut [f64],
+    ) -> Result<(), Self::Failure>;
+
+    /// Replaces `error` by (I − d J)⁻¹ `error` with the Jacobian of the last stage solve.
+    fn filter(&mut self, d_s: f64, error: &mut [f64]);
+}
+
+/// Stage storage of one scheme for systems of one size.
+#[derive(Clone, Debug)]
+pub struct Stepper {
+    tableau: Tableau,
+    rates: Vec<Vec<f64>>,
+    known: Vec<f64>,
+    stage: Vec<f64>,
+    error: Vec<f64>,
+}
+
+impl Stepper {
+    /// Storage for `n` unknowns.
+    pub fn new(tableau: Tableau, n: usize) -> Self {
+        Self {
+            tableau,
+            rates: vec![vec![0.0; n]; tableau.n_stages()],
+            known: vec![0.0; n],
+            stage: vec![0.0; n],
+            error: vec![0.0; n],
+        }
+    }
+
+    /// The scheme.
+    pub fn tableau(&self) -> &Tableau {
+        &self.tableau
+    }
+
+    /// Value at the end of the last trial step.
+    pub fn value(&self) -> &[f64] {
+        &self.stage
+    }
+
+    /// Rate at the end of the last trial step.
+    pub fn rate(&self) -> &[f64] {
+        &self.rates[self.tableau.n_stages() - 1]
+    }
+
+    /// Filtered error estimate of the last trial step.
+    pub fn error(&self) -> &[f64] {
+        &self.error
+    }
+
+    /// Tries a step of `dt_s` from `y` with rate `rate` at `time_s`.
+    ///
+    /// Stage guesses continue the cubic through the last two known values and rates. `filtered`
+    /// asks for the error estimate.
+    ///
+    /// # Errors
+    /// The first failure of a stage solve; nothing of the caller's state has changed.
+    pub fn step<S: StageSystem>(
+        &mut self,
+        system: &mut S,
+        time_s: f64,
+        dt_s: f64,
+        y: &[f64],
+        rate: &[f64],
+    ) -> Result<(), S::Failure> {
+        let table = self.tableau;
+        let d = table.gamma * dt_s;
+        self.rates[0].copy_from_slice(rate);
+        for i in 1..table.n_stages() {
+            self.known.copy_from_slice(y);
+            for (a, rates) in table.a[i].iter().zip(&self.rates) {
+                let w = dt_s * a;
+                for (known, k) in self.known.iter_mut().zip(rates) {
+                    *known += w * k;
+                }
+            }
+            self.guess(i, dt_s, y);
+            system.solve_stage(time_s + table.c[i] * dt_s, d, &self.known, &mut self.stage)?;
+            for ((k, y), known) in self.rates[i].iter_mut().zip(&self.stage).zip(&self.known) {
+                *k = (y - known) / d;
+            }
+        }
+        self.error.fill(0.0);
+        for (w, rates) in table.error_weights.iter().zip(&self.rates) {
+            let w = dt_s * w;
+            for (e, k) in self.error.iter_mut().zip(rates) {
+                *e += w * k;
+            }
+        }
+        system.filter(d, &mut self.error);
+        Ok(())
+    }
+
+    /// Guess of stage `i`: y' taken linear through the rates of the last two stages known (constant
+    /// for the first implicit stage), integrated over the step so far.
+    fn guess(&mut self, i: usize, dt_s: f64, y: &[f64]) {
+        let c = self.tableau.c;
+        let reach = c[i] * dt_s;
+        if i == 1 {
+            for ((s, y), k) in self.stage.iter_mut().zip(y).zip(&self.rates[0]) {
+                *s = y + reach * k;
+            }
+            return;
+        }
+        // Quadratic through y with rate k_1 at 0 and k_{i-1} at c_{i-1}.
+        let slope = 0.5 * reach * c[i] / c[i - 1];
+        let (first, last) = (&self.rates[0], &self.rates[i - 1]);
+        for (((s, y), k0), k1) in self.stage.iter_mut().zip(y).zip(first).zip(last) {
+            *s = y + (reach - slope) * k0 + slope * k1;
+        }
+    }
+}
