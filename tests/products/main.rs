@@ -1,1 +1,4 @@
 //! Study files, search, store, report and command line.
+
+mod report_files;
+mod report_run;

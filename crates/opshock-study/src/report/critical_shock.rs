@@ -20,7 +20,7 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotte
 /// end of the searched range. Series of equal values are set some pixels apart.
 pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
     let names = series_names(summary);
-    let range = ordinate_range(summary);
+    let ordinate = ordinate(summary);
     let widths = distinct(summary.points.iter().map(|point| point.pulse_ms));
     let span = match (widths.first(), widths.last()) {
         (Some(first), Some(last)) if last > first => {
@@ -42,14 +42,7 @@ pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
                 ticks: (widths.len() <= 9).then(|| readable(&widths, span)),
                 ..Axis::linear("Pulse width (ms)")
             },
-            y: Axis {
-                range,
-                ..if range.is_some_and(|(low, high)| high > 6.0 * low) {
-                    Axis::log("Critical shock (G)")
-                } else {
-                    Axis::linear("Critical shock (G)")
-                }
-            },
+            y: ordinate.clone(),
             series: names
                 .iter()
                 .enumerate()
@@ -154,8 +147,9 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
     })
 }
 
-/// One range for all panels, error bars and room for arrows included.
-fn ordinate_range(summary: &Summary) -> Option<(f64, f64)> {
+/// One ordinate for all panels, with room for error bars and arrows. Linear from zero, so that
+/// heights compare as they are, unless the values span so much that the small ones would vanish.
+fn ordinate(summary: &Summary) -> Axis {
     let mut values = Vec::new();
     for point in summary.points.iter().filter_map(|point| sample("", point)) {
         match point.value {
@@ -166,15 +160,14 @@ fn ordinate_range(summary: &Summary) -> Option<(f64, f64)> {
     }
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let label = "Critical shock (G)";
     if low > high {
-        return None;
+        Axis::linear(label)
+    } else if low > 0.0 && high > 5.0 * low {
+        Axis::log(label).between(low / 1.15, high * 1.15)
+    } else {
+        Axis::linear(label).between(0.0, 1.06 * high)
     }
-    if low > 0.0 && high > 5.0 * low {
-        return Some((low / 1.15, high * 1.15));
-    }
-    let margin = 0.06 * (high - low).max(0.05 * high);
-    // A linear ordinate starts at zero: heights then compare as they are.
-    Some((0.0, high + margin))
 }
 
 /// The widths themselves as ticks, those that would sit on one another left out.

@@ -62,11 +62,14 @@ pub(super) struct ResolvedAxis {
 }
 
 impl ResolvedAxis {
-    /// Decides range and ticks of `axis` for `data`; not finite values are ignored, on a log axis
-    /// also values that are not positive.
+    /// Decides range and ticks of `axis` for `data`. A given range that cannot be drawn is not
+    /// taken; values that are not finite are ignored, on a log axis also those not positive.
     pub fn new(axis: &Axis, data: impl Iterator<Item = f64>) -> Self {
         let log = axis.scale == Scale::Log;
-        let (low, high) = axis.range.unwrap_or_else(|| {
+        let given = axis.range.filter(|(low, high)| {
+            low < high && low.is_finite() && high.is_finite() && (!log || *low > 0.0)
+        });
+        let (low, high) = given.unwrap_or_else(|| {
             let usable = data.filter(|v| v.is_finite() && (!log || *v > 0.0));
             let (low, high) = usable.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
                 (l.min(v), h.max(v))

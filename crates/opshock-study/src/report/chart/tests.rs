@@ -78,3 +78,19 @@ fn dashes_run_on_across_many_short_segments() {
     let drawn: f64 = dashes.iter().map(|d| d[d.len() - 1].0 - d[0].0).sum();
     assert!((drawn - 64.0).abs() < 1e-9, "9 x 7 + 1: {drawn}");
 }
+
+#[test]
+fn a_range_that_cannot_be_drawn_is_not_taken() {
+    for range in [
+        (0.0, 500.0),
+        (-1.0, 5.0),
+        (5.0, 5.0),
+        (f64::NAN, 1.0),
+        (1.0, f64::INFINITY),
+    ] {
+        let axis = Axis::log("x").between(range.0, range.1);
+        let axis = ResolvedAxis::new(&axis, [20.0, 300.0].into_iter());
+        assert!(axis.low > 10.0 && axis.high < 1000.0, "{range:?}");
+        assert!(axis.ticks.len() + axis.minor.len() < 40);
+    }
+}
