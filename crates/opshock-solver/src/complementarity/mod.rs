@@ -1,1 +1,10 @@
-//! complementarity
+//! 0 ≤ λ ⟂ g ≥ 0: statement, small problems, impact law on velocity level.
+//!
+//! A unilateral contact has a signed gap g (g > 0 open) and a multiplier λ ≥ 0 that pushes the
+//! bodies apart; 0 ≤ g complementary to λ ≥ 0. It never pulls.
+#![doc = include_str!("theory.md")]
+
+pub mod advance;
+pub mod lcp;
+
+pub use advance::{Gap, ImpactLaw, ImpulseKind, StepReport, UnilateralSystem, advance};

@@ -1,4 +1,12 @@
 //! Rotating flexible annular disk, clamped inside, free outside.
+#![doc = include_str!("theory.md")]
+
+pub mod basis;
+pub mod harmonic;
+pub mod membrane;
+
+pub use basis::{DiskBasis, DiskError, DiskMode};
+pub use membrane::MembraneStress;
 
 /// How the disk loses energy.
 #[derive(Clone, Copy, Debug, PartialEq)]

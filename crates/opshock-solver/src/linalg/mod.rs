@@ -1,3 +1,6 @@
-//! linalg
+//! Linear algebra that grows with a mesh; the only module that names the matrix library.
 
 pub mod banded;
+pub mod dense;
+
+pub use dense::{DenseError, EigenPairs, SquareMatrix};

@@ -45,3 +45,107 @@ pub struct RampParameters {
     /// Coefficient of restitution of an impact, 0 <= e <= 1 (Newton's law).
     pub restitution: f64,
 }
+
+/// What is wrong with a ramp.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RampError {
+    /// The disk and an arm overlap before the shock.
+    #[error("the {side} arm overlaps the disk by {amount_m:e} m before the shock")]
+    Overlap {
+        /// Which arm.
+        side: &'static str,
+        /// Overlap, m.
+        amount_m: f64,
+    },
+    /// A parameter is outside its range.
+    #[error("ramp parameter {name} = {value:e} is outside its range ({allowed})")]
+    Parameter {
+        /// Name of the field.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Allowed range in words.
+        allowed: &'static str,
+    },
+    /// A deformable arm without a mode cannot move at its contact point.
+    #[error("the {side} arm has no mode: use a rigid ramp")]
+    NoMode {
+        /// Which arm.
+        side: &'static str,
+    },
+}
+
+impl RampParameters {
+    /// Checks ranges. A clearance of 0 is allowed: disk and arm touch without force.
+    ///
+    /// # Errors
+    /// The first fault found.
+    pub fn validate(&self) -> Result<(), RampError> {
+        for (side, clearance) in [
+            ("top", self.clearance_top_m),
+            ("bottom", self.clearance_bottom_m),
+        ] {
+            if clearance < 0.0 {
+                return Err(RampError::Overlap {
+                    side,
+                    amount_m: -clearance,
+                });
+            }
+            if !clearance.is_finite() {
+                return Err(RampError::Parameter {
+                    name: "clearance",
+                    value: clearance,
+                    allowed: "finite and at least 0",
+                });
+            }
+        }
+        if !(0.0..=1.0).contains(&self.restitution) {
+            return Err(RampError::Parameter {
+                name: "restitution",
+                value: self.restitution,
+                allowed: "0 to 1",
+            });
+        }
+        if let RampModel::Deformable { top, bottom } = &self.model {
+            for (side, arm) in [("top", top), ("bottom", bottom)] {
+                if arm.is_empty() {
+                    return Err(RampError::NoMode { side });
+                }
+                arm.iter().try_for_each(ArmMode::validate)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ArmMode {
+    fn validate(&self) -> Result<(), RampError> {
+        let positive = "finite and above 0";
+        let checks = [
+            (
+                "frequency_hz",
+                self.frequency_hz,
+                self.frequency_hz > 0.0,
+                positive,
+            ),
+            ("mass_kg", self.mass_kg, self.mass_kg > 0.0, positive),
+            ("participation", self.participation, true, "finite"),
+            (
+                "damping_ratio",
+                self.damping_ratio,
+                self.damping_ratio >= 0.0,
+                "finite and at least 0",
+            ),
+        ];
+        for (name, value, ok, allowed) in checks {
+            if !ok || !value.is_finite() {
+                return Err(RampError::Parameter {
+                    name,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
+    }
+}

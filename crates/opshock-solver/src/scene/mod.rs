@@ -7,6 +7,7 @@ use crate::ramp::RampParameters;
 use crate::shock::Pulse;
 use crate::slider::SliderParameters;
 use crate::structure::StructureResolution;
+pub use crate::structure::Window;
 use crate::suspension::SuspensionParameters;
 
 /// How film and slider are solved together at a step.
@@ -37,23 +38,6 @@ pub struct HeadResolution {
     pub coupling_tolerance: f64,
     /// Step limit; reached = undecided.
     pub max_steps: u64,
-}
-
-/// How long a simulation lasts after the onset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Window {
-    /// Fixed length, s.
-    Fixed {
-        /// Length after the onset, s.
-        length_s: f64,
-    },
-    /// Until disk and ramp energy fall below a share of their peak.
-    UntilDecayed {
-        /// Share of the peak energy.
-        share: f64,
-        /// Longest window, s.
-        max_s: f64,
-    },
 }
 
 /// Everything one simulation needs but the amplitude.

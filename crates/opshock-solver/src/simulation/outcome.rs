@@ -1,5 +1,9 @@
 //! What one simulation answers. Times are seconds after the onset of the pulse.
 
+pub use crate::structure::{
+    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
+};
+
 /// Survival is decided, or it is not; a number that is not a number never decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
@@ -65,45 +69,6 @@ pub struct SteadyState {
     pub roll_rad: f64,
 }
 
-/// Extremes of the disk's motion over the window, m.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DiskExtremes {
-    /// Largest displacement under the slider.
-    pub slider_max_m: f64,
-    /// Smallest displacement under the slider.
-    pub slider_min_m: f64,
-    /// Largest displacement at the ramp point.
-    pub ramp_max_m: f64,
-    /// Smallest displacement at the ramp point.
-    pub ramp_min_m: f64,
-    /// Largest magnitude at the rim, at the ramp's angle.
-    pub rim_max_m: f64,
-}
-
-/// A contact spell; spells closer than 30 us are one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Episode {
-    /// First impulse, s.
-    pub on_s: f64,
-    /// Last impulse, s.
-    pub off_s: f64,
-    /// Impulse, N s.
-    pub impulse_n_s: f64,
-    /// Largest 20 us running mean of the force, N.
-    pub peak_20us_n: f64,
-}
-
-/// Contact with one arm over the window.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ArmContact {
-    /// First touch, s.
-    pub first_touch_s: Option<f64>,
-    /// Total impulse, N s.
-    pub impulse_n_s: f64,
-    /// Spells in order.
-    pub episodes: Vec<Episode>,
-}
-
 /// Dimple force over the simulated head.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DimpleRecord {
@@ -111,44 +76,6 @@ pub struct DimpleRecord {
     pub min_force_n: f64,
     /// Total time open, s.
     pub open_s: f64,
-}
-
-/// Energy book of the structure at the end of the window, J.
-///
-/// H = 1/2 int rho h (w_t^2 - Omega^2 w_theta^2) + V of disk and ramp; see docs/theory.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EnergyBook {
-    /// Material kinetic energy of disk and ramp at the end.
-    pub kinetic_j: f64,
-    /// Elastic energy at the end.
-    pub elastic_j: f64,
-    /// H at the end.
-    pub h_end_j: f64,
-    /// Largest H.
-    pub h_peak_j: f64,
-    /// Work of the shock.
-    pub shock_work_j: f64,
-    /// Taken from H by damping (rotating frame; of either sign).
-    pub damping_loss_j: f64,
-    /// Taken from H at impacts (never negative).
-    pub impact_loss_j: f64,
-    /// Produced by the time stepping (never positive).
-    pub algorithmic_j: f64,
-    /// Work fed in by the spindle through the contact, on the material energy.
-    pub spindle_work_j: f64,
-    /// |H - H0 - work + losses| / peak.
-    pub closure: f64,
-}
-
-/// How well 0 <= g complementary to lambda >= 0 was met.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Complementarity {
-    /// Largest penetration, m (>= 0).
-    pub max_penetration_m: f64,
-    /// Most negative multiplier (impulse), N s (<= 0).
-    pub min_multiplier_n_s: f64,
-    /// Largest |impulse x gap|, N s m.
-    pub max_product_n_s_m: f64,
 }
 
 /// What the run cost, and signs of trouble. Wall time is measured by the caller.
@@ -223,30 +150,6 @@ pub struct History {
     pub structure: StructureColumns,
     /// Head; ends at touch.
     pub head: HeadColumns,
-}
-
-/// Columns on the structure's time grid.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[expect(
-    missing_docs,
-    reason = "the names say quantity and unit; design reference section 7"
-)]
-pub struct StructureColumns {
-    pub time_s: Vec<f64>,
-    pub shock_m_per_s2: Vec<f64>,
-    pub disk_slider_m: Vec<f64>,
-    pub disk_ramp_m: Vec<f64>,
-    pub disk_rim_m: Vec<f64>,
-    pub disk_pitch_rad: Vec<f64>,
-    pub disk_roll_rad: Vec<f64>,
-    pub ramp_top_m: Vec<f64>,
-    pub ramp_bottom_m: Vec<f64>,
-    /// 20 us running mean of the contact force.
-    pub contact_top_n: Vec<f64>,
-    /// 20 us running mean of the contact force.
-    pub contact_bottom_n: Vec<f64>,
-    pub energy_j: Vec<f64>,
-    pub energy_h_j: Vec<f64>,
 }
 
 /// Columns at the head's accepted steps.

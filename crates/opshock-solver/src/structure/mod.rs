@@ -1,8 +1,45 @@
 //! Disk, ramp and their contact: one run gives a structural history.
+#![doc = include_str!("theory.md")]
+
+mod contact_log;
+mod contact_system;
+mod energy;
+mod free_motion;
+mod history;
+mod model;
+mod modes;
+mod record;
+
+pub use history::StructuralHistory;
+pub use model::{
+    SliderPlace, StructureError, StructureModel, StructureParameters, StructureRun,
+    StructureWarning, Workspace,
+};
+pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
+pub use record::{
+    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
+};
 
 /// Numerical resolution of the structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructureResolution {
     /// Step of the grid on which motion is stored and contact is resolved, s.
     pub step_s: f64,
+}
+
+/// How long a simulation lasts after the onset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Window {
+    /// Fixed length, s.
+    Fixed {
+        /// Length after the onset, s.
+        length_s: f64,
+    },
+    /// Until disk and ramp energy fall below a share of their peak.
+    UntilDecayed {
+        /// Share of the peak energy.
+        share: f64,
+        /// Longest window, s.
+        max_s: f64,
+    },
 }

@@ -1,0 +1,324 @@
+//! One step of a system with up to two unilateral contacts: exact flow, located impacts,
+//! impulses that aim at a closed gap.
+
+use super::lcp;
+
+/// A gap and its rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gap {
+    /// g, m; positive when open.
+    pub value_m: f64,
+    /// dg/dt, m/s.
+    pub rate_m_per_s: f64,
+}
+
+/// What an impulse stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImpulseKind {
+    /// A collision located in time.
+    Impact,
+    /// A share of the force of a contact that lasts.
+    Sustained,
+}
+
+/// A linear system that carries its own state. "Now" is its current instant; "ahead" is the
+/// instant last looked at.
+pub trait UnilateralSystem {
+    /// Gaps now; entries from `n_contacts` on are ignored.
+    fn gaps(&self) -> [Gap; 2];
+    /// Number of contacts, at most 2.
+    fn n_contacts(&self) -> usize;
+    /// Computes the state `h_s` after now by the exact free flow.
+    fn look_ahead(&mut self, h_s: f64);
+    /// Gaps ahead.
+    fn gaps_ahead(&self) -> [Gap; 2];
+    /// Gap velocity now per impulse now, 1/kg.
+    fn mobility(&self) -> [[f64; 2]; 2];
+    /// Gap ahead per impulse now, s/kg.
+    fn compliance_ahead(&self) -> [[f64; 2]; 2];
+    /// Applies impulses (N s) now, and to the state ahead what they lead to.
+    fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind);
+    /// Makes ahead the new now.
+    fn commit(&mut self);
+}
+
+/// The law of impact and its numerical limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactLaw {
+    /// Newton's coefficient of restitution e, 0 to 1.
+    pub restitution: f64,
+    /// A gap up to this counts as closed, m; far below anything of interest.
+    pub gap_tolerance_m: f64,
+    /// Impacts in one step after which contact is taken as sustained.
+    pub max_impacts_per_step: u32,
+}
+
+/// What happened in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepReport {
+    /// Impacts located.
+    pub impacts: u32,
+    /// The limit of impacts was reached (bounces accumulate, or the step is long).
+    pub accumulated: bool,
+}
+
+/// Advances `system` by `h_s`.
+pub fn advance(system: &mut impl UnilateralSystem, h_s: f64, law: &ImpactLaw) -> StepReport {
+    let mut report = StepReport::default();
+    let n = system.n_contacts();
+    let mut left = h_s;
+    // Each pass but the last commits one impact; the second factor ends a pathological step.
+    let max_passes = 4 * law.max_impacts_per_step + 4;
+    for pass in 0..=max_passes {
+        system.look_ahead(left);
+        if pass == 0 {
+            let now = system.gaps();
+            let closed = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
+            if closed[0] || closed[1] {
+                let p = aimed_impulse(system, closed);
+                if p != [0.0; 2] {
+                    system.impulse(p, ImpulseKind::Sustained);
+                }
+            }
+        }
+        let crossing = if pass < max_passes {
+            first_crossing(system, left, n, law)
+        } else {
+            report.accumulated = true;
+            None
+        };
+        let Some(tau) = crossing else {
+            system.commit();
+            return report;
+        };
+        system.look_ahead(tau);
+        system.commit();
+        left = (left - tau).max(0.0);
+        report.impacts += 1;
+        collide(system, left, n, law, &mut report);
+        if left == 0.0 {
+            return report;
+        }
+    }
+    report
+}
+
+/// Impact at the current instant, `left_s` before the next node.
+fn collide(
+    system: &mut impl UnilateralSystem,
+    left_s: f64,
+    n: usize,
+    law: &ImpactLaw,
+    report: &mut StepReport,
+) {
+    system.look_ahead(left_s);
+    let now = system.gaps();
+    let closed = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
+    let bounce = law.restitution > 0.0 && report.impacts < law.max_impacts_per_step;
+    let p = if bounce {
+        let target = std::array::from_fn(|i| (1.0 + law.restitution) * now[i].rate_m_per_s);
+        lcp::solve(system.mobility(), target, closed).unwrap_or([0.0; 2])
+    } else {
+        report.accumulated |= law.restitution > 0.0;
+        aimed_impulse(system, closed)
+    };
+    if p != [0.0; 2] {
+        system.impulse(p, ImpulseKind::Impact);
+    }
+}
+
+/// Impulse now that brings the gaps ahead to zero, between stopping dead and full reversal.
+fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2]) -> [f64; 2] {
+    let (now, ahead) = (system.gaps(), system.gaps_ahead());
+    let w = system.mobility();
+    let rate = [now[0].rate_m_per_s, now[1].rate_m_per_s];
+    let Some(stop) = lcp::solve(w, rate, closed) else {
+        return [0.0; 2];
+    };
+    if stop == [0.0; 2] {
+        return stop;
+    }
+    let predicted = [ahead[0].value_m, ahead[1].value_m];
+    let aim = lcp::solve(system.compliance_ahead(), predicted, closed).unwrap_or(stop);
+    if !(closed[0] && closed[1]) {
+        return std::array::from_fn(|i| aim[i].clamp(stop[i], 2.0 * stop[i]));
+    }
+    let after: [f64; 2] = std::array::from_fn(|i| rate[i] + w[i][0] * aim[0] + w[i][1] * aim[1]);
+    let enough = (0..2).all(|i| stop[i] == 0.0 || after[i] >= 0.0);
+    let p = if enough { aim } else { stop };
+    // Energy change P·v⁻ + ½ P·W P must not be positive.
+    let work = p[0] * rate[0] + p[1] * rate[1];
+    let quadratic =
+        p[0] * (w[0][0] * p[0] + w[0][1] * p[1]) + p[1] * (w[1][0] * p[0] + w[1][1] * p[1]);
+    if work + 0.5 * quadratic <= 0.0 {
+        p
+    } else {
+        let scale = (-2.0 * work / quadratic).max(0.0);
+        [scale * p[0], scale * p[1]]
+    }
+}
+
+/// Time to the first gap that becomes negative before the instant ahead, `h_s` from now.
+///
+/// Leaves the state ahead at `h_s` when there is none.
+fn first_crossing(
+    system: &mut impl UnilateralSystem,
+    h_s: f64,
+    n: usize,
+    law: &ImpactLaw,
+) -> Option<f64> {
+    let (now, ahead) = (system.gaps(), system.gaps_ahead());
+    let mut first: Option<f64> = None;
+    let mut disturbed = false;
+    for i in 0..n {
+        if now[i].value_m <= law.gap_tolerance_m {
+            continue;
+        }
+        let end = if ahead[i].value_m < 0.0 {
+            Some(h_s)
+        } else if dips(now[i], ahead[i], h_s) {
+            disturbed = true;
+            lowest(system, i, now[i], ahead[i], h_s)
+        } else {
+            None
+        };
+        if let Some(end) = end {
+            disturbed = true;
+            let tau = root(system, i, now[i], end, law);
+            first = Some(first.map_or(tau, |t: f64| t.min(tau)));
+        }
+    }
+    if first.is_none() && disturbed {
+        system.look_ahead(h_s);
+    }
+    first
+}
+
+/// True when the cubic through both ends of the step goes below 0 between them.
+pub fn dips(now: Gap, ahead: Gap, h_s: f64) -> bool {
+    if now.rate_m_per_s >= 0.0 || ahead.rate_m_per_s <= 0.0 {
+        return false;
+    }
+    // The tangents bound the dip: no cubic with these ends falls below the lower tangent value.
+    let reach = h_s * now.rate_m_per_s.abs().max(ahead.rate_m_per_s);
+    if now.value_m.min(ahead.value_m) > reach {
+        return false;
+    }
+    let x = lowest_of_cubic(now, ahead, h_s);
+    cubic(now, ahead, h_s, x) < 0.0
+}
+
+/// Largest value between a rising start and a falling end of the cubic through both.
+pub fn largest_between(now: Gap, ahead: Gap, h_s: f64) -> f64 {
+    let negative = |g: Gap| Gap {
+        value_m: -g.value_m,
+        rate_m_per_s: -g.rate_m_per_s,
+    };
+    let (now, ahead) = (negative(now), negative(ahead));
+    -cubic(now, ahead, h_s, lowest_of_cubic(now, ahead, h_s))
+}
+
+/// Place in (0, 1) of the minimum of the Hermite cubic with falling start and rising end.
+fn lowest_of_cubic(now: Gap, ahead: Gap, h_s: f64) -> f64 {
+    let (d0, d1) = (h_s * now.rate_m_per_s, h_s * ahead.rate_m_per_s);
+    let rise = ahead.value_m - now.value_m;
+    // derivative: d0 + b x + a x², a = 3 (d0 + d1 − 2 rise), b = 6 rise − 4 d0 − 2 d1
+    let a = 3.0 * (d0 + d1 - 2.0 * rise);
+    let b = 6.0 * rise - 4.0 * d0 - 2.0 * d1;
+    let root = (b * b - 4.0 * a * d0).max(0.0).sqrt();
+    // The rising root, written so that a → 0 is harmless: d0 < 0.
+    let x = if b >= 0.0 {
+        -2.0 * d0 / (b + root)
+    } else {
+        (root - b) / (2.0 * a)
+    };
+    if x.is_finite() {
+        x.clamp(0.0, 1.0)
+    } else {
+        0.5
+    }
+}
+
+/// Value of the Hermite cubic at share `x` of the step.
+fn cubic(now: Gap, ahead: Gap, h_s: f64, x: f64) -> f64 {
+    let y = 1.0 - x;
+    now.value_m * (1.0 + 2.0 * x) * y * y
+        + ahead.value_m * (3.0 - 2.0 * x) * x * x
+        + h_s * x * y * (now.rate_m_per_s * y - ahead.rate_m_per_s * x)
+}
+
+/// Instant of the lowest gap inside the step on the exact motion, when it is negative there.
+fn lowest(
+    system: &mut impl UnilateralSystem,
+    i: usize,
+    now: Gap,
+    ahead: Gap,
+    h_s: f64,
+) -> Option<f64> {
+    let (mut a, mut b) = (0.0, h_s);
+    let mut tau = h_s * lowest_of_cubic(now, ahead, h_s);
+    let (mut rate_a, mut rate_b) = (now.rate_m_per_s, ahead.rate_m_per_s);
+    for _ in 0..40 {
+        system.look_ahead(tau);
+        let gap = system.gaps_ahead()[i];
+        if gap.value_m < 0.0 {
+            return Some(tau);
+        }
+        if gap.rate_m_per_s < 0.0 {
+            (a, rate_a) = (tau, gap.rate_m_per_s);
+        } else {
+            (b, rate_b) = (tau, gap.rate_m_per_s);
+        }
+        let next = a + (b - a) * rate_a / (rate_a - rate_b);
+        if !(next > a && next < b) || (next - tau).abs() < 1e-9 * h_s {
+            return None;
+        }
+        tau = next;
+    }
+    None
+}
+
+/// First root of gap `i` in (0, end_s], where it is positive at 0 and negative at `end_s`.
+fn root(
+    system: &mut impl UnilateralSystem,
+    i: usize,
+    now: Gap,
+    end_s: f64,
+    law: &ImpactLaw,
+) -> f64 {
+    let (mut a, mut b) = (0.0, end_s);
+    system.look_ahead(end_s);
+    let ahead = system.gaps_ahead()[i];
+    // Start from the cubic's root by bisection: 30 cheap halvings.
+    let (mut lo, mut hi) = (0.0, 1.0);
+    for _ in 0..30 {
+        let mid = 0.5 * (lo + hi);
+        if cubic(now, ahead, end_s, mid) > 0.0 {
+            lo = mid;
+        } else {
+            hi = mid;
+        }
+    }
+    let mut tau = end_s * hi;
+    // A closed gap is one within the tolerance: aim well inside it.
+    let close_enough = 0.01 * law.gap_tolerance_m;
+    for _ in 0..60 {
+        system.look_ahead(tau);
+        let gap = system.gaps_ahead()[i];
+        if gap.value_m.abs() <= close_enough || b - a <= 1e-15 * end_s {
+            break;
+        }
+        if gap.value_m > 0.0 {
+            a = tau;
+        } else {
+            b = tau;
+        }
+        let newton = tau - gap.value_m / gap.rate_m_per_s;
+        tau = if newton > a && newton < b {
+            newton
+        } else {
+            0.5 * (a + b)
+        };
+    }
+    tau
+}

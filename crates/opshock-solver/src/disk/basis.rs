@@ -1,0 +1,302 @@
+//! Modal basis of the disk: what is kept per harmonic and why.
+//!
+//! * n ≥ 1: every mode below the cut; harmonics whose lowest mode lies above the cut are left out.
+//! * n = 0: it alone carries the free motion, so it keeps at least [`MIN_SYMMETRIC_MODES`] and
+//!   every mode below [`SYMMETRIC_CUT_FACTOR`] times the cut.
+//! * Static correction: per harmonic the residual flexibility of a point load at the ramp,
+//!   x = K⁻¹ f − Σ φ (φ·f)/ω², which is orthogonal to the kept modes in mass and stiffness and so
+//!   is one more oscillator, of frequency (x·Kx / x·Mx)^½. With it the static compliance of the
+//!   contact point is exact per harmonic. It is driven by the contact force only.
+//!
+//! Shapes are scaled to modal mass 1 kg.
+
+use super::harmonic::{self, RadialMesh};
+use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
+use crate::linalg::{DenseError, dense};
+
+/// Fewest modes kept for n = 0.
+pub const MIN_SYMMETRIC_MODES: usize = 8;
+/// Modes of n = 0 are kept up to this multiple of the cut.
+pub const SYMMETRIC_CUT_FACTOR: f64 = 4.0;
+
+/// What is wrong with a disk, its resolution or a place on it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DiskError {
+    /// A parameter is outside its range.
+    #[error("disk parameter {name} = {value:e} is outside its range ({allowed})")]
+    Parameter {
+        /// Name of the field.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Allowed range in words.
+        allowed: &'static str,
+    },
+    /// A place lies off the free annulus.
+    #[error(
+        "{place} at radius {radius_m} m is not between the clamp at {inner_m} m and the rim at {outer_m} m"
+    )]
+    OffTheDisk {
+        /// What stands there.
+        place: &'static str,
+        /// Its radius, m.
+        radius_m: f64,
+        /// Clamp radius, m.
+        inner_m: f64,
+        /// Outer radius, m.
+        outer_m: f64,
+    },
+    /// The eigenvalue problem of a harmonic failed.
+    #[error("modes of nodal-diameter number {nodal_diameters}")]
+    Modes {
+        /// Harmonic.
+        nodal_diameters: usize,
+        /// Cause.
+        #[source]
+        source: DenseError,
+    },
+}
+
+/// One mode of the disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiskMode {
+    /// Nodal diameters n.
+    pub nodal_diameters: usize,
+    /// Nodal circles (index of the radial mode); `None` for a static correction.
+    pub nodal_circles: Option<usize>,
+    /// Undamped angular frequency in the rotating frame, rad/s.
+    pub omega_rad_per_s: f64,
+    /// Damping ratio in the rotating frame.
+    pub damping_ratio: f64,
+    /// Generalised force of a unit uniform acceleration, kg^½; zero for n >= 1 and corrections.
+    pub participation: f64,
+    /// Radial shape at the asked radii: (φ, φ′), kg^-½ and kg^-½/m.
+    pub shape: Vec<(f64, f64)>,
+}
+
+/// Modes of all harmonics, n rising, frequency rising within n.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiskBasis {
+    /// Modes.
+    pub modes: Vec<DiskMode>,
+    /// True when harmonics below the cut were left out because of `n_harmonics`.
+    pub harmonics_bounded: bool,
+}
+
+impl DiskBasis {
+    /// Basis with shapes sampled at `radii_m`; `correction_at` is the index into `radii_m` of the
+    /// point whose static compliance is made exact, if any.
+    ///
+    /// # Errors
+    /// Parameters out of range, a radius off the disk, or a failed eigenvalue problem.
+    pub fn build(
+        disk: &DiskParameters,
+        resolution: &DiskResolution,
+        radii_m: &[f64],
+        correction_at: Option<usize>,
+    ) -> Result<Self, DiskError> {
+        validate(disk, resolution)?;
+        let mesh = RadialMesh::new(disk, resolution.n_elements);
+        let rows: Vec<_> = radii_m.iter().map(|&r| mesh.interpolation(r)).collect();
+        let stress = MembraneStress::new(disk);
+        let cut = std::f64::consts::TAU * resolution.cut_hz;
+        let mut modes = Vec::new();
+        let mut harmonics_bounded = false;
+        // Lowest frequencies fall from n = 0 to 1 or 2 and rise from there on: two harmonics in
+        // a row above the cut end the list.
+        let mut n_above_cut = 0;
+        for n in 0.. {
+            let failed = |source| DiskError::Modes {
+                nodal_diameters: n,
+                source,
+            };
+            let m = harmonic::assemble(disk, &stress, &mesh, n);
+            let pairs =
+                dense::lowest_modes(&m.stiffness, &m.mass, mesh.n_unknowns()).map_err(failed)?;
+            let n_below = pairs.values.iter().take_while(|v| v.sqrt() < cut).count();
+            let n_keep = if n == 0 {
+                let wide = SYMMETRIC_CUT_FACTOR * cut;
+                let n_wide = pairs.values.iter().take_while(|v| v.sqrt() < wide).count();
+                n_wide.max(MIN_SYMMETRIC_MODES).min(pairs.values.len())
+            } else {
+                n_below
+            };
+            n_above_cut = if n_below == 0 { n_above_cut + 1 } else { 0 };
+            if n >= 2 && n_above_cut >= 2 {
+                break;
+            }
+            if n > resolution.n_harmonics {
+                harmonics_bounded = n_below > 0;
+                break;
+            }
+            if n_keep == 0 {
+                continue;
+            }
+            let sample = |x: &[f64]| -> Vec<(f64, f64)> {
+                rows.iter()
+                    .map(|(value, slope)| (dot(value, x), dot(slope, x)))
+                    .collect()
+            };
+            for j in 0..n_keep {
+                let x = &pairs.vectors[j];
+                modes.push(DiskMode {
+                    nodal_diameters: n,
+                    nodal_circles: Some(j),
+                    omega_rad_per_s: pairs.values[j].sqrt(),
+                    damping_ratio: damping_ratio(&disk.damping, pairs.values[j].sqrt()),
+                    participation: dot(&m.uniform_load, x),
+                    shape: sample(x),
+                });
+            }
+            if let (Some(at), true) = (correction_at, resolution.static_correction) {
+                let force = &rows[at].0;
+                let mut x = force.clone();
+                m.stiffness.cholesky().map_err(failed)?.solve(&mut x);
+                // Twice is enough against rounding left by the first projection.
+                for _ in 0..2 {
+                    for y in &pairs.vectors[..n_keep] {
+                        let share = m.mass.form(y, &x);
+                        for (xi, yi) in x.iter_mut().zip(y) {
+                            *xi -= share * yi;
+                        }
+                    }
+                }
+                let mass = m.mass.form(&x, &x);
+                let omega = (m.stiffness.form(&x, &x) / mass).sqrt();
+                let scale = mass.sqrt().recip();
+                if scale.is_finite() {
+                    x.iter_mut().for_each(|c| *c *= scale);
+                    modes.push(DiskMode {
+                        nodal_diameters: n,
+                        nodal_circles: None,
+                        omega_rad_per_s: omega,
+                        damping_ratio: damping_ratio(&disk.damping, omega),
+                        participation: 0.0,
+                        shape: sample(&x),
+                    });
+                }
+            }
+        }
+        Ok(Self {
+            modes,
+            harmonics_bounded,
+        })
+    }
+}
+
+/// Damping ratio of a mode of frequency `omega` in the rotating frame.
+fn damping_ratio(damping: &DiskDamping, omega: f64) -> f64 {
+    match *damping {
+        DiskDamping::Rayleigh {
+            alpha_per_s,
+            beta_s,
+        } => 0.5 * (alpha_per_s / omega + beta_s * omega),
+        DiskDamping::ModalRatio(ratio) => ratio,
+    }
+}
+
+/// Refuses a place off the free annulus.
+///
+/// # Errors
+/// [`DiskError::OffTheDisk`].
+pub fn validate_place(
+    disk: &DiskParameters,
+    place: &'static str,
+    radius_m: f64,
+) -> Result<(), DiskError> {
+    if radius_m > disk.inner_radius_m && radius_m <= disk.outer_radius_m {
+        Ok(())
+    } else {
+        Err(DiskError::OffTheDisk {
+            place,
+            radius_m,
+            inner_m: disk.inner_radius_m,
+            outer_m: disk.outer_radius_m,
+        })
+    }
+}
+
+fn validate(disk: &DiskParameters, resolution: &DiskResolution) -> Result<(), DiskError> {
+    let positive = "finite and above 0";
+    let not_negative = "finite and at least 0";
+    let (first, second) = match disk.damping {
+        DiskDamping::Rayleigh {
+            alpha_per_s,
+            beta_s,
+        } => (alpha_per_s, beta_s),
+        DiskDamping::ModalRatio(ratio) => (ratio, 0.0),
+    };
+    let checks = [
+        (
+            "inner_radius_m",
+            disk.inner_radius_m,
+            disk.inner_radius_m > 0.0,
+            positive,
+        ),
+        (
+            "outer_radius_m",
+            disk.outer_radius_m,
+            disk.outer_radius_m > disk.inner_radius_m,
+            "above the inner radius",
+        ),
+        (
+            "thickness_m",
+            disk.thickness_m,
+            disk.thickness_m > 0.0,
+            positive,
+        ),
+        (
+            "youngs_modulus_pa",
+            disk.youngs_modulus_pa,
+            disk.youngs_modulus_pa > 0.0,
+            positive,
+        ),
+        (
+            "density_kg_per_m3",
+            disk.density_kg_per_m3,
+            disk.density_kg_per_m3 > 0.0,
+            positive,
+        ),
+        (
+            "poisson",
+            disk.poisson,
+            disk.poisson > -1.0 && disk.poisson < 0.5,
+            "-1 to 0.5",
+        ),
+        ("spin_rad_per_s", disk.spin_rad_per_s, true, "finite"),
+        ("damping", first, first >= 0.0, not_negative),
+        ("damping", second, second >= 0.0, not_negative),
+        (
+            "space_fixed_damping_per_s",
+            disk.space_fixed_damping_per_s,
+            disk.space_fixed_damping_per_s >= 0.0,
+            not_negative,
+        ),
+        (
+            "cut_hz",
+            resolution.cut_hz,
+            resolution.cut_hz > 0.0,
+            positive,
+        ),
+        (
+            "n_elements",
+            resolution.n_elements as f64,
+            (4..=400).contains(&resolution.n_elements),
+            "4 to 400",
+        ),
+    ];
+    for (name, value, ok, allowed) in checks {
+        if !ok || !value.is_finite() {
+            return Err(DiskError::Parameter {
+                name,
+                value,
+                allowed,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}

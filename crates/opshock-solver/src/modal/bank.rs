@@ -1,0 +1,195 @@
+//! Many oscillators at once: one fixed step, columns instead of structures.
+//!
+//! Every column is padded with resting modes to a multiple of [`LANES`], so that loops run on
+//! whole chunks and sums have one fixed order.
+
+use super::{Flow, Oscillator};
+use nalgebra::Complex;
+
+/// Chunk length of the loops over modes.
+pub const LANES: usize = 4;
+
+/// Amplitudes and velocities of all modes in the fixed frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModalState {
+    /// Real part of q.
+    pub q_re: Vec<f64>,
+    /// Imaginary part of q.
+    pub q_im: Vec<f64>,
+    /// Real part of r = q̇.
+    pub r_re: Vec<f64>,
+    /// Imaginary part of r.
+    pub r_im: Vec<f64>,
+}
+
+/// Real and imaginary weights that read one point's displacement out of the amplitudes (and its
+/// velocity out of the velocities): Σ re·q_re + im·q_im.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Readout {
+    /// Weight of the real part.
+    pub re: Vec<f64>,
+    /// Weight of the imaginary part.
+    pub im: Vec<f64>,
+}
+
+/// Transition of every mode over one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BankFlow {
+    qq: Columns,
+    qr: Columns,
+    rq: Columns,
+    rr: Columns,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Columns {
+    re: Vec<f64>,
+    im: Vec<f64>,
+}
+
+impl Columns {
+    fn zeros(n: usize) -> Self {
+        Self {
+            re: vec![0.0; n],
+            im: vec![0.0; n],
+        }
+    }
+
+    fn set(&mut self, i: usize, z: Complex<f64>) {
+        self.re[i] = z.re;
+        self.im[i] = z.im;
+    }
+}
+
+/// Length that holds `n` modes in whole chunks.
+pub fn padded(n: usize) -> usize {
+    n.div_ceil(LANES) * LANES
+}
+
+impl ModalState {
+    /// State at rest for columns of length `n`.
+    pub fn at_rest(n: usize) -> Self {
+        let zero = || vec![0.0; n];
+        Self {
+            q_re: zero(),
+            q_im: zero(),
+            r_re: zero(),
+            r_im: zero(),
+        }
+    }
+
+    /// Puts every mode to rest.
+    pub fn reset(&mut self) {
+        for column in [
+            &mut self.q_re,
+            &mut self.q_im,
+            &mut self.r_re,
+            &mut self.r_im,
+        ] {
+            column.fill(0.0);
+        }
+    }
+
+    /// Takes the values of `other`, of the same length.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.q_re.copy_from_slice(&other.q_re);
+        self.q_im.copy_from_slice(&other.q_im);
+        self.r_re.copy_from_slice(&other.r_re);
+        self.r_im.copy_from_slice(&other.r_im);
+    }
+
+    /// Columns length.
+    pub fn len(&self) -> usize {
+        self.q_re.len()
+    }
+
+    /// True when there is no mode.
+    pub fn is_empty(&self) -> bool {
+        self.q_re.is_empty()
+    }
+
+    /// Adds `impulse` times the real `shape` to the velocities.
+    pub fn kick(&mut self, shape: &[f64], impulse: f64) {
+        for (r, b) in self.r_re.iter_mut().zip(shape) {
+            *r += impulse * b;
+        }
+    }
+}
+
+impl BankFlow {
+    /// Flow of no mode, to be set for columns of length `n`.
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            qq: Columns::zeros(n),
+            qr: Columns::zeros(n),
+            rq: Columns::zeros(n),
+            rr: Columns::zeros(n),
+        }
+    }
+
+    /// Sets the flow of all `oscillators` to that over `h_s`; does not allocate.
+    pub fn set(&mut self, oscillators: &[Oscillator], h_s: f64) {
+        for (i, oscillator) in oscillators.iter().enumerate() {
+            let Flow { qq, qr, rq, rr } = oscillator.flow(h_s);
+            self.qq.set(i, qq);
+            self.qr.set(i, qr);
+            self.rq.set(i, rq);
+            self.rr.set(i, rr);
+        }
+    }
+
+    /// `after` := flow of `before`.
+    pub fn apply(&self, before: &ModalState, after: &mut ModalState) {
+        let n = self.qq.re.len();
+        let (qq, qr, rq, rr) = (&self.qq, &self.qr, &self.rq, &self.rr);
+        let (ar, ai) = (&qq.re[..n], &qq.im[..n]);
+        let (br, bi) = (&qr.re[..n], &qr.im[..n]);
+        let (cr, ci) = (&rq.re[..n], &rq.im[..n]);
+        let (dr, di) = (&rr.re[..n], &rr.im[..n]);
+        let (xr, xi) = (&before.q_re[..n], &before.q_im[..n]);
+        let (yr, yi) = (&before.r_re[..n], &before.r_im[..n]);
+        let (ur, ui) = (&mut after.q_re[..n], &mut after.q_im[..n]);
+        let (vr, vi) = (&mut after.r_re[..n], &mut after.r_im[..n]);
+        for i in 0..n {
+            let (qr, qi, rr, ri) = (xr[i], xi[i], yr[i], yi[i]);
+            ur[i] = qr + ((ar[i] * qr - ai[i] * qi) + (br[i] * rr - bi[i] * ri));
+            ui[i] = qi + ((ar[i] * qi + ai[i] * qr) + (br[i] * ri + bi[i] * rr));
+            vr[i] = rr + ((cr[i] * qr - ci[i] * qi) + (dr[i] * rr - di[i] * ri));
+            vi[i] = ri + ((cr[i] * qi + ci[i] * qr) + (dr[i] * ri + di[i] * rr));
+        }
+    }
+
+    /// Adds to `after` what an impulse of the real `shape` at the start of the flow leads to.
+    pub fn add_kick(&self, shape: &[f64], impulse: f64, after: &mut ModalState) {
+        for (i, b) in shape.iter().enumerate() {
+            let p = impulse * b;
+            after.q_re[i] += p * self.qr.re[i];
+            after.q_im[i] += p * self.qr.im[i];
+            after.r_re[i] += p + p * self.rr.re[i];
+            after.r_im[i] += p * self.rr.im[i];
+        }
+    }
+
+    /// Displacement of `shape` after the flow per unit impulse on `shape` at its start.
+    pub fn compliance(&self, shape: &[f64]) -> f64 {
+        shape.iter().zip(&self.qr.re).map(|(b, s)| b * b * s).sum()
+    }
+}
+
+impl Readout {
+    /// Displacement (or velocity, given velocities) of the point.
+    pub fn read(&self, re: &[f64], im: &[f64]) -> f64 {
+        dot(&self.re, re) + dot(&self.im, im)
+    }
+}
+
+/// Sum of products in chunks of [`LANES`], one fixed order; lengths are multiples of it.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sum = [0.0; LANES];
+    for (x, y) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for l in 0..LANES {
+            sum[l] += x[l] * y[l];
+        }
+    }
+    (sum[0] + sum[2]) + (sum[1] + sum[3])
+}

@@ -1,0 +1,563 @@
+//! Disk and arms as a unilateral system, and everything a run keeps of it.
+//!
+//! Total motion = amplitude × unit response + contact-driven motion. The second part is at rest
+//! until the first touch; from then on it is carried by its exact flow and kicked by impulses.
+
+use super::Window;
+use super::contact_log::ContactLog;
+use super::energy::{Energies, Ledger};
+use super::free_motion::{ForcedState, Sample};
+use super::history::{Break, StructuralHistory};
+use super::model::{Shared, StructureError, StructureRun, StructureWarning};
+use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
+use crate::disk::DiskPose;
+use crate::modal::bank::dot;
+use crate::modal::{BankFlow, ModalState};
+
+/// Impacts closer than this share an event of the head's integration, s.
+const EVENT_SPACING_S: f64 = 2e-6;
+
+/// All that changes in a run; kept in the workspace so that runs reuse its memory.
+#[derive(Default)]
+pub(super) struct RunState {
+    now: ModalState,
+    ahead: ModalState,
+    total: ModalState,
+    unit_now: ForcedState,
+    unit_ahead: ForcedState,
+    total_forced: ForcedState,
+    part_flow: BankFlow,
+    logs: [ContactLog; 2],
+    history: StructuralHistory,
+    columns: StructureColumns,
+    record: bool,
+}
+
+pub(super) struct ContactSystem<'a> {
+    shared: &'a Shared,
+    amplitude: f64,
+    state: &'a mut RunState,
+    /// Node at or before now.
+    k: usize,
+    /// Time since that node.
+    offset_s: f64,
+    /// Time from now to the instant ahead.
+    reach_s: f64,
+    awake: bool,
+    gaps: [Gap; 2],
+    gaps_ahead: [Gap; 2],
+    sample_ahead: Sample,
+    ledger: Ledger,
+    energies: Energies,
+    extremes: DiskExtremes,
+    complementarity: Complementarity,
+    accumulated_steps: u64,
+    both_arms: bool,
+    decayed: bool,
+}
+
+impl RunState {
+    pub fn prepare(&mut self, shared: &Shared, record: bool) {
+        let n = shared.oscillators.len();
+        if self.now.len() == n {
+            self.now.reset();
+        } else {
+            self.now = ModalState::at_rest(n);
+            self.ahead = ModalState::at_rest(n);
+            self.total = ModalState::at_rest(n);
+            self.part_flow = BankFlow::zeros(n);
+        }
+        let n_forced = shared.forced_index.len();
+        if self.unit_now.x.len() != n_forced {
+            self.unit_now = ForcedState::at_rest(n_forced);
+            self.unit_ahead = ForcedState::at_rest(n_forced);
+            self.total_forced = ForcedState::at_rest(n_forced);
+        }
+        self.logs.iter_mut().for_each(ContactLog::clear);
+        let n_nodes = shared.n_steps + 1;
+        self.history = StructuralHistory {
+            step_s: shared.free.step_s,
+            pose: Vec::with_capacity(n_nodes),
+            rate: Vec::with_capacity(n_nodes),
+            breaks: Vec::new(),
+            events_s: vec![0.0],
+        };
+        self.columns = StructureColumns::default();
+        self.record = record;
+    }
+}
+
+impl<'a> ContactSystem<'a> {
+    pub fn new(shared: &'a Shared, amplitude: f64, state: &'a mut RunState) -> Self {
+        Self {
+            shared,
+            amplitude,
+            state,
+            k: 0,
+            offset_s: 0.0,
+            reach_s: 0.0,
+            awake: false,
+            gaps: [Gap::default(); 2],
+            gaps_ahead: [Gap::default(); 2],
+            sample_ahead: Sample::default(),
+            ledger: Ledger::default(),
+            energies: Energies::default(),
+            extremes: DiskExtremes::default(),
+            complementarity: Complementarity::default(),
+            accumulated_steps: 0,
+            both_arms: false,
+            decayed: false,
+        }
+    }
+
+    pub fn awake(&self) -> bool {
+        self.awake
+    }
+
+    pub fn decayed(&self) -> bool {
+        self.decayed
+    }
+
+    fn now_s(&self) -> f64 {
+        self.k as f64 * self.shared.free.step_s + self.offset_s
+    }
+
+    fn sample(&self) -> &'a Sample {
+        &self.shared.free.samples[self.k]
+    }
+
+    /// Free motion over one step: nothing to compute.
+    pub fn sleep_step(&mut self) {
+        self.k += 1;
+    }
+
+    /// Wakes the contact-driven state at its first use.
+    pub fn begin_step(&mut self) {
+        if !self.awake {
+            self.awake = true;
+            self.shared
+                .free
+                .state_at_node(self.k, &mut self.state.unit_now);
+            let sample = self.sample();
+            let a2 = self.amplitude * self.amplitude;
+            self.ledger.work = a2 * sample.work;
+            self.ledger.damping = a2 * sample.loss;
+        }
+        self.gaps = self.gaps_of(&self.state.now, self.sample());
+    }
+
+    /// Settles at the next node.
+    pub fn end_step(&mut self, report: StepReport) {
+        self.k += 1;
+        self.offset_s = 0.0;
+        self.accumulated_steps += u64::from(report.accumulated);
+        let gaps = self.gaps_of(&self.state.now, self.sample());
+        for gap in gaps.iter().take(self.shared.n_contacts) {
+            let depth = -gap.value_m;
+            let largest = &mut self.complementarity.max_penetration_m;
+            *largest = largest.max(depth);
+        }
+    }
+
+    /// Gaps of a contact-driven state on top of the unit response `sample`.
+    fn gaps_of(&self, driven: &ModalState, sample: &Sample) -> [Gap; 2] {
+        let shared = self.shared;
+        let disk = Gap {
+            value_m: dot(&shared.contact, &driven.q_re),
+            rate_m_per_s: dot(&shared.contact, &driven.r_re),
+        };
+        std::array::from_fn(|side| {
+            if side >= shared.n_contacts {
+                return Gap::default();
+            }
+            let mut arm = Gap::default();
+            for j in shared.arms[side].modes.clone() {
+                arm.value_m += shared.arm_shape[side][j] * driven.q_re[j];
+                arm.rate_m_per_s += shared.arm_shape[side][j] * driven.r_re[j];
+            }
+            let free = shared.free_gap(side, self.amplitude, sample);
+            let sign = if side == 0 { 1.0 } else { -1.0 };
+            Gap {
+                value_m: free.value_m + sign * (arm.value_m - disk.value_m),
+                rate_m_per_s: free.rate_m_per_s + sign * (arm.rate_m_per_s - disk.rate_m_per_s),
+            }
+        })
+    }
+
+    /// Pose and rate of the disk under the slider now.
+    fn slider(&self, sample: &Sample) -> (DiskPose, DiskPose) {
+        let a = self.amplitude;
+        let [pitch, roll] = self.shared.slope_to_pose;
+        let mut pose = DiskPose {
+            displacement_m: a * sample.slider.value,
+            pitch_rad: a * pitch * sample.slider_slope.value,
+            roll_rad: a * roll * sample.slider_slope.value,
+        };
+        let mut rate = DiskPose {
+            displacement_m: a * sample.slider.rate,
+            pitch_rad: a * pitch * sample.slider_slope.rate,
+            roll_rad: a * roll * sample.slider_slope.rate,
+        };
+        if self.awake {
+            let n = self.shared.n_disk;
+            let now = &self.state.now;
+            let [w, p, r] = &self.shared.slider;
+            pose.displacement_m += w.read(&now.q_re[..n], &now.q_im[..n]);
+            pose.pitch_rad += p.read(&now.q_re[..n], &now.q_im[..n]);
+            pose.roll_rad += r.read(&now.q_re[..n], &now.q_im[..n]);
+            rate.displacement_m += w.read(&now.r_re[..n], &now.r_im[..n]);
+            rate.pitch_rad += p.read(&now.r_re[..n], &now.r_im[..n]);
+            rate.roll_rad += r.read(&now.r_re[..n], &now.r_im[..n]);
+        }
+        (pose, rate)
+    }
+
+    /// Books the node reached.
+    pub fn record_node(&mut self) {
+        let (shared, sample, a) = (self.shared, self.sample(), self.amplitude);
+        let (pose, rate) = self.slider(sample);
+        let (mut ramp, mut rim) = (a * sample.contact.value, a * sample.rim);
+        let mut arms = [a * sample.top.value, a * sample.bottom.value];
+        if self.awake {
+            let now = &self.state.now;
+            ramp += dot(&shared.contact, &now.q_re);
+            rim += dot(&shared.rim, &now.q_re);
+            for (side, x) in arms.iter_mut().enumerate() {
+                for j in shared.arms[side].modes.clone() {
+                    *x += shared.arm_shape[side][j] * now.q_re[j];
+                }
+            }
+            self.total_state();
+            self.energies = shared.weights.energies(&self.state.total);
+        } else {
+            let energy = a * a * sample.energy;
+            // Without contact the disk's motion is axisymmetric: both energies agree.
+            self.energies = Energies {
+                kinetic: a * a * sample.kinetic,
+                elastic: energy - a * a * sample.kinetic,
+                fixed_frame: energy,
+            };
+        }
+        self.state.history.pose.push(pose);
+        self.state.history.rate.push(rate);
+        let e = &mut self.extremes;
+        e.slider_max_m = e.slider_max_m.max(pose.displacement_m);
+        e.slider_min_m = e.slider_min_m.min(pose.displacement_m);
+        e.ramp_max_m = e.ramp_max_m.max(ramp);
+        e.ramp_min_m = e.ramp_min_m.min(ramp);
+        e.rim_max_m = e.rim_max_m.max(rim.abs());
+        let material = self.energies.material();
+        let ledger = &mut self.ledger;
+        ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
+        ledger.peak_material = ledger.peak_material.max(material);
+        if let Window::UntilDecayed { share, .. } = shared.window {
+            let time_s = self.k as f64 * shared.free.step_s;
+            self.decayed =
+                time_s >= shared.free.pulse_end_s && material <= share * self.ledger.peak_material;
+        }
+        if self.state.record {
+            let time_s = self.k as f64 * shared.free.step_s;
+            let c = &mut self.state.columns;
+            c.time_s.push(time_s);
+            c.shock_m_per_s2.push(a * shared.pulse.value(time_s));
+            c.disk_slider_m.push(pose.displacement_m);
+            c.disk_ramp_m.push(ramp);
+            c.disk_rim_m.push(rim);
+            c.disk_pitch_rad.push(pose.pitch_rad);
+            c.disk_roll_rad.push(pose.roll_rad);
+            c.ramp_top_m.push(arms[0]);
+            c.ramp_bottom_m.push(arms[1]);
+            c.energy_j.push(material);
+            c.energy_h_j.push(self.energies.fixed_frame);
+        }
+    }
+
+    /// Fills the total state: contact-driven plus amplitude times unit response.
+    fn total_state(&mut self) {
+        let state = &mut *self.state;
+        // At a node the unit response in `unit_now` is the one behind the samples.
+        state.total.copy_from(&state.now);
+        for (j, &i) in self.shared.forced_index.iter().enumerate() {
+            let x = state.now.q_re[i] + self.amplitude * state.unit_now.x[j];
+            let v = state.now.r_re[i] + self.amplitude * state.unit_now.v[j];
+            (state.total.q_re[i], state.total.r_re[i]) = (x, v);
+            (state.total_forced.x[j], state.total_forced.v[j]) = (x, v);
+        }
+    }
+
+    /// Work and loss from now to the instant ahead.
+    fn book_free_motion(&mut self) {
+        let (shared, reach) = (self.shared, self.reach_s);
+        self.total_state();
+        let state = &*self.state;
+        let free = &shared.free;
+        let exchange = if self.is_whole_step() {
+            self.ledger.damping += shared.weights.step_loss(&state.total);
+            free.exchange(&state.total_forced, self.k, self.amplitude)
+        } else {
+            for (i, o) in shared.oscillators.iter().enumerate() {
+                if !shared.forced_index.contains(&i) {
+                    let q = nalgebra::Complex::new(state.now.q_re[i], state.now.q_im[i]);
+                    let r = nalgebra::Complex::new(state.now.r_re[i], state.now.r_im[i]);
+                    self.ledger.damping += o.loss_form(reach).loss(q, r);
+                }
+            }
+            free.exchange_within(&state.total_forced, self.now_s(), reach, self.amplitude)
+        };
+        self.ledger.work += exchange.work;
+        self.ledger.damping += exchange.loss;
+    }
+
+    fn is_whole_step(&self) -> bool {
+        self.offset_s == 0.0 && self.reach_s == self.shared.free.step_s
+    }
+
+    /// Closes the books.
+    pub fn finish(self) -> Result<StructureRun, StructureError> {
+        let shared = self.shared;
+        let step_s = shared.free.step_s;
+        let end_s = self.k as f64 * step_s;
+        let ledger = self.ledger;
+        let (work, damping) = if self.awake {
+            (ledger.work, ledger.damping)
+        } else {
+            let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
+            (a2 * sample.work, a2 * sample.loss)
+        };
+        let h_end = self.energies.fixed_frame;
+        if !(h_end.is_finite() && work.is_finite() && self.extremes.slider_max_m.is_finite()) {
+            let time_s = self.first_not_finite_s();
+            return Err(StructureError::NotFinite { time_s });
+        }
+        let residual = h_end - (work - damping - ledger.impact + ledger.algorithmic);
+        let peak = ledger.peak_fixed_frame;
+        let energy = EnergyBook {
+            kinetic_j: self.energies.kinetic,
+            elastic_j: self.energies.elastic,
+            h_end_j: h_end,
+            h_peak_j: peak,
+            shock_work_j: work,
+            damping_loss_j: damping,
+            impact_loss_j: ledger.impact,
+            algorithmic_j: ledger.algorithmic,
+            spindle_work_j: ledger.spindle,
+            closure: if peak > 0.0 {
+                residual.abs() / peak
+            } else {
+                0.0
+            },
+        };
+        let mut warnings = shared.warnings.clone();
+        warnings.extend(StructureRun::penetration_warning(
+            self.complementarity.max_penetration_m,
+        ));
+        if self.accumulated_steps > 0 {
+            warnings.push(StructureWarning::BouncesAccumulated {
+                steps: self.accumulated_steps,
+            });
+        }
+        if self.both_arms {
+            warnings.push(StructureWarning::BothArmsOnePoint);
+        }
+        let state = self.state;
+        let [top, bottom] = [0, 1].map(|side| state.logs[side].summary(step_s));
+        let mut history = std::mem::take(&mut state.history);
+        history
+            .events_s
+            .extend(shared.free.kinks_s().filter(|&t| t <= end_s));
+        history.events_s.sort_by(f64::total_cmp);
+        history.events_s.dedup();
+        let columns = state.record.then(|| {
+            let mut columns = std::mem::take(&mut state.columns);
+            let n = columns.time_s.len();
+            columns.contact_top_n = state.logs[0].running_mean(step_s, n);
+            columns.contact_bottom_n = state.logs[1].running_mean(step_s, n);
+            columns
+        });
+        let first_touch_s = [top.first_touch_s, bottom.first_touch_s]
+            .into_iter()
+            .flatten()
+            .min_by(f64::total_cmp);
+        Ok(StructureRun {
+            history,
+            columns,
+            disk: self.extremes,
+            top,
+            bottom,
+            energy,
+            complementarity: self.complementarity,
+            first_touch_s,
+            steps: self.k as u64,
+            end_s,
+            warnings,
+        })
+    }
+
+    fn first_not_finite_s(&self) -> f64 {
+        let poses = &self.state.history.pose;
+        let k = poses
+            .iter()
+            .position(|p| !(p.displacement_m + p.pitch_rad + p.roll_rad).is_finite())
+            .unwrap_or(poses.len());
+        k as f64 * self.shared.free.step_s
+    }
+}
+
+impl UnilateralSystem for ContactSystem<'_> {
+    fn gaps(&self) -> [Gap; 2] {
+        self.gaps
+    }
+
+    fn n_contacts(&self) -> usize {
+        self.shared.n_contacts
+    }
+
+    fn look_ahead(&mut self, h_s: f64) {
+        self.reach_s = h_s;
+        let shared = self.shared;
+        let free = &shared.free;
+        if self.is_whole_step() {
+            let state = &mut *self.state;
+            shared.step_flow.apply(&state.now, &mut state.ahead);
+            // The unit response itself is stepped only when the step is committed.
+            self.sample_ahead = free.samples[self.k + 1];
+        } else {
+            let start_s = self.now_s();
+            let state = &mut *self.state;
+            state.part_flow.set(&shared.oscillators, h_s);
+            state.part_flow.apply(&state.now, &mut state.ahead);
+            state.unit_ahead.copy_from(&state.unit_now);
+            free.advance(&mut state.unit_ahead, start_s, h_s, 1.0);
+            self.sample_ahead = free.sample(&state.unit_ahead);
+        }
+        self.gaps_ahead = self.gaps_of(&self.state.ahead, &self.sample_ahead);
+    }
+
+    fn gaps_ahead(&self) -> [Gap; 2] {
+        self.gaps_ahead
+    }
+
+    fn mobility(&self) -> [[f64; 2]; 2] {
+        self.shared.mobility
+    }
+
+    fn compliance_ahead(&self) -> [[f64; 2]; 2] {
+        let shared = self.shared;
+        let flow = if self.is_whole_step() {
+            &shared.step_flow
+        } else {
+            &self.state.part_flow
+        };
+        let disk = flow.compliance(&shared.contact);
+        let arm = |side: usize| flow.compliance(&shared.arm_shape[side]);
+        [[disk + arm(0), -disk], [-disk, disk + arm(1)]]
+    }
+
+    fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind) {
+        let shared = self.shared;
+        let [p, time_s] = [impulse_n_s, [self.now_s(); 2]];
+        let rate = [self.gaps[0].rate_m_per_s, self.gaps[1].rate_m_per_s];
+        let w = shared.mobility;
+        let jump: [f64; 2] = std::array::from_fn(|i| w[i][0] * p[0] + w[i][1] * p[1]);
+
+        // Energy: half the sum of the gap velocities before and after, per impulse.
+        let change: f64 = (0..2).map(|i| p[i] * (rate[i] + 0.5 * jump[i])).sum();
+        match kind {
+            ImpulseKind::Impact => self.ledger.impact -= change,
+            ImpulseKind::Sustained => self.ledger.algorithmic += change,
+        }
+        let on_disk = p[1] - p[0];
+        let w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);
+        self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+
+        let record = &mut self.complementarity;
+        for side in 0..2 {
+            record.min_multiplier_n_s = record.min_multiplier_n_s.min(p[side]);
+            let product = (p[side] * self.gaps[side].value_m).abs();
+            record.max_product_n_s_m = record.max_product_n_s_m.max(product);
+            if p[side] != 0.0 {
+                self.state.logs[side].push(time_s[side], p[side]);
+            }
+        }
+        let singular = w[0][0] * w[1][1] <= w[0][1] * w[1][0] * (1.0 + 1e-14);
+        let closed = |g: &Gap| g.value_m <= shared.law.gap_tolerance_m;
+        self.both_arms |= singular && self.gaps.iter().all(closed);
+
+        self.book_jump(on_disk, kind);
+
+        let state = &mut *self.state;
+        let flow = if self.offset_s == 0.0 && self.reach_s == shared.free.step_s {
+            &shared.step_flow
+        } else {
+            &state.part_flow
+        };
+        state.now.kick(&shared.contact, on_disk);
+        flow.add_kick(&shared.contact, on_disk, &mut state.ahead);
+        for (side, force) in [(0, p[0]), (1, -p[1])] {
+            if force != 0.0 && !shared.arms[side].modes.is_empty() {
+                state.now.kick(&shared.arm_shape[side], force);
+                flow.add_kick(&shared.arm_shape[side], force, &mut state.ahead);
+            }
+        }
+        for side in 0..2 {
+            self.gaps[side].rate_m_per_s = rate[side] + jump[side];
+        }
+        self.gaps_ahead = self.gaps_of(&self.state.ahead, &self.sample_ahead);
+    }
+
+    fn commit(&mut self) {
+        self.book_free_motion();
+        let whole = self.is_whole_step();
+        let state = &mut *self.state;
+        std::mem::swap(&mut state.now, &mut state.ahead);
+        if whole {
+            self.shared.free.step(&mut state.unit_now, self.k);
+        } else {
+            std::mem::swap(&mut state.unit_now, &mut state.unit_ahead);
+        }
+        self.offset_s += self.reach_s;
+        self.gaps = self.gaps_ahead;
+    }
+}
+
+impl ContactSystem<'_> {
+    /// Books the jump of the slider's rate by an impulse on the disk now.
+    fn book_jump(&mut self, on_disk: f64, kind: ImpulseKind) {
+        let jump = |rate: DiskPose, share: f64| {
+            let j = self.shared.slider_jump;
+            DiskPose {
+                displacement_m: rate.displacement_m + share * on_disk * j.displacement_m,
+                pitch_rad: rate.pitch_rad + share * on_disk * j.pitch_rad,
+                roll_rad: rate.roll_rad + share * on_disk * j.roll_rad,
+            }
+        };
+        if kind == ImpulseKind::Sustained && self.offset_s == 0.0 {
+            let rate = self.state.history.rate[self.k];
+            self.state.history.rate[self.k] = jump(rate, 0.5);
+            return;
+        }
+        let time_s = self.now_s();
+        let sample = if self.offset_s == 0.0 {
+            *self.sample()
+        } else {
+            self.shared.free.sample(&self.state.unit_now)
+        };
+        let (pose, rate_before) = self.slider(&sample);
+        let rate_after = jump(rate_before, 1.0);
+        let history = &mut self.state.history;
+        history.breaks.push(Break {
+            time_s,
+            pose,
+            rate_before,
+            rate_after,
+        });
+        if history
+            .events_s
+            .last()
+            .is_none_or(|&t| time_s - t > EVENT_SPACING_S)
+        {
+            history.events_s.push(time_s);
+        }
+    }
+}

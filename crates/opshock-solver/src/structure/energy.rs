@@ -1,0 +1,115 @@
+//! Energy book of disk and arms, kept along the run.
+//!
+//! The weights are closed forms of each mode (see [`crate::modal::oscillator`]); the loss over a
+//! step comes from the roots of its motion and not from the energies at its ends, so that the
+//! book closes only when flow, forcing, impulses and losses agree.
+
+use crate::modal::bank::LANES;
+use crate::modal::{ModalState, Oscillator};
+
+/// Energies at one instant, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Energies {
+    /// Kinetic energy of the material.
+    pub kinetic: f64,
+    /// Elastic energy.
+    pub elastic: f64,
+    /// Energy H of the space-fixed frame.
+    pub fixed_frame: f64,
+}
+
+impl Energies {
+    pub fn material(&self) -> f64 {
+        self.kinetic + self.elastic
+    }
+}
+
+/// Weights of the quadratic forms over the bank.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EnergyWeights {
+    stiffness: Vec<f64>,
+    turn: Vec<f64>,
+    loss_qq: Vec<f64>,
+    loss_rr: Vec<f64>,
+    loss_qr_re: Vec<f64>,
+    loss_qr_im: Vec<f64>,
+}
+
+impl EnergyWeights {
+    /// Weights for steps of `step_s`; the modes in `forced` are booked with their forcing.
+    pub fn new(oscillators: &[Oscillator], forced: &[usize], step_s: f64) -> Self {
+        let mut w = Self::default();
+        for (i, o) in oscillators.iter().enumerate() {
+            w.stiffness.push(o.omega_rad_per_s * o.omega_rad_per_s);
+            w.turn.push(o.turn_rad_per_s);
+            let loss = if forced.contains(&i) {
+                crate::modal::LossForm::default()
+            } else {
+                o.loss_form(step_s)
+            };
+            w.loss_qq.push(loss.qq);
+            w.loss_rr.push(loss.rr);
+            w.loss_qr_re.push(2.0 * loss.qr.re);
+            w.loss_qr_im.push(-2.0 * loss.qr.im);
+        }
+        w
+    }
+
+    /// Energies of a total state.
+    #[expect(clippy::needless_range_loop, reason = "one index through many columns")]
+    pub fn energies(&self, state: &ModalState) -> Energies {
+        let mut sums = [[0.0; LANES]; 4];
+        let n = self.turn.len();
+        for i in (0..n).step_by(LANES) {
+            for l in 0..LANES {
+                let j = i + l;
+                let (xr, xi) = (state.q_re[j], state.q_im[j]);
+                let (vr, vi) = (state.r_re[j], state.r_im[j]);
+                let qq = xr * xr + xi * xi;
+                let turn = self.turn[j];
+                sums[0][l] += vr * vr + vi * vi;
+                sums[1][l] += turn * (vi * xr - vr * xi);
+                sums[2][l] += turn * turn * qq;
+                sums[3][l] += self.stiffness[j] * qq;
+            }
+        }
+        let [rr, turned, turn2, spring] = sums.map(|s| 0.5 * ((s[0] + s[2]) + (s[1] + s[3])));
+        Energies {
+            kinetic: rr + 2.0 * turned + turn2,
+            elastic: spring,
+            fixed_frame: rr - turn2 + spring,
+        }
+    }
+
+    /// Loss of the modes without forcing over one whole step.
+    #[expect(clippy::needless_range_loop, reason = "one index through many columns")]
+    pub fn step_loss(&self, state: &ModalState) -> f64 {
+        let mut sum = [0.0; LANES];
+        let n = self.turn.len();
+        for i in (0..n).step_by(LANES) {
+            for l in 0..LANES {
+                let j = i + l;
+                let (xr, xi) = (state.q_re[j], state.q_im[j]);
+                let (vr, vi) = (state.r_re[j], state.r_im[j]);
+                // q* r = (xr vr + xi vi) + i (xr vi − xi vr)
+                sum[l] += self.loss_qq[j] * (xr * xr + xi * xi)
+                    + self.loss_rr[j] * (vr * vr + vi * vi)
+                    + self.loss_qr_re[j] * (xr * vr + xi * vi)
+                    + self.loss_qr_im[j] * (xr * vi - xi * vr);
+            }
+        }
+        (sum[0] + sum[2]) + (sum[1] + sum[3])
+    }
+}
+
+/// Sums along a run, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ledger {
+    pub work: f64,
+    pub damping: f64,
+    pub impact: f64,
+    pub algorithmic: f64,
+    pub spindle: f64,
+    pub peak_fixed_frame: f64,
+    pub peak_material: f64,
+}

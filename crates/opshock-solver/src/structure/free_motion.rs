@@ -1,0 +1,418 @@
+//! Motion before any contact: the response to the unit pulse, scaled by the amplitude.
+//!
+//! An axial shock moves the axisymmetric modes of the disk and shakes the ramp's arms. Both are
+//! oscillators at rest in the drive's frame, driven by participation × a(t), and are carried over
+//! the grid t_k = k Δt by their exact forced flow, also in the steps in which the pulse has a kink.
+//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns.
+
+use crate::modal::oscillator::GAUSS_8;
+use crate::modal::{Flow, ForcedResponse, LossForm, Oscillator, Phase};
+use crate::shock::Stretch;
+
+/// Oscillators driven by the shock, modal mass 1 kg each.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ForcedModes {
+    pub oscillators: Vec<Oscillator>,
+    /// Generalised force per unit a(t), kg^½.
+    pub participation: Vec<f64>,
+}
+
+/// Shapes of the forced modes at the points that matter, kg^-½ (slope: kg^-½/m).
+#[derive(Clone, Debug, Default)]
+pub(super) struct ForcedShapes {
+    pub contact: Vec<f64>,
+    pub rim: Vec<f64>,
+    pub slider: Vec<f64>,
+    pub slider_slope: Vec<f64>,
+    pub top: Vec<f64>,
+    pub bottom: Vec<f64>,
+}
+
+/// Displacement and velocity of one point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Motion {
+    pub value: f64,
+    pub rate: f64,
+}
+
+/// Unit response of all points at one instant.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sample {
+    pub contact: Motion,
+    pub slider: Motion,
+    pub slider_slope: Motion,
+    pub top: Motion,
+    pub bottom: Motion,
+    pub rim: f64,
+    /// Energy of disk and arms, J per (m/s²)².
+    pub energy: f64,
+    /// Its kinetic part.
+    pub kinetic: f64,
+    /// Work of the shock so far, J per (m/s²)².
+    pub work: f64,
+    /// Loss by damping so far, J per (m/s²)².
+    pub loss: f64,
+}
+
+/// Displacements and velocities of the forced modes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ForcedState {
+    pub x: Vec<f64>,
+    pub v: Vec<f64>,
+}
+
+/// Work of the shock and loss by damping over a time, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Exchange {
+    pub work: f64,
+    pub loss: f64,
+}
+
+struct QuadraturePoint {
+    tau_s: f64,
+    weight_s: f64,
+    flow: Vec<Flow>,
+    response: Vec<ForcedResponse>,
+}
+
+/// Response to the unit pulse on the grid, and the tables that continue it from any state.
+pub(super) struct FreeMotion {
+    pub step_s: f64,
+    pub samples: Vec<Sample>,
+    /// Modal states every [`CHECKPOINT_STEPS`] nodes.
+    checkpoints: Vec<ForcedState>,
+    pub modes: ForcedModes,
+    pub shapes: ForcedShapes,
+    stretches: Vec<Stretch>,
+    pub pulse_end_s: f64,
+    flow: Vec<Flow>,
+    loss: Vec<LossForm>,
+    response: Vec<ForcedResponse>,
+    quadrature: Vec<QuadraturePoint>,
+}
+
+/// Nodes between stored modal states: a run that wakes redoes at most so many steps.
+const CHECKPOINT_STEPS: usize = 64;
+
+/// Gauss rule on (0, 1) for the work and loss within a step, exact to degree 9.
+const GAUSS_5: [(f64, f64); 5] = [
+    (0.046_910_077_030_668_02, 0.118_463_442_528_094_54),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
+    (0.5, 0.284_444_444_444_444_44),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_54),
+];
+
+impl ForcedState {
+    pub fn at_rest(n: usize) -> Self {
+        Self {
+            x: vec![0.0; n],
+            v: vec![0.0; n],
+        }
+    }
+
+    pub fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.v.copy_from_slice(&other.v);
+    }
+}
+
+impl FreeMotion {
+    /// Unit response at the nodes 0 ..= `n_steps`.
+    pub fn new(
+        modes: ForcedModes,
+        shapes: ForcedShapes,
+        stretches: Vec<Stretch>,
+        step_s: f64,
+        n_steps: usize,
+    ) -> Self {
+        // One rate per pulse shape: a half-sine has one stretch, piecewise linear ones have none.
+        let sigma = stretches[0].sigma_per_s;
+        let flows = |h: f64| modes.oscillators.iter().map(|o| o.flow(h)).collect();
+        let responses = |h: f64| {
+            modes
+                .oscillators
+                .iter()
+                .map(|o| ForcedResponse::new(o, sigma, h))
+                .collect()
+        };
+        let mut free = Self {
+            step_s,
+            samples: Vec::with_capacity(n_steps + 1),
+            checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
+            flow: flows(step_s),
+            loss: modes
+                .oscillators
+                .iter()
+                .map(|o| o.loss_form(step_s))
+                .collect(),
+            response: responses(step_s),
+            quadrature: GAUSS_5
+                .iter()
+                .map(|&(x, weight)| QuadraturePoint {
+                    tau_s: x * step_s,
+                    weight_s: weight * step_s,
+                    flow: flows(x * step_s),
+                    response: responses(x * step_s),
+                })
+                .collect(),
+            pulse_end_s: stretches[stretches.len() - 1].end_s,
+            modes,
+            shapes,
+            stretches,
+        };
+        let mut state = ForcedState::at_rest(free.modes.oscillators.len());
+        let mut total = Exchange::default();
+        for k in 0..=n_steps {
+            if k % CHECKPOINT_STEPS == 0 {
+                free.checkpoints.push(state.clone());
+            }
+            let mut sample = free.sample(&state);
+            (sample.kinetic, sample.energy) = free.energy(&state);
+            sample.work = total.work;
+            sample.loss = total.loss;
+            free.samples.push(sample);
+            let exchange = free.exchange(&state, k, 1.0);
+            total.work += exchange.work;
+            total.loss += exchange.loss;
+            free.step(&mut state, k);
+        }
+        free
+    }
+
+    /// Number of stretch borders, which are kinks of the pulse, s.
+    pub fn kinks_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.stretches.iter().map(|s| s.end_s)
+    }
+
+    /// Unit response of the points for `state`.
+    pub fn sample(&self, state: &ForcedState) -> Sample {
+        let read = |shape: &[f64]| Motion {
+            value: sum(shape, &state.x),
+            rate: sum(shape, &state.v),
+        };
+        let s = &self.shapes;
+        Sample {
+            contact: read(&s.contact),
+            slider: read(&s.slider),
+            slider_slope: read(&s.slider_slope),
+            top: read(&s.top),
+            bottom: read(&s.bottom),
+            rim: sum(&s.rim, &state.x),
+            ..Sample::default()
+        }
+    }
+
+    /// (kinetic, total) energy.
+    fn energy(&self, state: &ForcedState) -> (f64, f64) {
+        let (mut kinetic, mut elastic) = (0.0, 0.0);
+        for ((o, x), v) in self.modes.oscillators.iter().zip(&state.x).zip(&state.v) {
+            let spring = o.omega_rad_per_s * x;
+            kinetic += 0.5 * v * v;
+            elastic += 0.5 * spring * spring;
+        }
+        (kinetic, kinetic + elastic)
+    }
+
+    /// Unit response of the modes at node `k`: the bits behind the samples.
+    pub fn state_at_node(&self, k: usize, state: &mut ForcedState) {
+        let first = k / CHECKPOINT_STEPS;
+        state.copy_from(&self.checkpoints[first]);
+        for j in first * CHECKPOINT_STEPS..k {
+            self.step(state, j);
+        }
+    }
+
+    /// Carries the unit response from node `k` to the next.
+    pub fn step(&self, state: &mut ForcedState, k: usize) {
+        let start_s = k as f64 * self.step_s;
+        if start_s >= self.pulse_end_s {
+            for ((f, x), v) in self.flow.iter().zip(&mut state.x).zip(&mut state.v) {
+                (*x, *v) = carry(f, *x, *v);
+            }
+        } else if let Some((_, phase)) = self.whole_step(start_s) {
+            let modes = self
+                .flow
+                .iter()
+                .zip(&self.response)
+                .zip(&self.modes.participation);
+            for (((f, r), gain), (x, v)) in modes.zip(state.x.iter_mut().zip(&mut state.v)) {
+                let (dx, dv) = r.increments(&phase);
+                let free = carry(f, *x, *v);
+                (*x, *v) = (free.0 + gain * dx, free.1 + gain * dv);
+            }
+        } else {
+            self.advance(state, start_s, self.step_s, 1.0);
+        }
+    }
+
+    /// Work and loss over the step from node `k` for a total state under `amplitude` times the
+    /// unit pulse.
+    pub fn exchange(&self, state: &ForcedState, k: usize, amplitude: f64) -> Exchange {
+        let start_s = k as f64 * self.step_s;
+        if start_s >= self.pulse_end_s {
+            let modes = self.loss.iter().zip(&state.x).zip(&state.v);
+            return Exchange {
+                work: 0.0,
+                loss: modes
+                    .map(|((l, x), v)| l.qq * x * x + l.rr * v * v + 2.0 * l.qr.re * x * v)
+                    .sum(),
+            };
+        }
+        let Some((stretch, phase)) = self.whole_step(start_s) else {
+            return self.exchange_within(state, start_s, self.step_s, amplitude);
+        };
+        let mut total = Exchange::default();
+        for point in &self.quadrature {
+            let force = amplitude * phase.later(stretch.sigma_per_s, point.tau_s).value();
+            let (mut power, mut loss) = (0.0, 0.0);
+            for j in 0..state.x.len() {
+                let f = &point.flow[j];
+                let (x, v) = (state.x[j], state.v[j]);
+                let gain = self.modes.participation[j];
+                let v = v
+                    + (f.rq.re * x + f.rr.re * v)
+                    + amplitude * gain * point.response[j].velocity_increment(&phase);
+                power += gain * v;
+                loss += 2.0 * self.modes.oscillators[j].half_damping_per_s * v * v;
+            }
+            total.work += point.weight_s * force * power;
+            total.loss += point.weight_s * loss;
+        }
+        total
+    }
+
+    /// The same over any time; slower, nothing tabulated.
+    pub fn exchange_within(
+        &self,
+        state: &ForcedState,
+        start_s: f64,
+        h_s: f64,
+        amplitude: f64,
+    ) -> Exchange {
+        let mut total = Exchange::default();
+        self.pieces(start_s, h_s, |piece| {
+            let offset = piece.start_s - start_s;
+            for (x, weight) in GAUSS_8 {
+                let tau = x * piece.h_s;
+                let force = amplitude * piece.phase.later(piece.sigma_per_s, tau).value();
+                for (j, o) in self.modes.oscillators.iter().enumerate() {
+                    let v = self.velocity_at(state, j, start_s, offset + tau, amplitude);
+                    total.work += weight * piece.h_s * force * self.modes.participation[j] * v;
+                    total.loss += weight * piece.h_s * 2.0 * o.half_damping_per_s * v * v;
+                }
+            }
+        });
+        total
+    }
+
+    fn velocity_at(
+        &self,
+        state: &ForcedState,
+        j: usize,
+        start_s: f64,
+        h_s: f64,
+        amplitude: f64,
+    ) -> f64 {
+        let o = &self.modes.oscillators[j];
+        let (mut x, mut v) = (state.x[j], state.v[j]);
+        self.pieces(start_s, h_s, |piece| {
+            (x, v) = self.carry_piece(j, o, x, v, &piece, amplitude);
+        });
+        v
+    }
+
+    /// Carries `state` under `amplitude` times the unit pulse over any time.
+    pub fn advance(&self, state: &mut ForcedState, start_s: f64, h_s: f64, amplitude: f64) {
+        self.pieces(start_s, h_s, |piece| {
+            for (j, o) in self.modes.oscillators.iter().enumerate() {
+                (state.x[j], state.v[j]) =
+                    self.carry_piece(j, o, state.x[j], state.v[j], &piece, amplitude);
+            }
+        });
+    }
+
+    fn carry_piece(
+        &self,
+        j: usize,
+        o: &Oscillator,
+        x: f64,
+        v: f64,
+        piece: &Piece,
+        amplitude: f64,
+    ) -> (f64, f64) {
+        let free = carry(&o.flow(piece.h_s), x, v);
+        if !piece.driven {
+            return free;
+        }
+        let (dx, dv) =
+            ForcedResponse::new(o, piece.sigma_per_s, piece.h_s).increments(&piece.phase);
+        let gain = amplitude * self.modes.participation[j];
+        (free.0 + gain * dx, free.1 + gain * dv)
+    }
+
+    /// Stretch and phase when the step from `start_s` lies inside one stretch.
+    fn whole_step(&self, start_s: f64) -> Option<(&Stretch, Phase)> {
+        let i = self.stretches.partition_point(|s| s.end_s <= start_s);
+        let stretch = self.stretches.get(i)?;
+        (start_s + self.step_s <= stretch.end_s).then(|| {
+            let phase = stretch
+                .phase
+                .later(stretch.sigma_per_s, start_s - stretch.start_s);
+            (stretch, phase)
+        })
+    }
+
+    /// Cuts [start, start + h] at the kinks of the pulse.
+    fn pieces(&self, start_s: f64, h_s: f64, mut visit: impl FnMut(Piece)) {
+        let end_s = start_s + h_s;
+        let mut t = start_s;
+        let first = self.stretches.partition_point(|s| s.end_s <= start_s);
+        for stretch in &self.stretches[first..] {
+            if t >= end_s {
+                return;
+            }
+            let until = stretch.end_s.min(end_s);
+            // The only piece keeps the exact length asked for.
+            let whole = t == start_s && until == end_s;
+            visit(Piece {
+                start_s: t,
+                h_s: if whole { h_s } else { until - t },
+                sigma_per_s: stretch.sigma_per_s,
+                phase: stretch
+                    .phase
+                    .later(stretch.sigma_per_s, t - stretch.start_s),
+                driven: true,
+            });
+            t = until;
+        }
+        if t < end_s {
+            visit(Piece {
+                start_s: t,
+                h_s: if t == start_s { h_s } else { end_s - t },
+                sigma_per_s: nalgebra::Complex::from(0.0),
+                phase: Phase::default(),
+                driven: false,
+            });
+        }
+    }
+}
+
+struct Piece {
+    start_s: f64,
+    h_s: f64,
+    sigma_per_s: nalgebra::Complex<f64>,
+    phase: Phase,
+    driven: bool,
+}
+
+fn carry(f: &Flow, x: f64, v: f64) -> (f64, f64) {
+    (
+        x + (f.qq.re * x + f.qr.re * v),
+        v + (f.rq.re * x + f.rr.re * v),
+    )
+}
+
+fn sum(shape: &[f64], x: &[f64]) -> f64 {
+    shape.iter().zip(x).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,593 @@
+//! What is common to all amplitudes of one scene, and the run of one amplitude.
+
+use super::contact_system::{ContactSystem, RunState};
+use super::energy::EnergyWeights;
+use super::free_motion::{ForcedModes, ForcedShapes, FreeMotion, Sample};
+use super::history::StructuralHistory;
+use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use super::{StructureResolution, Window};
+use crate::complementarity::{self, Gap, ImpactLaw};
+use crate::disk::{self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution};
+use crate::modal::bank::padded;
+use crate::modal::{BankFlow, Oscillator, Readout};
+use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
+use crate::shock::{Pulse, PulseError};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A gap below this is closed, m. Displacements of 0.1 mm carry rounding of 1e-20 m; nothing of
+/// interest is smaller than 1e-12 m.
+const GAP_TOLERANCE_M: f64 = 1e-13;
+/// Bounces located in one step before contact is taken as sustained.
+const MAX_IMPACTS_PER_STEP: u32 = 8;
+/// Penetration above which a run warns, m.
+const PENETRATION_WARNING_M: f64 = 1e-7;
+/// Most steps of a grid.
+const MAX_STEPS: f64 = 2e7;
+
+/// Where the slider stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderPlace {
+    /// Radius of its centre, m.
+    pub radius_m: f64,
+    /// Angle of its centre in the disk's sense of rotation, same origin as the ramp, rad.
+    pub angle_rad: f64,
+    /// Angle from the slider's x axis to the disk's velocity, positive towards +y, rad.
+    pub skew_rad: f64,
+}
+
+/// Everything a structural model is built from.
+#[derive(Clone, Copy, Debug)]
+pub struct StructureParameters<'a> {
+    /// Disk.
+    pub disk: &'a DiskParameters,
+    /// Numerical resolution of the disk.
+    pub disk_resolution: &'a DiskResolution,
+    /// Ramp.
+    pub ramp: &'a RampParameters,
+    /// Slider.
+    pub slider: SliderPlace,
+    /// Unit pulse.
+    pub pulse: &'a Pulse,
+    /// Simulated time.
+    pub window: Window,
+    /// Numerical resolution in time.
+    pub resolution: &'a StructureResolution,
+}
+
+/// Why a structural model cannot be built or run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StructureError {
+    /// Disk.
+    #[error(transparent)]
+    Disk(#[from] DiskError),
+    /// Ramp.
+    #[error(transparent)]
+    Ramp(#[from] RampError),
+    /// Pulse.
+    #[error(transparent)]
+    Pulse(#[from] PulseError),
+    /// Step or window.
+    #[error("{name} = {value:e} is outside its range ({allowed})")]
+    Time {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Allowed range in words.
+        allowed: &'static str,
+    },
+    /// A motion that is not a finite number.
+    #[error("the structure's motion is not finite at {time_s:e} s")]
+    NotFinite {
+        /// Time, s.
+        time_s: f64,
+    },
+}
+
+/// Something a user should know about a structural run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StructureWarning {
+    /// A contact sank in by more than a tenth of a micrometre: the step is too long.
+    Penetration {
+        /// Largest penetration, m.
+        depth_m: f64,
+    },
+    /// Bounces accumulated within a step and were taken as lasting contact.
+    BouncesAccumulated {
+        /// Number of steps.
+        steps: u64,
+    },
+    /// Harmonics with modes below the cut were left out.
+    HarmonicsBounded,
+    /// Both arms held one point: only the net force is determined.
+    BothArmsOnePoint,
+    /// The disk spins above a critical speed and air held in space drives a travelling wave.
+    PhysicalInstability {
+        /// Nodal diameters of the wave.
+        nodal_diameters: usize,
+        /// Growth rate, 1/s.
+        growth_per_s: f64,
+    },
+}
+
+/// Disk, ramp, pulse and grid, ready to run any amplitude of either sign.
+#[derive(Clone)]
+pub struct StructureModel {
+    pub(super) shared: Arc<Shared>,
+}
+
+/// One arm in the bank of oscillators.
+pub(super) struct Arm {
+    /// Indices of its modes in the bank.
+    pub modes: Range<usize>,
+}
+
+/// What all runs share.
+pub(super) struct Shared {
+    pub free: FreeMotion,
+    pub n_steps: usize,
+    pub window: Window,
+    pub pulse: Pulse,
+    /// 0 without a ramp, else 2.
+    pub n_contacts: usize,
+    pub clearance_m: [f64; 2],
+    pub law: ImpactLaw,
+    pub spin_rad_per_s: f64,
+    /// Disk modes, then the arms' modes, padded.
+    pub oscillators: Vec<Oscillator>,
+    /// Disk modes including padding.
+    pub n_disk: usize,
+    /// Bank index of each forced mode.
+    pub forced_index: Vec<usize>,
+    pub arms: [Arm; 2],
+    /// Shape of the disk at the contact point, over the bank (zero on arms).
+    pub contact: Vec<f64>,
+    /// Nodal diameters times `contact`: −Im of it reads w_θ.
+    pub contact_turn: Vec<f64>,
+    /// Shapes 1/√m of each arm's contact point over the bank.
+    pub arm_shape: [Vec<f64>; 2],
+    pub rim: Vec<f64>,
+    /// Displacement, pitch and roll at the slider.
+    pub slider: [Readout; 3],
+    /// Jump of the slider's pose rate per impulse on the disk.
+    pub slider_jump: DiskPose,
+    /// Pitch and roll per radial slope.
+    pub slope_to_pose: [f64; 2],
+    pub step_flow: BankFlow,
+    pub weights: EnergyWeights,
+    pub mobility: [[f64; 2]; 2],
+    pub warnings: Vec<StructureWarning>,
+}
+
+/// Scratch of one thread; fits any model.
+#[derive(Default)]
+pub struct Workspace {
+    state: Option<RunState>,
+}
+
+/// One amplitude through a structural model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StructureRun {
+    /// Motion of the disk under the slider.
+    pub history: StructuralHistory,
+    /// Columns on the grid, when recorded.
+    pub columns: Option<StructureColumns>,
+    /// Extremes of the disk's motion.
+    pub disk: DiskExtremes,
+    /// Contact with the top arm.
+    pub top: ArmContact,
+    /// Contact with the bottom arm.
+    pub bottom: ArmContact,
+    /// Energy book.
+    pub energy: EnergyBook,
+    /// Complementarity numbers.
+    pub complementarity: Complementarity,
+    /// First touch of either arm, s.
+    pub first_touch_s: Option<f64>,
+    /// Steps taken.
+    pub steps: u64,
+    /// End of the run, s.
+    pub end_s: f64,
+    /// Signs of trouble.
+    pub warnings: Vec<StructureWarning>,
+}
+
+impl StructureModel {
+    /// Builds the modal basis, the unit response and the tables of one step.
+    ///
+    /// # Errors
+    /// A parameter out of range, a place off the disk, an overlap before the shock, a failed
+    /// eigenvalue problem.
+    pub fn build(parameters: &StructureParameters<'_>) -> Result<Self, StructureError> {
+        let StructureParameters {
+            disk,
+            disk_resolution,
+            ramp,
+            slider,
+            pulse,
+            window,
+            resolution,
+        } = *parameters;
+        let n_steps = count_steps(window, resolution.step_s)?;
+        ramp.validate()?;
+        disk::basis::validate_place(disk, "slider", slider.radius_m)?;
+        disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
+        let stretches = pulse.stretches()?;
+        let radii = [ramp.radius_m, slider.radius_m, disk.outer_radius_m];
+        let basis = DiskBasis::build(disk, disk_resolution, &radii, Some(0))?;
+
+        let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
+        let arms = match &ramp.model {
+            RampModel::None | RampModel::Rigid => [bank.add_arm(&[]), bank.add_arm(&[])],
+            RampModel::Deformable { top, bottom } => [bank.add_arm(top), bank.add_arm(bottom)],
+        };
+        bank.pad();
+
+        let step_s = resolution.step_s;
+        let mut step_flow = BankFlow::zeros(bank.oscillators.len());
+        step_flow.set(&bank.oscillators, step_s);
+        let on_disk: f64 = bank.contact.iter().map(|b| b * b).sum();
+        let on_arm = |i: usize| bank.arm_shape[i].iter().map(|b: &f64| b * b).sum::<f64>();
+        let mobility = [
+            [on_disk + on_arm(0), -on_disk],
+            [-on_disk, on_disk + on_arm(1)],
+        ];
+        let slider_jump = bank.slider_jump();
+        let mut warnings = instabilities(&basis, &bank.oscillators);
+        if basis.harmonics_bounded {
+            warnings.push(StructureWarning::HarmonicsBounded);
+        }
+        let weights = EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s);
+        let free = FreeMotion::new(bank.forced, bank.shapes, stretches, step_s, n_steps);
+        Ok(Self {
+            shared: Arc::new(Shared {
+                free,
+                n_steps,
+                window,
+                pulse: pulse.clone(),
+                n_contacts: if ramp.model == RampModel::None { 0 } else { 2 },
+                clearance_m: [ramp.clearance_top_m, ramp.clearance_bottom_m],
+                law: ImpactLaw {
+                    restitution: ramp.restitution,
+                    gap_tolerance_m: GAP_TOLERANCE_M,
+                    max_impacts_per_step: MAX_IMPACTS_PER_STEP,
+                },
+                spin_rad_per_s: disk.spin_rad_per_s,
+                n_disk: bank.n_disk,
+                oscillators: bank.oscillators,
+                forced_index: bank.forced_index,
+                arms,
+                contact: bank.contact,
+                contact_turn: bank.contact_turn,
+                arm_shape: bank.arm_shape,
+                rim: bank.rim,
+                slider: bank.slider,
+                slider_jump,
+                slope_to_pose: bank.slope_to_pose,
+                step_flow,
+                weights,
+                mobility,
+                warnings,
+            }),
+        })
+    }
+
+    /// Number of modes carried: disk (with static corrections) and arms.
+    pub fn n_modes(&self) -> usize {
+        let used = |o: &&Oscillator| o.omega_rad_per_s > 0.0;
+        self.shared.oscillators.iter().filter(used).count()
+    }
+
+    /// Runs the signed amplitude. With `record` the columns of the history are kept.
+    ///
+    /// # Errors
+    /// [`StructureError::NotFinite`].
+    pub fn run(
+        &self,
+        amplitude_m_per_s2: f64,
+        record: bool,
+        workspace: &mut Workspace,
+    ) -> Result<StructureRun, StructureError> {
+        let shared = &*self.shared;
+        if !amplitude_m_per_s2.is_finite() {
+            return Err(StructureError::NotFinite { time_s: 0.0 });
+        }
+        let state = workspace.state.get_or_insert_with(RunState::default);
+        state.prepare(shared, record);
+        let mut system = ContactSystem::new(shared, amplitude_m_per_s2, state);
+        system.record_node();
+        for k in 0..shared.n_steps {
+            if system.awake() || shared.may_touch(amplitude_m_per_s2, k) {
+                system.begin_step();
+                let report = complementarity::advance(&mut system, shared.free.step_s, &shared.law);
+                system.end_step(report);
+            } else {
+                system.sleep_step();
+            }
+            system.record_node();
+            if system.decayed() {
+                break;
+            }
+        }
+        system.finish()
+    }
+
+    /// Smallest |amplitude| of the given sign at which this ramp is touched within the window, by
+    /// linearity from the unit response; `None` without a ramp or when nothing closes the gap.
+    pub fn touch_amplitude_m_per_s2(&self, positive: bool) -> Option<f64> {
+        let shared = &*self.shared;
+        let sign = if positive { 1.0 } else { -1.0 };
+        let mut lowest: Option<f64> = None;
+        for side in 0..shared.n_contacts {
+            // Closing of the gap per unit amplitude.
+            let closing = |k: usize| {
+                let g = unit_gap(side, &shared.free.samples[k]);
+                Gap {
+                    value_m: -sign * g.value_m,
+                    rate_m_per_s: -sign * g.rate_m_per_s,
+                }
+            };
+            let mut largest = 0.0_f64;
+            let mut left = closing(0);
+            for k in 1..shared.free.samples.len() {
+                let right = closing(k);
+                largest = largest.max(right.value_m);
+                if left.rate_m_per_s > 0.0 && right.rate_m_per_s < 0.0 {
+                    largest = largest.max(complementarity::advance::largest_between(
+                        left,
+                        right,
+                        shared.free.step_s,
+                    ));
+                }
+                left = right;
+            }
+            if largest > 0.0 {
+                let a = shared.clearance_m[side] / largest;
+                lowest = Some(lowest.map_or(a, |l| l.min(a)));
+            }
+        }
+        lowest
+    }
+}
+
+impl Shared {
+    /// Gap of `side` at node `k` in free motion.
+    pub fn free_gap(&self, side: usize, amplitude: f64, sample: &Sample) -> Gap {
+        let unit = unit_gap(side, sample);
+        Gap {
+            value_m: self.clearance_m[side] + amplitude * unit.value_m,
+            rate_m_per_s: amplitude * unit.rate_m_per_s,
+        }
+    }
+
+    /// True when free motion from node `k` closes a gap before node `k + 1`, or a gap is closed.
+    fn may_touch(&self, amplitude: f64, k: usize) -> bool {
+        (0..self.n_contacts).any(|side| {
+            let now = self.free_gap(side, amplitude, &self.free.samples[k]);
+            let ahead = self.free_gap(side, amplitude, &self.free.samples[k + 1]);
+            ahead.value_m < 0.0 || complementarity::advance::dips(now, ahead, self.free.step_s)
+        })
+    }
+}
+
+/// Change of the gap of `side` per unit amplitude: top g = g₀ + x − w, bottom g = g₀ − x + w.
+fn unit_gap(side: usize, sample: &Sample) -> Gap {
+    let (arm, sign) = if side == 0 {
+        (sample.top, 1.0)
+    } else {
+        (sample.bottom, -1.0)
+    };
+    Gap {
+        value_m: sign * (arm.value - sample.contact.value),
+        rate_m_per_s: sign * (arm.rate - sample.contact.rate),
+    }
+}
+
+impl StructureRun {
+    pub(super) fn penetration_warning(depth_m: f64) -> Option<StructureWarning> {
+        (depth_m > PENETRATION_WARNING_M).then_some(StructureWarning::Penetration { depth_m })
+    }
+}
+
+fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
+    let positive = "finite and above 0";
+    let fail = |name, value, allowed| {
+        Err(StructureError::Time {
+            name,
+            value,
+            allowed,
+        })
+    };
+    let length = match window {
+        Window::Fixed { length_s } => length_s,
+        Window::UntilDecayed { share, max_s } => {
+            if !(share > 0.0 && share < 1.0) {
+                return fail("decay share", share, "between 0 and 1");
+            }
+            max_s
+        }
+    };
+    if !(length.is_finite() && length > 0.0) {
+        return fail("window", length, positive);
+    }
+    if !(step_s.is_finite() && step_s > 0.0) {
+        return fail("step", step_s, positive);
+    }
+    // A window that is a multiple of the step but for rounding gets no step more.
+    let n = (length / step_s - 1e-6).ceil().max(1.0);
+    if n > MAX_STEPS {
+        return fail("steps in the window", n, "at most 2e7");
+    }
+    Ok(n as usize)
+}
+
+/// Modes that grow: air held in space above a critical speed.
+fn instabilities(basis: &DiskBasis, oscillators: &[Oscillator]) -> Vec<StructureWarning> {
+    basis
+        .modes
+        .iter()
+        .zip(oscillators)
+        .filter_map(|(mode, o)| {
+            let growth_per_s = o.roots().iter().map(|r| r.re).fold(f64::MIN, f64::max);
+            (growth_per_s > 0.0).then_some(StructureWarning::PhysicalInstability {
+                nodal_diameters: mode.nodal_diameters,
+                growth_per_s,
+            })
+        })
+        .collect()
+}
+
+/// Columns over all oscillators while they are put together.
+struct Bank {
+    oscillators: Vec<Oscillator>,
+    n_disk: usize,
+    forced: ForcedModes,
+    forced_index: Vec<usize>,
+    shapes: ForcedShapes,
+    contact: Vec<f64>,
+    contact_turn: Vec<f64>,
+    arm_shape: [Vec<f64>; 2],
+    n_arms: usize,
+    rim: Vec<f64>,
+    slider: [Readout; 3],
+    slope_to_pose: [f64; 2],
+}
+
+impl Bank {
+    /// Disk modes. Angles are measured from the ramp, so that the contact force drives real parts.
+    fn new(basis: &DiskBasis, disk: &DiskParameters, slider: SliderPlace, ramp_angle: f64) -> Self {
+        let n_disk = padded(basis.modes.len());
+        let zero = || vec![0.0; n_disk];
+        // x runs with the disk; with negative spin it runs against growing angle.
+        let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
+        let (sine, cosine) = slider.skew_rad.sin_cos();
+        // Along the disk's velocity the slope is w_t, outwards w_r:
+        // w_x = w_t cos − w_r sin, w_y = w_t sin + w_r cos; pitch = −w_x, roll = w_y.
+        let pitch = [sine, -cosine];
+        let roll = [cosine, sine];
+        let mut bank = Self {
+            oscillators: vec![Oscillator::default(); n_disk],
+            n_disk,
+            forced: ForcedModes::default(),
+            forced_index: Vec::new(),
+            shapes: ForcedShapes::default(),
+            contact: zero(),
+            contact_turn: zero(),
+            arm_shape: [zero(), zero()],
+            n_arms: 0,
+            rim: zero(),
+            slider: std::array::from_fn(|_| Readout {
+                re: zero(),
+                im: zero(),
+            }),
+            slope_to_pose: [pitch[0], roll[0]],
+        };
+        for (i, mode) in basis.modes.iter().enumerate() {
+            let n = mode.nodal_diameters as f64;
+            let fixed = disk.space_fixed_damping_per_s;
+            let gamma = mode.damping_ratio * mode.omega_rad_per_s;
+            // Without turning both dampings are one.
+            let (gamma, fixed) = if mode.nodal_diameters == 0 {
+                (gamma + 0.5 * fixed, 0.0)
+            } else {
+                (gamma, fixed)
+            };
+            bank.oscillators[i] = Oscillator {
+                omega_rad_per_s: mode.omega_rad_per_s,
+                half_damping_per_s: gamma,
+                turn_rad_per_s: n * disk.spin_rad_per_s,
+                fixed_damping_per_s: fixed,
+            };
+            let [(contact, _), (value, slope), (rim, _)] = mode.shape[..] else {
+                unreachable!("the basis is sampled at three radii")
+            };
+            bank.contact[i] = contact;
+            bank.contact_turn[i] = n * contact;
+            bank.rim[i] = rim;
+            // w = φ Re(q e^{inα}): real part of q reads cos, imaginary −sin.
+            let (s, c) = (n * (slider.angle_rad - ramp_angle)).sin_cos();
+            let along = sense * n * value / slider.radius_m;
+            let rows = [
+                (value * c, -value * s),
+                (
+                    pitch[0] * slope * c - pitch[1] * along * s,
+                    -pitch[0] * slope * s - pitch[1] * along * c,
+                ),
+                (
+                    roll[0] * slope * c - roll[1] * along * s,
+                    -roll[0] * slope * s - roll[1] * along * c,
+                ),
+            ];
+            for (readout, (re, im)) in bank.slider.iter_mut().zip(rows) {
+                readout.re[i] = re;
+                readout.im[i] = im;
+            }
+            // The static correction acts on the contact force only.
+            if mode.nodal_diameters == 0 && mode.nodal_circles.is_some() {
+                bank.forced.oscillators.push(bank.oscillators[i]);
+                bank.forced.participation.push(mode.participation);
+                bank.forced_index.push(i);
+                bank.shapes.contact.push(contact);
+                bank.shapes.rim.push(rim);
+                bank.shapes.slider.push(value);
+                bank.shapes.slider_slope.push(slope);
+            }
+        }
+        bank
+    }
+
+    fn add_arm(&mut self, modes: &[ArmMode]) -> Arm {
+        let start = self.oscillators.len();
+        for mode in modes {
+            let o = Oscillator::fixed(
+                std::f64::consts::TAU * mode.frequency_hz,
+                mode.damping_ratio,
+            );
+            let shape = mode.mass_kg.sqrt().recip();
+            self.forced_index.push(self.oscillators.len());
+            self.forced.oscillators.push(o);
+            self.forced
+                .participation
+                .push(mode.mass_kg.sqrt() * mode.participation);
+            self.oscillators.push(o);
+            for side in 0..2 {
+                let own = if side == self.n_arms { shape } else { 0.0 };
+                self.arm_shape[side].push(own);
+            }
+            // Shapes of the arms follow those of the disk in the forced columns.
+            let column = if self.n_arms == 0 {
+                &mut self.shapes.top
+            } else {
+                &mut self.shapes.bottom
+            };
+            column.resize(self.forced.oscillators.len() - 1, 0.0);
+            column.push(shape);
+        }
+        self.n_arms += 1;
+        Arm {
+            modes: start..self.oscillators.len(),
+        }
+    }
+
+    fn pad(&mut self) {
+        let n = padded(self.oscillators.len());
+        self.oscillators.resize(n, Oscillator::default());
+        for column in [&mut self.contact, &mut self.contact_turn, &mut self.rim] {
+            column.resize(n, 0.0);
+        }
+        for column in &mut self.arm_shape {
+            column.resize(n, 0.0);
+        }
+    }
+
+    fn slider_jump(&self) -> DiskPose {
+        let jump =
+            |row: &Readout| -> f64 { row.re.iter().zip(&self.contact).map(|(a, b)| a * b).sum() };
+        DiskPose {
+            displacement_m: jump(&self.slider[0]),
+            pitch_rad: jump(&self.slider[1]),
+            roll_rad: jump(&self.slider[2]),
+        }
+    }
+}
