@@ -2,3 +2,4 @@
 
 mod report_files;
 mod report_run;
+mod study_reading;

@@ -20,3 +20,64 @@ pub fn rad_from_deg(deg: f64) -> f64 {
 pub fn m_per_s2_from_g(g: f64) -> f64 {
     g * STANDARD_GRAVITY_M_PER_S2
 }
+
+/// rad from microradians.
+pub fn rad_from_urad(urad: f64) -> f64 {
+    urad / 1e6
+}
+
+/// s from milliseconds. Decimal units divide by an exact power of ten, so that a decimal value
+/// becomes the double nearest to it.
+pub fn s_from_ms(ms: f64) -> f64 {
+    ms / 1e3
+}
+
+/// s from microseconds.
+pub fn s_from_us(us: f64) -> f64 {
+    us / 1e6
+}
+
+/// m from millimetres.
+pub fn m_from_mm(mm: f64) -> f64 {
+    mm / 1e3
+}
+
+/// m from micrometres.
+pub fn m_from_um(um: f64) -> f64 {
+    um / 1e6
+}
+
+/// m from nanometres.
+pub fn m_from_nm(nm: f64) -> f64 {
+    nm / 1e9
+}
+
+/// kg from milligrams.
+pub fn kg_from_mg(mg: f64) -> f64 {
+    mg / 1e6
+}
+
+/// N from grams of force.
+pub fn n_from_gf(gf: f64) -> f64 {
+    gf * GRAM_FORCE_N
+}
+
+/// Hz from kilohertz.
+pub fn hz_from_khz(khz: f64) -> f64 {
+    khz * 1e3
+}
+
+/// Pa from gigapascals.
+pub fn pa_from_gpa(gpa: f64) -> f64 {
+    gpa * 1e9
+}
+
+/// K from degrees Celsius.
+pub fn k_from_c(celsius: f64) -> f64 {
+    celsius + 273.15
+}
+
+/// Share of one from per cent.
+pub fn share_from_pct(pct: f64) -> f64 {
+    pct / 100.0
+}

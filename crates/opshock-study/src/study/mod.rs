@@ -1,1 +1,277 @@
-//! Study files: reading, validation, axes, points.
+//! Study files: reading, checking, axes, points.
+//!
+//! A study is TOML with a unit in every key. One table of keys ([`keys::KEYS`]) says what may
+//! stand in it; reading, messages, defaults, the JSON Schema and the resolved study all come from
+//! that table. Reading reports every fault at once, each with its place, and never guesses:
+//!
+//! ```text
+//! text -> tree (places) -> settings (kind, range, unit) -> completed (defaults, surface)
+//!      -> checked (geometry, pulse, search) -> points, each with a scene in SI
+//! ```
+//!
+//! ```
+//! use opshock_study::study::Study;
+//!
+//! let study = Study::from_text(&Study::example("my drive"), &[]).unwrap();
+//! assert_eq!(study.points.len(), 18);
+//! ```
+
+mod complete;
+mod example;
+pub mod fault;
+pub mod key;
+pub mod keys;
+mod points;
+mod polygon;
+mod read;
+mod resolved;
+mod samples;
+mod scene;
+pub mod schema;
+mod select;
+mod set_arg;
+mod settings;
+pub mod source;
+mod suggest;
+mod surfaces;
+mod tree;
+pub mod unit;
+mod validity;
+mod words;
+
+use std::path::{Path, PathBuf};
+
+pub use fault::{Severity, StudyError, StudyErrors};
+pub use points::{Axis, AxisValue, Point};
+pub use select::{Choice, ChoiceError, FreeAxis, Shot};
+pub use set_arg::{SetArg, SetSyntaxError};
+pub use tree::Override;
+pub use words::{Certify, Effects, KeepHistories, Ramp, Sign, coupling_word, rung_word};
+
+use complete::Location;
+use read::Reader;
+use settings::{Settings, View};
+use source::{Origin, Source};
+
+/// A study that has passed every check.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Name.
+    pub name: String,
+    /// Outputs asked for.
+    pub outputs: Vec<String>,
+    /// Every point, in the canonical order of the search.
+    pub points: Vec<Point>,
+    /// Axes beside widths, ramp models and signs, outermost first.
+    pub axes: Vec<Axis>,
+    /// Pulse widths, ms, ascending.
+    pub widths_ms: Vec<f64>,
+    /// Ramp models, in canonical order.
+    pub ramps: Vec<Ramp>,
+    /// Signs, in canonical order.
+    pub signs: Vec<Sign>,
+    /// Settings of the search.
+    pub search: SearchSettings,
+    /// Settings of the store.
+    pub output: OutputSettings,
+    /// Onset of the pulse on the time axis of every output, s.
+    pub start_s: f64,
+    /// Whether only the needed effects are simulated.
+    pub effects: Effects,
+    /// Effects left out by hand.
+    pub leave_out: Vec<String>,
+    /// Digest of every setting.
+    pub digest: [u8; 32],
+    /// Warnings and notes, by place.
+    pub remarks: Vec<StudyError>,
+    /// What the command line set, and what it replaced.
+    pub overrides: Vec<Override>,
+    /// The study file as named.
+    pub path: PathBuf,
+    /// Text of the study file.
+    pub text: String,
+    settings: Settings,
+}
+
+/// Settings of the search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchSettings {
+    /// Lowest amplitude tried, g.
+    pub amplitude_min_g: f64,
+    /// Highest amplitude tried, g.
+    pub amplitude_max_g: f64,
+    /// Width of the final bracket, per cent.
+    pub tolerance_pct: f64,
+    /// How far the evidence reaches.
+    pub certify: Certify,
+    /// Largest untested gap below the lowest failure, per cent.
+    pub max_gap_pct: f64,
+}
+
+/// Settings of the store.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputSettings {
+    /// Which histories are stored.
+    pub keep_histories: KeepHistories,
+    /// Time between two refreshes of the results file, s.
+    pub checkpoint_s: f64,
+}
+
+impl Study {
+    /// Reads a study file and lays the `--set` arguments over it.
+    ///
+    /// # Errors
+    /// Every fault of the study, up to [`fault::MAX_LISTED`], sorted by place.
+    pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
+        let text = source::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Self::read(
+            text,
+            Location {
+                file: path.to_path_buf(),
+                folder,
+            },
+            sets,
+        )
+    }
+
+    /// Reads a study from its text. File paths start from the working directory.
+    ///
+    /// # Errors
+    /// As [`Study::from_path`].
+    pub fn from_text(text: &str, sets: &[SetArg]) -> Result<Self, StudyErrors> {
+        let location = Location {
+            file: PathBuf::from("study.toml"),
+            folder: PathBuf::new(),
+        };
+        Self::read(text.to_string(), location, sets)
+    }
+
+    fn read(text: String, location: Location, sets: &[SetArg]) -> Result<Self, StudyErrors> {
+        let source = Source::new(location.file.display().to_string(), text);
+        let mut root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        if matches!(&root.value, tree::Value::Table(members) if members.is_empty()) {
+            let fault = StudyError::in_file("E101", &source.name, "the study file is empty")
+                .allowed("a study")
+                .hint("the smallest valid study is printed by `opshock new`");
+            return Err(fault.into());
+        }
+        let mut reader = Reader::default();
+        let overrides = tree::lay_over(&mut root, sets, &mut reader.errors);
+        reader.table(&root, "", "");
+        complete::complete(&mut reader, &root, &location);
+        let Reader {
+            settings,
+            mut errors,
+            mut remarks,
+        } = reader;
+        let mut found = Vec::new();
+        points::check(&settings, &mut found);
+        for fault in found {
+            if fault.severity() == Severity::Error {
+                errors.push(fault)
+            } else {
+                remarks.push(fault)
+            }
+        }
+        if !errors.is_empty() {
+            return Err(StudyErrors::new(errors));
+        }
+        fault::tidy(&mut remarks);
+        let points = points::points(&settings);
+        let view = View::first(&settings);
+        Ok(Self {
+            name: view.word("name").to_string(),
+            outputs: view.words("outputs").to_vec(),
+            points,
+            axes: points::axes(&settings),
+            widths_ms: points::widths_ms(&settings),
+            ramps: points::ramps(&settings),
+            signs: points::signs(&settings),
+            search: SearchSettings {
+                amplitude_min_g: view.number("search.amplitude_g.min"),
+                amplitude_max_g: view.number("search.amplitude_g.max"),
+                tolerance_pct: view.number("search.tolerance_pct"),
+                certify: Certify::from_word(view.word("search.certify")),
+                max_gap_pct: view.number("search.max_gap_pct"),
+            },
+            output: OutputSettings {
+                keep_histories: match view.word("output.keep_histories") {
+                    "none" => KeepHistories::None,
+                    "all" => KeepHistories::All,
+                    _ => KeepHistories::Bracket,
+                },
+                checkpoint_s: view.si("output.checkpoint_s"),
+            },
+            start_s: view.si("pulse.start_ms"),
+            effects: if view.word("solver.effects") == "full" {
+                Effects::Full
+            } else {
+                Effects::Auto
+            },
+            leave_out: view.words("solver.leave_out").to_vec(),
+            digest: resolved::digest(&settings),
+            remarks,
+            overrides,
+            path: location.file,
+            text: source.text.clone(),
+            settings,
+        })
+    }
+
+    /// Text of the smallest useful study, for `opshock new`.
+    pub fn example(name: &str) -> String {
+        example::text(name)
+    }
+
+    /// Every setting with its default, as a study file that reads back to the same study.
+    pub fn resolved_toml(&self) -> String {
+        resolved::text(&self.settings)
+    }
+
+    /// The digest in hexadecimal digits.
+    pub fn digest_hex(&self) -> String {
+        self.digest
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
+    }
+
+    /// Whether some output needs film, slider and suspension.
+    pub fn needs_head(&self) -> bool {
+        self.outputs
+            .iter()
+            .any(|output| validity::needs_head(output))
+    }
+
+    /// Positions in [`Study::points`] in the order of tables: further axes, ramps, signs, widths
+    /// ascending.
+    pub fn table_order(&self) -> Vec<usize> {
+        points::table_order(&self.points, &self.axes)
+    }
+
+    /// Warnings whose code is not among the accepted ones; they stop a batch run.
+    pub fn unaccepted(&self, accepted: &[String]) -> Vec<&StudyError> {
+        self.remarks
+            .iter()
+            .filter(|remark| remark.severity() == Severity::Warning)
+            .filter(|remark| !accepted.iter().any(|code| code.trim() == remark.code))
+            .collect()
+    }
+}
+
+/// Checks a number of worker threads.
+///
+/// # Errors
+/// E185 unless 1 to 4096.
+pub fn check_threads(threads: i64) -> Result<usize, Box<StudyError>> {
+    match usize::try_from(threads) {
+        Ok(count @ 1..=4096) => Ok(count),
+        _ => Err(Box::new(
+            StudyError::in_file("E185", "-j", "the number of threads is out of range")
+                .value(threads.to_string())
+                .allowed("1 to 4096")
+                .hint("leave -j out to use every core"),
+        )),
+    }
+}

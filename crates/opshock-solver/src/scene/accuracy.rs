@@ -1,0 +1,63 @@
+//! Named accuracy rungs: the one table of resolutions behind `accuracy = "5%" | "1%" | "0.1%"`.
+//!
+//! A rung fixes every knob that trades time for accuracy. The values come from work-precision
+//! runs on the critical shock; a scene may override each of them.
+
+use super::{Coupling, HeadResolution};
+use crate::air_bearing::FilmResolution;
+use crate::disk::DiskResolution;
+use crate::structure::StructureResolution;
+
+/// A named accuracy of the critical shock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rung {
+    /// 5 %.
+    FivePercent,
+    /// 1 %, the default.
+    OnePercent,
+    /// 0.1 %.
+    TenthPercent,
+}
+
+/// The resolutions of every stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resolutions {
+    /// Disk.
+    pub disk: DiskResolution,
+    /// Disk and ramp in contact.
+    pub structure: StructureResolution,
+    /// Film.
+    pub film: FilmResolution,
+    /// Head.
+    pub head: HeadResolution,
+}
+
+/// Resolutions of a rung.
+pub fn resolutions(rung: Rung) -> Resolutions {
+    let (cut_hz, step_s, cells, tolerance) = match rung {
+        Rung::FivePercent => (20e3, 1.0e-6, 1000, 4.0e-3),
+        Rung::OnePercent => (30e3, 0.5e-6, 2000, 1.0e-3),
+        Rung::TenthPercent => (80e3, 0.1e-6, 8000, 1.0e-4),
+    };
+    Resolutions {
+        disk: DiskResolution {
+            n_harmonics: 40,
+            cut_hz,
+            n_elements: 40,
+            static_correction: true,
+        },
+        structure: StructureResolution { step_s },
+        film: FilmResolution {
+            cells,
+            floor_m: 0.3e-9,
+        },
+        head: HeadResolution {
+            tolerance,
+            approach_share: 0.25,
+            suspension_modes: 4,
+            coupling: Coupling::Monolithic,
+            coupling_tolerance: 1.0e-6,
+            max_steps: 2_000_000,
+        },
+    }
+}

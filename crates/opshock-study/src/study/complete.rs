@@ -1,0 +1,466 @@
+//! Completing what a study file says: choices, the surface's base, tables, defaults, and what is
+//! missing.
+
+use std::path::{Path, PathBuf};
+
+use super::fault::StudyError;
+use super::key::Presence;
+use super::keys::{CHOICES, KEYS};
+use super::read::Reader;
+use super::settings::{Datum, Setting};
+use super::source::{self, Origin, Place, Source};
+use super::tree::{self, Node, Value};
+use super::{samples, surfaces, unit};
+
+/// Where a study stands: its file, and the folder its file paths start from.
+#[derive(Clone, Debug)]
+pub struct Location {
+    /// The study file as named by the user.
+    pub file: PathBuf,
+    /// The folder of relative paths.
+    pub folder: PathBuf,
+}
+
+/// Completes the settings read from a file and the command line. `root` is the merged tree.
+pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
+    settle_choices(reader);
+    surface_base(reader, location);
+    pulse_table(reader, location);
+    defaults(reader);
+    missing(reader, root);
+}
+
+/// Of keys that exclude each other, those of the command line stay.
+fn settle_choices(reader: &mut Reader) {
+    // The general clearance from the command line replaces the special ones of the file.
+    let is_set = |reader: &Reader, path: &str| {
+        reader
+            .settings
+            .get(path)
+            .is_some_and(|setting| matches!(setting.origin(), Origin::Set(_)))
+    };
+    if is_set(reader, "ramp.clearance_um") {
+        for side in ["ramp.clearance_top_um", "ramp.clearance_bottom_um"] {
+            if !is_set(reader, side) {
+                reader.settings.remove(side);
+            }
+        }
+    }
+    for choice in CHOICES {
+        let given: Vec<&[&str]> = choice
+            .alternatives
+            .iter()
+            .copied()
+            .filter(|paths| paths.iter().any(|path| reader.settings.has(path)))
+            .collect();
+        if given.len() < 2 {
+            continue;
+        }
+        let from_set: Vec<bool> = given
+            .iter()
+            .map(|paths| paths.iter().any(|path| is_set(reader, path)))
+            .collect();
+        if from_set.iter().filter(|set| **set).count() == 1 {
+            for (paths, set) in given.iter().zip(from_set) {
+                if !set {
+                    paths.iter().for_each(|path| reader.settings.remove(path));
+                }
+            }
+            continue;
+        }
+        let mut paths: Vec<&str> = given
+            .iter()
+            .flat_map(|paths| paths.iter().copied())
+            .filter(|path| reader.settings.has(path))
+            .collect();
+        paths.sort_by_key(|path| {
+            reader
+                .settings
+                .get(path)
+                .map(|setting| setting.key_place.span.start)
+        });
+        if let Some(last) = paths.last().copied()
+            && let Some(setting) = reader.settings.get(last)
+        {
+            let fault = StudyError::at(
+                "E115",
+                &setting.key_place,
+                last,
+                format!("{} is given twice: {}", choice.what, paths.join(" and ")),
+            )
+            .value(setting.place.text())
+            .allowed("one of the two")
+            .hint("leave one out");
+            reader.errors.push(fault);
+        }
+    }
+}
+
+/// Reads preset or file under what the study says about the surface itself.
+fn surface_base(reader: &mut Reader, location: &Location) {
+    const PREFIX: &str = "slider.surface";
+    let text_of = |reader: &Reader, path: &str| match reader
+        .settings
+        .get(path)
+        .map(|s| (&s.values[0], s.place.clone()))
+    {
+        Some((Datum::Word(text) | Datum::Text(text), place)) => Some((text.clone(), place)),
+        _ => None,
+    };
+    if let Some((file, place)) = text_of(reader, "slider.surface.file") {
+        if let Some(source) = open_named(reader, location, "slider.surface.file", &file, &place) {
+            match tree::parse(&source, Origin::Included) {
+                Err(faults) => {
+                    reader.errors.extend(faults);
+                    reader.settings.spoil(PREFIX);
+                }
+                Ok(node) => {
+                    if let Some(inner) = node.get("file").or(node.get("preset")) {
+                        let fault = StudyError::at(
+                            "E106",
+                            &inner.key_place,
+                            "slider.surface.file",
+                            format!(
+                                "a surface file cannot name another one: {} -> {} -> {}",
+                                location.file.display(),
+                                source.name,
+                                inner.place.text()
+                            ),
+                        )
+                        .value(inner.place.text())
+                        .allowed("the surface itself: base_recess_um, crown_nm, [[rail]], ...");
+                        reader.spoil(PREFIX, fault);
+                    } else {
+                        reader.table(&node, PREFIX, PREFIX);
+                    }
+                }
+            }
+        }
+        return;
+    }
+    let preset = match text_of(reader, "slider.surface.preset") {
+        Some((name, _)) => Some(name),
+        None if reader.settings.has("slider.surface.rail")
+            || !reader.settings.are_sound(&[PREFIX]) =>
+        {
+            None
+        }
+        None => Some("femto-2.5in".to_string()),
+    };
+    if let Some(name) = preset
+        && let Some(text) = surfaces::text(&name)
+        && let Ok(node) = tree::parse(&Source::new(format!("preset {name}"), text), Origin::Preset)
+    {
+        reader.table(&node, PREFIX, PREFIX);
+    }
+}
+
+/// Reads the file of a sampled pulse into the two lists that may also be given directly.
+fn pulse_table(reader: &mut Reader, location: &Location) {
+    let Some(setting) = reader.settings.get("pulse.table").cloned() else {
+        return;
+    };
+    let Datum::Text(file) = &setting.values[0] else {
+        return;
+    };
+    let Some(source) = open_named(reader, location, "pulse.table", file, &setting.place) else {
+        return;
+    };
+    match samples::read(&source) {
+        Err(faults) => {
+            reader.errors.extend(faults);
+            reader.settings.spoil("pulse.table");
+        }
+        Ok(samples) => {
+            let place = Place {
+                span: 0..source.text.len(),
+                source,
+                origin: Origin::Included,
+            };
+            for (path, numbers) in [
+                ("pulse.table_time_ms", samples.time_ms),
+                ("pulse.table_relative", samples.relative),
+            ] {
+                reader.settings.put(
+                    path.to_string(),
+                    Setting {
+                        values: vec![Datum::Numbers(numbers)],
+                        is_axis: false,
+                        place: place.clone(),
+                        key_place: setting.key_place.clone(),
+                        value_places: Vec::new(),
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// Opens a file a study names; its path starts from the study's folder.
+fn open_named(
+    reader: &mut Reader,
+    location: &Location,
+    key: &str,
+    file: &str,
+    place: &Place,
+) -> Option<std::sync::Arc<Source>> {
+    let path = location.folder.join(file);
+    let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    if same(&path, &location.file) {
+        let fault = StudyError::at(
+            "E106",
+            place,
+            key,
+            format!(
+                "the study names itself: {} -> {}",
+                location.file.display(),
+                path.display()
+            ),
+        )
+        .value(place.text())
+        .allowed("another file");
+        reader.spoil(key, fault);
+        return None;
+    }
+    match source::read_text(&path) {
+        Ok(text) => Some(Source::new(path.display().to_string(), text)),
+        Err(fault) => {
+            let named = StudyError::at(
+                fault.code,
+                place,
+                key,
+                format!("{}: {}", fault.file, fault.message),
+            )
+            .value(place.text())
+            .allowed(fault.allowed.clone())
+            .hint(if fault.hint.is_empty() || fault.code == "E105" {
+                "file paths start from the study's folder".to_string()
+            } else {
+                fault.hint.clone()
+            });
+            reader.spoil(key, named);
+            None
+        }
+    }
+}
+
+/// Fills in what the study leaves out.
+fn defaults(reader: &mut Reader) {
+    let unchosen = |reader: &Reader, path: &str| {
+        CHOICES.iter().any(|choice| {
+            choice.alternatives.iter().any(|paths| {
+                !paths.contains(&path)
+                    && paths
+                        .iter()
+                        .any(|other| reader.settings.has(other) || reader.settings.is_spoilt(other))
+            }) && choice
+                .alternatives
+                .iter()
+                .any(|paths| paths.contains(&path))
+        })
+    };
+    let partner_given = |reader: &Reader, path: &str| {
+        CHOICES
+            .iter()
+            .flat_map(|choice| choice.alternatives)
+            .any(|paths| {
+                paths.contains(&path)
+                    && paths.iter().any(|other| {
+                        *other != path
+                            && (reader.settings.is_spoilt(other)
+                                || reader
+                                    .settings
+                                    .get(other)
+                                    .is_some_and(|s| s.origin() != Origin::Default))
+                    })
+            })
+    };
+    for key in KEYS.iter().filter(|key| !key.path.contains("[]")) {
+        let absent = !reader.settings.has(key.path);
+        match key.presence {
+            Presence::Default(literal) if absent => reader.literal(key, key.path, literal),
+            Presence::Together(literal) if absent && !unchosen(reader, key.path) => {
+                if !reader.settings.is_spoilt(key.path) && partner_given(reader, key.path) {
+                    continue;
+                }
+                reader.literal(key, key.path, literal);
+            }
+            // A required key whose value cannot be used keeps its example for the other checks.
+            Presence::Required if absent && reader.settings.is_spoilt(key.path) => {
+                reader.literal(key, key.path, key.example);
+            }
+            _ => {}
+        }
+    }
+    // Entries of lists of tables whose value cannot be used: as above.
+    let spoilt: Vec<(String, &'static super::key::Key)> = entry_paths(reader)
+        .into_iter()
+        .filter(|(path, key)| {
+            key.presence == Presence::Required
+                && !reader.settings.has(path)
+                && !reader.settings.are_sound(&[path.as_str()])
+        })
+        .collect();
+    for (path, key) in spoilt {
+        reader.literal(key, &path, key.example);
+    }
+}
+
+/// Every member of every entry of every list of tables that is set.
+fn entry_paths(reader: &Reader) -> Vec<(String, &'static super::key::Key)> {
+    let mut paths = Vec::new();
+    for key in KEYS {
+        let Some((list, member)) = key.path.split_once("[].") else {
+            continue;
+        };
+        if let Some(Setting { values, .. }) = reader.settings.get(list)
+            && let Some(Datum::Entries(count)) = values.first()
+        {
+            paths.extend((0..*count).map(|position| (format!("{list}[{position}].{member}"), key)));
+        }
+    }
+    paths
+}
+
+/// One E112 for everything that must be given and is not.
+fn missing(reader: &mut Reader, root: &Node) {
+    let mut absent: Vec<(String, &'static super::key::Key)> = KEYS
+        .iter()
+        .filter(|key| !key.path.contains("[]"))
+        .filter(|key| matches!(key.presence, Presence::Required))
+        .map(|key| (key.path.to_string(), key))
+        .chain(
+            entry_paths(reader)
+                .into_iter()
+                .filter(|(_, key)| key.presence == Presence::Required),
+        )
+        .filter(|(path, _)| !reader.settings.has(path))
+        .filter(|(path, _)| {
+            // Nothing is known about the members of a table that is no table.
+            let mut above = path.as_str();
+            loop {
+                if reader.settings.is_spoilt(above) {
+                    return false;
+                }
+                match above.rfind(['.', '[']) {
+                    Some(cut) => above = &above[..cut],
+                    None => return true,
+                }
+            }
+        })
+        .collect();
+    for choice in CHOICES {
+        for paths in choice.alternatives {
+            let given = paths
+                .iter()
+                .any(|path| reader.settings.has(path) || reader.settings.is_spoilt(path));
+            if given {
+                let gone = paths
+                    .iter()
+                    .filter(|path| !reader.settings.has(path) && !reader.settings.is_spoilt(path));
+                absent.extend(
+                    gone.filter_map(|path| {
+                        super::keys::find(path).map(|key| (path.to_string(), key))
+                    }),
+                );
+            }
+        }
+    }
+    let mut rails = Vec::new();
+    for (path, setting) in reader.settings.iter() {
+        let Some(rail) = path
+            .strip_suffix(".kind")
+            .filter(|rail| rail.starts_with("slider.surface.rail["))
+        else {
+            continue;
+        };
+        let needed: &[&str] = match &setting.values[0] {
+            Datum::Word(word) if word == "polygon" => &["points_um"],
+            _ => &["x_um", "y_um"],
+        };
+        for name in needed {
+            let member = format!("{rail}.{name}");
+            if !reader.settings.has(&member)
+                && !reader.settings.is_spoilt(&member)
+                && let Some(key) = super::keys::find(&member)
+            {
+                rails.push((member, key));
+            }
+        }
+    }
+    absent.extend(rails);
+    if absent.is_empty() {
+        return;
+    }
+    let place = nearest_place(reader, root, &absent[0].0);
+    let list: Vec<String> = absent
+        .iter()
+        .map(|(path, key)| {
+            let unit = unit::of_path(path)
+                .map(|unit| format!(" in {}", unit.symbol))
+                .unwrap_or_default();
+            format!(
+                "{path}{unit}, for example {} = {}",
+                key.name(),
+                key.example()
+            )
+        })
+        .collect();
+    let names: Vec<&str> = absent.iter().map(|(path, _)| path.as_str()).collect();
+    let fault = StudyError::at(
+        "E112",
+        &place,
+        &names.join(", "),
+        format!(
+            "missing {}: {}",
+            if names.len() == 1 { "key" } else { "keys" },
+            list.join("; ")
+        ),
+    )
+    .allowed(
+        absent
+            .iter()
+            .map(|(_, key)| key.kind.allowed())
+            .collect::<Vec<_>>()
+            .join("; "),
+    )
+    .hint("`opshock new` prints the smallest valid study");
+    reader.errors.push(fault);
+    for (path, key) in &absent {
+        reader.settings.spoil(path);
+        reader.literal(key, path, key.example());
+    }
+}
+
+/// Place of the innermost table on the way to `path` that the study has.
+fn nearest_place(reader: &Reader, root: &Node, path: &str) -> Place {
+    if let Some((list, rest)) = path.split_once('[')
+        && let Some(setting) = reader.settings.get(list)
+        && let Some(position) = rest
+            .split(']')
+            .next()
+            .and_then(|digits| digits.parse().ok())
+        && let Some(place) = setting.value_places.get::<usize>(position)
+    {
+        return place.clone();
+    }
+    let mut here = root;
+    for name in path.split('.') {
+        match here.get(name) {
+            Some(node) if matches!(node.value, Value::Table(_)) => here = node,
+            _ => break,
+        }
+    }
+    let mut place = if std::ptr::eq(here, root) {
+        root.place.clone()
+    } else {
+        here.key_place.clone()
+    };
+    if std::ptr::eq(here, root) {
+        place.span = 0..0;
+    }
+    place
+}

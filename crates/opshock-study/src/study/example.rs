@@ -1,0 +1,38 @@
+//! The study `opshock new` writes.
+
+/// A short, valid study with a name.
+pub fn text(name: &str) -> String {
+    // Quotes, backslashes and control characters would end or break the TOML string.
+    let name: String = name
+        .chars()
+        .filter(|c| !c.is_control() && !"\"\\/".contains(*c))
+        .collect();
+    let name = if name.trim().is_empty() {
+        "new study"
+    } else {
+        name.trim()
+    };
+    format!(
+        r#"# How hard may this drive be hit before the slider touches the disk?
+# Everything left out has a default; `opshock check` lists it, `opshock schema` explains it.
+
+study_format = 1
+name = "{name}"
+
+[pulse]
+widths_ms = [0.5, 1.0, 2.0]
+signs = ["+", "-"]
+
+[ramp]
+models = ["none", "rigid", "deformable"]
+clearance_um = 100.0
+
+[disk]
+rpm = 5400.0
+
+[search]
+amplitude_g = {{ min = 20.0, max = 2000.0 }}
+tolerance_pct = 1.0
+"#
+    )
+}

@@ -1,0 +1,285 @@
+//! The table of keys: everything a study file may say, in the order it is written out.
+//!
+//! Reading, messages, defaults, the JSON Schema, `study.resolved.toml` and the digest all come
+//! from this table and from nothing else. The defaults describe one robust 2.5-inch drive (the
+//! set of `studies/drive-2.5in`), so that a short study is a valid one.
+//!
+//! Sources of the default drive: disk, ramp place, ramp clearance: sample data of the CMLAir 8.01
+//! user manual (Mardan and Bogy, 2011). Suspension and air-bearing surface: opshock's own designs.
+
+use super::key::{ABOVE_ZERO, ANY, Choice, FROM_ZERO, Key, Kind, above, below, closed, open};
+use Kind::{
+    Axis, Flag, Integer, Number, NumberOrWord, Numbers, Pair, Points, Tables, Text, Word, Words,
+};
+
+/// Pulse shapes.
+pub const SHAPES: &[&str] = &[
+    "half_sine",
+    "haversine",
+    "square",
+    "trapezoid",
+    "damped_sine",
+    "table",
+];
+/// Ramp models, in canonical order.
+pub const RAMPS: &[&str] = &["none", "rigid", "deformable"];
+/// Signs, in canonical order.
+pub const SIGNS: &[&str] = &["+", "-"];
+/// Accuracy rungs.
+pub const RUNGS: &[&str] = &["5%", "1%", "0.1%"];
+/// Rarefaction models.
+pub const FLOWS: &[&str] = &["fukui_kaneko", "continuum", "slip_1", "slip_2"];
+/// Coupling schemes.
+pub const COUPLINGS: &[&str] = &["monolithic", "fixed_point", "aitken", "anderson"];
+/// Outputs that disk and ramp alone give.
+pub const STRUCTURE_OUTPUTS: &[&str] = &["disk_displacement", "ramp_displacement", "contact_force"];
+/// Every output.
+pub const OUTPUTS: &[&str] = &[
+    "critical_shock",
+    "min_clearance",
+    "slider_attitude",
+    "bearing_force",
+    "dimple_force",
+    "disk_displacement",
+    "ramp_displacement",
+    "contact_force",
+];
+/// Effects that can be left out by hand.
+pub const LEAVE_OUT: &[&str] = &["air_bearing"];
+/// Named surfaces.
+pub const SURFACES: &[&str] = &["femto-2.5in"];
+
+const RATIO: Kind = Number(FROM_ZERO);
+const LENGTH: Kind = Number(ABOVE_ZERO);
+
+/// The table.
+pub static KEYS: &[Key] = &[
+    Key::required("study_format", Integer(1, 1), "1", "Version of the study file's format."),
+    Key::required("name", Text, "\"Fig. 13: three ramp models\"", "Name of the study, printed on every product."),
+    Key::or("outputs", Words(OUTPUTS), "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158"),
+    // pulse
+    Key::or("pulse.shape", Word(SHAPES), "\"half_sine\"", "Shape of the acceleration pulse."),
+    Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.")
+        .usual(0.05, 100.0).code("E150"),
+    Key::or("pulse.signs", Words(SIGNS), "[\"+\", \"-\"]", "Signs of the shock: + moves the disk towards the slider first."),
+    Key::or("pulse.start_ms", Number(FROM_ZERO), "0.5", "Onset of the pulse on the time axis of every output.").usual(0.0, 1000.0).code("E150"),
+    Key::or("pulse.window_ms", NumberOrWord(ABOVE_ZERO, &["until_decayed"]), "5.0", "Simulated time after the onset.")
+        .usual(0.1, 500.0).code("E152"),
+    Key::or("pulse.decay_share", Number(open(0.0, 1.0)), "0.01", "Share of the peak energy of disk and ramp that ends the window until_decayed.").code("E152"),
+    Key::or("pulse.window_max_ms", Number(ABOVE_ZERO), "50.0", "Longest window until_decayed.").usual(0.1, 5000.0).code("E152"),
+    Key::or("pulse.rise_share", Number(above(0.0, 0.5)), "0.1", "Share of the width in which a trapezoid rises, and again falls.").code("E150"),
+    Key::or("pulse.frequency_hz", Number(ABOVE_ZERO), "1000.0", "Frequency of a damped sine.").usual(10.0, 1e5).code("E150"),
+    Key::or("pulse.decay_per_s", Number(FROM_ZERO), "500.0", "Decay rate of a damped sine.").usual(0.0, 1e6).code("E150"),
+    Key::optional("pulse.table", Text, "no table", "\"pulse.csv\"", "File of a sampled pulse, two columns: time in ms from 0, relative acceleration. Stretched to the width, scaled to a largest value of 1."),
+    Key::optional("pulse.table_time_ms", Numbers(FROM_ZERO), "no table", "[0.0, 0.5, 1.0]", "Times of a sampled pulse given here instead of in a file.").code("E153"),
+    Key::optional("pulse.table_relative", Numbers(ANY), "no table", "[0.0, 1.0, 0.0]", "Relative accelerations of a sampled pulse.").code("E153"),
+    // disk
+    Key::or("disk.inner_radius_mm", LENGTH, "10.01", "Radius of the clamp.").usual(2.0, 30.0).code("E140"),
+    Key::or("disk.outer_radius_mm", LENGTH, "32.5", "Radius of the rim.").usual(8.0, 70.0).code("E140"),
+    Key::or("disk.thickness_mm", LENGTH, "0.635", "Thickness.").usual(0.1, 3.0),
+    Key::or("disk.youngs_modulus_gpa", LENGTH, "75.0", "Young's modulus.").usual(10.0, 700.0),
+    Key::or("disk.poisson", Number(open(-1.0, 0.5)), "0.3", "Poisson's ratio.").usual(0.0, 0.45).code("E131"),
+    Key::or("disk.density_kg_per_m3", LENGTH, "2710.0", "Density.").usual(1000.0, 12000.0),
+    Key::or("disk.rpm", Number(FROM_ZERO), "5400.0", "Speed of rotation; 0 only for studies without the air bearing.").usual(500.0, 25000.0).code("E133"),
+    Key::together("disk.damping.rayleigh.alpha_per_s", Number(FROM_ZERO), "25.0", "Material damping, share of the mass matrix, in the rotating frame.").usual(0.0, 1000.0).code("E132"),
+    Key::together("disk.damping.rayleigh.beta_s", Number(FROM_ZERO), "1.0e-7", "Material damping, share of the stiffness matrix, in the rotating frame.").usual(0.0, 1e-4).code("E132"),
+    Key::optional("disk.damping.modal_ratio", RATIO, "Rayleigh damping", "0.004", "The same damping ratio for every mode of the disk, in the rotating frame.").code("E132"),
+    Key::or("disk.space_fixed_damping_per_s", Number(FROM_ZERO), "0.0", "Damping fixed in space (air): force per mass and velocity.").usual(0.0, 1000.0).code("E132"),
+    // ramp
+    Key::required("ramp.models", Words(RAMPS), "[\"none\", \"rigid\", \"deformable\"]", "Ramp models: an axis of the study."),
+    Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("ramp.clearance_top_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance above the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("ramp.clearance_bottom_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance below the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
+    Key::or("ramp.radius_mm", LENGTH, "32.15", "Radius of the contact points.").usual(5.0, 70.0).code("E141"),
+    Key::or("ramp.angle_deg", Number(closed(-360.0, 360.0)), "0.0", "Angle of the contact points in the disk's sense of rotation."),
+    Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact."),
+    Key::or("ramp.deformable.modes", Tables, "[{ frequency_hz = 888.0, mass_mg = 57.9, participation = 0.199 }, { frequency_hz = 17500.0, mass_mg = 35.1, participation = 0.789 }]", "Modes of each arm, scaled to 1 at the contact point; both arms alike.").code("E135"),
+    Key::required("ramp.deformable.modes[].frequency_hz", LENGTH, "888.0", "Undamped natural frequency.").usual(10.0, 1e6),
+    Key::required("ramp.deformable.modes[].mass_mg", LENGTH, "57.9", "Modal mass.").usual(0.01, 1e5),
+    Key::required("ramp.deformable.modes[].participation", Number(ANY), "0.199", "Base participation: inertia load = mass x participation x acceleration.").usual(-5.0, 5.0),
+    Key::optional("ramp.deformable.modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132"),
+    Key::optional("ramp.deformable.bottom_modes", Tables, "as modes", "[{ frequency_hz = 888.0, mass_mg = 57.9, participation = 0.199 }]", "Modes of the bottom arm, when the arms differ.").code("E135"),
+    Key::required("ramp.deformable.bottom_modes[].frequency_hz", LENGTH, "888.0", "Undamped natural frequency.").usual(10.0, 1e6),
+    Key::required("ramp.deformable.bottom_modes[].mass_mg", LENGTH, "57.9", "Modal mass.").usual(0.01, 1e5),
+    Key::required("ramp.deformable.bottom_modes[].participation", Number(ANY), "0.199", "Base participation: inertia load = mass x participation x acceleration.").usual(-5.0, 5.0),
+    Key::optional("ramp.deformable.bottom_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132"),
+    Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132"),
+    // slider
+    Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0),
+    Key::or("slider.angle_deg", Number(closed(-360.0, 360.0)), "7.0", "Angle of the slider's centre in the disk's sense of rotation, measured as the ramp's."),
+    Key::or("slider.skew_deg", Number(open(-90.0, 90.0)), "0.0", "Angle between the disk's velocity and the slider's length, positive towards the outer side.").usual(-30.0, 30.0),
+    Key::or("slider.length_mm", LENGTH, "0.85", "Length, leading to trailing edge.").usual(0.2, 5.0),
+    Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0),
+    Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5),
+    Key::or("slider.density_kg_per_m3", LENGTH, "4300.0", "Density.").usual(1000.0, 10000.0),
+    Key::optional("slider.surface.preset", Word(SURFACES), "a file, rails given here, or femto-2.5in", "\"femto-2.5in\"", "A named air-bearing surface."),
+    Key::optional("slider.surface.file", Text, "no file", "\"surface.toml\"", "File of the air-bearing surface, beside the study."),
+    Key::or("slider.surface.base_recess_um", Number(FROM_ZERO), "1.5", "Recess of everything no rail covers.").usual(0.1, 10.0).code("E145"),
+    Key::or("slider.surface.crown_nm", Number(ANY), "15.0", "Rise of the middle over the ends.").usual(-100.0, 100.0),
+    Key::or("slider.surface.camber_nm", Number(ANY), "2.0", "Rise of the middle over the sides.").usual(-100.0, 100.0),
+    Key::or("slider.surface.twist_nm", Number(ANY), "0.0", "Twist.").usual(-100.0, 100.0),
+    Key::or("slider.surface.taper_length_um", Number(FROM_ZERO), "0.0", "Length of the taper at the leading edge; 0 for none.").usual(0.0, 1000.0).code("E145"),
+    Key::or("slider.surface.taper_angle_deg", Number(below(0.0, 45.0)), "0.0", "Angle of the taper at the leading edge.").usual(0.0, 5.0).code("E145"),
+    Key::optional("slider.surface.rail", Tables, "the rails of preset or file", "[{ kind = \"rect\", x_um = [20, 170], y_um = [30, 670], recess_um = 0.25 }]", "Rails; later ones overwrite earlier ones.").code("E135"),
+    Key::required("slider.surface.rail[].kind", Word(&["rect", "polygon"]), "\"rect\"", "Shape of the rail's outline."),
+    Key::optional("slider.surface.rail[].x_um", Pair(ANY), "a polygon", "[20, 170]", "Range along the length, from the leading edge.").code("E144"),
+    Key::optional("slider.surface.rail[].y_um", Pair(ANY), "a polygon", "[30, 670]", "Range across, from the inner edge.").code("E144"),
+    Key::optional("slider.surface.rail[].points_um", Points, "a rectangle", "[[20, 30], [170, 30], [170, 670]]", "Corners of a polygon.").code("E144"),
+    Key::required("slider.surface.rail[].recess_um", Number(FROM_ZERO), "0.25", "Recess of the rail from the reference plane.").usual(0.0, 10.0).code("E145"),
+    // suspension
+    Key::or("suspension.gram_load_gf", LENGTH, "2.2", "Load at the slider's centre.").usual(0.1, 20.0),
+    Key::or("suspension.hinge.length_mm", LENGTH, "1.3", "Length of the hinge.").usual(0.1, 10.0),
+    Key::or("suspension.hinge.width_mm", LENGTH, "1.8", "Width of the hinge.").usual(0.1, 20.0),
+    Key::or("suspension.hinge.thickness_um", LENGTH, "40.0", "Thickness of the hinge.").usual(5.0, 200.0),
+    Key::or("suspension.load_beam.dimple_mm", LENGTH, "10.5", "Dimple, from the root of the hinge.").usual(2.0, 40.0),
+    Key::or("suspension.load_beam.end_mm", LENGTH, "11.8", "End of the tab, from the root of the hinge.").usual(2.0, 50.0),
+    Key::or("suspension.load_beam.web_um", LENGTH, "28.0", "Thickness of the web.").usual(5.0, 200.0),
+    Key::or("suspension.load_beam.width_root_mm", LENGTH, "3.8", "Width where the load beam meets the hinge.").usual(0.2, 20.0),
+    Key::or("suspension.load_beam.width_dimple_mm", LENGTH, "1.2", "Width at the dimple.").usual(0.1, 10.0),
+    Key::or("suspension.load_beam.tab_width_mm", LENGTH, "0.6", "Width of the tab.").usual(0.05, 10.0),
+    Key::or("suspension.flange.height_um", Number(FROM_ZERO), "140.0", "Height of the flanges on both sides.").usual(0.0, 1000.0),
+    Key::or("suspension.flange.from_mm", Number(FROM_ZERO), "1.9", "Start of the flanges, from the root of the hinge.").usual(0.0, 40.0),
+    Key::or("suspension.flange.to_mm", LENGTH, "9.6", "End of the flanges, from the root of the hinge.").usual(0.5, 40.0),
+    Key::or("suspension.flexure.mass_mg", Number(FROM_ZERO), "0.9", "Mass of the flexure, smeared evenly over the beam.").usual(0.0, 50.0),
+    Key::or("suspension.flexure.from_mm", Number(FROM_ZERO), "1.0", "Start of the smeared mass, from the root of the hinge; it ends with the beam.").usual(0.0, 40.0),
+    Key::or("suspension.material.youngs_modulus_gpa", LENGTH, "193.0", "Young's modulus.").usual(10.0, 700.0),
+    Key::or("suspension.material.shear_modulus_gpa", LENGTH, "74.0", "Shear modulus.").usual(5.0, 300.0),
+    Key::or("suspension.material.density_kg_per_m3", LENGTH, "7900.0", "Density.").usual(1000.0, 12000.0),
+    Key::or("suspension.damping_ratio", RATIO, "0.02", "Damping ratio of every mode of the suspension.").code("E132"),
+    Key::or("suspension.gimbal.vertical_n_per_m", LENGTH, "15.0", "Stiffness of the gimbal, vertical.").usual(0.1, 1e5),
+    Key::or("suspension.gimbal.pitch_n_m_per_rad", LENGTH, "6.0e-5", "Stiffness of the gimbal, pitch.").usual(1e-7, 1e-2),
+    Key::or("suspension.gimbal.roll_n_m_per_rad", LENGTH, "2.5e-5", "Stiffness of the gimbal, roll.").usual(1e-7, 1e-2),
+    Key::or("suspension.dimple.stiffness_n_per_m", LENGTH, "5.0e5", "Stiffness of the closed dimple contact.").usual(1e3, 1e8),
+    Key::or("suspension.dimple.damping_ratio", RATIO, "0.05", "Damping ratio of the closed dimple contact, on the slider's mass.").code("E132"),
+    // gas
+    Key::optional("gas.pressure_pa", LENGTH, "101325 Pa, or from altitude_m", "101325.0", "Ambient pressure.").usual(2e4, 2e5),
+    Key::optional("gas.altitude_m", Number(closed(-5000.0, 11000.0)), "sea level", "3000.0", "Altitude: pressure of the standard atmosphere.").usual(-500.0, 6000.0),
+    Key::optional("gas.temperature_c", Number(open(-100.0, 500.0)), "18.45 degrees, where the viscosity is 1.806e-5 Pa s", "25.0", "Temperature: viscosity by Sutherland's law, and mean free path.").usual(-40.0, 100.0),
+    Key::optional("gas.viscosity_pa_s", LENGTH, "from the temperature", "1.806e-5", "Dynamic viscosity.").usual(1e-6, 1e-4),
+    Key::optional("gas.mean_free_path_nm", LENGTH, "63.5 nm scaled with viscosity, pressure and temperature", "63.5", "Mean free path at the ambient pressure.").usual(5.0, 500.0),
+    Key::or("gas.model", Word(FLOWS), "\"fukui_kaneko\"", "Rarefaction model of the film."),
+    // search
+    Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156"),
+    Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156"),
+    Key::or("search.tolerance_pct", Number(closed(1e-6, 50.0)), "1.0", "Width of the final bracket.").usual(0.01, 20.0).code("E156"),
+    Key::or("search.certify", Word(&["staggered", "off", "full"]), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
+    Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156"),
+    // solver
+    Key::or("solver.accuracy", Word(RUNGS), "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157"),
+    Key::or("solver.effects", Word(&["auto", "full"]), "\"auto\"", "auto simulates only what the outputs need."),
+    Key::or("solver.leave_out", Words(LEAVE_OUT), "[]", "Effects left out by hand; refused when an output needs them."),
+    Key::rung("solver.coupling", Word(COUPLINGS), "\"monolithic\"", "How film and slider are solved together."),
+    Key::or("solver.fail_below_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0),
+    Key::rung("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided."),
+    Key::rung("solver.disk_cut_khz", LENGTH, "30.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0),
+    Key::rung("solver.disk_harmonics", Integer(1, 2000), "40", "Largest number of nodal diameters."),
+    Key::rung("solver.disk_elements", Integer(2, 5000), "40", "Radial finite elements of the disk."),
+    Key::rung("solver.static_correction", Flag, "true", "Adds the residual flexibility of the ramp point."),
+    Key::rung("solver.structure_step_us", LENGTH, "0.5", "Step on which disk and ramp are stored and contact is resolved.").usual(1e-3, 20.0),
+    Key::rung("solver.head_tolerance", Number(open(0.0, 1.0)), "1.0e-3", "Relative local error of the clearance per step.").usual(1e-9, 0.1),
+    Key::rung("solver.approach_share", Number(open(0.0, 1.0)), "0.25", "Largest share of the clearance closed in one step."),
+    Key::rung("solver.film_cells", Integer(16, 4_000_000), "2000", "Wanted number of film cells."),
+    Key::rung("solver.film_floor_nm", LENGTH, "0.3", "Floor of the height the film sees.").usual(0.01, 5.0),
+    Key::rung("solver.coupling_tolerance", Number(open(0.0, 0.1)), "1.0e-6", "Relative residual of the coupled solve.").usual(1e-12, 1e-2),
+    Key::rung("solver.suspension_modes", Integer(1, 200), "4", "Modes of the suspension kept above the pinned dimple."),
+    // output
+    Key::or("output.keep_histories", Word(&["bracket", "none", "all"]), "\"bracket\"", "Which time histories are stored."),
+    Key::or("output.checkpoint_s", Number(above(0.0, 86_400.0)), "30", "Time between two refreshes of results.h5.").usual(1.0, 3600.0),
+];
+
+/// Groups of keys of which only one alternative may be given.
+pub static CHOICES: &[Choice] = &[
+    Choice {
+        what: "the disk's damping",
+        alternatives: &[
+            &[
+                "disk.damping.rayleigh.alpha_per_s",
+                "disk.damping.rayleigh.beta_s",
+            ],
+            &["disk.damping.modal_ratio"],
+        ],
+    },
+    Choice {
+        what: "the sampled pulse",
+        alternatives: &[
+            &["pulse.table"],
+            &["pulse.table_time_ms", "pulse.table_relative"],
+        ],
+    },
+    Choice {
+        what: "the base of the surface",
+        alternatives: &[&["slider.surface.preset"], &["slider.surface.file"]],
+    },
+    Choice {
+        what: "the viscosity",
+        alternatives: &[&["gas.viscosity_pa_s"], &["gas.temperature_c"]],
+    },
+    Choice {
+        what: "the ambient pressure",
+        alternatives: &[&["gas.pressure_pa"], &["gas.altitude_m"]],
+    },
+];
+
+/// The key at a path; list positions (`modes[0]`) are ignored.
+pub fn find(path: &str) -> Option<&'static Key> {
+    let pattern = pattern(path);
+    KEYS.iter().find(|key| key.path == pattern)
+}
+
+/// Whether some key lies below a path.
+pub fn is_table(pattern: &str) -> bool {
+    KEYS.iter().any(|key| {
+        key.path
+            .strip_prefix(pattern)
+            .is_some_and(|rest| rest.starts_with('.'))
+    })
+}
+
+/// Names that may stand directly below a table, in table order; "" is the root.
+pub fn names_below(pattern: &str) -> Vec<&'static str> {
+    let mut names: Vec<&'static str> = Vec::new();
+    for key in KEYS {
+        let rest = if pattern.is_empty() {
+            Some(key.path)
+        } else {
+            key.path
+                .strip_prefix(pattern)
+                .and_then(|rest| rest.strip_prefix('.'))
+        };
+        let Some(rest) = rest else { continue };
+        let name = rest.split(['.', '[']).next().unwrap_or(rest);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Names of the sections.
+pub fn sections() -> Vec<&'static str> {
+    names_below("")
+        .into_iter()
+        .filter(|name| is_table(name))
+        .collect()
+}
+
+/// `ramp.deformable.modes[1].mass_mg` as the table writes it: `ramp.deformable.modes[].mass_mg`.
+pub fn pattern(path: &str) -> String {
+    let mut pattern = String::with_capacity(path.len());
+    let mut inside = false;
+    for letter in path.chars() {
+        match letter {
+            '[' => {
+                inside = true;
+                pattern.push('[');
+            }
+            ']' => {
+                inside = false;
+                pattern.push(']');
+            }
+            _ if inside => {}
+            _ => pattern.push(letter),
+        }
+    }
+    pattern
+}

@@ -1,0 +1,331 @@
+//! Axes and points, in the canonical order of the search and the natural order of tables.
+
+use std::collections::BTreeMap;
+
+use opshock_solver::scene::Scene;
+use opshock_solver::scene::accuracy::Rung;
+
+use super::fault::StudyError;
+use super::read::{self, MAX_POINTS};
+use super::scene;
+use super::settings::{Datum, Settings, View};
+use super::unit;
+use super::validity::Check;
+use super::words::{Ramp, Sign};
+use crate::identity::CellId;
+
+/// A value on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AxisValue {
+    /// Number, in the unit of the axis.
+    Number(f64),
+    /// Whole number.
+    Integer(i64),
+    /// Word.
+    Word(String),
+    /// Flag.
+    Flag(bool),
+}
+
+impl AxisValue {
+    fn from_datum(datum: &Datum) -> Self {
+        match datum {
+            Datum::Number(value) => Self::Number(*value),
+            Datum::Integer(value) => Self::Integer(*value),
+            Datum::Flag(flag) => Self::Flag(*flag),
+            Datum::Word(word) | Datum::Text(word) => Self::Word(word.clone()),
+            other => Self::Word(format!("{other:?}")),
+        }
+    }
+
+    /// JSON number, string or boolean.
+    pub fn to_json(&self) -> serde_json::Value {
+        match self {
+            Self::Number(value) => serde_json::json!(value),
+            Self::Integer(value) => serde_json::json!(value),
+            Self::Word(word) => serde_json::json!(word),
+            Self::Flag(flag) => serde_json::json!(flag),
+        }
+    }
+}
+
+impl std::fmt::Display for AxisValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Word(word) => f.write_str(word),
+            Self::Flag(flag) => write!(f, "{flag}"),
+        }
+    }
+}
+
+/// An axis beside widths, ramp models and signs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Dotted path of the key.
+    pub path: String,
+    /// Name of its column in tables: the key's last name, or the path when two axes share that.
+    pub column: String,
+    /// Its values, in file order.
+    pub values: Vec<AxisValue>,
+}
+
+/// One cell of a study: a search over the amplitude of one scene and sign.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Identity by content: scene and sign.
+    pub id: CellId,
+    /// Ramp model.
+    pub ramp: Ramp,
+    /// Pulse width, ms, as the study gives it.
+    pub pulse_ms: f64,
+    /// Pulse width, s.
+    pub pulse_width_s: f64,
+    /// Sign of the amplitude.
+    pub sign: Sign,
+    /// Accuracy asked for.
+    pub accuracy: Rung,
+    /// Column and value on every further axis, in axis order.
+    pub axes: Vec<(String, AxisValue)>,
+    /// The scene.
+    pub scene: Scene,
+}
+
+impl Point {
+    /// Short name: `rigid 2 ms +`, and the further axes.
+    pub fn label(&self) -> String {
+        let axes: String = self
+            .axes
+            .iter()
+            .map(|(column, value)| format!(" {column}={value}"))
+            .collect();
+        format!("{} {} ms {}{axes}", self.ramp, self.pulse_ms, self.sign)
+    }
+}
+
+/// The axes beside widths, ramp models and signs.
+pub fn axes(settings: &Settings) -> Vec<Axis> {
+    let paths = settings.axes();
+    let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
+    paths
+        .iter()
+        .map(|path| {
+            let shared = paths
+                .iter()
+                .filter(|other| last(other) == last(path))
+                .count()
+                > 1;
+            // Columns every table has already.
+            let taken = ["ramp", "pulse_ms", "sign", "runs", "status", "flags"]
+                .contains(&last(path).as_str());
+            Axis {
+                path: path.to_string(),
+                column: if shared || taken {
+                    path.to_string()
+                } else {
+                    last(path)
+                },
+                values: settings
+                    .get(path)
+                    .map(|setting| setting.values.iter().map(AxisValue::from_datum).collect())
+                    .unwrap_or_default(),
+            }
+        })
+        .collect()
+}
+
+/// Ramp models of the study, in canonical order.
+pub fn ramps(settings: &Settings) -> Vec<Ramp> {
+    let words = View::first(settings).words("ramp.models");
+    Ramp::ALL
+        .into_iter()
+        .filter(|ramp| words.iter().any(|word| word == ramp.as_str()))
+        .collect()
+}
+
+/// Signs of the study, in canonical order.
+pub fn signs(settings: &Settings) -> Vec<Sign> {
+    let words = View::first(settings).words("pulse.signs");
+    Sign::ALL
+        .into_iter()
+        .filter(|sign| words.iter().any(|word| word == sign.as_str()))
+        .collect()
+}
+
+/// Pulse widths of the study, ms, ascending.
+pub fn widths_ms(settings: &Settings) -> Vec<f64> {
+    let mut widths = View::first(settings).numbers("pulse.widths_ms").to_vec();
+    widths.sort_by(f64::total_cmp);
+    widths
+}
+
+/// Positions 0..n in the order of the search: both ends, then the middle of each gap, gap by gap.
+pub fn ends_then_midpoints(n: usize) -> Vec<usize> {
+    if n == 0 {
+        return Vec::new();
+    }
+    let mut order = vec![0];
+    if n > 1 {
+        order.push(n - 1);
+    }
+    let mut gaps = vec![(0, n - 1)];
+    while !gaps.is_empty() {
+        let mut next = Vec::new();
+        for (low, high) in gaps {
+            if high > low + 1 {
+                let middle = low + (high - low) / 2;
+                order.push(middle);
+                next.extend([(low, middle), (middle, high)]);
+            }
+        }
+        gaps = next;
+    }
+    order
+}
+
+/// The combinations of the further axes, outermost first, as views on the settings.
+fn combinations<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>)) {
+    let axes: Vec<(&'a str, usize)> = settings
+        .axes()
+        .into_iter()
+        .map(|path| {
+            (
+                path,
+                settings.get(path).map_or(1, |setting| setting.values.len()),
+            )
+        })
+        .collect();
+    let total: usize = axes.iter().map(|(_, length)| length).product();
+    for number in 0..total {
+        let mut positions = BTreeMap::new();
+        let mut rest = number;
+        for (path, length) in axes.iter().rev() {
+            positions.insert(*path, rest % length);
+            rest /= length;
+        }
+        each(&View {
+            settings,
+            positions,
+        });
+    }
+}
+
+/// Checks the number of points and everything that depends on several keys, at every combination.
+pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
+    let first = View::first(settings);
+    Check {
+        view: &first,
+        faults,
+    }
+    .study();
+    let axes = settings.axes();
+    let widths = widths_ms(settings);
+    let count = axes
+        .iter()
+        .filter_map(|path| settings.get(path))
+        .map(|setting| setting.values.len() as f64)
+        .product::<f64>()
+        * widths.len() as f64
+        * (ramps(settings).len() * signs(settings).len()) as f64;
+    if count > MAX_POINTS as f64 {
+        let blamed = axes.last().copied().unwrap_or("pulse.widths_ms");
+        if let Some(place) = settings.get(blamed).map(|setting| &setting.place) {
+            faults.push(read::too_many_points(place, blamed, count));
+        }
+        return;
+    }
+    combinations(settings, |view| {
+        let before = faults.len();
+        Check { view, faults }.point(&widths);
+        // The same fault at many combinations is one fault.
+        if faults.len() > before + 1 || before > 0 {
+            super::fault::tidy(faults);
+        }
+    });
+}
+
+/// Every point, in the canonical order of the search: further axes outermost, then widths ends
+/// first, ramps, signs.
+pub fn points(settings: &Settings) -> Vec<Point> {
+    let (widths, ramps, signs) = (widths_ms(settings), ramps(settings), signs(settings));
+    let axes = axes(settings);
+    let mut points = Vec::new();
+    combinations(settings, |view| {
+        for position in ends_then_midpoints(widths.len()) {
+            for &ramp in &ramps {
+                for &sign in &signs {
+                    points.push(point(view, &axes, ramp, widths[position], sign));
+                }
+            }
+        }
+    });
+    points
+}
+
+/// One point of a view.
+pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Sign) -> Point {
+    let scene = scene::build(view, ramp, pulse_ms);
+    Point {
+        id: CellId::new(&scene, sign == Sign::Plus),
+        ramp,
+        pulse_ms,
+        pulse_width_s: unit::si("pulse.widths_ms", pulse_ms),
+        sign,
+        accuracy: scene::rung(view),
+        axes: axes
+            .iter()
+            .filter_map(|axis| {
+                view.get(&axis.path)
+                    .map(|datum| (axis.column.clone(), AxisValue::from_datum(datum)))
+            })
+            .collect(),
+        scene,
+    }
+}
+
+/// Positions of the points in the order of tables: further axes, ramps, signs, widths ascending.
+pub fn table_order(points: &[Point], axes: &[Axis]) -> Vec<usize> {
+    let rank = |point: &Point| -> Vec<usize> {
+        point
+            .axes
+            .iter()
+            .zip(axes)
+            .map(|((_, value), axis)| {
+                axis.values
+                    .iter()
+                    .position(|known| known == value)
+                    .unwrap_or(0)
+            })
+            .collect()
+    };
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        let (a, b) = (&points[a], &points[b]);
+        rank(a)
+            .cmp(&rank(b))
+            .then(a.ramp.cmp(&b.ramp))
+            .then(a.sign.cmp(&b.sign))
+            .then(a.pulse_ms.total_cmp(&b.pulse_ms))
+    });
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ends_then_midpoints;
+
+    #[test]
+    fn ends_come_first_then_the_middle_of_each_gap() {
+        assert!(ends_then_midpoints(0).is_empty());
+        assert_eq!(ends_then_midpoints(1), [0]);
+        assert_eq!(ends_then_midpoints(2), [0, 1]);
+        assert_eq!(ends_then_midpoints(6), [0, 5, 2, 1, 3, 4]);
+        assert_eq!(ends_then_midpoints(9), [0, 8, 4, 2, 6, 1, 3, 5, 7]);
+        for n in 0..200 {
+            let mut order = ends_then_midpoints(n);
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..n));
+        }
+    }
+}

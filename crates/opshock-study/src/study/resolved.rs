@@ -1,0 +1,177 @@
+//! `study.resolved.toml`: every setting with its default, in the order of the table of keys; and
+//! the digest of a study.
+//!
+//! The text is itself a study: reading it gives the same points and the same digest. Numbers are
+//! written with the shortest digits that read back to the same bits.
+
+use std::fmt::Write as _;
+
+use super::key::{Kind, Presence};
+use super::keys::{self, KEYS};
+use super::scene;
+use super::settings::{Datum, Settings, View};
+use super::words;
+
+/// Keys that stand for what another key holds once the study is read.
+const REPLACED: [&str; 3] = [
+    "slider.surface.preset",
+    "slider.surface.file",
+    "pulse.table",
+];
+
+/// The resolved study.
+pub fn text(settings: &Settings) -> String {
+    let mut out = String::from(
+        "# Every setting of the study, defaults included. This file is a study itself.\n\n",
+    );
+    // A table may be opened only once, so its keys are brought together first.
+    let mut tables: Vec<(&str, String)> = Vec::new();
+    let single = |key: &&super::key::Key| {
+        !key.path.contains("[]") && key.kind != Kind::Tables && !REPLACED.contains(&key.path)
+    };
+    for key in KEYS.iter().filter(single) {
+        let Some(value) = value_at(settings, key.path) else {
+            continue;
+        };
+        let (table, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
+        let line = format!("{name} = {value}\n");
+        match tables.iter_mut().find(|(known, _)| *known == table) {
+            Some((_, lines)) => lines.push_str(&line),
+            None => tables.push((table, line)),
+        }
+    }
+    for (table, lines) in tables {
+        if !table.is_empty() {
+            let _ = write!(out, "\n[{table}]\n");
+        }
+        out.push_str(&lines);
+    }
+    for key in KEYS.iter().filter(|key| key.kind == Kind::Tables) {
+        for position in 0..View::first(settings).entries(key.path) {
+            let _ = write!(out, "\n[[{}]]\n", key.path);
+            let prefix = format!("{}[].", key.path);
+            for member in KEYS
+                .iter()
+                .filter_map(|member| member.path.strip_prefix(&prefix))
+            {
+                let path = format!("{}[{position}].{member}", key.path);
+                if let Some(value) = value_at(settings, &path) {
+                    let _ = writeln!(out, "{member} = {value}");
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Digest of a study: of its resolved text, and of the order of its further axes, which is the
+/// order of its points.
+pub fn digest(settings: &Settings) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(b"opshock study 1\n");
+    hasher.update(text(settings).as_bytes());
+    for path in settings.axes() {
+        hasher.update(path.as_bytes());
+        hasher.update(b"\n");
+    }
+    *hasher.finalize().as_bytes()
+}
+
+/// TOML of the value at a path: what was set, or what the accuracy rung stands for.
+fn value_at(settings: &Settings, path: &str) -> Option<String> {
+    if let Some(setting) = settings.get(path) {
+        return Some(if setting.is_axis {
+            format!(
+                "[{}]",
+                setting
+                    .values
+                    .iter()
+                    .map(datum)
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
+        } else {
+            datum(&setting.values[0])
+        });
+    }
+    let key = keys::find(path)?;
+    let rung_is_axis = settings
+        .get("solver.accuracy")
+        .is_some_and(|setting| setting.is_axis);
+    (key.presence == Presence::Rung && !rung_is_axis)
+        .then(|| rung_value(settings, path))
+        .flatten()
+}
+
+/// A value the rung gives, back in the unit of its key.
+fn rung_value(settings: &Settings, path: &str) -> Option<String> {
+    let view = View::first(settings);
+    let base = scene::resolutions(&view);
+    Some(match path {
+        "solver.coupling" => datum(&Datum::Word(
+            words::coupling_word(base.head.coupling).to_string(),
+        )),
+        "solver.max_steps" => base.head.max_steps.to_string(),
+        "solver.disk_cut_khz" => number(base.disk.cut_hz / 1e3),
+        "solver.disk_harmonics" => base.disk.n_harmonics.to_string(),
+        "solver.disk_elements" => base.disk.n_elements.to_string(),
+        "solver.static_correction" => base.disk.static_correction.to_string(),
+        "solver.structure_step_us" => number(nearest(base.structure.step_s, 1e6)),
+        "solver.head_tolerance" => number(base.head.tolerance),
+        "solver.approach_share" => number(base.head.approach_share),
+        "solver.film_cells" => base.film.cells.to_string(),
+        "solver.film_floor_nm" => number(nearest(base.film.floor_m, 1e9)),
+        "solver.coupling_tolerance" => number(base.head.coupling_tolerance),
+        "solver.suspension_modes" => base.head.suspension_modes.to_string(),
+        _ => return None,
+    })
+}
+
+/// The value in a decimal unit that becomes `si` when divided by `scale`, with few digits.
+fn nearest(si: f64, scale: f64) -> f64 {
+    let raw = si * scale;
+    let rounded: f64 = format!("{raw:.12e}").parse().unwrap_or(raw);
+    if rounded / scale == si { rounded } else { raw }
+}
+
+fn datum(value: &Datum) -> String {
+    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
+    match value {
+        Datum::Number(value) => number(*value),
+        Datum::Integer(value) => value.to_string(),
+        Datum::Word(word) | Datum::Text(word) => text_literal(word),
+        Datum::Flag(flag) => flag.to_string(),
+        Datum::Words(words) => list(words.iter().map(|word| text_literal(word)).collect()),
+        Datum::Numbers(numbers) => list(numbers.iter().map(|value| number(*value)).collect()),
+        Datum::Pair([from, to]) => format!("[{}, {}]", number(*from), number(*to)),
+        Datum::Points(points) => list(
+            points
+                .iter()
+                .map(|[x, y]| format!("[{}, {}]", number(*x), number(*y)))
+                .collect(),
+        ),
+        Datum::Entries(count) => count.to_string(),
+    }
+}
+
+/// Shortest digits with a point or exponent; minus zero is zero.
+fn number(value: f64) -> String {
+    format!("{:?}", value + 0.0)
+}
+
+/// A basic TOML string.
+fn text_literal(text: &str) -> String {
+    let mut out = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            control if control.is_control() => {
+                let _ = write!(out, "\\u{:04X}", control as u32);
+            }
+            other => out.push(other),
+        }
+    }
+    out.push('"');
+    out
+}

@@ -1,0 +1,323 @@
+//! One point's settings as a scene in SI.
+//!
+//! Every number passes [`View::si`] here and nowhere else.
+
+use opshock_solver::air_bearing::{FilmResolution, FlowModel};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
+use opshock_solver::gas::{self, GasParameters};
+use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
+use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
+use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
+use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
+use opshock_solver::structure::StructureResolution;
+use opshock_solver::suspension::{
+    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
+};
+
+use super::settings::{Datum, View};
+use super::unit;
+use super::words::{self, Ramp};
+
+/// Builds the scene of one point. `width_ms` is its pulse width.
+pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
+    let Resolutions {
+        disk,
+        structure,
+        film,
+        head,
+    } = resolutions(view);
+    Scene {
+        pulse: pulse(view, width_ms),
+        window: window(view),
+        disk: disk_parameters(view),
+        ramp: ramp_parameters(view, ramp),
+        slider: slider(view),
+        suspension: suspension(view),
+        gas: gas_parameters(view),
+        flow: match view.word("gas.model") {
+            "continuum" => FlowModel::Continuum,
+            "slip_1" => FlowModel::Slip1,
+            "slip_2" => FlowModel::Slip2,
+            _ => FlowModel::FukuiKaneko,
+        },
+        fail_below_m: view.si("solver.fail_below_nm"),
+        disk_resolution: disk,
+        structure_resolution: structure,
+        film_resolution: film,
+        head_resolution: head,
+    }
+}
+
+/// Accuracy asked for at a point.
+pub fn rung(view: &View<'_>) -> Rung {
+    words::rung(view.word("solver.accuracy"))
+}
+
+/// The rung's resolutions with what the study sets itself.
+pub fn resolutions(view: &View<'_>) -> Resolutions {
+    let base = accuracy::resolutions(rung(view));
+    // Limits of the table keep every count inside usize.
+    let count = |path: &str, base: usize| {
+        view.maybe_integer(path)
+            .map_or(base, |value| value as usize)
+    };
+    let number = |path: &str, base: f64| view.maybe_si(path).unwrap_or(base);
+    Resolutions {
+        disk: DiskResolution {
+            n_harmonics: count("solver.disk_harmonics", base.disk.n_harmonics),
+            cut_hz: number("solver.disk_cut_khz", base.disk.cut_hz),
+            n_elements: count("solver.disk_elements", base.disk.n_elements),
+            static_correction: view
+                .maybe_flag("solver.static_correction")
+                .unwrap_or(base.disk.static_correction),
+        },
+        structure: StructureResolution {
+            step_s: number("solver.structure_step_us", base.structure.step_s),
+        },
+        film: FilmResolution {
+            cells: count("solver.film_cells", base.film.cells),
+            floor_m: number("solver.film_floor_nm", base.film.floor_m),
+        },
+        head: HeadResolution {
+            tolerance: number("solver.head_tolerance", base.head.tolerance),
+            approach_share: number("solver.approach_share", base.head.approach_share),
+            suspension_modes: count("solver.suspension_modes", base.head.suspension_modes),
+            coupling: match view.word("solver.coupling") {
+                "fixed_point" => Coupling::FixedPoint,
+                "aitken" => Coupling::Aitken,
+                "anderson" => Coupling::Anderson,
+                "monolithic" => Coupling::Monolithic,
+                _ => base.head.coupling,
+            },
+            coupling_tolerance: number("solver.coupling_tolerance", base.head.coupling_tolerance),
+            max_steps: view
+                .maybe_integer("solver.max_steps")
+                .map_or(base.head.max_steps, |value| value as u64),
+        },
+    }
+}
+
+fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
+    let width_s = unit::si("pulse.widths_ms", width_ms);
+    let shape = match view.word("pulse.shape") {
+        "haversine" => PulseShape::Haversine,
+        "square" => PulseShape::Square,
+        "trapezoid" => PulseShape::Trapezoid {
+            rise_share: view.si("pulse.rise_share"),
+        },
+        "damped_sine" => PulseShape::DampedSine {
+            frequency_hz: view.si("pulse.frequency_hz"),
+            decay_per_s: view.si("pulse.decay_per_s"),
+        },
+        "table" => {
+            // Stretched to the width, scaled to a largest magnitude of 1.
+            let times = view.numbers("pulse.table_time_ms");
+            let relative = view.numbers("pulse.table_relative");
+            let last = times.last().copied().unwrap_or(1.0);
+            let largest = relative
+                .iter()
+                .fold(0.0_f64, |most, value| most.max(value.abs()));
+            PulseShape::Table {
+                time_s: times.iter().map(|time| width_s * (time / last)).collect(),
+                relative: relative.iter().map(|value| value / largest).collect(),
+            }
+        }
+        _ => PulseShape::HalfSine,
+    };
+    Pulse { shape, width_s }
+}
+
+fn window(view: &View<'_>) -> Window {
+    match view.maybe_si("pulse.window_ms") {
+        Some(length_s) => Window::Fixed { length_s },
+        None => Window::UntilDecayed {
+            share: view.si("pulse.decay_share"),
+            max_s: view.si("pulse.window_max_ms"),
+        },
+    }
+}
+
+fn disk_parameters(view: &View<'_>) -> DiskParameters {
+    DiskParameters {
+        inner_radius_m: view.si("disk.inner_radius_mm"),
+        outer_radius_m: view.si("disk.outer_radius_mm"),
+        thickness_m: view.si("disk.thickness_mm"),
+        youngs_modulus_pa: view.si("disk.youngs_modulus_gpa"),
+        poisson: view.si("disk.poisson"),
+        density_kg_per_m3: view.si("disk.density_kg_per_m3"),
+        spin_rad_per_s: view.si("disk.rpm"),
+        damping: match view.maybe_si("disk.damping.modal_ratio") {
+            Some(ratio) => DiskDamping::ModalRatio(ratio),
+            None => DiskDamping::Rayleigh {
+                alpha_per_s: view.si("disk.damping.rayleigh.alpha_per_s"),
+                beta_s: view.si("disk.damping.rayleigh.beta_s"),
+            },
+        },
+        space_fixed_damping_per_s: view.si("disk.space_fixed_damping_per_s"),
+    }
+}
+
+fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
+    let arm = |list: &str| -> Vec<ArmMode> {
+        (0..view.entries(list))
+            .map(|position| {
+                let member = |name: &str| format!("{list}[{position}].{name}");
+                ArmMode {
+                    frequency_hz: view.si(&member("frequency_hz")),
+                    mass_kg: view.si(&member("mass_mg")),
+                    participation: view.si(&member("participation")),
+                    damping_ratio: view
+                        .maybe_si(&member("damping_ratio"))
+                        .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
+                }
+            })
+            .collect()
+    };
+    let clearance_m = view.si("ramp.clearance_um");
+    RampParameters {
+        model: match ramp {
+            Ramp::None => RampModel::None,
+            Ramp::Rigid => RampModel::Rigid,
+            Ramp::Deformable => {
+                let top = arm("ramp.deformable.modes");
+                let bottom = match view.entries("ramp.deformable.bottom_modes") {
+                    0 => top.clone(),
+                    _ => arm("ramp.deformable.bottom_modes"),
+                };
+                RampModel::Deformable { top, bottom }
+            }
+        },
+        clearance_top_m: view
+            .maybe_si("ramp.clearance_top_um")
+            .unwrap_or(clearance_m),
+        clearance_bottom_m: view
+            .maybe_si("ramp.clearance_bottom_um")
+            .unwrap_or(clearance_m),
+        radius_m: view.si("ramp.radius_mm"),
+        angle_rad: view.si("ramp.angle_deg"),
+        restitution: view.si("ramp.restitution"),
+    }
+}
+
+fn slider(view: &View<'_>) -> SliderParameters {
+    SliderParameters {
+        radius_m: view.si("slider.radius_mm"),
+        angle_rad: view.si("slider.angle_deg"),
+        skew_rad: view.si("slider.skew_deg"),
+        length_m: view.si("slider.length_mm"),
+        width_m: view.si("slider.width_mm"),
+        height_m: view.si("slider.height_mm"),
+        density_kg_per_m3: view.si("slider.density_kg_per_m3"),
+        surface: SurfaceParameters {
+            base_recess_m: view.si("slider.surface.base_recess_um"),
+            crown_m: view.si("slider.surface.crown_nm"),
+            camber_m: view.si("slider.surface.camber_nm"),
+            twist_m: view.si("slider.surface.twist_nm"),
+            taper_length_m: view.si("slider.surface.taper_length_um"),
+            taper_angle_rad: view.si("slider.surface.taper_angle_deg"),
+            rails: (0..view.entries("slider.surface.rail"))
+                .map(|position| rail(view, position))
+                .collect(),
+        },
+    }
+}
+
+fn rail(view: &View<'_>, position: usize) -> Rail {
+    let member = |name: &str| format!("slider.surface.rail[{position}].{name}");
+    let pair = |name: &str| match view.get(&member(name)) {
+        Some(Datum::Pair(ends)) => ends.map(|end| unit::si(name, end)),
+        _ => [0.0; 2],
+    };
+    let outline = match view.get(&member("points_um")) {
+        Some(Datum::Points(points)) if view.word(&member("kind")) == "polygon" => {
+            let mut points_m: Vec<[f64; 2]> = points
+                .iter()
+                .map(|corner| corner.map(|value| unit::si("points_um", value)))
+                .collect();
+            if points_m.len() > 1 && points_m.first() == points_m.last() {
+                points_m.pop();
+            }
+            if super::polygon::signed_area(&points_m) < 0.0 {
+                points_m.reverse();
+            }
+            RailOutline::Polygon { points_m }
+        }
+        _ => RailOutline::Rectangle {
+            x_m: pair("x_um"),
+            y_m: pair("y_um"),
+        },
+    };
+    Rail {
+        outline,
+        recess_m: view.si(&member("recess_um")),
+    }
+}
+
+fn suspension(view: &View<'_>) -> SuspensionParameters {
+    let si = |name: &str| view.si(&format!("suspension.{name}"));
+    SuspensionParameters {
+        gram_load_n: si("gram_load_gf"),
+        hinge: Hinge {
+            length_m: si("hinge.length_mm"),
+            width_m: si("hinge.width_mm"),
+            thickness_m: si("hinge.thickness_um"),
+        },
+        load_beam: LoadBeam {
+            dimple_m: si("load_beam.dimple_mm"),
+            end_m: si("load_beam.end_mm"),
+            web_m: si("load_beam.web_um"),
+            width_root_m: si("load_beam.width_root_mm"),
+            width_dimple_m: si("load_beam.width_dimple_mm"),
+            tab_width_m: si("load_beam.tab_width_mm"),
+        },
+        flange: Flange {
+            height_m: si("flange.height_um"),
+            from_m: si("flange.from_mm"),
+            to_m: si("flange.to_mm"),
+        },
+        flexure: Flexure {
+            mass_kg: si("flexure.mass_mg"),
+            from_m: si("flexure.from_mm"),
+        },
+        youngs_modulus_pa: si("material.youngs_modulus_gpa"),
+        shear_modulus_pa: si("material.shear_modulus_gpa"),
+        density_kg_per_m3: si("material.density_kg_per_m3"),
+        damping_ratio: si("damping_ratio"),
+        gimbal: Gimbal {
+            vertical_n_per_m: si("gimbal.vertical_n_per_m"),
+            pitch_n_m_per_rad: si("gimbal.pitch_n_m_per_rad"),
+            roll_n_m_per_rad: si("gimbal.roll_n_m_per_rad"),
+        },
+        dimple: Dimple {
+            stiffness_n_per_m: si("dimple.stiffness_n_per_m"),
+            damping_ratio: si("dimple.damping_ratio"),
+        },
+    }
+}
+
+/// Pressure from itself or the altitude; viscosity from itself or the temperature; mean free path
+/// from itself or scaled from the reference state.
+fn gas_parameters(view: &View<'_>) -> GasParameters {
+    let pressure_pa = view
+        .maybe_si("gas.pressure_pa")
+        .or_else(|| {
+            view.maybe_si("gas.altitude_m")
+                .map(gas::standard_pressure_pa)
+        })
+        .unwrap_or(gas::SEA_LEVEL_PRESSURE_PA);
+    let temperature_k = view.maybe_si("gas.temperature_c");
+    let viscosity_pa_s = view
+        .maybe_si("gas.viscosity_pa_s")
+        .or_else(|| temperature_k.map(gas::viscosity_pa_s))
+        .unwrap_or(gas::REFERENCE_VISCOSITY_PA_S);
+    let mean_free_path_m = view.maybe_si("gas.mean_free_path_nm").unwrap_or_else(|| {
+        let temperature_k = temperature_k.unwrap_or(gas::REFERENCE_TEMPERATURE_K);
+        gas::mean_free_path_m(viscosity_pa_s, pressure_pa, temperature_k)
+    });
+    GasParameters {
+        pressure_pa,
+        viscosity_pa_s,
+        mean_free_path_m,
+    }
+}

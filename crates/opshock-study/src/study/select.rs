@@ -1,0 +1,209 @@
+//! One shock out of a study: which point, and with which amplitude.
+
+use std::collections::BTreeMap;
+
+use opshock_solver::quantity;
+
+use super::fault::{StudyError, StudyErrors};
+use super::points::{self, Point};
+use super::settings::View;
+use super::unit;
+use super::validity::Check;
+use super::words::{Ramp, Sign};
+use super::{Severity, Study};
+
+/// What the command line says about a single shock. Axes it leaves out must have one value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Choice {
+    /// Ramp model; need not be one of the study's.
+    pub ramp: Option<Ramp>,
+    /// Pulse width, ms; need not be one of the study's.
+    pub pulse_ms: Option<f64>,
+    /// Sign of the amplitude; need not be one of the study's.
+    pub sign: Option<Sign>,
+    /// Amplitude, g, not negative.
+    pub amplitude_g: Option<f64>,
+}
+
+/// One shock.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    /// The point.
+    pub point: Point,
+    /// Amplitude with its sign, m/s2.
+    pub amplitude_m_per_s2: f64,
+    /// Amplitude without sign, g.
+    pub amplitude_g: f64,
+}
+
+/// Why no single shock could be chosen.
+#[derive(Debug, thiserror::Error)]
+pub enum ChoiceError {
+    /// Axes of the study are left open: a mistake on the command line.
+    #[error("choose one value of {}", list(.0))]
+    Free(Vec<FreeAxis>),
+    /// A value that cannot be: a mistake on the command line.
+    #[error("{option} {value}: must be {allowed}")]
+    Value {
+        /// Option.
+        option: &'static str,
+        /// Value given.
+        value: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The chosen shock does not fit the study.
+    #[error(transparent)]
+    Study(#[from] StudyErrors),
+}
+
+/// An axis that needs a choice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeAxis {
+    /// Dotted path of the key.
+    pub path: String,
+    /// How to choose: an option, or `--set`.
+    pub option: String,
+    /// Values of the study, as text.
+    pub values: Vec<String>,
+}
+
+fn list(free: &[FreeAxis]) -> String {
+    free.iter()
+        .map(|axis| {
+            format!(
+                "{} ({}) with {}",
+                axis.path,
+                axis.values.join(", "),
+                axis.option
+            )
+        })
+        .collect::<Vec<_>>()
+        .join("; ")
+}
+
+impl Study {
+    /// The single shock a choice names.
+    ///
+    /// # Errors
+    /// [`ChoiceError::Free`] lists every axis that has several values and no choice, and the
+    /// amplitude when it is missing; [`ChoiceError::Value`] and [`ChoiceError::Study`] refuse
+    /// values.
+    pub fn select(&self, choice: &Choice) -> Result<Shot, ChoiceError> {
+        let amplitude_g = choice.amplitude_g.ok_or(());
+        let point = self.select_point_or(choice, amplitude_g.is_err())?;
+        let Ok(amplitude_g) = amplitude_g else {
+            // Unreachable: a missing amplitude is listed among the free axes.
+            return Err(ChoiceError::Free(vec![amplitude_axis()]));
+        };
+        if !amplitude_g.is_finite() || amplitude_g < 0.0 {
+            return Err(ChoiceError::Value {
+                option: "--amplitude-g",
+                value: amplitude_g.to_string(),
+                allowed: "a finite number >= 0; the direction is chosen with --sign",
+            });
+        }
+        let amplitude_m_per_s2 = point.sign.factor() * quantity::m_per_s2_from_g(amplitude_g);
+        Ok(Shot {
+            point,
+            amplitude_m_per_s2,
+            amplitude_g,
+        })
+    }
+
+    /// The single point a choice names, for what needs no amplitude (modes, steady flight).
+    ///
+    /// # Errors
+    /// As [`Study::select`].
+    pub fn select_point(&self, choice: &Choice) -> Result<Point, ChoiceError> {
+        self.select_point_or(choice, false)
+    }
+
+    fn select_point_or(
+        &self,
+        choice: &Choice,
+        amplitude_missing: bool,
+    ) -> Result<Point, ChoiceError> {
+        let only = |values: &[String], path: &str, option: &str, free: &mut Vec<FreeAxis>| {
+            if values.len() != 1 {
+                free.push(FreeAxis {
+                    path: path.to_string(),
+                    option: option.to_string(),
+                    values: values.to_vec(),
+                });
+            }
+        };
+        let texts = |values: &mut dyn Iterator<Item = String>| values.collect::<Vec<_>>();
+        let mut free = Vec::new();
+        if choice.ramp.is_none() {
+            let values = texts(&mut self.ramps.iter().map(ToString::to_string));
+            only(&values, "ramp.models", "--ramp", &mut free);
+        }
+        if choice.pulse_ms.is_none() {
+            let values = texts(&mut self.widths_ms.iter().map(ToString::to_string));
+            only(&values, "pulse.widths_ms", "--pulse-ms", &mut free);
+        }
+        if choice.sign.is_none() {
+            let values = texts(&mut self.signs.iter().map(ToString::to_string));
+            only(&values, "pulse.signs", "--sign", &mut free);
+        }
+        for axis in &self.axes {
+            let values = texts(&mut axis.values.iter().map(ToString::to_string));
+            only(
+                &values,
+                &axis.path,
+                &format!("--set {}=VALUE", axis.path),
+                &mut free,
+            );
+        }
+        if amplitude_missing {
+            free.push(amplitude_axis());
+        }
+        if !free.is_empty() {
+            return Err(ChoiceError::Free(free));
+        }
+        let pulse_ms = choice.pulse_ms.unwrap_or(self.widths_ms[0]);
+        if !pulse_ms.is_finite()
+            || pulse_ms <= 0.0
+            || !unit::si("pulse.widths_ms", pulse_ms).is_normal()
+        {
+            return Err(ChoiceError::Value {
+                option: "--pulse-ms",
+                value: pulse_ms.to_string(),
+                allowed: "a finite number > 0",
+            });
+        }
+        let view = View {
+            settings: &self.settings,
+            positions: BTreeMap::new(),
+        };
+        self.check_width(&view, pulse_ms)?;
+        let ramp = choice.ramp.unwrap_or(self.ramps[0]);
+        let sign = choice.sign.unwrap_or(self.signs[0]);
+        Ok(points::point(&view, &self.axes, ramp, pulse_ms, sign))
+    }
+
+    /// A width from the command line must fit step and window as one of the study would.
+    fn check_width(&self, view: &View<'_>, pulse_ms: f64) -> Result<(), StudyErrors> {
+        let mut faults: Vec<StudyError> = Vec::new();
+        Check {
+            view,
+            faults: &mut faults,
+        }
+        .width(pulse_ms);
+        faults.retain(|fault| fault.severity() == Severity::Error);
+        if faults.is_empty() {
+            Ok(())
+        } else {
+            Err(StudyErrors::new(faults))
+        }
+    }
+}
+
+fn amplitude_axis() -> FreeAxis {
+    FreeAxis {
+        path: "amplitude".to_string(),
+        option: "--amplitude-g".to_string(),
+        values: vec!["any".to_string()],
+    }
+}

@@ -1,0 +1,246 @@
+//! The checked values of a study, by dotted path, and how one point looks at them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::source::{Origin, Place};
+use super::unit;
+
+/// One value of a key.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Datum {
+    /// Number, in the unit of its key.
+    Number(f64),
+    /// Whole number.
+    Integer(i64),
+    /// Word out of the key's list.
+    Word(String),
+    /// true or false.
+    Flag(bool),
+    /// Free text.
+    Text(String),
+    /// Words.
+    Words(Vec<String>),
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// From and to.
+    Pair([f64; 2]),
+    /// Corners.
+    Points(Vec<[f64; 2]>),
+    /// Number of entries of a list of tables.
+    Entries(usize),
+}
+
+/// What a key was set to: one value, or several when it is an axis.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The values; never empty.
+    pub values: Vec<Datum>,
+    /// Whether the values make an axis of the study.
+    pub is_axis: bool,
+    /// Place of the whole value.
+    pub place: Place,
+    /// Place of the key.
+    pub key_place: Place,
+    /// Place of each value of an axis, each entry of a list.
+    pub value_places: Vec<Place>,
+}
+
+impl Setting {
+    /// Place of one value.
+    pub fn place_of(&self, position: usize) -> &Place {
+        self.value_places.get(position).unwrap_or(&self.place)
+    }
+
+    /// Where the setting came from.
+    pub fn origin(&self) -> Origin {
+        self.place.origin
+    }
+}
+
+/// Every setting of a study.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    map: BTreeMap<String, Setting>,
+    /// Keys whose value is not usable as given; a stand-in takes its place in further checks.
+    unsound: BTreeSet<String>,
+}
+
+impl Settings {
+    /// The setting at a path.
+    pub fn get(&self, path: &str) -> Option<&Setting> {
+        self.map.get(path)
+    }
+
+    /// Whether a key is set.
+    pub fn has(&self, path: &str) -> bool {
+        self.map.contains_key(path)
+    }
+
+    /// Sets a key.
+    pub fn put(&mut self, path: String, setting: Setting) {
+        self.map.insert(path, setting);
+    }
+
+    /// Removes a key and everything below it.
+    pub fn remove(&mut self, path: &str) {
+        self.map.retain(|known, _| {
+            !known
+                .strip_prefix(path)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        });
+    }
+
+    /// Marks a key's value as not usable.
+    pub fn spoil(&mut self, path: &str) {
+        self.unsound.insert(path.to_string());
+    }
+
+    /// Whether a key was given with a value that is not usable.
+    pub fn is_spoilt(&self, path: &str) -> bool {
+        self.unsound.contains(path)
+    }
+
+    /// Whether all these keys, and everything below them, have usable values.
+    pub fn are_sound(&self, paths: &[&str]) -> bool {
+        paths.iter().all(|path| {
+            self.unsound.iter().all(|known| {
+                !known
+                    .strip_prefix(path)
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+            })
+        })
+    }
+
+    /// Every setting, by path.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Setting)> {
+        self.map
+            .iter()
+            .map(|(path, setting)| (path.as_str(), setting))
+    }
+
+    /// Paths of the axes beside widths, ramp models and signs, in file order; those of the
+    /// command line last.
+    pub fn axes(&self) -> Vec<&str> {
+        let mut axes: Vec<(&str, &Place)> = self
+            .iter()
+            .filter(|(_, setting)| setting.is_axis)
+            .map(|(path, setting)| (path, &setting.key_place))
+            .collect();
+        axes.sort_by_key(|(path, place)| (place.origin, place.span.start, *path));
+        axes.into_iter().map(|(path, _)| path).collect()
+    }
+}
+
+/// The settings as one point sees them: every axis at one position.
+#[derive(Clone, Debug)]
+pub struct View<'a> {
+    /// All settings.
+    pub settings: &'a Settings,
+    /// Position on each axis; 0 when absent.
+    pub positions: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> View<'a> {
+    /// The settings with every axis at its first value.
+    pub fn first(settings: &'a Settings) -> Self {
+        Self {
+            settings,
+            positions: BTreeMap::new(),
+        }
+    }
+
+    /// The value at a path.
+    pub fn get(&self, path: &str) -> Option<&'a Datum> {
+        let position = self.positions.get(path).copied().unwrap_or(0);
+        self.settings
+            .get(path)
+            .and_then(|setting| setting.values.get(position))
+    }
+
+    /// Place of the value at a path.
+    pub fn place(&self, path: &str) -> Option<&'a Place> {
+        let position = self.positions.get(path).copied().unwrap_or(0);
+        self.settings.get(path).map(|setting| {
+            if setting.is_axis {
+                setting.place_of(position)
+            } else {
+                &setting.place
+            }
+        })
+    }
+
+    /// Number in the unit of its key.
+    ///
+    /// # Panics
+    /// When the table of keys does not give `path` a number; a programming error.
+    pub fn number(&self, path: &str) -> f64 {
+        self.maybe_number(path)
+            .unwrap_or_else(|| panic!("no number at {path}"))
+    }
+
+    /// Number in the unit of its key, if there is one.
+    pub fn maybe_number(&self, path: &str) -> Option<f64> {
+        match self.get(path) {
+            Some(Datum::Number(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Number in SI. This is the only way from a study into a scene.
+    pub fn si(&self, path: &str) -> f64 {
+        unit::si(path, self.number(path))
+    }
+
+    /// Number in SI, if there is one.
+    pub fn maybe_si(&self, path: &str) -> Option<f64> {
+        self.maybe_number(path).map(|value| unit::si(path, value))
+    }
+
+    /// Whole number, if there is one.
+    pub fn maybe_integer(&self, path: &str) -> Option<i64> {
+        match self.get(path) {
+            Some(Datum::Integer(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Flag, if there is one.
+    pub fn maybe_flag(&self, path: &str) -> Option<bool> {
+        match self.get(path) {
+            Some(Datum::Flag(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Word or text; empty when there is none.
+    pub fn word(&self, path: &str) -> &'a str {
+        match self.get(path) {
+            Some(Datum::Word(word) | Datum::Text(word)) => word,
+            _ => "",
+        }
+    }
+
+    /// Words; empty when there are none.
+    pub fn words(&self, path: &str) -> &'a [String] {
+        match self.get(path) {
+            Some(Datum::Words(words)) => words,
+            _ => &[],
+        }
+    }
+
+    /// Numbers; empty when there are none.
+    pub fn numbers(&self, path: &str) -> &'a [f64] {
+        match self.get(path) {
+            Some(Datum::Numbers(numbers)) => numbers,
+            _ => &[],
+        }
+    }
+
+    /// Number of entries of a list of tables.
+    pub fn entries(&self, path: &str) -> usize {
+        match self.get(path) {
+            Some(Datum::Entries(count)) => *count,
+            _ => 0,
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Unknown names: what was probably meant.
+
+use super::fault::StudyError;
+use super::keys;
+use super::source::Place;
+use super::tree::Node;
+use super::unit::{self, Dimension, Unit};
+
+/// The nearest of some names, when one is near enough to be meant.
+pub fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
+    let lower = name.to_ascii_lowercase();
+    names
+        .iter()
+        .map(|known| {
+            (
+                strsim::jaro_winkler(&lower, known)
+                    .max(strsim::normalized_damerau_levenshtein(&lower, known)),
+                *known,
+            )
+        })
+        .filter(|(likeness, _)| *likeness >= 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, known)| known)
+}
+
+/// The error for an unknown key or section: E110, E111, or E122 to E124 when only the unit in the
+/// key's name is wrong.
+pub fn unknown(
+    place: &Place,
+    pattern: &str,
+    path: &str,
+    name: &str,
+    node: &Node,
+    is_section: bool,
+) -> StudyError {
+    let siblings = keys::names_below(pattern);
+    if is_section {
+        let sections = keys::sections();
+        let fault = StudyError::at("E111", place, path, format!("unknown section [{name}]"))
+            .allowed(sections.join(", "));
+        return match nearest(name, &sections) {
+            Some(near) => fault.hint(format!("did you mean [{near}]?")),
+            None => fault.hint("sections are listed by `opshock schema`"),
+        };
+    }
+    if let Some(fault) = wrong_unit(place, path, name, &siblings) {
+        return fault.value(node.place.text());
+    }
+    let table = if pattern.is_empty() {
+        "at the top of the file".to_string()
+    } else {
+        format!("in [{pattern}]")
+    };
+    let fault = StudyError::at("E110", place, path, format!("unknown key {table}"))
+        .value(node.place.text())
+        .allowed(siblings.join(", "));
+    // A name that is exact in another section beats a similar one here.
+    let elsewhere = keys::KEYS
+        .iter()
+        .find(|key| key.name() == name && !key.path.contains("[]"));
+    match (elsewhere, nearest(name, &siblings)) {
+        (Some(key), _) => fault.hint(format!("did you mean {}?", key.path)),
+        (None, Some(near)) => fault.hint(format!("did you mean {near}?")),
+        (None, None) => fault.hint("keys are listed by `opshock schema`"),
+    }
+}
+
+/// E122, E123 or E124 when a sibling has the same stem and another unit.
+fn wrong_unit(place: &Place, path: &str, name: &str, siblings: &[&str]) -> Option<StudyError> {
+    let found = unit::part(name);
+    let (sibling, wanted) = siblings
+        .iter()
+        .filter_map(|sibling| {
+            let parted = unit::part(sibling);
+            let unit = parted.unit?;
+            let likeness = if parted.stem.is_empty() && !found.stem.is_empty() {
+                0.0
+            } else {
+                strsim::normalized_damerau_levenshtein(
+                    &found.stem.to_ascii_lowercase(),
+                    parted.stem,
+                )
+            };
+            // A slip in the stem is the ordinary E110 when the unit is right.
+            let same_unit =
+                found.unit.is_some_and(|other| other.suffix == unit.suffix) && !found.other_case;
+            (likeness >= 0.8 && !same_unit).then_some((likeness, *sibling, unit))
+        })
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, sibling, unit)| (sibling, unit))?;
+    let fault = |code: &'static str, message: String| {
+        StudyError::at(code, place, path, message)
+            .allowed(format!("{sibling}, in {}", wanted.symbol))
+            .hint(format!("did you mean {sibling}?"))
+    };
+    Some(match found.unit {
+        None => fault(
+            "E122",
+            format!(
+                "give the unit in the key's name: {}",
+                units_of(wanted.dimension)
+            ),
+        ),
+        Some(unit) if unit.dimension != wanted.dimension => fault(
+            "E123",
+            format!(
+                "expected {}, got {}: _{} is {}",
+                wanted.dimension.name(),
+                unit.dimension.name(),
+                unit.suffix,
+                unit.symbol
+            ),
+        ),
+        Some(_) if found.other_case => fault(
+            "E124",
+            format!("units are written in lower case: _{}", wanted.suffix),
+        ),
+        Some(unit) => fault(
+            "E124",
+            format!(
+                "expected _{} ({}), got _{} ({})",
+                wanted.suffix, wanted.symbol, unit.suffix, unit.symbol
+            ),
+        ),
+    })
+}
+
+fn units_of(dimension: Dimension) -> String {
+    unit::UNITS
+        .iter()
+        .filter(|unit: &&Unit| unit.in_use && unit.dimension == dimension)
+        .map(|unit| format!("_{}", unit.suffix))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
