@@ -3,3 +3,4 @@
 mod report_files;
 mod report_run;
 mod study_reading;
+mod study_shipped;

@@ -111,12 +111,27 @@ impl Study {
         })
     }
 
-    /// The single point a choice names, for what needs no amplitude (modes, steady flight).
+    /// The single point a choice names, for what needs no amplitude.
     ///
     /// # Errors
     /// As [`Study::select`].
     pub fn select_point(&self, choice: &Choice) -> Result<Point, ChoiceError> {
         self.select_point_or(choice, false)
+    }
+
+    /// The drive a choice names, for what no shock enters (modes, steady flight): ramp, width and
+    /// sign may stay open and take their last, first and first value; further axes may not.
+    ///
+    /// # Errors
+    /// As [`Study::select`].
+    pub fn select_drive(&self, choice: &Choice) -> Result<Point, ChoiceError> {
+        let choice = Choice {
+            ramp: choice.ramp.or(self.ramps.last().copied()),
+            pulse_ms: choice.pulse_ms.or(self.widths_ms.first().copied()),
+            sign: choice.sign.or(self.signs.first().copied()),
+            amplitude_g: None,
+        };
+        self.select_point_or(&choice, false)
     }
 
     fn select_point_or(
