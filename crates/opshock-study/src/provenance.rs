@@ -11,3 +11,7 @@ pub const COMMIT: &str = env!("OPSHOCK_COMMIT");
 pub fn program() -> String {
     format!("opshock {VERSION} ({COMMIT})")
 }
+
+/// What `--version` prints after the name.
+pub const LONG_VERSION: &str =
+    concat!(env!("CARGO_PKG_VERSION"), " (", env!("OPSHOCK_COMMIT"), ")");

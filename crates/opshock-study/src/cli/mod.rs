@@ -1,6 +1,133 @@
-//! Command line: a file per command.
+//! Command line: a file per command. Results go to stdout, messages to stderr; see [`Exit`] for
+//! the exit codes.
+
+mod check;
+mod completions;
+mod console;
+mod exit;
+mod failure;
+mod new;
+mod schema;
+mod study_file;
+
+pub use exit::Exit;
+
+use crate::provenance;
+use clap::{ArgAction, Args, Parser, Subcommand};
+use console::Console;
+use failure::{Failure, Fault};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Simulates a hard disk drive's head-disk interface under operational shock and finds the
+/// amplitude it survives.
+#[derive(Parser, Debug)]
+#[command(
+    name = "opshock",
+    version = provenance::LONG_VERSION,
+    disable_help_subcommand = true,
+    disable_version_flag = true,
+    after_help = "Exit codes: 0 complete, 1 internal, 2 command line, 3 study invalid, 4 complete \
+                  with open points, 5 ended by a budget, 6 store damaged, locked or newer, \
+                  7 differences beyond limits, 130/143 signals"
+)]
+struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Options of every command.
+#[derive(Args, Debug)]
+struct GlobalArgs {
+    /// Print version and commit
+    #[arg(short = 'V', long, action = ArgAction::Version)]
+    version: Option<bool>,
+    /// Results, and errors, as JSON
+    #[arg(long, global = true)]
+    json: bool,
+    /// No messages but errors and warnings
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Set a key of the study; may be repeated
+    #[arg(
+        long,
+        global = true,
+        value_name = "KEY=VALUE",
+        allow_hyphen_values = true
+    )]
+    set: Vec<String>,
+    /// Codes of warnings that need not stop the command, as W201,W305
+    #[arg(long, global = true, value_name = "CODES", value_delimiter = ',')]
+    accept: Vec<String>,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    New(new::NewArgs),
+    Check(check::CheckArgs),
+    Schema(schema::SchemaArgs),
+    Completions(completions::CompletionsArgs),
+}
 
 /// Runs the program with the process's arguments.
-pub fn main() -> std::process::ExitCode {
-    std::process::ExitCode::from(1)
+pub fn main() -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    // A mistake in the arguments must be told in JSON too, before they are understood.
+    let json = arguments
+        .iter()
+        .skip(1)
+        .any(|argument| argument == "--json");
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => return misunderstood(&error, json).into(),
+    };
+    let console = Console {
+        json: cli.global.json,
+        quiet: cli.global.quiet,
+    };
+    match run(&cli, &console) {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            console.fail(&failure);
+            failure.exit().into()
+        }
+    }
+}
+
+fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
+    match &cli.command {
+        Command::New(arguments) => new::run(arguments, console),
+        Command::Check(arguments) => check::run(arguments, &cli.global, console),
+        Command::Schema(arguments) => schema::run(arguments, console),
+        Command::Completions(arguments) => completions::run(arguments, console),
+    }
+}
+
+/// Help and version are results; the rest is a mistake on the command line.
+fn misunderstood(error: &clap::Error, json: bool) -> Exit {
+    if !error.use_stderr() || !json {
+        // Fails only when nobody reads.
+        let _ = error.print();
+        return if error.use_stderr() {
+            Exit::Usage
+        } else {
+            Exit::Complete
+        };
+    }
+    let message = error.render().to_string();
+    let message = message.lines().next().unwrap_or_default();
+    let fault = Fault {
+        key: context(error, clap::error::ContextKind::InvalidArg),
+        value: context(error, clap::error::ContextKind::InvalidValue),
+        allowed: context(error, clap::error::ContextKind::ValidValue),
+        ..Fault::new("usage", message.trim_start_matches("error: "))
+    };
+    Console { json, quiet: false }.fail(&Failure::Usage(vec![fault]));
+    Exit::Usage
+}
+
+fn context(error: &clap::Error, kind: clap::error::ContextKind) -> Option<String> {
+    error.get(kind).map(ToString::to_string)
 }

@@ -1,0 +1,26 @@
+//! `opshock completions`: completion script of a shell.
+
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use clap::{Args, CommandFactory};
+
+/// Print the completion script of a shell
+#[derive(Args, Debug)]
+pub struct CompletionsArgs {
+    /// Shell
+    shell: clap_complete::Shell,
+}
+
+/// Runs the command.
+pub fn run(arguments: &CompletionsArgs, console: &Console) -> Result<Exit, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(
+        arguments.shell,
+        &mut super::Cli::command(),
+        "opshock",
+        &mut script,
+    );
+    console.result(&String::from_utf8_lossy(&script))?;
+    Ok(Exit::Complete)
+}

@@ -1,0 +1,79 @@
+//! Where words go: results to stdout, messages to stderr.
+
+use super::failure::Failure;
+use anyhow::Context as _;
+use serde::Serialize;
+use std::io::{IsTerminal as _, Write as _};
+
+/// Output of a command.
+#[derive(Clone, Copy, Debug)]
+pub struct Console {
+    /// Results as JSON.
+    pub json: bool,
+    /// No messages but errors.
+    pub quiet: bool,
+}
+
+impl Console {
+    /// Prints a result.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::ClosedPipe`] when nobody reads any more.
+    pub fn result(&self, text: &str) -> Result<(), Failure> {
+        let mut out = std::io::stdout().lock();
+        out.write_all(text.as_bytes())
+            .and_then(|()| out.flush())
+            .context("cannot write to standard output")?;
+        Ok(())
+    }
+
+    /// Prints a result as indented JSON.
+    ///
+    /// # Errors
+    ///
+    /// As [`Console::result`].
+    pub fn result_json(&self, value: &impl Serialize) -> Result<(), Failure> {
+        let text =
+            serde_json::to_string_pretty(value).context("cannot write the result as JSON")?;
+        self.result(&(text + "\n"))
+    }
+
+    /// Tells something on stderr, unless quiet.
+    pub fn tell(&self, text: &str) {
+        if !self.quiet {
+            // Nobody to tell is no reason to stop.
+            let _ = writeln!(std::io::stderr(), "{text}");
+        }
+    }
+
+    /// Tells what stopped the command.
+    pub fn fail(&self, failure: &Failure) {
+        let text = if self.json {
+            format!("{:#}\n", failure.json())
+        } else {
+            failure.text()
+        };
+        if !matches!(failure, Failure::ClosedPipe) {
+            let _ = std::io::stderr().write_all(text.as_bytes());
+        }
+    }
+}
+
+/// Whether messages may carry colour: a terminal, and neither `NO_COLOR` nor `TERM=dumb`.
+pub fn stderr_colour() -> bool {
+    let unset = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    unset && !dumb && std::io::stderr().is_terminal()
+}
+
+/// Width for messages, in characters; `None` when they go to no terminal.
+pub fn stderr_width() -> Option<usize> {
+    if !std::io::stderr().is_terminal() {
+        return None;
+    }
+    let columns = std::env::var("COLUMNS")
+        .ok()
+        .and_then(|text| text.parse().ok());
+    Some(columns.unwrap_or(100))
+}

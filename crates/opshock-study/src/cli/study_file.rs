@@ -1,0 +1,100 @@
+//! The study a command works on.
+
+use super::GlobalArgs;
+use super::console::{Console, stderr_colour, stderr_width};
+use super::failure::{Failure, Fault};
+use crate::study::{ChoiceError, SetArg, SetSyntaxError, Study, StudyError, StudyErrors, fault};
+use std::path::Path;
+
+/// The `--set` arguments.
+///
+/// # Errors
+///
+/// The first that is not `KEY=VALUE`.
+pub fn sets(global: &GlobalArgs) -> Result<Vec<SetArg>, SetSyntaxError> {
+    global
+        .set
+        .iter()
+        .map(|argument| SetArg::parse(argument))
+        .collect()
+}
+
+/// Reads a study with the `--set` arguments laid over it, and tells its warnings and notes.
+///
+/// # Errors
+///
+/// Every fault of the study.
+pub fn read(path: &Path, global: &GlobalArgs, console: &Console) -> Result<Study, Failure> {
+    let study = Study::from_path(path, &sets(global)?)?;
+    let told: Vec<StudyError> = study
+        .remarks
+        .iter()
+        .filter(|remark| !global.accept.iter().any(|code| code.trim() == remark.code))
+        .cloned()
+        .collect();
+    tell(&told, console);
+    Ok(study)
+}
+
+/// Refuses a study whose warnings are not all accepted: a batch must not start on a doubt.
+///
+/// # Errors
+///
+/// The warnings, as faults of the study.
+pub fn refuse_unaccepted(study: &Study, global: &GlobalArgs) -> Result<(), Failure> {
+    let mut open: Vec<StudyError> = study
+        .unaccepted(&global.accept)
+        .into_iter()
+        .cloned()
+        .collect();
+    if open.is_empty() {
+        return Ok(());
+    }
+    for remark in &mut open {
+        let accept = format!("--accept {} starts all the same", remark.code);
+        remark.hint = match remark.hint.as_str() {
+            "" => accept,
+            hint => format!("{hint}; {accept}"),
+        };
+    }
+    Err(StudyErrors::new(open).into())
+}
+
+fn tell(remarks: &[StudyError], console: &Console) {
+    if remarks.is_empty() || console.quiet || console.json {
+        return;
+    }
+    let text = match stderr_width() {
+        Some(width) => fault::to_terminal(remarks, width, stderr_colour()),
+        None => remarks.iter().map(|remark| format!("{remark}\n")).collect(),
+    };
+    console.tell(text.trim_end());
+}
+
+impl From<ChoiceError> for Failure {
+    fn from(error: ChoiceError) -> Self {
+        match error {
+            ChoiceError::Free(axes) => Failure::Usage(
+                axes.into_iter()
+                    .map(|axis| Fault {
+                        key: Some(axis.path.clone()),
+                        allowed: (!axis.values.is_empty()).then(|| axis.values.join(", ")),
+                        hint: Some(format!("choose with {}", axis.option)),
+                        ..Fault::new("free_axis", format!("{} is not chosen", axis.path))
+                    })
+                    .collect(),
+            ),
+            ChoiceError::Value {
+                option,
+                ref value,
+                allowed,
+            } => Failure::Usage(vec![Fault {
+                key: Some(option.into()),
+                value: Some(value.clone()),
+                allowed: Some(allowed.into()),
+                ..Fault::new("usage", error.to_string())
+            }]),
+            ChoiceError::Study(errors) => errors.into(),
+        }
+    }
+}
