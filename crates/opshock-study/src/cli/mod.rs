@@ -6,8 +6,10 @@ mod completions;
 mod console;
 mod exit;
 mod failure;
+mod modes;
 mod new;
 mod schema;
+mod selection;
 mod study_file;
 
 pub use exit::Exit;
@@ -67,6 +69,7 @@ struct GlobalArgs {
 enum Command {
     New(new::NewArgs),
     Check(check::CheckArgs),
+    Modes(modes::ModesArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -100,6 +103,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
     match &cli.command {
         Command::New(arguments) => new::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, &cli.global, console),
+        Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
         Command::Completions(arguments) => completions::run(arguments, console),
     }

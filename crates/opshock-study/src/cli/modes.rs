@@ -1,0 +1,138 @@
+//! `opshock modes`: natural frequencies of disk, ramp and suspension.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::selection::{PointArgs, unshaken_point};
+use super::study_file;
+use anyhow::Context as _;
+use clap::Args;
+use opshock_solver::structure::{StructureModes, modes};
+use opshock_solver::suspension::ReducedSuspension;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Print natural frequencies of disk, ramp and suspension
+#[derive(Args, Debug)]
+pub struct ModesArgs {
+    /// Study file
+    study: PathBuf,
+    #[command(flatten)]
+    point: PointArgs,
+}
+
+/// Runs the command.
+pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let study = study_file::read(&arguments.study, global, console)?;
+    let scene = unshaken_point(&study, &arguments.point)?.scene;
+    let structure = modes(&scene.disk, &scene.disk_resolution, &scene.ramp)
+        .context("no modes of disk and ramp")?;
+    let kept = scene.head_resolution.suspension_modes;
+    let suspension =
+        ReducedSuspension::build(&scene.suspension, kept).context("no modes of the suspension")?;
+    if console.json {
+        console.result_json(&as_json(&structure, &suspension))?;
+    } else {
+        console.result(&as_text(&structure, &suspension))?;
+    }
+    Ok(Exit::Complete)
+}
+
+fn as_json(structure: &StructureModes, suspension: &ReducedSuspension) -> Value {
+    let disk: Vec<Value> = structure
+        .disk
+        .iter()
+        .map(|mode| {
+            json!({
+                "nodal_diameters": mode.nodal_diameters,
+                "nodal_circles": mode.nodal_circles,
+                "rotating_frame_hz": mode.rotating_frame_hz,
+                "forward_hz": mode.forward_hz,
+                "backward_hz": mode.backward_hz,
+                "damping_ratio": mode.damping_ratio,
+            })
+        })
+        .collect();
+    let ramp: Vec<Value> = structure
+        .ramp
+        .iter()
+        .map(|mode| {
+            json!({
+                "arm": mode.arm,
+                "frequency_hz": mode.frequency_hz,
+                "mass_kg": mode.mass_kg,
+                "participation": mode.participation,
+                "damping_ratio": mode.damping_ratio,
+            })
+        })
+        .collect();
+    json!({
+        "disk": disk,
+        "ramp": ramp,
+        "suspension": {
+            "mass_kg": suspension.mass_kg,
+            "dimple_stiffness_n_per_m": suspension.dimple_stiffness_n_per_m(),
+            "roll_stiffness_n_m_per_rad": suspension.roll_stiffness_n_m_per_rad(),
+            "effective_shock_mass_kg": suspension.effective_shock_mass_kg(),
+            "bending_free_hz": suspension.bending.free_hz,
+            "bending_pinned_hz": suspension.bending.pinned_hz,
+            "torsion_free_hz": suspension.torsion.free_hz,
+            "torsion_pinned_hz": suspension.torsion.pinned_hz,
+        },
+    })
+}
+
+fn as_text(structure: &StructureModes, suspension: &ReducedSuspension) -> String {
+    let mut text = String::from(
+        "disk\n  circles  diameters  rotating (Hz)  forward (Hz)  backward (Hz)  damping ratio\n",
+    );
+    for mode in &structure.disk {
+        let _ = writeln!(
+            text,
+            "  {:>7}  {:>9}  {:>13.2}  {:>12.2}  {:>13.2}  {:>13.5}",
+            mode.nodal_circles,
+            mode.nodal_diameters,
+            mode.rotating_frame_hz,
+            mode.forward_hz,
+            mode.backward_hz,
+            mode.damping_ratio
+        );
+    }
+    if !structure.ramp.is_empty() {
+        text.push_str("ramp\n  arm     frequency (Hz)  mass (mg)  participation  damping ratio\n");
+    }
+    for mode in &structure.ramp {
+        let _ = writeln!(
+            text,
+            "  {:<6}  {:>14.2}  {:>9.3}  {:>13.3}  {:>13.5}",
+            mode.arm,
+            mode.frequency_hz,
+            1e6 * mode.mass_kg,
+            mode.participation,
+            mode.damping_ratio
+        );
+    }
+    let list = |frequencies: &[f64]| {
+        let words: Vec<String> = frequencies.iter().map(|hz| format!("{hz:.1}")).collect();
+        words.join(", ")
+    };
+    let _ = write!(
+        text,
+        "suspension\n  mass {:.3} mg, at the dimple: stiffness {:.3} N/m, roll {:.4e} N m/rad, effective shock mass {:.3} mg\n\
+         \x20 bending, dimple free    {} Hz\n\
+         \x20 bending, dimple pinned  {} Hz\n\
+         \x20 torsion, dimple free    {} Hz\n\
+         \x20 torsion, dimple pinned  {} Hz\n",
+        1e6 * suspension.mass_kg,
+        suspension.dimple_stiffness_n_per_m(),
+        suspension.roll_stiffness_n_m_per_rad(),
+        1e6 * suspension.effective_shock_mass_kg(),
+        list(&suspension.bending.free_hz),
+        list(&suspension.bending.pinned_hz),
+        list(&suspension.torsion.free_hz),
+        list(&suspension.torsion.pinned_hz),
+    );
+    text
+}
