@@ -2,5 +2,10 @@
 
 mod report_files;
 mod report_run;
+mod search_critical_shock;
+mod store_damage;
+mod store_kill;
 mod study_reading;
 mod study_shipped;
+mod sweep_repeatability;
+mod sweep_trouble;

@@ -1,3 +1,5 @@
 //! What the tests share: reference data, named scenes, the built program.
 
+pub mod hdf5_dump;
+pub mod mock_sweep;
 pub mod suspensions;

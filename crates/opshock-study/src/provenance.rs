@@ -15,3 +15,10 @@ pub fn program() -> String {
 /// What `--version` prints after the name.
 pub const LONG_VERSION: &str =
     concat!(env!("CARGO_PKG_VERSION"), " (", env!("OPSHOCK_COMMIT"), ")");
+
+/// Physics version of the structure stage (disk, ramp, contact). Raised by hand when the same
+/// scene gives other numbers than before; stored runs of an older version are then run again.
+pub const PHYSICS_STRUCTURE: u32 = 1;
+
+/// Physics version of the head stage (film, slider, suspension, criterion).
+pub const PHYSICS_HEAD: u32 = 1;

@@ -60,6 +60,7 @@ pub struct Campaign {
     chain_final: Vec<bool>,
     /// (source, low end of its window, neighbour) already given.
     given: BTreeSet<(usize, i32, usize)>,
+    changed: Vec<usize>,
 }
 
 impl Campaign {
@@ -87,6 +88,7 @@ impl Campaign {
             chain_final: vec![false; order.chains.len()],
             order,
             given: BTreeSet::new(),
+            changed: Vec::new(),
         }
     }
 
@@ -136,6 +138,11 @@ impl Campaign {
                 self.close_round(self.order.relations[point].chain);
             }
         }
+    }
+
+    /// Points that began to ask, beside the one told, since this was called last.
+    pub fn take_changed(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.changed)
     }
 
     /// Search of a point, once it has started.
@@ -283,6 +290,7 @@ impl Campaign {
                 (Stage::Searching(Box::new(search)), None)
             }
         };
+        self.changed.push(point);
         self.points[point].stage = stage;
         self.points[point].base = base;
         true
@@ -333,6 +341,7 @@ impl Campaign {
             let (.., neighbour) = gift;
             if let Stage::Searching(search) = &mut self.points[neighbour].stage {
                 search.follow(&nodes);
+                self.changed.push(neighbour);
             }
         }
         self.chain_final[chain] = widths.iter().all(|&point| self.ask(point).is_none());

@@ -5,8 +5,9 @@
 //! It ends
 //!
 //! * at the amplitude of first touch, below which the no-ramp answer holds and needs no run, or
-//! * where nothing is known from elsewhere, at the low end of the range; then the gap is kept over
-//!   the first octave and doubled at every step below it.
+//! * where nothing is known from elsewhere (no ramp), at the low end of the range; then the gap is
+//!   kept down to 0.71 of the bracket and doubled at every step below that. Windows of failure come
+//!   with ramp contact, so a scan without contact may be coarse; the row says how coarse it was.
 //!
 //! Scanned nodes are those congruent to a phase modulo the gap; the phases of neighbouring widths
 //! differ by the golden ratio of the gap, so that a window of failure that spans several widths

@@ -83,7 +83,7 @@ impl PointSearch {
                 gap,
                 phase: Scan::phase_of(start.width_rank, gap),
                 keep: (own.is_none() && settings.certify == Certify::Staggered)
-                    .then_some(lattice.nodes_per_octave),
+                    .then_some(lattice.nodes_per_octave / 2),
                 floor: nodes.low,
             },
             evidence: Evidence::default(),

@@ -1,6 +1,23 @@
 //! Journal, HDF5 results, lock, resume.
+//!
+//! A store is a folder. Its `journal` is the truth: one checksummed record per finished simulation,
+//! on the disk before it counts. `results.h5` is made from it, replaced whole, readable at any
+//! time, and enough to resume from when the journal is gone. Simulations are found by content, so
+//! a changed study finds what is still valid.
 
+mod aside;
+pub mod error;
+pub mod folder;
 pub mod history;
+pub mod journal;
+pub mod lock;
+pub mod machine;
+pub mod record;
+pub mod results;
 pub mod summary;
 
+pub use error::StoreError;
+pub use folder::{Loaded, Store, StudyTexts, load};
+pub use record::{PointDigest, Record, RunKey, RunMachine, RunRecord, StoredTouch, TouchRecord};
+pub use results::{PointKeep, Results, RunRow, Session};
 pub use summary::{AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals};

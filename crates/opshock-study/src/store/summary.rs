@@ -10,7 +10,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 pub use crate::search::{Flag, Status};
-use crate::search::{RunCost, Sign};
+use crate::search::{ProbeResult, RunCost, Sign, Verdict};
 
 /// Value of a further axis of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -101,6 +101,34 @@ pub struct Totals {
     pub undecided_runs: u64,
     /// Work of these runs.
     pub cost: RunCost,
+}
+
+impl Totals {
+    /// Counts of these rows and of the simulations of their sequences.
+    pub fn of<'a>(
+        points: &[PointSummary],
+        runs: impl IntoIterator<Item = &'a ProbeResult>,
+    ) -> Totals {
+        let mut totals = Totals {
+            points: points.len() as u64,
+            ..Totals::default()
+        };
+        for point in points {
+            *match point.status {
+                Status::Ok => &mut totals.ok,
+                Status::AboveRange => &mut totals.above_range,
+                Status::BelowRange => &mut totals.below_range,
+                Status::Undecided => &mut totals.undecided,
+                Status::Open => &mut totals.open,
+            } += 1;
+        }
+        for run in runs {
+            totals.runs += 1;
+            totals.undecided_runs += u64::from(matches!(run.verdict, Verdict::Undecided { .. }));
+            totals.cost.add(&run.cost);
+        }
+        totals
+    }
 }
 
 /// Table of a study's critical shocks.

@@ -1,7 +1,24 @@
 //! Sweeps: points in parallel, one writer, progress.
+//!
+//! A sweep asks a [`Simulator`] for verdicts and tells them to the searches of all points. What is
+//! finished goes through a bounded channel to one writer thread, which puts it on the disk and only
+//! then tells [`Progress`]. Running a sweep again goes on where it stopped, and ends with the same
+//! table to the bit: the table is a function of the probes that the searches ask, and their verdicts
+//! of the scenes.
 
+mod engine;
+pub mod estimate;
+mod guard;
+mod input;
+mod ledger;
 pub mod progress;
+mod rows;
 pub mod simulator;
+pub mod stop;
+mod writer;
 
+pub use engine::{Ending, SweepEnd, SweepOptions, replay, sweep};
+pub use input::{SweepInput, SweepPoint};
 pub use progress::{Estimate, Event, PointLabel, Progress, Silent};
 pub use simulator::{Onset, Simulator};
+pub use stop::StopFlag;

@@ -1,0 +1,34 @@
+//! Files replaced whole: written aside, synced, renamed, and the folder synced.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+/// Replaces `path` by `bytes`.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = folder_of(path);
+    let mut aside = tempfile::Builder::new()
+        .prefix(".aside-")
+        .tempfile_in(folder)?;
+    aside.write_all(bytes)?;
+    persist(aside, path)
+}
+
+/// Syncs a finished file and renames it over `path`.
+pub(super) fn persist(aside: tempfile::NamedTempFile, path: &Path) -> std::io::Result<()> {
+    aside.as_file().sync_all()?;
+    aside.persist(path).map_err(|error| error.error)?;
+    sync_folder(folder_of(path))
+}
+
+/// Makes a rename or a new file durable.
+pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    File::open(folder)?.sync_all()
+}
+
+pub(super) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}

@@ -1,0 +1,91 @@
+//! What can be wrong with a store.
+
+use std::path::PathBuf;
+
+/// A store that cannot be used. Every one ends the program with exit code 6.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The folder holds another study.
+    #[error(
+        "{code}: {path} is the store of study \"{found}\", not of \"{wanted}\"; name another with --store",
+        code = self.code()
+    )]
+    OtherStudy {
+        /// Folder.
+        path: PathBuf,
+        /// Study in it.
+        found: String,
+        /// Study asked for.
+        wanted: String,
+    },
+    /// Written by a newer program.
+    #[error(
+        "{code}: {path} has format {found}, this program reads up to {known}; use a newer opshock",
+        code = self.code()
+    )]
+    Newer {
+        /// File.
+        path: PathBuf,
+        /// Its format.
+        found: u32,
+        /// Newest format known here.
+        known: u32,
+    },
+    /// Not what it should be, or cut short.
+    #[error("{code}: {path}: {what}; {hint}", code = self.code())]
+    Damaged {
+        /// File.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// Cannot be written.
+    #[error("{code}: cannot write {path}", code = self.code())]
+    Unwritable {
+        /// File or folder.
+        path: PathBuf,
+        /// Reason.
+        source: std::io::Error,
+    },
+    /// Cannot be read.
+    #[error("{code}: cannot read {path}", code = self.code())]
+    Unreadable {
+        /// File or folder.
+        path: PathBuf,
+        /// Reason.
+        source: std::io::Error,
+    },
+    /// Another process writes it.
+    #[error("{code}: {path} is in use by {holder}", code = self.code())]
+    Locked {
+        /// Folder.
+        path: PathBuf,
+        /// Who: process id, host, start time.
+        holder: String,
+    },
+    /// Nothing was stored.
+    #[error("{code}: {path} holds no results; run `opshock sweep` first", code = self.code())]
+    Empty {
+        /// Folder.
+        path: PathBuf,
+    },
+}
+
+impl StoreError {
+    /// Stable code of the message.
+    pub fn code(&self) -> &'static str {
+        match self {
+            StoreError::OtherStudy { .. } => "E180",
+            StoreError::Newer { .. } => "E181",
+            StoreError::Damaged { .. } => "E182",
+            StoreError::Unwritable { .. } | StoreError::Unreadable { .. } => "E183",
+            StoreError::Locked { .. } => "E184",
+            StoreError::Empty { .. } => "E187",
+        }
+    }
+
+    /// Exit code of the program.
+    pub const EXIT_CODE: u8 = 6;
+}

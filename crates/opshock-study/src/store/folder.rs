@@ -1,0 +1,282 @@
+//! The folder of a store: opened for a sweep, or read.
+//!
+//! `study.toml` as given, `study.resolved.toml` with every default, `journal`, `results.h5`,
+//! `histories/`, `lock`.
+
+use std::collections::HashMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::aside;
+use super::error::StoreError;
+use super::journal::{self, JournalHeader, JournalWriter};
+use super::lock::StoreLock;
+use super::machine;
+use super::record::{PointDigest, Record, RunKey, RunRecord, StoredTouch};
+use super::results::{self, Results, Session};
+use crate::search::Verdict;
+
+/// Name of the results file in a store.
+pub const RESULTS_FILE: &str = "results.h5";
+const JOURNAL_FILE: &str = "journal";
+
+/// Texts of the study that a store keeps.
+#[derive(Clone, Debug, Default)]
+pub struct StudyTexts {
+    /// Name of the study.
+    pub name: String,
+    /// The file as given.
+    pub given: String,
+    /// With every default.
+    pub resolved: String,
+}
+
+/// Finished simulations by content.
+#[derive(Clone, Debug, Default)]
+pub struct Loaded {
+    /// Simulations.
+    pub runs: HashMap<RunKey, RunRecord>,
+    /// First touches.
+    pub touches: HashMap<PointDigest, StoredTouch>,
+    /// What a person should know about the state of the store: code and sentence.
+    pub notes: Vec<(&'static str, String)>,
+}
+
+impl Loaded {
+    /// Adds records; the first of a kind stays, but a verdict replaces none.
+    pub fn add(&mut self, records: Vec<Record>) {
+        let undecided = |run: &RunRecord| matches!(run.result.verdict, Verdict::Undecided { .. });
+        for record in records {
+            match record {
+                Record::Run(run) => {
+                    let known = self.runs.get(&run.key);
+                    if known.is_none_or(|known| undecided(known) && !undecided(&run)) {
+                        self.runs.insert(run.key, run);
+                    }
+                }
+                Record::Touch(touch) => {
+                    self.touches.entry(touch.point).or_insert(touch.touch);
+                }
+                Record::Session(_) => {}
+            }
+        }
+    }
+}
+
+/// A store open for writing by this process alone.
+#[derive(Debug)]
+pub struct Store {
+    folder: PathBuf,
+    journal: JournalWriter,
+    _lock: StoreLock,
+}
+
+impl Store {
+    /// Opens or makes the store in `folder` and reads what is finished.
+    ///
+    /// Before anything else it writes and syncs a probe file, so that a sweep never computes what
+    /// it could not keep. A torn journal is cut; one with damage in the middle is kept as
+    /// `journal.damaged` and written anew from its whole records; a missing one is written from
+    /// `results.h5`; damaged results are replaced when the journal is sound.
+    ///
+    /// # Errors
+    ///
+    /// E180 other study, E181 newer format, E182 damaged, E183 not writable, E184 in use.
+    pub fn open(
+        folder: &Path,
+        study: &StudyTexts,
+        session: &Session,
+    ) -> Result<(Store, Loaded), StoreError> {
+        let unwritable = |source| StoreError::Unwritable {
+            path: folder.to_owned(),
+            source,
+        };
+        std::fs::create_dir_all(folder).map_err(unwritable)?;
+        probe(folder).map_err(unwritable)?;
+        let lock = StoreLock::take(folder)?;
+        clear_aside(folder);
+
+        let journal_path = folder.join(JOURNAL_FILE);
+        let content = journal::read(&journal_path)?;
+        let mut loaded = Loaded::default();
+        let sound_journal = content
+            .as_ref()
+            .is_some_and(|content| content.header.is_some());
+        let stored = match results::read(&folder.join(RESULTS_FILE)) {
+            Ok(stored) => stored,
+            Err(error @ StoreError::Damaged { .. }) if sound_journal => {
+                let message = format!("{error}; it is written anew from the journal");
+                loaded.notes.push(("results_damaged", message));
+                None
+            }
+            Err(error) => return Err(error),
+        };
+        let names = content
+            .iter()
+            .filter_map(|content| content.header.as_ref().map(|header| &header.study))
+            .chain(stored.iter().map(|stored| &stored.summary.study));
+        for found in names {
+            if *found != study.name {
+                return Err(StoreError::OtherStudy {
+                    path: folder.to_owned(),
+                    found: found.clone(),
+                    wanted: study.name.clone(),
+                });
+            }
+        }
+
+        let header = JournalHeader {
+            study: study.name.clone(),
+        };
+        let from_results = stored.as_ref().map_or(Vec::new(), Results::records);
+        let mut journal = match content {
+            None => JournalWriter::create(&journal_path, &header, &from_results)?,
+            Some(content) => {
+                let intact =
+                    content.header.is_some() && content.damage.iter().all(|damage| damage.at_end);
+                for damage in &content.damage {
+                    loaded.notes.push(("journal_damage", told(damage, intact)));
+                }
+                if intact {
+                    let writer = JournalWriter::append_to(&journal_path, content.whole_bytes)?;
+                    loaded.add(content.records);
+                    writer
+                } else {
+                    let kept = folder.join("journal.damaged");
+                    std::fs::copy(&journal_path, kept).map_err(unwritable)?;
+                    let mut records = content.records;
+                    records.extend(from_results.iter().cloned());
+                    let writer = JournalWriter::create(&journal_path, &header, &records)?;
+                    loaded.add(records);
+                    writer
+                }
+            }
+        };
+        loaded.add(from_results);
+        keep_text(folder, "study.toml", &study.given).map_err(unwritable)?;
+        keep_text(folder, "study.resolved.toml", &study.resolved).map_err(unwritable)?;
+        std::fs::create_dir_all(folder.join("histories")).map_err(unwritable)?;
+        let session = serde_json::to_string(session).expect("a session serialises");
+        journal.append(&[Record::Session(session)])?;
+        let store = Store {
+            folder: folder.to_owned(),
+            journal,
+            _lock: lock,
+        };
+        Ok((store, loaded))
+    }
+
+    /// Folder of the store.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Appends finished simulations; they count once this returns.
+    ///
+    /// # Errors
+    ///
+    /// The disk refused; nothing of this call counts.
+    pub fn append(&mut self, records: &[Record]) -> Result<(), StoreError> {
+        self.journal.append(records)
+    }
+
+    /// Replaces `results.h5`.
+    ///
+    /// # Errors
+    ///
+    /// The disk refused; the former file is in place.
+    pub fn checkpoint(&self, results: &Results) -> Result<PathBuf, StoreError> {
+        let path = self.folder.join(RESULTS_FILE);
+        results::write(&path, results)?;
+        Ok(path)
+    }
+}
+
+/// Reads what is finished, without lock and without changing anything.
+///
+/// # Errors
+///
+/// Newer or unreadable files; damaged results when there is no sound journal; E187 when nothing is
+/// stored.
+pub fn load(folder: &Path) -> Result<(Loaded, Option<Results>), StoreError> {
+    let content = journal::read(&folder.join(JOURNAL_FILE))?;
+    let mut loaded = Loaded::default();
+    let stored = match results::read(&folder.join(RESULTS_FILE)) {
+        Ok(stored) => stored,
+        Err(error @ StoreError::Damaged { .. }) if content.is_some() => {
+            loaded.notes.push(("results_damaged", error.to_string()));
+            None
+        }
+        Err(error) => return Err(error),
+    };
+    if content.is_none() && stored.is_none() {
+        return Err(StoreError::Empty {
+            path: folder.to_owned(),
+        });
+    }
+    if let Some(content) = content {
+        loaded.add(content.records);
+    }
+    loaded.add(stored.as_ref().map_or(Vec::new(), Results::records));
+    Ok((loaded, stored))
+}
+
+fn told(damage: &journal::Damage, intact: bool) -> String {
+    let journal::Damage { offset, length, .. } = damage;
+    if intact {
+        format!("journal: {length} bytes at {offset} held no whole record and were cut off")
+    } else {
+        format!(
+            "journal: {length} bytes at {offset} are damaged; what they held is simulated again, \
+             the file is kept as journal.damaged"
+        )
+    }
+}
+
+/// Writes and syncs a small file, and removes it.
+fn probe(folder: &Path) -> std::io::Result<()> {
+    let mut file = tempfile::Builder::new()
+        .prefix(".probe-")
+        .tempfile_in(folder)?;
+    file.write_all(&[0; 4096])?;
+    file.as_file().sync_all()
+}
+
+/// Removes what a killed process left aside. Only called under the lock.
+fn clear_aside(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if [".aside-", ".results-", ".probe-"]
+            .iter()
+            .any(|prefix| name.starts_with(prefix))
+        {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn keep_text(folder: &Path, name: &str, text: &str) -> std::io::Result<()> {
+    let path = folder.join(name);
+    match std::fs::read_to_string(&path) {
+        Ok(same) if same == text => Ok(()),
+        _ => aside::replace(&path, text.as_bytes()),
+    }
+}
+
+/// Facts of this process for a session.
+pub fn session(threads: usize) -> Session {
+    Session {
+        program_version: crate::provenance::VERSION.to_owned(),
+        commit: crate::provenance::COMMIT.to_owned(),
+        physics_structure: crate::provenance::PHYSICS_STRUCTURE,
+        physics_head: crate::provenance::PHYSICS_HEAD,
+        host: machine::host(),
+        process: std::process::id(),
+        threads,
+        started_unix_s: machine::unix_now_s(),
+    }
+}

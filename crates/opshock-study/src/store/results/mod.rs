@@ -1,0 +1,137 @@
+//! `results.h5`: what a person opens, and enough to resume from.
+//!
+//! | where | what |
+//! |-------|------|
+//! | `/` attributes | `format` (`opshock results`), `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`, `axes`, `nodes_per_octave`, `reference_g`, `content_blake3` |
+//! | `/points/*` | a row per point in the study's order: the columns of the table, the further axes under `/points/axes/NAME`, `point_digest`, `onset`, `onset_m_per_s2` |
+//! | `/runs/*` | every simulation of the canonical sequences, by point and then by sequence: `point`, `sequence`, `purpose`, `index`, `amplitude_g`, `amplitude_m_per_s2` (signed), `window_factor`, `retry`, `verdict`, `cause`, `message`, `t_fail_s`, `x_m`, `y_m`, `h_min_m`, `t_min_s`, and the work |
+//! | `/machine` | host, threads, times; `/machine/runs` wall time of each run; `/machine/outside` simulations that no sequence asked for (computed ahead, or of an earlier form of the study) |
+//!
+//! Every dataset has `units`. Missing numbers are NaN. Times are after the onset of the pulse.
+//! Nothing outside `/machine` depends on the machine, the threads or the time of day. The file is
+//! written whole aside, synced and renamed; `content_blake3` covers what a resume takes from it.
+
+mod columns;
+mod read;
+mod write;
+
+pub use read::read;
+pub use write::write;
+
+use super::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
+use super::summary::Summary;
+use crate::search::{ProbeResult, Purpose};
+
+/// Number of the format of `results.h5`; raised when an older reader would go wrong.
+pub const RESULTS_FORMAT: u32 = 1;
+
+/// A simulation of the canonical sequence of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRow {
+    /// Place of the point in the study.
+    pub point: usize,
+    /// Place in the point's sequence.
+    pub sequence: usize,
+    /// Why it was asked.
+    pub purpose: Purpose,
+    /// Node of the lattice.
+    pub index: i32,
+    /// Amplitude without sign, G.
+    pub amplitude_g: f64,
+    /// The simulation.
+    pub run: RunRecord,
+}
+
+impl RunRow {
+    /// What the simulation answered.
+    pub fn result(&self) -> &ProbeResult {
+        &self.run.result
+    }
+}
+
+/// What `/points` holds beside the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointKeep {
+    /// Content of the point.
+    pub digest: PointDigest,
+    /// First touch, when it is known.
+    pub touch: Option<StoredTouch>,
+}
+
+/// Who wrote a file, where and when.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Session {
+    /// Version of the program.
+    pub program_version: String,
+    /// Commit of the program.
+    pub commit: String,
+    /// Physics version of the structure stage.
+    pub physics_structure: u32,
+    /// Physics version of the head stage.
+    pub physics_head: u32,
+    /// Host.
+    pub host: String,
+    /// Process id.
+    pub process: u32,
+    /// Worker threads.
+    pub threads: usize,
+    /// Start of the process, seconds since 1970.
+    pub started_unix_s: f64,
+}
+
+/// Content of `results.h5`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// The table.
+    pub summary: Summary,
+    /// Nodes per doubling of the lattice.
+    pub nodes_per_octave: i32,
+    /// Per point of the table.
+    pub points: Vec<PointKeep>,
+    /// Simulations of the canonical sequences.
+    pub runs: Vec<RunRow>,
+    /// Finished simulations that no sequence asked for.
+    pub outside: Vec<RunRecord>,
+    /// Who wrote it.
+    pub session: Session,
+    /// When, seconds since 1970.
+    pub written_unix_s: f64,
+}
+
+impl Results {
+    /// Everything a resume takes from the file.
+    pub fn records(&self) -> Vec<Record> {
+        let touches = self.points.iter().filter_map(|point| {
+            Some(Record::Touch(TouchRecord {
+                point: point.digest,
+                touch: point.touch?,
+            }))
+        });
+        let runs = self.runs.iter().map(|row| &row.run).chain(&self.outside);
+        touches.chain(runs.cloned().map(Record::Run)).collect()
+    }
+
+    /// Digest of the table and of the canonical simulations, machine facts left out.
+    pub fn content_digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let table = serde_json::to_vec(&self.summary).expect("a table serialises");
+        hasher.update(&table);
+        for row in &self.runs {
+            let mut run = row.run.clone();
+            run.machine = RunMachine::default();
+            hasher.update(&Record::Run(run).encode());
+            hasher.update(row.purpose.as_str().as_bytes());
+            hasher.update(&row.index.to_le_bytes());
+        }
+        for point in &self.points {
+            if let Some(touch) = point.touch {
+                let record = TouchRecord {
+                    point: point.digest,
+                    touch,
+                };
+                hasher.update(&Record::Touch(record).encode());
+            }
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}

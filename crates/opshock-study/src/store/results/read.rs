@@ -1,0 +1,362 @@
+//! Reading `results.h5`.
+
+use std::path::Path;
+
+use hdf5::{File, Group};
+
+use super::columns::{get, get_number, get_text, get_texts};
+use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
+use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
+use crate::store::error::StoreError;
+use crate::store::record::{
+    COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
+};
+use crate::store::summary::{AxisValue, ErrorPart, PointSummary, Summary, Totals};
+
+/// Reads results; `None` when the file is missing.
+///
+/// # Errors
+///
+/// The file is newer (E181), or it is not HDF5, cut short, or its content does not match its
+/// digest (E182).
+pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
+    match path.try_exists() {
+        Ok(true) => {}
+        Ok(false) => return Ok(None),
+        Err(source) => {
+            return Err(StoreError::Unreadable {
+                path: path.to_owned(),
+                source,
+            });
+        }
+    }
+    let damaged = |what: String| StoreError::Damaged {
+        path: path.to_owned(),
+        what,
+        hint: "if the journal is sound, `opshock sweep` writes it anew from there",
+    };
+    let file =
+        File::open(path).map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
+    let found =
+        format(&file).map_err(|error| damaged(format!("not results of opshock ({error})")))?;
+    if found > RESULTS_FORMAT {
+        return Err(StoreError::Newer {
+            path: path.to_owned(),
+            found,
+            known: RESULTS_FORMAT,
+        });
+    }
+    let (results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
+    if results.content_digest() != digest {
+        return Err(damaged("its content does not match its digest".into()));
+    }
+    Ok(Some(results))
+}
+
+fn format(file: &File) -> hdf5::Result<u32> {
+    let root = file.as_group()?;
+    let format = get_text(&root, "format")?;
+    if format != "opshock results" {
+        return Err(format!("format is {format:?}").into());
+    }
+    get_number(&root, "format_version")
+}
+
+fn content(file: &File) -> hdf5::Result<(Results, String)> {
+    let root = file.as_group()?;
+    let machine = root.group("machine")?;
+    let session = Session {
+        program_version: get_text(&root, "program_version")?,
+        commit: get_text(&root, "commit")?,
+        physics_structure: get_number(&root, "physics_structure")?,
+        physics_head: get_number(&root, "physics_head")?,
+        host: get_text(&machine, "host")?,
+        process: get_number(&machine, "process")?,
+        threads: get_number::<u64>(&machine, "threads")? as usize,
+        started_unix_s: get_number(&machine, "started_unix_s")?,
+    };
+    let group = root.group("points")?;
+    let points = keeps(&group)?;
+    let axes: Vec<String> = get_text(&root, "axes")?
+        .split_whitespace()
+        .map(str::to_owned)
+        .collect();
+    let rows = rows(&group, &axes)?;
+    same_length(points.len(), rows.len())?;
+
+    let group = root.group("runs")?;
+    let place: Vec<u64> = get(&group, "point")?;
+    let of_row: Vec<PointDigest> = place
+        .iter()
+        .map(|&place| {
+            let point = points.get(place as usize);
+            point
+                .map(|point| point.digest)
+                .ok_or_else(|| unknown("point", &place.to_string()))
+        })
+        .collect::<hdf5::Result<_>>()?;
+    let records = records(&group, &machine.group("runs")?, &of_row)?;
+    let runs = run_rows(&group, &place, records)?;
+
+    let group = machine.group("outside")?;
+    let of_run = digests(&group)?;
+    let outside = self::records(&group, &group, &of_run)?;
+
+    let totals = Totals::of(&rows, runs.iter().map(RunRow::result));
+    let results = Results {
+        summary: Summary {
+            study: get_text(&root, "study")?,
+            digest: get_text(&root, "study_digest")?,
+            axes,
+            points: rows,
+            totals,
+        },
+        nodes_per_octave: get_number(&root, "nodes_per_octave")?,
+        points,
+        runs,
+        outside,
+        session,
+        written_unix_s: get_number(&machine, "written_unix_s")?,
+    };
+    Ok((results, get_text(&root, "content_blake3")?))
+}
+
+fn digests(group: &Group) -> hdf5::Result<Vec<PointDigest>> {
+    get_texts(group, "point_digest")?
+        .iter()
+        .map(|text| PointDigest::from_hex(text).ok_or_else(|| unknown("point_digest", text)))
+        .collect()
+}
+
+fn keeps(group: &Group) -> hdf5::Result<Vec<PointKeep>> {
+    let digests = digests(group)?;
+    let kinds = get_texts(group, "onset")?;
+    let amplitudes: Vec<f64> = get(group, "onset_m_per_s2")?;
+    same_length(digests.len(), kinds.len())?;
+    same_length(digests.len(), amplitudes.len())?;
+    let keep = |((digest, kind), amplitude): ((PointDigest, String), f64)| {
+        let touch = match kind.as_str() {
+            "open" => None,
+            "no_ramp" => Some(StoredTouch::NoRamp),
+            "at" => Some(StoredTouch::At(amplitude)),
+            "unknown" => Some(StoredTouch::Unknown),
+            other => return Err(unknown("onset", other)),
+        };
+        Ok(PointKeep { digest, touch })
+    };
+    digests
+        .into_iter()
+        .zip(kinds)
+        .zip(amplitudes)
+        .map(keep)
+        .collect()
+}
+
+fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
+    let ramp = get_texts(group, "ramp")?;
+    let sign = get_texts(group, "sign")?;
+    let status = get_texts(group, "status")?;
+    let flags = get_texts(group, "flags")?;
+    let brackets = get_texts(group, "brackets_g")?;
+    let runs: Vec<u64> = get(group, "runs")?;
+    let names = [
+        "pulse_ms",
+        "a_crit_g",
+        "a_fail_g",
+        "err_low_g",
+        "err_high_g",
+        "err_bracket_low_g",
+        "err_bracket_high_g",
+        "onset_g",
+        "certified_from_g",
+        "largest_gap_pct",
+    ];
+    let numbers: Vec<Vec<f64>> = names
+        .iter()
+        .map(|name| get(group, name))
+        .collect::<hdf5::Result<_>>()?;
+    let columns = axes
+        .iter()
+        .map(|name| axis(&group.group("axes")?, name))
+        .collect::<hdf5::Result<Vec<_>>>()?;
+    let n = ramp.len();
+    let lengths = [
+        sign.len(),
+        status.len(),
+        flags.len(),
+        brackets.len(),
+        runs.len(),
+    ];
+    for length in lengths
+        .into_iter()
+        .chain(numbers.iter().map(Vec::len))
+        .chain(columns.iter().map(Vec::len))
+    {
+        same_length(n, length)?;
+    }
+    (0..n)
+        .map(|i| {
+            let number = |column: usize| Some(numbers[column][i]).filter(|value| !value.is_nan());
+            let bracket = number(5)
+                .zip(number(6))
+                .map(|(low_g, high_g)| ("bracket".to_owned(), ErrorPart { low_g, high_g }));
+            Ok(PointSummary {
+                ramp: ramp[i].clone(),
+                pulse_ms: numbers[0][i],
+                sign: Sign::parse(&sign[i]).ok_or_else(|| unknown("sign", &sign[i]))?,
+                axes: columns.iter().map(|column| column[i].clone()).collect(),
+                a_crit_g: number(1),
+                a_fail_g: number(2),
+                err_low_g: number(3),
+                err_high_g: number(4),
+                err_parts: bracket.into_iter().collect(),
+                onset_g: number(7),
+                runs: runs[i],
+                status: Status::parse(&status[i]).ok_or_else(|| unknown("status", &status[i]))?,
+                flags: flags[i]
+                    .split_whitespace()
+                    .map(|word| Flag::parse(word).ok_or_else(|| unknown("flag", word)))
+                    .collect::<hdf5::Result<_>>()?,
+                brackets_g: exact_pairs(&brackets[i])?,
+                certified_from_g: number(8),
+                largest_gap_pct: number(9),
+            })
+        })
+        .collect()
+}
+
+/// Pairs of numbers out of JSON, each read by the standard library, which rounds correctly.
+fn exact_pairs(text: &str) -> hdf5::Result<Vec<[f64; 2]>> {
+    let numbers = text
+        .split(['[', ']', ','])
+        .filter(|word| !word.is_empty())
+        .map(|word| word.parse().map_err(|_| unknown("bracket", text)))
+        .collect::<hdf5::Result<Vec<f64>>>()?;
+    Ok(numbers
+        .chunks_exact(2)
+        .map(|pair| [pair[0], pair[1]])
+        .collect())
+}
+
+fn axis(group: &Group, name: &str) -> hdf5::Result<Vec<AxisValue>> {
+    if let Ok(numbers) = get::<f64>(group, name) {
+        return Ok(numbers.into_iter().map(AxisValue::Number).collect());
+    }
+    Ok(get_texts(group, name)?
+        .into_iter()
+        .map(AxisValue::Text)
+        .collect())
+}
+
+fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result<Vec<RunRecord>> {
+    let numbers: Vec<Vec<f64>> = [
+        "amplitude_m_per_s2",
+        "t_fail_s",
+        "x_m",
+        "y_m",
+        "h_min_m",
+        "t_min_s",
+    ]
+    .iter()
+    .map(|name| get(group, name))
+    .collect::<hdf5::Result<_>>()?;
+    let machine: Vec<Vec<f64>> = ["wall_s", "finished_unix_s"]
+        .iter()
+        .map(|name| get(times, name))
+        .collect::<hdf5::Result<_>>()?;
+    let counts: Vec<Vec<u64>> = ["window_factor", "retry"]
+        .iter()
+        .chain(&COST_NAMES)
+        .map(|name| get(group, name))
+        .collect::<hdf5::Result<_>>()?;
+    let words: Vec<Vec<String>> = ["verdict", "cause", "message"]
+        .iter()
+        .map(|name| get_texts(group, name))
+        .collect::<hdf5::Result<_>>()?;
+    for length in numbers
+        .iter()
+        .chain(&machine)
+        .map(Vec::len)
+        .chain(counts.iter().map(Vec::len))
+        .chain(words.iter().map(Vec::len))
+    {
+        same_length(points.len(), length)?;
+    }
+    let record = |(i, &point): (usize, &PointDigest)| {
+        let verdict = match words[0][i].as_str() {
+            "survives" => Verdict::Survives,
+            "fails" => Verdict::Fails {
+                t_fail_s: numbers[1][i],
+                x_m: numbers[2][i],
+                y_m: numbers[3][i],
+            },
+            "undecided" => Verdict::Undecided {
+                cause: UndecidedCause::parse(&words[1][i])
+                    .ok_or_else(|| unknown("cause", &words[1][i]))?,
+                message: words[2][i].clone(),
+            },
+            other => return Err(unknown("verdict", other)),
+        };
+        let number = |column: usize| Some(numbers[column][i]).filter(|value| !value.is_nan());
+        let small = |column: usize| {
+            u8::try_from(counts[column][i])
+                .map_err(|_| unknown("count", &counts[column][i].to_string()))
+        };
+        Ok(RunRecord {
+            key: RunKey {
+                point,
+                amplitude_bits: numbers[0][i].to_bits(),
+                window_factor: small(0)?,
+                retry: small(1)?,
+            },
+            result: ProbeResult {
+                verdict,
+                h_min_m: number(4),
+                t_min_s: number(5),
+                cost: cost_from(std::array::from_fn(|place| counts[place + 2][i])),
+            },
+            machine: RunMachine {
+                wall_s: machine[0][i],
+                finished_unix_s: machine[1][i],
+            },
+        })
+    };
+    points.iter().enumerate().map(record).collect()
+}
+
+fn run_rows(group: &Group, place: &[u64], records: Vec<RunRecord>) -> hdf5::Result<Vec<RunRow>> {
+    let sequence: Vec<u64> = get(group, "sequence")?;
+    let index: Vec<i32> = get(group, "index")?;
+    let amplitude_g: Vec<f64> = get(group, "amplitude_g")?;
+    let purpose = get_texts(group, "purpose")?;
+    for length in [
+        sequence.len(),
+        index.len(),
+        amplitude_g.len(),
+        purpose.len(),
+    ] {
+        same_length(records.len(), length)?;
+    }
+    let row = |(i, run): (usize, RunRecord)| {
+        Ok(RunRow {
+            point: place[i] as usize,
+            sequence: sequence[i] as usize,
+            purpose: Purpose::parse(&purpose[i]).ok_or_else(|| unknown("purpose", &purpose[i]))?,
+            index: index[i],
+            amplitude_g: amplitude_g[i],
+            run,
+        })
+    };
+    records.into_iter().enumerate().map(row).collect()
+}
+
+fn same_length(expected: usize, found: usize) -> hdf5::Result<()> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(format!("columns of {expected} and {found} rows").into())
+}
+
+fn unknown(what: &str, value: &str) -> hdf5::Error {
+    format!("unknown {what} {value:?}").into()
+}

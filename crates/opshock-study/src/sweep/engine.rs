@@ -1,0 +1,427 @@
+//! The sweep: hands jobs to threads, tells the searches, keeps the writer fed.
+//!
+//! One thread holds the searches and hands the best job to each thread that idles: first what a
+//! search asks, the point with the longest chain of successors first; else what a search will
+//! probably ask. Answers come back in any order and change nothing but when a probe is answered.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{RecvTimeoutError, Sender};
+
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
+
+use super::estimate;
+use super::guard;
+use super::input::SweepInput;
+use super::ledger::{Job, Ledger, Told};
+use super::progress::{Event, Progress};
+use super::simulator::Simulator;
+use super::stop::StopFlag;
+use super::writer::{self, Message};
+use crate::search::{ProbeResult, Verdict};
+use crate::store::summary::{PointSummary, Status, Summary};
+use crate::store::{
+    Loaded, PointDigest, Record, Results, RunKey, RunMachine, RunRecord, Session, Store,
+    StoreError, StoredTouch, TouchRecord, folder, machine,
+};
+
+/// How a sweep is run; none of it changes the answer.
+#[derive(Clone, Debug)]
+pub struct SweepOptions {
+    /// Worker threads.
+    pub threads: usize,
+    /// Asks the sweep to stop.
+    pub stop: StopFlag,
+    /// Time after which the sweep saves and ends.
+    pub budget: Option<Duration>,
+    /// Simulate again what had no verdict.
+    pub retry_undecided: bool,
+    /// Let idle threads compute probes that will probably be asked.
+    pub speculate: bool,
+}
+
+impl SweepOptions {
+    /// Options for a number of threads.
+    pub fn with_threads(threads: usize) -> SweepOptions {
+        SweepOptions {
+            threads: threads.max(1),
+            stop: StopFlag::default(),
+            budget: None,
+            retry_undecided: false,
+            speculate: true,
+        }
+    }
+}
+
+/// Why a sweep ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Every point has its answer.
+    Complete,
+    /// A stop was asked for, by this signal if it was one.
+    Stopped {
+        /// Signal number.
+        signal: Option<i32>,
+    },
+    /// The budget was used up.
+    Budget,
+}
+
+/// What a sweep hands back.
+#[derive(Clone, Debug)]
+pub struct SweepEnd {
+    /// The table.
+    pub summary: Summary,
+    /// Why it ended.
+    pub ending: Ending,
+    /// Simulations computed by this process.
+    pub computed_runs: u64,
+    /// Measured time, s.
+    pub wall_s: f64,
+    /// Share of the threads' time spent simulating.
+    pub core_use: f64,
+}
+
+/// Room between the searches and the writer.
+const CHANNEL: usize = 1024;
+/// How often stop, budget and checkpoint are looked at.
+const TICK: Duration = Duration::from_millis(50);
+
+/// Sweeps a study into the store in `folder`, or goes on with it.
+///
+/// # Errors
+///
+/// [`StoreError`]: the store cannot be opened, or the disk refused while sweeping; what was
+/// finished before is kept.
+pub fn sweep(
+    input: &SweepInput,
+    simulator: &dyn Simulator,
+    folder: &Path,
+    options: &SweepOptions,
+    progress: &dyn Progress,
+) -> Result<SweepEnd, StoreError> {
+    let session = folder::session(options.threads);
+    let (mut store, mut loaded) = Store::open(folder, &input.texts, &session)?;
+    if options.retry_undecided {
+        loaded
+            .runs
+            .retain(|_, run| !matches!(run.result.verdict, Verdict::Undecided { .. }));
+    }
+    progress.event(&Event::Started {
+        study: input.texts.name.clone(),
+        points: input.labels(),
+        threads: options.threads,
+        stored_runs: loaded.runs.len() as u64,
+    });
+    let (to_writer, messages) = crossbeam_channel::bounded(CHANNEL);
+    std::thread::scope(|scope| {
+        let writer = scope.spawn(move || writer::write(&mut store, &messages, progress));
+        let run = Run::new(input, options, session, loaded, to_writer);
+        let end = run.drive(simulator);
+        match writer.join() {
+            Ok(written) => written.map(|()| end),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
+}
+
+/// Table and runs from what is stored, without simulating.
+pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results {
+    let mut ledger = Ledger::new(input, loaded);
+    ledger.absorb_all();
+    ledger.results(session)
+}
+
+/// Answer of a thread.
+enum Answer {
+    Touch {
+        digest: PointDigest,
+        touch: StoredTouch,
+    },
+    Run {
+        key: RunKey,
+        result: ProbeResult,
+    },
+}
+
+struct Done {
+    answer: Answer,
+    wall_s: f64,
+}
+
+struct Run<'a> {
+    input: &'a SweepInput,
+    options: &'a SweepOptions,
+    session: Session,
+    ledger: Ledger<'a>,
+    notes: Vec<(&'static str, String)>,
+    to_writer: Sender<Message>,
+    /// The writer gave up; its error is taken when it is joined.
+    is_writer_gone: bool,
+    brackets: Vec<(Option<f64>, Option<f64>)>,
+    is_reported: Vec<bool>,
+    began: Instant,
+    busy_s: f64,
+    computed_runs: u64,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        input: &'a SweepInput,
+        options: &'a SweepOptions,
+        session: Session,
+        mut loaded: Loaded,
+        to_writer: Sender<Message>,
+    ) -> Run<'a> {
+        let notes = std::mem::take(&mut loaded.notes);
+        Run {
+            input,
+            options,
+            session,
+            ledger: Ledger::new(input, loaded),
+            notes,
+            to_writer,
+            is_writer_gone: false,
+            brackets: vec![(None, None); input.points.len()],
+            is_reported: vec![false; input.points.len()],
+            began: Instant::now(),
+            busy_s: 0.0,
+            computed_runs: 0,
+        }
+    }
+
+    fn drive(mut self, simulator: &dyn Simulator) -> SweepEnd {
+        for (code, message) in std::mem::take(&mut self.notes) {
+            self.tell(Event::Warning { code, message });
+        }
+        let told = self.ledger.absorb_all();
+        self.report(&told, None);
+        let ending = self.hand_out(simulator);
+        let results = self.ledger.results(&self.session);
+        for message in self.lucky(&results) {
+            self.tell(Event::Warning {
+                code: "lucky",
+                message,
+            });
+        }
+        let wall_s = self.began.elapsed().as_secs_f64();
+        let end = SweepEnd {
+            summary: results.summary.clone(),
+            ending,
+            computed_runs: self.computed_runs,
+            wall_s,
+            core_use: self.busy_s / (wall_s * self.options.threads as f64),
+        };
+        self.send(Message::Checkpoint(Box::new(results)));
+        self.tell(Event::Finished {
+            totals: end.summary.totals,
+            wall_s,
+            core_use: end.core_use,
+        });
+        end
+    }
+
+    fn hand_out(&mut self, simulator: &dyn Simulator) -> Ending {
+        let threads = self.options.threads;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|number| format!("sweep-{number}"))
+            .build()
+            .expect("threads can be started");
+        let (to_here, answers) = crossbeam_channel::unbounded::<Done>();
+        let mut in_flight = 0;
+        let mut checkpoint_at = Instant::now();
+        pool.in_place_scope(|scope| {
+            loop {
+                let stopped = self.stopped();
+                while in_flight < threads && stopped.is_none() && !self.ledger.campaign().is_done()
+                {
+                    let Some(job) = self.ledger.next_job(self.options.speculate) else {
+                        break;
+                    };
+                    let to_here = to_here.clone();
+                    let (point, amplitude, digest) = match job {
+                        Job::Onset { point } => (point, 0.0, self.input.points[point].digest),
+                        Job::Run { point, asked, key } => (
+                            point,
+                            self.ledger.amplitude_m_per_s2(point, asked.probe.index),
+                            key.point,
+                        ),
+                    };
+                    scope.spawn(move |_| {
+                        let began = Instant::now();
+                        let answer = match job {
+                            Job::Onset { .. } => Answer::Touch {
+                                digest,
+                                touch: guard::onset(simulator, point),
+                            },
+                            Job::Run { asked, key, .. } => Answer::Run {
+                                key,
+                                result: guard::simulate(simulator, point, asked.probe, amplitude),
+                            },
+                        };
+                        let wall_s = began.elapsed().as_secs_f64();
+                        // Nobody listens any more only after a panic of the listener itself.
+                        let _ = to_here.send(Done { answer, wall_s });
+                    });
+                    in_flight += 1;
+                }
+                if in_flight == 0 {
+                    return stopped.unwrap_or(Ending::Complete);
+                }
+                match answers.recv_timeout(TICK) {
+                    Ok(done) => {
+                        in_flight -= 1;
+                        self.take(done);
+                    }
+                    Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
+                }
+                if checkpoint_at.elapsed() >= self.input.checkpoint {
+                    let results = self.ledger.results(&self.session);
+                    self.send(Message::Checkpoint(Box::new(results)));
+                    checkpoint_at = Instant::now();
+                }
+            }
+        })
+    }
+
+    fn stopped(&self) -> Option<Ending> {
+        if self.options.stop.is_asked() || self.is_writer_gone {
+            return Some(Ending::Stopped {
+                signal: self.options.stop.signal(),
+            });
+        }
+        let budget = self.options.budget?;
+        (self.began.elapsed() >= budget).then_some(Ending::Budget)
+    }
+
+    fn take(&mut self, Done { answer, wall_s }: Done) {
+        self.busy_s += wall_s;
+        match answer {
+            Answer::Touch { digest, touch } => {
+                self.send(Message::Keep(Record::Touch(TouchRecord {
+                    point: digest,
+                    touch,
+                })));
+                let told = self.ledger.touched(digest, touch);
+                self.report(&told, None);
+            }
+            Answer::Run { key, result } => {
+                self.computed_runs += 1;
+                let record = RunRecord {
+                    key,
+                    result,
+                    machine: RunMachine {
+                        wall_s,
+                        finished_unix_s: machine::unix_now_s(),
+                    },
+                };
+                self.send(Message::Keep(Record::Run(record.clone())));
+                let told = self.ledger.finished(record);
+                self.report(&told, Some((key, wall_s)));
+            }
+        }
+    }
+
+    /// Tells what the searches were told.
+    fn report(&mut self, told: &[Told], computed: Option<(RunKey, f64)>) {
+        let lattice = self.input.settings.lattice;
+        for &Told { point, asked, key } in told {
+            if self.ledger.first_of(point, asked) {
+                self.tell(Event::PointStarted { point });
+            }
+            let verdict = self.ledger.runs()[&key].result.verdict.as_str();
+            self.tell(Event::ProbeDone {
+                point,
+                amplitude_g: lattice.amplitude_g(asked.probe.index),
+                verdict,
+                purpose: asked.purpose.as_str(),
+                retry: asked.probe.retry.label(),
+                wall_s: computed
+                    .filter(|(other, _)| *other == key)
+                    .map(|(_, wall_s)| wall_s),
+            });
+        }
+        let mut points: Vec<usize> = told.iter().map(|told| told.point).collect();
+        points.sort_unstable();
+        points.dedup();
+        for point in points {
+            let row = self.ledger.row(point);
+            let bracket = (row.a_crit_g, row.a_fail_g);
+            if bracket != self.brackets[point] {
+                self.brackets[point] = bracket;
+                self.tell(Event::Bracket {
+                    point,
+                    a_crit_g: row.a_crit_g,
+                    a_fail_g: row.a_fail_g,
+                    runs: row.runs,
+                });
+            }
+        }
+        for point in 0..self.is_reported.len() {
+            if !self.is_reported[point] && self.ledger.campaign().is_final(point) {
+                self.is_reported[point] = true;
+                let summary = self.ledger.row(point);
+                self.tell(Event::PointDone { point, summary });
+            }
+        }
+        if !told.is_empty() {
+            let left = estimate::estimate(self.input, &self.ledger, self.options.threads);
+            self.tell(Event::Estimated(left));
+        }
+    }
+
+    /// Failures below a point's answer that no search asked for: computed ahead, or of an earlier
+    /// form of the study. They do not enter the answer, which would then depend on luck.
+    fn lucky(&self, results: &Results) -> Vec<String> {
+        let mut places: HashMap<PointDigest, Vec<usize>> = HashMap::new();
+        for (place, point) in self.input.points.iter().enumerate() {
+            places.entry(point.digest).or_default().push(place);
+        }
+        let mut messages = Vec::new();
+        for record in &results.outside {
+            let fails = matches!(record.result.verdict, Verdict::Fails { .. });
+            if !fails || record.key.window_factor != 1 {
+                continue;
+            }
+            let amplitude = f64::from_bits(record.key.amplitude_bits).abs();
+            let amplitude_g = amplitude / STANDARD_GRAVITY_M_PER_S2;
+            for &place in places.get(&record.key.point).into_iter().flatten() {
+                let row = &results.summary.points[place];
+                if is_below_answer(row, amplitude_g) {
+                    messages.push(format!(
+                        "{} {} ms {}: a run outside the search fails at {amplitude_g:.4} G, below \
+                         the answer; a smaller max_gap_pct or certify = \"full\" would find it",
+                        row.ramp,
+                        row.pulse_ms,
+                        row.sign.as_str()
+                    ));
+                }
+            }
+        }
+        messages
+    }
+
+    fn tell(&mut self, event: Event) {
+        self.send(Message::Tell(event));
+    }
+
+    fn send(&mut self, message: Message) {
+        if self.to_writer.send(message).is_err() {
+            self.is_writer_gone = true;
+        }
+    }
+}
+
+fn is_below_answer(row: &PointSummary, amplitude_g: f64) -> bool {
+    if row.status == Status::Open {
+        return false;
+    }
+    match (row.a_fail_g, row.a_crit_g) {
+        (Some(a_fail_g), _) => amplitude_g < a_fail_g * (1.0 - 1e-9),
+        (None, Some(_)) => true,
+        (None, None) => false,
+    }
+}

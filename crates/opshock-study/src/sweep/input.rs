@@ -1,0 +1,55 @@
+//! What is swept: points with their coordinates and content, and how.
+
+use std::time::Duration;
+
+use super::progress::PointLabel;
+use crate::search::{Coordinates, SearchSettings};
+use crate::store::{AxisValue, PointDigest, StudyTexts};
+
+/// A point of the study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPoint {
+    /// Place among the other points.
+    pub coordinates: Coordinates,
+    /// Values of the further axes.
+    pub axes: Vec<AxisValue>,
+    /// Digest of the scene, the sign and the physics versions.
+    pub digest: PointDigest,
+}
+
+/// A study as the sweep sees it.
+#[derive(Clone, Debug)]
+pub struct SweepInput {
+    /// Name and texts, kept in the store.
+    pub texts: StudyTexts,
+    /// Digest of the study.
+    pub digest: String,
+    /// Names of the further axes.
+    pub axes: Vec<String>,
+    /// Points in the study's order.
+    pub points: Vec<SweepPoint>,
+    /// Search.
+    pub settings: SearchSettings,
+    /// Time between checkpoints.
+    pub checkpoint: Duration,
+}
+
+impl SweepInput {
+    /// Names of the points for people.
+    pub fn labels(&self) -> Vec<PointLabel> {
+        self.points
+            .iter()
+            .map(|point| PointLabel {
+                ramp: point.coordinates.ramp.clone(),
+                pulse_ms: point.coordinates.pulse_ms,
+                sign: point.coordinates.sign,
+                axes: self
+                    .axes
+                    .iter()
+                    .zip(&point.axes)
+                    .map(|(name, value)| format!("{name}={value}"))
+                    .collect(),
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,51 @@
+//! Stopping a sweep: the first signal asks it to save and end, the second ends it at once.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Asks a sweep to stop. Clones share the same request.
+#[derive(Clone, Debug, Default)]
+pub struct StopFlag {
+    asked: Arc<AtomicBool>,
+    signal: Arc<AtomicUsize>,
+}
+
+impl StopFlag {
+    /// Asks to stop.
+    pub fn ask(&self) {
+        self.asked.store(true, Ordering::SeqCst);
+    }
+
+    /// A stop was asked for.
+    pub fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::SeqCst)
+    }
+
+    /// Signal that asked, if one did.
+    pub fn signal(&self) -> Option<i32> {
+        match self.signal.load(Ordering::SeqCst) {
+            0 => None,
+            number => i32::try_from(number).ok(),
+        }
+    }
+
+    /// Lets SIGINT and SIGTERM ask; a second one ends the process at once with 128 + its number.
+    ///
+    /// # Errors
+    ///
+    /// The system refused the handlers.
+    pub fn listen(&self) -> std::io::Result<()> {
+        use signal_hook::consts::{SIGINT, SIGTERM};
+        for signal in [SIGINT, SIGTERM] {
+            // Order matters: the flag is still down when the first signal passes the first handler.
+            signal_hook::flag::register_conditional_shutdown(
+                signal,
+                128 + signal,
+                Arc::clone(&self.asked),
+            )?;
+            signal_hook::flag::register_usize(signal, Arc::clone(&self.signal), signal as usize)?;
+            signal_hook::flag::register(signal, Arc::clone(&self.asked))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,156 @@
+//! What goes wrong in one point stays there; what is told is on the disk.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use opshock_study::search::{Flag, RampClass, Status};
+use opshock_study::store::{Record, RunRecord, Store, folder::session, journal};
+use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
+use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
+
+#[test]
+fn poisoned_points_do_not_touch_their_neighbours() {
+    let ramps = [RampClass::None, RampClass::Rigid, RampClass::Deformable];
+    let input = study(&ramps, &[0.5, 1.0, 2.0]);
+    let folder = tempfile::tempdir().expect("folder");
+    let options = SweepOptions::with_threads(2);
+    let clean = sweep(
+        &input,
+        &MockSimulator::new(&input),
+        &folder.path().join("clean"),
+        &options,
+        &Silent,
+    )
+    .expect("sweeps");
+
+    // The last width of each chain in canonical order: nobody takes a hint from them.
+    let poisoned = [
+        (8, Poison::Panic),
+        (9, Poison::NotANumber),
+        (15, Poison::NeverConverges),
+    ];
+    let mut simulator = MockSimulator::new(&input);
+    simulator.poison = poisoned
+        .iter()
+        .map(|&(point, poison)| (input.points[point].coordinates.clone(), poison))
+        .collect();
+    let sick = sweep(
+        &input,
+        &simulator,
+        &folder.path().join("sick"),
+        &options,
+        &Silent,
+    )
+    .expect("sweeps");
+    let mut causes = Vec::new();
+    for (place, (row, well)) in sick
+        .summary
+        .points
+        .iter()
+        .zip(&clean.summary.points)
+        .enumerate()
+    {
+        if poisoned.iter().any(|&(point, _)| point == place) {
+            assert_eq!(row.status, Status::Undecided, "{place}");
+            assert_eq!(row.a_fail_g, None);
+            causes.push(row.flags.clone());
+        } else {
+            assert_eq!(row, well);
+        }
+    }
+    assert_eq!(
+        causes,
+        [
+            vec![Flag::UndecidedNode, Flag::Panicked],
+            vec![Flag::UndecidedNode, Flag::NotFinite],
+            vec![Flag::UndecidedNode, Flag::NotConverged],
+        ]
+    );
+
+    // A cure: only what had no verdict runs again, and the table is that of a clean sweep.
+    let cure = SweepOptions {
+        retry_undecided: true,
+        ..options
+    };
+    let cured = sweep(
+        &input,
+        &MockSimulator::new(&input),
+        &folder.path().join("sick"),
+        &cure,
+        &Silent,
+    )
+    .expect("sweeps");
+    assert_eq!(cured.summary, clean.summary);
+    assert!(cured.computed_runs < 60, "{}", cured.computed_runs);
+}
+
+/// Looks at the journal at every event.
+struct Auditor {
+    journal: PathBuf,
+    told: Mutex<usize>,
+}
+
+impl Progress for Auditor {
+    fn event(&self, event: &Event) {
+        if let Event::ProbeDone { .. } = event {
+            let mut told = self.told.lock().expect("not poisoned");
+            *told += 1;
+            let content = journal::read(&self.journal)
+                .expect("reads")
+                .expect("is there");
+            let runs = content
+                .records
+                .iter()
+                .filter(|record| matches!(record, Record::Run(_)))
+                .count();
+            assert!(content.damage.is_empty());
+            assert!(runs >= *told, "{told} told, {runs} on the disk");
+        }
+    }
+}
+
+#[test]
+fn what_is_told_is_on_the_disk() {
+    let input = study(&[RampClass::None, RampClass::Rigid], &[1.0]);
+    let folder = tempfile::tempdir().expect("folder");
+    let auditor = Auditor {
+        journal: folder.path().join("journal"),
+        told: Mutex::new(0),
+    };
+    let end = sweep(
+        &input,
+        &MockSimulator::new(&input),
+        folder.path(),
+        &SweepOptions::with_threads(2),
+        &auditor,
+    )
+    .expect("sweeps");
+    let told = *auditor.told.lock().expect("not poisoned") as u64;
+    assert_eq!(told, end.summary.totals.runs);
+}
+
+#[test]
+fn a_failure_found_outside_the_search_is_told_and_not_used() {
+    let input = study(&[RampClass::None], &[1.0]);
+    let folder = tempfile::tempdir().expect("folder");
+    let options = SweepOptions::with_threads(1);
+    let simulator = MockSimulator::new(&input);
+    let first = sweep(&input, &simulator, folder.path(), &options, &Silent).expect("sweeps");
+
+    let (mut store, loaded) = Store::open(folder.path(), &input.texts, &session(1)).expect("opens");
+    let failure: &RunRecord = loaded
+        .runs
+        .values()
+        .find(|run| run.result.verdict.as_str() == "fails")
+        .expect("a failure");
+    let mut lucky = failure.clone();
+    let sign = f64::from_bits(lucky.key.amplitude_bits).signum();
+    lucky.key.amplitude_bits = (sign * 9.80665 * 100.3).to_bits();
+    store.append(&[Record::Run(lucky)]).expect("appends");
+    drop(store);
+
+    let recorder = Recorder::default();
+    let second = sweep(&input, &simulator, folder.path(), &options, &recorder).expect("sweeps");
+    assert_eq!(second.summary, first.summary);
+    assert_eq!(recorder.warnings(), ["lucky"]);
+}
