@@ -9,7 +9,7 @@
 //! face pressure is the ambient one.
 
 use super::flow_factor::FlowFactor;
-use super::flux::{HalfCell, HalfFlux};
+use super::flux::{HalfCell, Partials};
 use super::layout;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
@@ -47,6 +47,9 @@ pub enum FilmError {
         rail: usize,
     },
 }
+
+/// Recesses closer than this belong to one smooth stretch of film.
+const SAME_RECESS_M: f64 = 1e-12;
 
 /// Height of a place: the constant part and the lever arms of pitch and roll.
 #[derive(Clone, Copy, Debug)]
@@ -90,29 +93,66 @@ struct Cell {
     area: f64,
 }
 
-/// Face between two cells; the normal points from the first to the second.
+/// One cell's side of a face.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    cell: usize,
+    /// The next cell away from the face; `cell` itself when `reach` is 0.
+    behind: usize,
+    /// See [`HalfCell::reach`].
+    reach: f64,
+    recess: f64,
+    /// 1/Δ.
+    inverse_distance: f64,
+    /// 6 μ U · outward normal.
+    wind: f64,
+    /// Area of the half cell.
+    area: f64,
+}
+
+/// Face between two cells.
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    cells: [usize; 2],
+    sides: [Side; 2],
     place: Place,
-    recess: [f64; 2],
-    /// 1/Δ of both half cells.
-    inverse_distance: [f64; 2],
     length: f64,
-    /// 6 μ U · normal.
-    wind: f64,
 }
 
 /// Face on the slider's edge.
 #[derive(Clone, Copy, Debug)]
 struct EdgeFace {
-    cell: usize,
+    side: Side,
     place: Place,
-    recess: f64,
-    inverse_distance: f64,
     length: f64,
-    /// 6 μ U · outward normal.
-    wind: f64,
+}
+
+/// Flux and load of one face with their derivatives.
+struct FaceDerivatives {
+    /// Cell the flux leaves, and cell it enters.
+    cells: [Option<usize>; 2],
+    /// Cells whose ψ the derivatives are by; may repeat.
+    sources: [usize; 4],
+    arms: [f64; 3],
+    flux: f64,
+    flux_by_psi: [f64; 4],
+    flux_by_attitude: [f64; 3],
+    load: f64,
+    load_by_psi: [f64; 4],
+    load_by_attitude: [f64; 3],
+}
+
+impl FaceDerivatives {
+    #[inline]
+    fn add_force_gradients(&self, by_psi: &mut [Vec<f64>; 3], by_attitude: &mut [[f64; 3]; 3]) {
+        for (f, arm) in self.arms.into_iter().enumerate() {
+            for (cell, by) in self.sources.into_iter().zip(self.load_by_psi) {
+                by_psi[f][cell] += arm * by;
+            }
+            for (sum, by) in by_attitude[f].iter_mut().zip(self.load_by_attitude) {
+                *sum += arm * by;
+            }
+        }
+    }
 }
 
 /// Film under one slider: immutable once built.
@@ -124,8 +164,6 @@ pub struct Film {
     edge_faces: Vec<EdgeFace>,
     capacity: Vec<f64>,
     half_bandwidth: usize,
-    /// Cells are numbered fastest along y (the usual case) or along x.
-    along_y: bool,
     flow: FlowFactor,
     floor: Floor,
     ambient_pa: f64,
@@ -156,6 +194,12 @@ pub struct FilmLinearisation {
     pub by_psi: BandMatrix,
     /// dR/d(h_c, pitch, roll); each of length n_cells.
     pub by_attitude: [Vec<f64>; 3],
+    /// [F_z, M_pitch, M_roll], as from [`Film::force`].
+    pub force: [f64; 3],
+    /// Derivatives of each force by every cell's ψ; each of length n_cells.
+    pub force_by_psi: [Vec<f64>; 3],
+    /// Derivatives of each force by (h_c, pitch, roll) at constant ψ: `[force][q]`.
+    pub force_by_attitude: [[f64; 3]; 3],
 }
 
 impl Film {
@@ -223,8 +267,7 @@ impl Film {
     ) -> Result<Self, FilmError> {
         let surface = Surface::new(slider);
         let [nx, ny] = [lines[0].n_cells(), lines[1].n_cells()];
-        let along_y = ny <= nx;
-        let index = |i: usize, j: usize| if along_y { i * ny + j } else { j * nx + i };
+        let index = |i: usize, j: usize| j * nx + i;
         let speed = spin_rad_per_s * slider.radius_m;
         let wind = [
             6.0 * gas.viscosity_pa_s * speed * slider.skew_rad.cos(),
@@ -255,7 +298,6 @@ impl Film {
         let mut faces = Vec::with_capacity(2 * nx * ny);
         let mut edge_faces = Vec::with_capacity(2 * (nx + ny));
         let mut add = |d: usize, line: usize, across: usize| {
-            // Cells before and behind the line, if any, along direction d.
             let n = lines[d].n_cells();
             let cell = |k: usize| {
                 if d == 0 {
@@ -269,36 +311,60 @@ impl Film {
             let (x, y) = if d == 0 { (at, middle) } else { (middle, at) };
             let place = Place::new(&surface, x, y);
             let length = lines[1 - d].width(across);
-            let inverse = |k: usize| 2.0 / lines[d].width(k);
-            if line == 0 || line == n {
-                let k = if line == 0 { 0 } else { n - 1 };
-                edge_faces.push(EdgeFace {
+            // Side of cell k, whose outward normal points along `sign`.
+            let side = |k: usize, sign: f64| {
+                let half_width = 0.5 * lines[d].width(k);
+                let blows_here = sign * wind[d] > 0.0;
+                let behind = if sign > 0.0 {
+                    k.checked_sub(1)
+                } else {
+                    Some(k + 1).filter(|&b| b < n)
+                };
+                // Numbering runs along x, so a second neighbour along x costs no bandwidth.
+                let behind = behind.filter(|&b| {
+                    d == 0
+                        && blows_here
+                        && (cells[cell(b)].recess - cells[cell(k)].recess).abs() < SAME_RECESS_M
+                });
+                Side {
                     cell: cell(k),
-                    place,
+                    behind: cell(behind.unwrap_or(k)),
+                    reach: behind.map_or(0.0, |b| {
+                        lines[d].width(k) / (lines[d].width(k) + lines[d].width(b))
+                    }),
                     recess: cells[cell(k)].recess,
-                    inverse_distance: inverse(k),
+                    inverse_distance: 1.0 / half_width,
+                    wind: sign * wind[d],
+                    area: half_width * length,
+                }
+            };
+            if line == 0 {
+                edge_faces.push(EdgeFace {
+                    side: side(0, -1.0),
+                    place,
                     length,
-                    wind: if line == 0 { -wind[d] } else { wind[d] },
+                });
+            } else if line == n {
+                edge_faces.push(EdgeFace {
+                    side: side(n - 1, 1.0),
+                    place,
+                    length,
                 });
             } else {
-                let pair = [cell(line - 1), cell(line)];
                 faces.push(Face {
-                    cells: pair,
+                    sides: [side(line - 1, 1.0), side(line, -1.0)],
                     place,
-                    recess: pair.map(|c| cells[c].recess),
-                    inverse_distance: [inverse(line - 1), inverse(line)],
                     length,
-                    wind: wind[d],
                 });
             }
         };
-        for line in 0..=nx {
-            for across in 0..ny {
+        for across in 0..ny {
+            for line in 0..=nx {
                 add(0, line, across);
             }
         }
-        for across in 0..nx {
-            for line in 0..=ny {
+        for line in 0..=ny {
+            for across in 0..nx {
                 add(1, line, across);
             }
         }
@@ -308,8 +374,7 @@ impl Film {
                 .iter()
                 .map(|c| 12.0 * gas.viscosity_pa_s * c.area)
                 .collect(),
-            half_bandwidth: nx.min(ny),
-            along_y,
+            half_bandwidth: nx.max(2),
             cells,
             faces,
             edge_faces,
@@ -333,11 +398,7 @@ impl Film {
 
     /// Index in ψ of the cell between lines `i`, `i + 1` along x and `j`, `j + 1` along y.
     pub fn cell_index(&self, i: usize, j: usize) -> usize {
-        if self.along_y {
-            i * self.lines[1].n_cells() + j
-        } else {
-            j * self.lines[0].n_cells() + i
-        }
+        j * self.lines[0].n_cells() + i
     }
 
     /// 12 μ A of every cell, Pa s m2; what multiplies dψ/dt.
@@ -348,6 +409,14 @@ impl Film {
     /// Ambient pressure, Pa.
     pub fn ambient_pa(&self) -> f64 {
         self.ambient_pa
+    }
+
+    /// Length and width of the slider, m.
+    pub fn extent_m(&self) -> [f64; 2] {
+        [0, 1].map(|d| {
+            let lines = self.lines[d].as_slice();
+            lines[lines.len() - 1] - lines[0]
+        })
     }
 
     /// Height h0 of the film's floor, m.
@@ -369,6 +438,9 @@ impl Film {
             residual: vec![0.0; n],
             by_psi: BandMatrix::zeros(n, self.half_bandwidth),
             by_attitude: std::array::from_fn(|_| vec![0.0; n]),
+            force: [0.0; 3],
+            force_by_psi: std::array::from_fn(|_| vec![0.0; n]),
+            force_by_attitude: [[0.0; 3]; 3],
         }
     }
 
@@ -412,19 +484,45 @@ impl Film {
         )
     }
 
+    #[inline]
+    fn column(&self, cell: &Cell, psi: f64, attitude: &Attitude) -> Column {
+        let (h, h_slope) = self.cell_height(cell, attitude);
+        let (g, g_slope) = self.flow.conductance(psi);
+        Column {
+            h,
+            h_slope,
+            g,
+            g_slope,
+        }
+    }
+
     fn fill_columns(&self, psi: &[f64], attitude: &Attitude, scratch: &mut FilmScratch) {
         assert_eq!(psi.len(), self.n_cells());
         assert_eq!(scratch.columns.len(), self.n_cells());
         for ((column, &psi), cell) in scratch.columns.iter_mut().zip(psi).zip(&self.cells) {
-            let (h, h_slope) = self.cell_height(cell, attitude);
-            let (g, g_slope) = self.flow.conductance(psi);
-            *column = Column {
-                h,
-                h_slope,
-                g,
-                g_slope,
-            };
+            *column = self.column(cell, psi, attitude);
         }
+    }
+
+    /// Half cell of `side` and the floor's derivative at its face, whose true height without recess
+    /// is `base`.
+    #[inline]
+    fn half_cell(&self, side: &Side, psi: &[f64], column: &Column, base: f64) -> (HalfCell, f64) {
+        let (h_face, slope) = self.floor.apply(base + side.recess);
+        (
+            HalfCell {
+                psi: psi[side.cell],
+                psi_behind: psi[side.behind],
+                reach: side.reach,
+                g: column.g,
+                g_slope: column.g_slope,
+                h_centre: column.h,
+                h_face,
+                inverse_distance: side.inverse_distance,
+                wind: side.wind,
+            },
+            slope,
+        )
     }
 
     /// Net outward flux R of every cell: `capacity` dψ/dt + `out` = 0.
@@ -443,68 +541,155 @@ impl Film {
     ) {
         assert_eq!(out.len(), self.n_cells());
         self.fill_columns(psi, attitude, scratch);
-        let columns = &scratch.columns;
         out.fill(0.0);
+        self.sweep(
+            psi,
+            attitude,
+            |c| scratch.columns[c],
+            |cells, flux, _, _| {
+                for (cell, sign) in cells.into_iter().zip([1.0, -1.0]) {
+                    if let Some(cell) = cell {
+                        out[cell] += sign * flux;
+                    }
+                }
+            },
+        );
+    }
+
+    /// [`Film::flux_residual`] and [`Film::force`] in one pass over the faces.
+    ///
+    /// # Panics
+    ///
+    /// When a slice has not n_cells entries.
+    pub fn flux_residual_and_force(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        out: &mut [f64],
+        scratch: &mut FilmScratch,
+    ) -> [f64; 3] {
+        assert_eq!(out.len(), self.n_cells());
+        self.fill_columns(psi, attitude, scratch);
+        out.fill(0.0);
+        let mut force = self.centre_force(psi, attitude);
+        self.sweep(
+            psi,
+            attitude,
+            |c| scratch.columns[c],
+            |cells, flux, loads, place| {
+                for (cell, sign) in cells.into_iter().zip([1.0, -1.0]) {
+                    if let Some(cell) = cell {
+                        out[cell] += sign * flux;
+                    }
+                }
+                for (f, arm) in force.iter_mut().zip(place.arms()) {
+                    *f += (loads[0] + loads[1]) * arm;
+                }
+            },
+        );
+        force
+    }
+
+    /// Force and moments [F_z, M_pitch, M_roll] of the film on the slider, conjugate to (h_c,
+    /// pitch, roll): N, N m, N m.
+    ///
+    /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
+    /// layers at the pads' edges count although no cell resolves them.
+    ///
+    /// # Panics
+    ///
+    /// When `psi` has not n_cells entries.
+    pub fn force(&self, psi: &[f64], attitude: &Attitude) -> [f64; 3] {
+        assert_eq!(psi.len(), self.n_cells());
+        let mut force = self.centre_force(psi, attitude);
+        let column = |c: usize| self.column(&self.cells[c], psi[c], attitude);
+        self.sweep(psi, attitude, column, |_, _, loads, place| {
+            for (f, arm) in force.iter_mut().zip(place.arms()) {
+                *f += (loads[0] + loads[1]) * arm;
+            }
+        });
+        force
+    }
+
+    /// Normal force on every cell, N, over the same profiles as [`Film::force`].
+    ///
+    /// # Panics
+    ///
+    /// When a slice has not n_cells entries.
+    pub fn cell_forces(&self, psi: &[f64], attitude: &Attitude, out: &mut [f64]) {
+        assert_eq!(psi.len(), self.n_cells());
+        assert_eq!(out.len(), self.n_cells());
+        for ((force, psi), cell) in out.iter_mut().zip(psi).zip(&self.cells) {
+            let p = psi / self.cell_height(cell, attitude).0;
+            *force = (p - self.ambient_pa) * cell.area;
+        }
+        let column = |c: usize| self.column(&self.cells[c], psi[c], attitude);
+        self.sweep(psi, attitude, column, |cells, _, loads, _| {
+            for (cell, load) in cells.into_iter().zip(loads) {
+                if let Some(cell) = cell {
+                    out[cell] += load;
+                }
+            }
+        });
+    }
+
+    /// Force of the pressures at the cells' centres, each over its whole cell.
+    fn centre_force(&self, psi: &[f64], attitude: &Attitude) -> [f64; 3] {
+        let mut force = [0.0; 3];
+        for (psi, cell) in psi.iter().zip(&self.cells) {
+            let p = psi / self.cell_height(cell, attitude).0;
+            let load = (p - self.ambient_pa) * cell.area;
+            for (f, arm) in force.iter_mut().zip(cell.place.arms()) {
+                *f += load * arm;
+            }
+        }
+        force
+    }
+
+    /// Hands every face's flux (out of the first cell, into the second) and the forces of its
+    /// half cells beyond their centre pressures to `take`.
+    #[inline]
+    fn sweep(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        column: impl Fn(usize) -> Column,
+        mut take: impl FnMut([Option<usize>; 2], f64, [f64; 2], &Place),
+    ) {
         for face in &self.faces {
-            let [l, r] = face.cells;
             let base = face.place.height(attitude);
-            let half = |side: usize, cell: usize, wind: f64| {
-                self.half_cell(
-                    psi[cell],
-                    &columns[cell],
-                    base + face.recess[side],
-                    face.inverse_distance[side],
-                    wind,
-                )
-                .0
-                .flux()
-            };
-            let (left, right) = (half(0, l, face.wind), half(1, r, -face.wind));
-            let pressure = (left.alpha + right.alpha) / (left.beta + right.beta);
-            let flux = face.length * (left.alpha - left.beta * pressure);
-            out[l] += flux;
-            out[r] -= flux;
+            let half: [HalfCell; 2] = std::array::from_fn(|s| {
+                let side = &face.sides[s];
+                self.half_cell(side, psi, &column(side.cell), base).0
+            });
+            let [left, right] = [half[0].flux(), half[1].flux()];
+            let p = (left.alpha + right.alpha) / (left.beta + right.beta);
+            let loads = [
+                face.sides[0].area * half[0].mean_excess(&left, p),
+                face.sides[1].area * half[1].mean_excess(&right, p),
+            ];
+            take(
+                face.sides.map(|side| Some(side.cell)),
+                face.length * (left.alpha - left.beta * p),
+                loads,
+                &face.place,
+            );
         }
         for face in &self.edge_faces {
+            let side = &face.side;
             let base = face.place.height(attitude);
-            let (half, _) = self.half_cell(
-                psi[face.cell],
-                &columns[face.cell],
-                base + face.recess,
-                face.inverse_distance,
-                face.wind,
+            let half = self.half_cell(side, psi, &column(side.cell), base).0;
+            let (flux, p) = (half.flux(), self.ambient_pa);
+            take(
+                [Some(side.cell), None],
+                face.length * (flux.alpha - flux.beta * p),
+                [side.area * half.mean_excess(&flux, p), 0.0],
+                &face.place,
             );
-            let flux = half.flux();
-            out[face.cell] += face.length * (flux.alpha - flux.beta * self.ambient_pa);
         }
     }
 
-    /// Half cell and the floor's derivative at its face.
-    #[inline]
-    fn half_cell(
-        &self,
-        psi: f64,
-        column: &Column,
-        face_height: f64,
-        inverse_distance: f64,
-        wind: f64,
-    ) -> (HalfCell, f64) {
-        let (h_face, slope) = self.floor.apply(face_height);
-        (
-            HalfCell {
-                psi,
-                g: column.g,
-                g_slope: column.g_slope,
-                h_centre: column.h,
-                h_face,
-                inverse_distance,
-                wind,
-            },
-            slope,
-        )
-    }
-
-    /// R with dR/dψ and dR/d(h_c, pitch, roll).
+    /// R and the force with all their derivatives.
     ///
     /// # Panics
     ///
@@ -522,97 +707,43 @@ impl Film {
         out.residual.fill(0.0);
         out.by_psi.clear();
         out.by_attitude.iter_mut().for_each(|c| c.fill(0.0));
+        out.force = self.centre_force(psi, attitude);
+        self.centre_gradients(
+            psi,
+            attitude,
+            &mut out.force_by_psi,
+            &mut out.force_by_attitude,
+        );
 
-        for face in &self.faces {
-            let base = face.place.height(attitude);
-            let mut halves: [(HalfCell, f64); 2] = std::array::from_fn(|s| {
-                let cell = face.cells[s];
-                let wind = if s == 0 { face.wind } else { -face.wind };
-                self.half_cell(
-                    psi[cell],
-                    &columns[cell],
-                    base + face.recess[s],
-                    face.inverse_distance[s],
-                    wind,
-                )
-            });
-            let flux: [HalfFlux; 2] = std::array::from_fn(|s| halves[s].0.flux());
-            let total = flux[0].beta + flux[1].beta;
-            let pressure = (flux[0].alpha + flux[1].alpha) / total;
-            // J = α_l − β_l p_f; with the face pressure eliminated a change of one side reaches J
-            // through the other side's share of β.
-            let share = [
-                face.length * flux[1].beta / total,
-                -face.length * flux[0].beta / total,
-            ];
-            let j = face.length * (flux[0].alpha - flux[0].beta * pressure);
-            let [l, r] = face.cells;
-            out.residual[l] += j;
-            out.residual[r] -= j;
-            let mut by_attitude = [0.0; 3];
-            for s in 0..2 {
-                let (half, face_slope) = &mut halves[s];
-                let [by_psi, by_centre, by_face] = half.derivatives(&flux[s], pressure);
-                let cell = face.cells[s];
-                out.by_psi.add(l, cell, share[s] * by_psi);
-                out.by_psi.add(r, cell, -share[s] * by_psi);
-                let centre = share[s] * by_centre * columns[cell].h_slope;
-                let at_face = share[s] * by_face * *face_slope;
-                let arms = self.cells[cell].place.arms();
-                let face_arms = face.place.arms();
-                for q in 0..3 {
-                    by_attitude[q] += centre * arms[q] + at_face * face_arms[q];
+        let by_psi = &mut out.by_psi;
+        let (residual, by_attitude) = (&mut out.residual, &mut out.by_attitude);
+        let (force, force_by_psi) = (&mut out.force, &mut out.force_by_psi);
+        let force_by_attitude = &mut out.force_by_attitude;
+        self.sweep_derivatives(
+            psi,
+            attitude,
+            |c| columns[c],
+            |face| {
+                for (cell, sign) in face.cells.into_iter().zip([1.0, -1.0]) {
+                    let Some(cell) = cell else { continue };
+                    residual[cell] += sign * face.flux;
+                    for (k, by) in face.sources.into_iter().zip(face.flux_by_psi) {
+                        by_psi.add(cell, k, sign * by);
+                    }
+                    for (column, by) in by_attitude.iter_mut().zip(face.flux_by_attitude) {
+                        column[cell] += sign * by;
+                    }
                 }
-            }
-            for (column, by) in out.by_attitude.iter_mut().zip(by_attitude) {
-                column[l] += by;
-                column[r] -= by;
-            }
-        }
-        for face in &self.edge_faces {
-            let c = face.cell;
-            let base = face.place.height(attitude);
-            let (half, face_slope) = self.half_cell(
-                psi[c],
-                &columns[c],
-                base + face.recess,
-                face.inverse_distance,
-                face.wind,
-            );
-            let flux = half.flux();
-            let p = self.ambient_pa;
-            let [by_psi, by_centre, by_face] = half.derivatives(&flux, p);
-            out.residual[c] += face.length * (flux.alpha - flux.beta * p);
-            out.by_psi.add(c, c, face.length * by_psi);
-            let centre = face.length * by_centre * columns[c].h_slope;
-            let at_face = face.length * by_face * face_slope;
-            let (arms, face_arms) = (self.cells[c].place.arms(), face.place.arms());
-            for q in 0..3 {
-                out.by_attitude[q][c] += centre * arms[q] + at_face * face_arms[q];
-            }
-        }
+                for (f, arm) in force.iter_mut().zip(face.arms) {
+                    *f += arm * face.load;
+                }
+                face.add_force_gradients(force_by_psi, force_by_attitude);
+            },
+        );
     }
 
-    /// Force and moments [F_z, M_pitch, M_roll] of the film on the slider, conjugate to (h_c,
-    /// pitch, roll): N, N m, N m.
-    ///
-    /// # Panics
-    ///
-    /// When `psi` has not n_cells entries.
-    pub fn force(&self, psi: &[f64], attitude: &Attitude) -> [f64; 3] {
-        assert_eq!(psi.len(), self.n_cells());
-        let mut force = [0.0; 3];
-        for (psi, cell) in psi.iter().zip(&self.cells) {
-            let p = psi / self.cell_height(cell, attitude).0;
-            let load = (p - self.ambient_pa) * cell.area;
-            for (f, arm) in force.iter_mut().zip(cell.place.arms()) {
-                *f += load * arm;
-            }
-        }
-        force
-    }
-
-    /// Gradients of [`Film::force`]: `by_psi[f][cell]` and `by_attitude[f][q]`.
+    /// Gradients of [`Film::force`] alone: `by_psi[f][cell]` and `by_attitude[f][q]`, q at constant
+    /// ψ. [`Film::linearise`] yields them too, at little more than its own cost.
     ///
     /// # Panics
     ///
@@ -626,6 +757,121 @@ impl Film {
     ) {
         assert_eq!(psi.len(), self.n_cells());
         assert!(by_psi.iter().all(|row| row.len() == self.n_cells()));
+        self.centre_gradients(psi, attitude, by_psi, by_attitude);
+        let column = |c: usize| self.column(&self.cells[c], psi[c], attitude);
+        self.sweep_derivatives(psi, attitude, column, |face| {
+            face.add_force_gradients(by_psi, by_attitude);
+        });
+    }
+
+    /// Hands flux and load of every face with their derivatives to `take`.
+    #[inline]
+    fn sweep_derivatives(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        column: impl Fn(usize) -> Column,
+        mut take: impl FnMut(&FaceDerivatives),
+    ) {
+        for face in &self.faces {
+            let base = face.place.height(attitude);
+            let columns = [column(face.sides[0].cell), column(face.sides[1].cell)];
+            let (a, a_slope) = self.half_cell(&face.sides[0], psi, &columns[0], base);
+            let (b, b_slope) = self.half_cell(&face.sides[1], psi, &columns[1], base);
+            let half = [a, b];
+            let flux = [a.flux(), b.flux()];
+            let inverse_total = 1.0 / (flux[0].beta + flux[1].beta);
+            let p = (flux[0].alpha + flux[1].alpha) / (flux[0].beta + flux[1].beta);
+
+            // J = α_l − β_l p_f; with the face pressure eliminated a change of one side reaches J
+            // through the other side's share of β, and p_f through 1/(β_l + β_r).
+            let share = [
+                face.length * flux[1].beta * inverse_total,
+                -face.length * flux[0].beta * inverse_total,
+            ];
+            let partials: [_; 2] = std::array::from_fn(|s| half[s].partials(&flux[s], p));
+            let load_by_p = inverse_total
+                * (face.sides[0].area * partials[0].excess_by_p
+                    + face.sides[1].area * partials[1].excess_by_p);
+            let mut all = FaceDerivatives {
+                cells: face.sides.map(|side| Some(side.cell)),
+                sources: [0; 4],
+                arms: face.place.arms(),
+                flux: face.length * (flux[0].alpha - flux[0].beta * p),
+                flux_by_psi: [0.0; 4],
+                flux_by_attitude: [0.0; 3],
+                load: face.sides[0].area * half[0].mean_excess(&flux[0], p)
+                    + face.sides[1].area * half[1].mean_excess(&flux[1], p),
+                load_by_psi: [0.0; 4],
+                load_by_attitude: [0.0; 3],
+            };
+            for (s, face_slope) in [a_slope, b_slope].into_iter().enumerate() {
+                let (side, part) = (&face.sides[s], &partials[s]);
+                let load: Partials =
+                    std::array::from_fn(|v| side.area * part.excess[v] + load_by_p * part.flux[v]);
+                let by = part.flux.map(|by| share[s] * by);
+                all.sources[2 * s..2 * s + 2].copy_from_slice(&[side.cell, side.behind]);
+                all.flux_by_psi[2 * s..2 * s + 2].copy_from_slice(&by[..2]);
+                all.load_by_psi[2 * s..2 * s + 2].copy_from_slice(&load[..2]);
+                let slopes = [columns[s].h_slope, face_slope];
+                self.add_by_attitude(side, &all.arms, slopes, &by, &mut all.flux_by_attitude);
+                self.add_by_attitude(side, &all.arms, slopes, &load, &mut all.load_by_attitude);
+            }
+            take(&all);
+        }
+
+        for face in &self.edge_faces {
+            let side = &face.side;
+            let column = column(side.cell);
+            let base = face.place.height(attitude);
+            let (half, face_slope) = self.half_cell(side, psi, &column, base);
+            let (flux, p) = (half.flux(), self.ambient_pa);
+            let partials = half.partials(&flux, p);
+            let by = partials.flux.map(|by| face.length * by);
+            let load = partials.excess.map(|by| side.area * by);
+            let mut all = FaceDerivatives {
+                cells: [Some(side.cell), None],
+                sources: [side.cell, side.behind, side.cell, side.cell],
+                arms: face.place.arms(),
+                flux: face.length * (flux.alpha - flux.beta * p),
+                flux_by_psi: [by[0], by[1], 0.0, 0.0],
+                flux_by_attitude: [0.0; 3],
+                load: side.area * half.mean_excess(&flux, p),
+                load_by_psi: [load[0], load[1], 0.0, 0.0],
+                load_by_attitude: [0.0; 3],
+            };
+            let slopes = [column.h_slope, face_slope];
+            self.add_by_attitude(side, &all.arms, slopes, &by, &mut all.flux_by_attitude);
+            self.add_by_attitude(side, &all.arms, slopes, &load, &mut all.load_by_attitude);
+            take(&all);
+        }
+    }
+
+    /// Adds derivatives by attitude that come through the heights at the cell's centre and at the
+    /// face, whose floors have the derivatives `slopes`.
+    #[inline]
+    fn add_by_attitude(
+        &self,
+        side: &Side,
+        face_arms: &[f64; 3],
+        slopes: [f64; 2],
+        by: &Partials,
+        out: &mut [f64; 3],
+    ) {
+        let centre_arms = self.cells[side.cell].place.arms();
+        for q in 0..3 {
+            out[q] += by[2] * slopes[0] * centre_arms[q] + by[3] * slopes[1] * face_arms[q];
+        }
+    }
+
+    /// Gradients of [`Film::centre_force`].
+    fn centre_gradients(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        by_psi: &mut [Vec<f64>; 3],
+        by_attitude: &mut [[f64; 3]; 3],
+    ) {
         *by_attitude = [[0.0; 3]; 3];
         for (k, (psi, cell)) in psi.iter().zip(&self.cells).enumerate() {
             let (h, h_slope) = self.cell_height(cell, attitude);

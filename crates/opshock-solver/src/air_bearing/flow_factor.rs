@@ -31,7 +31,7 @@ use std::f64::consts::PI;
 const FREE_MOLECULAR: [f64; 2] = [0.376_261, -1.632_81];
 
 /// Intervals a binade of ψ is cut into, as a power of two.
-const INTERVAL_BITS: u32 = 6;
+const INTERVAL_BITS: u32 = 7;
 
 /// Range of the table in ψ/(λ_a p_a): below, walls are 1e-6 mean free paths apart; above, Q − 1
 /// is 6e-6. Outside, the model is evaluated itself.
@@ -158,7 +158,8 @@ fn fukui_kaneko_rate(d: f64) -> (f64, f64) {
     );
     let mut rate = free;
     // The fit's own range ends; widths keep either branch within 0.8 % of the BGK solution.
-    for (branch, centre, half_width) in [(low, 0.01, 0.15), (middle, 0.15, 0.10), (high, 5.0, 0.15)]
+    for (branch, centre, half_width) in
+        [(low, 0.0118, 0.15), (middle, 0.15, 0.10), (high, 5.0, 0.15)]
     {
         rate = blend(rate, branch, (d / centre).ln() / half_width, half_width);
     }

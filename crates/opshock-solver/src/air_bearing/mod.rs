@@ -3,7 +3,9 @@
 mod film;
 mod flow_factor;
 mod flux;
+pub mod impedance;
 mod layout;
+pub mod steady;
 mod thickness;
 
 #[cfg(test)]

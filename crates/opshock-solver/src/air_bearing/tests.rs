@@ -152,9 +152,17 @@ fn force_gradients_match_differences() {
     };
     let psi = wavy_state(&film, &attitude);
     let n = film.n_cells();
-    let mut by_psi: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; n]);
-    let mut by_attitude = [[0.0; 3]; 3];
-    film.force_gradients(&psi, &attitude, &mut by_psi, &mut by_attitude);
+    let mut lin = film.linearisation();
+    film.linearise(&psi, &attitude, &mut lin, &mut film.scratch());
+    let (by_psi, by_attitude) = (&lin.force_by_psi, lin.force_by_attitude);
+    let mut residual = vec![0.0; n];
+    let together =
+        film.flux_residual_and_force(&psi, &attitude, &mut residual, &mut film.scratch());
+    for (a, b) in lin.force.into_iter().zip(film.force(&psi, &attitude)) {
+        assert!((a - b).abs() < 1e-12 * a.abs());
+    }
+    assert_eq!(together, film.force(&psi, &attitude));
+    assert_eq!(residual, lin.residual);
     let direction: Vec<f64> = (0..n).map(|k| psi[k] * (k as f64 * 1.3).cos()).collect();
     let e = 1e-6;
     let at = |e: f64| {
@@ -203,14 +211,78 @@ fn fluxes_leave_one_cell_and_enter_the_next() {
     let psi = wavy_state(&film, &attitude);
     let mut lin = film.linearisation();
     film.linearise(&psi, &attitude, &mut lin, &mut film.scratch());
-    // Columns of cells away from the slider's edges sum to zero, off-diagonals are not positive.
+    // Columns of cells whose ψ no flux through the slider's edge depends on sum to zero.
     let [nx, ny] = film.lines_m().map(|l| l.len() - 1);
     let n = film.n_cells();
-    for i in 1..nx - 1 {
+    for i in 2..nx - 2 {
         for j in 1..ny - 1 {
             let c = film.cell_index(i, j);
             let sum: f64 = (0..n).map(|r| lin.by_psi.get(r, c)).sum();
             assert!(sum.abs() < 1e-12 * lin.by_psi.get(c, c).abs());
         }
+    }
+}
+
+#[test]
+fn flying_slider_balances_its_load_and_reports_consistent_forces() {
+    let film = film(700, 3e-10);
+    let load = [0.02, 1e-7, -5e-8];
+    let flight = steady::fly(&film, load).unwrap();
+    let force = film.force(&flight.psi, &flight.attitude);
+    let scale = [load[0], load[0] * 4e-4, load[0] * 3e-4];
+    for k in 0..3 {
+        assert!((force[k] - load[k]).abs() < 1e-9 * scale[k]);
+    }
+    assert!((flight.lift_n + flight.suction_n - load[0]).abs() < 1e-9 * load[0]);
+    assert!(flight.n_iterations <= 20);
+
+    // Stiffness and damping against Z(iω) at a low frequency, and Z against the held film.
+    let mut motion = impedance::SmallMotion::new(&film, &flight.psi, &flight.attitude);
+    let z = motion.impedance(1.0).unwrap();
+    for i in 0..3 {
+        for j in 0..3 {
+            let size = (flight.stiffness[i][i] * flight.stiffness[j][j]).sqrt();
+            assert!((z[(i, j)].re - flight.stiffness[i][j]).abs() < 1e-6 * size);
+            let size = (flight.damping[i][i] * flight.damping[j][j]).abs().sqrt();
+            let damping = z[(i, j)].im / std::f64::consts::TAU;
+            assert!((damping - flight.damping[i][j]).abs() < 1e-4 * size);
+        }
+    }
+    let step = 1e-12;
+    let held = |dh: f64| {
+        let mut attitude = flight.attitude;
+        attitude.centre_height_m += dh;
+        steady::fixed_attitude(&film, &attitude).unwrap().force
+    };
+    let (up, down) = (held(step), held(-step));
+    let stiffness = -(up[0] - down[0]) / (2.0 * step);
+    assert!((stiffness / flight.stiffness[0][0] - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn far_starts_reach_the_same_equilibrium() {
+    let film = film(500, 3e-10);
+    let load = [0.02, 0.0, 0.0];
+    let flown = steady::fly(&film, load).unwrap();
+    let start = |centre_height_m, pitch_rad| Attitude {
+        centre_height_m,
+        pitch_rad,
+        roll_rad: 0.0,
+    };
+    for from in [
+        start(1e-5, 1e-4),
+        start(
+            flown.attitude.centre_height_m - flown.min_clearance_m + 1e-10,
+            1e-4,
+        ),
+        start(1e-7, -1e-4),
+        start(2e-7, 4e-4),
+    ] {
+        let other = steady::fly_from(&film, load, &from).unwrap();
+        assert!(
+            (other.min_clearance_m / flown.min_clearance_m - 1.0).abs() < 1e-8,
+            "{from:?}"
+        );
+        assert!((other.attitude.pitch_rad / flown.attitude.pitch_rad - 1.0).abs() < 1e-8);
     }
 }

@@ -1,0 +1,196 @@
+//! Small motions about a steady state: impedance against frequency, air-bearing modes.
+//!
+//! ```text
+//! (A + s M) ψ̂ = −C q̂,   F̂ = F_ψ ψ̂ + F_q q̂ = −Z(s) q̂,   Z(s) = F_ψ (A + s M)⁻¹ C − F_q
+//! ```
+//!
+//! A = dR/dψ, C = dR/dq and the capacities M come from the linearisation the steady solution uses.
+//! At s = iω, Re Z is the stiffness and Im Z/ω the damping. A slider of inertia J free on its film
+//! moves as exp(s t) where det(Z(s) + s² J) = 0; Z varies slowly with s, so each root follows from
+//! a few eigenvalue problems of size three.
+
+use super::Attitude;
+use super::film::Film;
+use crate::linalg::banded::{BandMatrix, BandedError, BandedLu};
+use nalgebra::{Complex, Matrix3};
+use thiserror::Error;
+
+/// Why a dynamic property of the film could not be found.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ImpedanceError {
+    /// The complex system could not be factored.
+    #[error("the film's dynamic matrix could not be factored: {0}")]
+    Singular(#[from] BandedError),
+    /// A mode did not settle.
+    #[error("air-bearing mode {mode} did not settle, last value {frequency_hz} Hz")]
+    Mode {
+        /// Index from the lowest.
+        mode: usize,
+        /// Last iterate, Hz.
+        frequency_hz: f64,
+    },
+}
+
+/// Free vibration of the slider on its film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirBearingMode {
+    /// |s|/2π, Hz.
+    pub frequency_hz: f64,
+    /// −Re s/|s|.
+    pub damping_ratio: f64,
+}
+
+/// Film linearised about a state.
+pub struct SmallMotion<'a> {
+    film: &'a Film,
+    by_psi: BandMatrix,
+    by_attitude: [Vec<f64>; 3],
+    force_by_psi: [Vec<f64>; 3],
+    force_by_attitude: [[f64; 3]; 3],
+    /// A + s M with real and imaginary part of every cell side by side.
+    matrix: BandMatrix,
+    lu: BandedLu,
+    columns: Vec<[f64; 3]>,
+    zero: Vec<f64>,
+}
+
+impl<'a> SmallMotion<'a> {
+    /// Linearises about (ψ, attitude), usually a steady state.
+    ///
+    /// # Panics
+    ///
+    /// When `psi` has not n_cells entries.
+    pub fn new(film: &'a Film, psi: &[f64], attitude: &Attitude) -> Self {
+        let mut linearisation = film.linearisation();
+        film.linearise(psi, attitude, &mut linearisation, &mut film.scratch());
+        let n = film.n_cells();
+        let half_bandwidth = 2 * linearisation.by_psi.half_bandwidth() + 1;
+        Self {
+            film,
+            matrix: BandMatrix::zeros(2 * n, half_bandwidth),
+            lu: BandedLu::new(2 * n, half_bandwidth),
+            columns: vec![[0.0; 3]; 2 * n],
+            zero: vec![0.0; 2 * n],
+            by_psi: linearisation.by_psi,
+            by_attitude: linearisation.by_attitude,
+            force_by_psi: linearisation.force_by_psi,
+            force_by_attitude: linearisation.force_by_attitude,
+        }
+    }
+
+    /// Z(s), rows and columns in the order (h_c, pitch, roll), s in 1/s.
+    ///
+    /// # Errors
+    ///
+    /// [`ImpedanceError::Singular`] when s meets a decay rate of the film itself.
+    pub fn at(&mut self, s: Complex<f64>) -> Result<Matrix3<Complex<f64>>, ImpedanceError> {
+        let n = self.film.n_cells();
+        let b = self.by_psi.half_bandwidth();
+        self.matrix.clear();
+        for (i, capacity) in self.film.capacity().iter().enumerate() {
+            for j in i.saturating_sub(b)..=(i + b).min(n - 1) {
+                let value = self.by_psi.get(i, j);
+                if value != 0.0 {
+                    self.matrix.add(2 * i, 2 * j, value);
+                    self.matrix.add(2 * i + 1, 2 * j + 1, value);
+                }
+            }
+            self.matrix.add(2 * i, 2 * i, s.re * capacity);
+            self.matrix.add(2 * i + 1, 2 * i + 1, s.re * capacity);
+            self.matrix.add(2 * i, 2 * i + 1, -s.im * capacity);
+            self.matrix.add(2 * i + 1, 2 * i, s.im * capacity);
+        }
+        self.lu.factor(&self.matrix, 0.0, &self.zero)?;
+        for (i, pair) in self.columns.chunks_exact_mut(2).enumerate() {
+            pair[0] = std::array::from_fn(|q| self.by_attitude[q][i]);
+            pair[1] = [0.0; 3];
+        }
+        self.lu.solve_columns(&mut self.columns);
+        Ok(Matrix3::from_fn(|f, q| {
+            let mut sum = Complex::new(-self.force_by_attitude[f][q], 0.0);
+            for (gradient, pair) in self.force_by_psi[f]
+                .iter()
+                .zip(self.columns.chunks_exact(2))
+            {
+                sum += Complex::new(gradient * pair[0][q], gradient * pair[1][q]);
+            }
+            sum
+        }))
+    }
+
+    /// Z at a frequency: stiffness Re Z (N/m, N, N m/rad) and damping Im Z/ω.
+    ///
+    /// # Errors
+    ///
+    /// As [`SmallMotion::at`].
+    pub fn impedance(
+        &mut self,
+        frequency_hz: f64,
+    ) -> Result<Matrix3<Complex<f64>>, ImpedanceError> {
+        self.at(Complex::new(0.0, std::f64::consts::TAU * frequency_hz))
+    }
+
+    /// The three modes of a slider with the inertia diag(`inertia`) (kg, kg m2, kg m2) that nothing
+    /// but the film holds, from the lowest frequency up.
+    ///
+    /// # Errors
+    ///
+    /// [`ImpedanceError`] when a factorisation fails or a mode does not settle.
+    pub fn free_modes(&mut self, inertia: [f64; 3]) -> Result<[AirBearingMode; 3], ImpedanceError> {
+        // Mass-scaled Z has eigenvalues −s².
+        let roots = inertia.map(f64::sqrt);
+        let spectrum = |z: Matrix3<Complex<f64>>| {
+            let scaled = Matrix3::from_fn(|i, j| z[(i, j)] / (roots[i] * roots[j]));
+            let mut values: [Complex<f64>; 3] = scaled.schur().unpack().1.diagonal().into();
+            values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+            values
+        };
+        let root = |value: Complex<f64>| {
+            let s = (-value).sqrt();
+            if s.im < 0.0 { -s } else { s }
+        };
+        let start = spectrum(self.impedance(START_HZ)?);
+        let mut modes = [AirBearingMode {
+            frequency_hz: 0.0,
+            damping_ratio: 0.0,
+        }; 3];
+        for (k, mode) in modes.iter_mut().enumerate() {
+            let mut s = root(start[k]);
+            let mut settled = false;
+            for _ in 0..MOST_MODE_ITERATIONS {
+                let values = spectrum(self.at(s)?);
+                let target = -(s * s);
+                let nearest = values
+                    .into_iter()
+                    .min_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm()));
+                let Some(nearest) = nearest else { break };
+                let next = root(nearest);
+                let change = (next - s).norm() / next.norm();
+                s = next;
+                if change < 1e-9 {
+                    settled = true;
+                    break;
+                }
+            }
+            let frequency_hz = s.norm() / std::f64::consts::TAU;
+            if !settled {
+                return Err(ImpedanceError::Mode {
+                    mode: k,
+                    frequency_hz,
+                });
+            }
+            *mode = AirBearingMode {
+                frequency_hz,
+                damping_ratio: -s.re / s.norm(),
+            };
+        }
+        modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        Ok(modes)
+    }
+}
+
+/// Frequency whose impedance the search for modes starts from, Hz; the film is stiff there.
+const START_HZ: f64 = 1.5e5;
+
+/// Most eigenvalue problems for one mode.
+const MOST_MODE_ITERATIONS: usize = 60;
