@@ -8,6 +8,7 @@
 
 mod engine;
 pub mod estimate;
+mod from_study;
 mod guard;
 mod input;
 mod ledger;
@@ -19,6 +20,6 @@ mod writer;
 
 pub use engine::{Ending, SweepEnd, SweepOptions, replay, sweep};
 pub use input::{SweepInput, SweepPoint};
-pub use progress::{Estimate, Event, PointLabel, Progress, Silent};
+pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use simulator::{Onset, Simulator};
 pub use stop::StopFlag;

@@ -1,9 +1,16 @@
 //! What a sweep tells while it runs. Everything reported as done is on the disk already.
 
+mod bars;
+mod lines;
+
+use std::io::IsTerminal;
 use std::path::PathBuf;
 
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Totals};
+
+pub use bars::Bars;
+pub use lines::Lines;
 
 /// Name of a point for people.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,4 +145,97 @@ pub struct Silent;
 
 impl Progress for Silent {
     fn event(&self, _event: &Event) {}
+}
+
+/// How a sweep tells of its progress on standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProgressKind {
+    /// A live table on a terminal, else lines.
+    #[default]
+    Auto,
+    /// A live table of brackets.
+    Bar,
+    /// A line per answered point, and one every ten seconds.
+    Lines,
+    /// Nothing.
+    None,
+}
+
+impl ProgressKind {
+    /// The progress of this kind; says at once what begins, before anything is read or computed.
+    pub fn start(self, study: &str) -> Box<dyn Progress> {
+        match self {
+            ProgressKind::None => Box::new(Silent),
+            ProgressKind::Lines => Box::new(Lines::start(std::io::stderr(), study)),
+            ProgressKind::Bar => Box::new(Bars::start(study)),
+            ProgressKind::Auto if std::io::stderr().is_terminal() => Box::new(Bars::start(study)),
+            ProgressKind::Auto => Box::new(Lines::start(std::io::stderr(), study)),
+        }
+    }
+}
+
+/// `331.2 to 334.5 G`, `above 2000 G`, `below 20 G`.
+fn answer(summary: &PointSummary) -> String {
+    bracket(summary.a_crit_g, summary.a_fail_g)
+}
+
+fn bracket(a_crit_g: Option<f64>, a_fail_g: Option<f64>) -> String {
+    match (a_crit_g, a_fail_g) {
+        (Some(low), Some(high)) => format!("{} to {} G", short(low), short(high)),
+        (Some(low), None) => format!("above {} G", short(low)),
+        (None, Some(high)) => format!("below {} G", short(high)),
+        (None, None) => "no verdict".into(),
+    }
+}
+
+/// Four figures.
+fn short(value: f64) -> String {
+    let digits = 3 - value.abs().max(1.0).log10().floor() as i32;
+    format!("{value:.*}", digits.max(0) as usize)
+}
+
+/// What is left, in words.
+fn left(estimate: &Estimate) -> String {
+    let runs = format!(
+        "{} runs done, {:.0} \u{b1} {:.0} left",
+        estimate.runs_done, estimate.runs_left, estimate.runs_left_sd
+    );
+    match estimate.eta_s {
+        Some(eta_s) if estimate.runs_left > 0.0 => format!("{runs}, about {}", duration(eta_s)),
+        _ => runs,
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    let whole = seconds.ceil().max(1.0) as u64;
+    match whole {
+        0..90 => format!("{whole} s"),
+        90..5400 => format!("{} min", whole.div_ceil(60)),
+        _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+    }
+}
+
+/// Last line.
+fn finished(totals: &Totals, wall_s: f64, core_use: f64) -> String {
+    let mut parts = Vec::new();
+    for (count, word) in [
+        (totals.ok, "bracketed"),
+        (totals.above_range, "above the range"),
+        (totals.below_range, "below the range"),
+        (totals.undecided, "undecided"),
+        (totals.open, "open"),
+    ] {
+        if count > 0 {
+            parts.push(format!("{count} {word}"));
+        }
+    }
+    format!(
+        "{} points: {}; {} runs, {} without verdict; {}, cores {:.0} % busy",
+        totals.points,
+        parts.join(", "),
+        totals.runs,
+        totals.undecided_runs,
+        duration(wall_s),
+        100.0 * core_use
+    )
 }

@@ -1,0 +1,176 @@
+//! A study file as the sweep sees it.
+
+use std::time::Duration;
+
+use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::{Scene, Window};
+
+use super::input::{SweepInput, SweepPoint};
+use crate::identity;
+use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use crate::search::{Certify, Coordinates, LatticeError, RampClass, SearchSettings, Sign};
+use crate::store::{AxisValue, PointDigest, StudyTexts};
+use crate::study::{self, Point, Ramp, Study};
+
+impl SweepInput {
+    /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
+    /// is `study.points[study.table_order()[i]]`.
+    ///
+    /// # Errors
+    ///
+    /// The amplitude range holds no node of the tolerance's lattice.
+    pub fn of(study: &Study) -> Result<SweepInput, LatticeError> {
+        let search = &study.search;
+        let certify = match search.certify {
+            study::Certify::Off => Certify::Off,
+            study::Certify::Staggered => Certify::Staggered,
+            study::Certify::Full => Certify::Full,
+        };
+        // A window that ends when the motion has died away needs no check by a longer one.
+        let is_fixed = |point: &Point| matches!(point.scene.window, Window::Fixed { .. });
+        let settings = SearchSettings::new(
+            (search.amplitude_min_g, search.amplitude_max_g),
+            search.tolerance_pct / 100.0,
+            certify,
+            search.max_gap_pct / 100.0,
+            study.points.iter().any(is_fixed),
+        )?;
+        Ok(SweepInput {
+            texts: StudyTexts {
+                name: study.name.clone(),
+                given: study.text.clone(),
+                resolved: study.resolved_toml(),
+            },
+            digest: study.digest_hex(),
+            axes: study.axes.iter().map(|axis| axis.column.clone()).collect(),
+            points: study
+                .table_order()
+                .into_iter()
+                .map(|place| sweep_point(&study.points[place]))
+                .collect(),
+            settings,
+            checkpoint: Duration::from_secs_f64(study.output.checkpoint_s.clamp(0.1, 1e6)),
+        })
+    }
+}
+
+fn sweep_point(point: &Point) -> SweepPoint {
+    let sign = match point.sign {
+        study::Sign::Plus => Sign::Plus,
+        study::Sign::Minus => Sign::Minus,
+    };
+    SweepPoint {
+        coordinates: Coordinates {
+            ramp_class: match point.ramp {
+                Ramp::None => RampClass::None,
+                Ramp::Rigid => RampClass::Rigid,
+                Ramp::Deformable => RampClass::Deformable,
+            },
+            ramp: point.ramp.as_str().to_owned(),
+            pulse_ms: point.pulse_ms,
+            sign,
+            axes: point
+                .axes
+                .iter()
+                .map(|(_, value)| sortable(value))
+                .collect(),
+        },
+        axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
+        digest: digest(&point.scene, sign),
+    }
+}
+
+/// Content of a point: its scene, the physics versions and the sign.
+///
+/// Without a ramp the clearances mean nothing: such scenes share their runs along a clearance
+/// axis.
+fn digest(scene: &Scene, sign: Sign) -> PointDigest {
+    let key = if scene.ramp.model == RampModel::None {
+        let mut bare = scene.clone();
+        bare.ramp.clearance_top_m = 0.0;
+        bare.ramp.clearance_bottom_m = 0.0;
+        bare.ramp.restitution = 0.0;
+        identity::head_key(&bare, PHYSICS_STRUCTURE, PHYSICS_HEAD)
+    } else {
+        identity::head_key(scene, PHYSICS_STRUCTURE, PHYSICS_HEAD)
+    };
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(b"opshock point 1");
+    hasher.update(&key);
+    hasher.update(sign.as_str().as_bytes());
+    PointDigest(*hasher.finalize().as_bytes())
+}
+
+fn told(value: &study::AxisValue) -> AxisValue {
+    match value {
+        study::AxisValue::Number(number) => AxisValue::Number(*number),
+        study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
+        study::AxisValue::Word(word) => AxisValue::Text(word.clone()),
+        study::AxisValue::Flag(flag) => AxisValue::Text(flag.to_string()),
+    }
+}
+
+/// Text that sorts as the value does.
+fn sortable(value: &study::AxisValue) -> String {
+    let ordered = |number: f64| {
+        let bits = (number + 0.0).to_bits();
+        // Negative numbers descend by their bits; the flip makes all of them ascend.
+        let flipped = if bits >> 63 == 1 {
+            !bits
+        } else {
+            bits | 1 << 63
+        };
+        format!("{flipped:016x}")
+    };
+    match value {
+        study::AxisValue::Number(number) => ordered(*number),
+        study::AxisValue::Integer(number) => ordered(*number as f64),
+        study::AxisValue::Word(word) => word.clone(),
+        study::AxisValue::Flag(flag) => flag.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_sort_as_text() {
+        let numbers = [-2e300, -1.5, -1e-300, 0.0, 1e-300, 2.0, 10.0, 1e9];
+        let texts: Vec<String> = numbers
+            .iter()
+            .map(|&number| sortable(&study::AxisValue::Number(number)))
+            .collect();
+        assert!(texts.is_sorted(), "{texts:?}");
+    }
+
+    #[test]
+    fn a_study_is_swept_in_the_order_of_its_tables() {
+        let set = "ramp.clearance_um=[100, 60]"
+            .parse()
+            .expect("a set argument");
+        let study = Study::from_text(&Study::example("order"), &[set]).expect("a study");
+        let input = SweepInput::of(&study).expect("input");
+        assert_eq!(input.points.len(), study.points.len());
+        for (point, &place) in input.points.iter().zip(&study.table_order()) {
+            assert_eq!(point.coordinates.pulse_ms, study.points[place].pulse_ms);
+        }
+        // Without a ramp both clearances are the same point; with one they are not.
+        let digests = |ramp: &str| {
+            let mut all: Vec<_> = input
+                .points
+                .iter()
+                .filter(|point| point.coordinates.ramp == ramp)
+                .map(|point| point.digest)
+                .collect();
+            let n = all.len();
+            all.sort();
+            all.dedup();
+            (n, all.len())
+        };
+        let (n, distinct) = digests("none");
+        assert_eq!(distinct * 2, n);
+        let (n, distinct) = digests("rigid");
+        assert_eq!(distinct, n);
+    }
+}
