@@ -1,5 +1,6 @@
 //! What the tests share: reference data, named scenes, the built program.
 
 pub mod hdf5_dump;
+pub mod heads;
 pub mod mock_sweep;
 pub mod suspensions;

@@ -172,15 +172,18 @@ impl FixedPoint {
 
     /// One step of Anderson's iteration; returns the number of columns now held.
     fn anderson(&mut self, has_last: bool, held: usize, x: &mut [f64], tolerance: &[f64]) -> usize {
-        let n = x.len();
         let depth = self.residual_columns.len();
         let mut held = held;
         if has_last && depth > 0 {
             self.residual_columns.rotate_right(1);
             self.image_columns.rotate_right(1);
-            for i in 0..n {
-                self.residual_columns[0][i] = self.residual[i] - self.last_residual[i];
-                self.image_columns[0][i] = (self.image[i] - self.last_image[i]) / tolerance[i];
+            let now = self.residual.iter().zip(&self.last_residual);
+            for (column, (now, last)) in self.residual_columns[0].iter_mut().zip(now) {
+                *column = now - last;
+            }
+            let now = self.image.iter().zip(&self.last_image).zip(tolerance);
+            for (column, ((now, last), scale)) in self.image_columns[0].iter_mut().zip(now) {
+                *column = (now - last) / scale;
             }
             held = (held + 1).min(depth);
         }
@@ -214,12 +217,11 @@ impl FixedPoint {
             }
             self.weights[row] = sum / self.triangle[row * depth + row];
         }
-        for i in 0..n {
-            let mut correction = 0.0;
-            for (weight, &c) in self.weights[..rank].iter().zip(&source) {
-                correction += weight * self.image_columns[c][i];
+        x.copy_from_slice(&self.image);
+        for (weight, &c) in self.weights[..rank].iter().zip(&source) {
+            for ((x, scale), column) in x.iter_mut().zip(tolerance).zip(&self.image_columns[c]) {
+                *x -= weight * column * scale;
             }
-            x[i] = self.image[i] - correction * tolerance[i];
         }
         held
     }

@@ -1,1 +1,62 @@
-//! head
+//! Film, slider, gimbal, dimple and suspension integrated together under the disk's motion.
+//!
+//! ```text
+//! 12 μ A dψ/dt + R(ψ, q_rel) = 0                    film, n cells, ψ = p h
+//! M ẍ = f a(t) + F(ψ, q_rel) − F₀ − C ẋ − K x − B (N − N₀)      slider and suspension
+//! q_rel = q₀ + (z, pitch, roll) − (w_d, pitch_d, roll_d)(t)      attitude over the disk
+//! ```
+//!
+//! The disk's motion enters through the attitude alone, at the time of each stage. Its velocity
+//! and acceleration, which jump when it meets a ramp, are nowhere needed: squeeze is the
+//! conservation of ψ under a changing height.
+//!
+//! One step is an L-stable ESDIRK step ([`crate::integrator`]). Its stages are solved together by
+//! one Newton iteration: the film's unknowns are eliminated by a banded factorisation onto the
+//! three columns of the slider, which leaves a dense system of a dozen mechanical unknowns
+//! (`stage`). Factorisations are kept while the iteration contracts. The iterations between film
+//! and structure that the literature uses are there too (`partitioned`).
+//!
+//! Touching ends a run: the smallest height of the slider's true surface over the disk's local
+//! plane falls below the limit, found inside the step on the cubic dense output of the slider and
+//! the exact motion of the disk.
+
+mod mechanics;
+mod model;
+mod outcome;
+mod partitioned;
+mod run;
+mod stage;
+
+pub use model::{HeadError, HeadModel, ShockLoad};
+pub use outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
+pub use run::HeadWorkspace;
+
+/// How film and slider are solved together at a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// One Newton iteration on everything at once (Schur complement).
+    Monolithic,
+    /// The paper's fixed-point iteration.
+    FixedPoint,
+    /// Fixed point with Aitken's relaxation.
+    Aitken,
+    /// Anderson acceleration (interface Newton).
+    Anderson,
+}
+
+/// Resolution and limits of the head's time integration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadResolution {
+    /// Relative local error allowed in the clearance per step.
+    pub tolerance: f64,
+    /// Largest share by which a step may change the minimum clearance.
+    pub approach_share: f64,
+    /// Modes of the suspension kept above the dimple-pinned interface, bending.
+    pub suspension_modes: usize,
+    /// Coupling scheme.
+    pub coupling: Coupling,
+    /// Residual tolerance of the coupled solve relative to its scales.
+    pub coupling_tolerance: f64,
+    /// Step limit; reached = undecided.
+    pub max_steps: u64,
+}

@@ -31,6 +31,10 @@ pub struct Stepper {
     known: Vec<f64>,
     stage: Vec<f64>,
     error: Vec<f64>,
+    /// Rate at the start of the last accepted step.
+    last_rate: Vec<f64>,
+    /// Length of the last accepted step; `None` when the step before says nothing about the next.
+    last_dt_s: Option<f64>,
 }
 
 impl Stepper {
@@ -42,7 +46,20 @@ impl Stepper {
             known: vec![0.0; n],
             stage: vec![0.0; n],
             error: vec![0.0; n],
+            last_rate: vec![0.0; n],
+            last_dt_s: None,
         }
+    }
+
+    /// Remembers the trial step of `dt_s` just taken as accepted: its rates help guess the next.
+    pub fn accept(&mut self, dt_s: f64) {
+        self.last_rate.copy_from_slice(&self.rates[0]);
+        self.last_dt_s = Some(dt_s);
+    }
+
+    /// Forgets the steps before, as at a jump of the rate.
+    pub fn forget(&mut self) {
+        self.last_dt_s = None;
     }
 
     /// The scheme.
@@ -66,9 +83,6 @@ impl Stepper {
     }
 
     /// Tries a step of `dt_s` from `y` with rate `rate` at `time_s`.
-    ///
-    /// Stage guesses continue the cubic through the last two known values and rates. `filtered`
-    /// asks for the error estimate.
     ///
     /// # Errors
     /// The first failure of a stage solve; nothing of the caller's state has changed.
@@ -108,21 +122,23 @@ impl Stepper {
         Ok(())
     }
 
-    /// Guess of stage `i`: y' taken linear through the rates of the last two stages known (constant
-    /// for the first implicit stage), integrated over the step so far.
+    /// Guess of stage `i`: y' taken linear in time through two known rates, integrated over the step
+    /// so far. The rates are those at the ends of the last step for the first implicit stage, and
+    /// those of the start and of the stage before for the others.
     fn guess(&mut self, i: usize, dt_s: f64, y: &[f64]) {
         let c = self.tableau.c;
         let reach = c[i] * dt_s;
-        if i == 1 {
-            for ((s, y), k) in self.stage.iter_mut().zip(y).zip(&self.rates[0]) {
-                *s = y + reach * k;
-            }
-            return;
-        }
-        // Quadratic through y with rate k_1 at 0 and k_{i-1} at c_{i-1}.
-        let slope = 0.5 * reach * c[i] / c[i - 1];
-        let (first, last) = (&self.rates[0], &self.rates[i - 1]);
-        for (((s, y), k0), k1) in self.stage.iter_mut().zip(y).zip(first).zip(last) {
+        let now = &self.rates[0];
+        let (other, apart_s) = if i > 1 {
+            (&self.rates[i - 1], c[i - 1] * dt_s)
+        } else {
+            (
+                &self.last_rate,
+                self.last_dt_s.map_or(f64::INFINITY, |dt| -dt),
+            )
+        };
+        let slope = 0.5 * reach * reach / apart_s;
+        for (((s, y), k0), k1) in self.stage.iter_mut().zip(y).zip(now).zip(other) {
             *s = y + (reach - slope) * k0 + slope * k1;
         }
     }

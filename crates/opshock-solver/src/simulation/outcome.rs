@@ -1,62 +1,9 @@
 //! What one simulation answers. Times are seconds after the onset of the pulse.
 
+pub use crate::head::{Cause, DimpleRecord, HeadColumns, Place, Verdict};
 pub use crate::structure::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
 };
-
-/// Survival is decided, or it is not; a number that is not a number never decides it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// The clearance stayed above the failure limit for the whole window.
-    Survives,
-    /// The clearance fell below the failure limit.
-    Fails {
-        /// Time of touch, s.
-        t_fail_s: f64,
-        /// Place of touch on the slider.
-        place: Place,
-    },
-    /// No answer.
-    Undecided {
-        /// Why.
-        cause: Cause,
-    },
-}
-
-/// A point of the slider's surface, slider coordinates, m.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
-    /// From the leading edge, m.
-    pub x_m: f64,
-    /// From the inner edge, m.
-    pub y_m: f64,
-}
-
-/// Why a run has no verdict.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Cause {
-    /// The coupled solve did not converge at the smallest step.
-    NotConverged {
-        /// Time, s.
-        time_s: f64,
-        /// Largest scaled residual.
-        residual: f64,
-    },
-    /// The step limit was reached.
-    StepLimit {
-        /// Time reached, s.
-        time_s: f64,
-        /// The limit.
-        max_steps: u64,
-    },
-    /// A non-finite number appeared.
-    NotFinite {
-        /// Time, s.
-        time_s: f64,
-        /// Which quantity.
-        quantity: &'static str,
-    },
-}
 
 /// Steady flying state before the shock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -67,15 +14,6 @@ pub struct SteadyState {
     pub pitch_rad: f64,
     /// Roll, rad.
     pub roll_rad: f64,
-}
-
-/// Dimple force over the simulated head.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DimpleRecord {
-    /// Smallest contact force, N.
-    pub min_force_n: f64,
-    /// Total time open, s.
-    pub open_s: f64,
 }
 
 /// What the run cost, and signs of trouble. Wall time is measured by the caller.
@@ -150,20 +88,4 @@ pub struct History {
     pub structure: StructureColumns,
     /// Head; ends at touch.
     pub head: HeadColumns,
-}
-
-/// Columns at the head's accepted steps.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[expect(
-    missing_docs,
-    reason = "the names say quantity and unit; design reference section 7"
-)]
-pub struct HeadColumns {
-    pub time_s: Vec<f64>,
-    pub slider_z_m: Vec<f64>,
-    pub slider_pitch_rad: Vec<f64>,
-    pub slider_roll_rad: Vec<f64>,
-    pub min_clearance_m: Vec<f64>,
-    pub bearing_force_n: Vec<f64>,
-    pub dimple_force_n: Vec<f64>,
 }

@@ -1,0 +1,348 @@
+//! Slider, gimbal, dimple contact and suspension as one small mechanical system.
+//!
+//! Coordinates x: slider (z, pitch, roll), then suspension bending (dimple z, pinned modes), then
+//! torsion (dimple roll, pinned modes); all increments from the loaded, flying state in the
+//! base's frame.
+//!
+//! ```text
+//! M ẍ = f a(t) + (F − F₀) − C ẋ − K x − B (N − N₀)
+//! N   = max(0, N₀ + k_d δ + c_d δ̇),   δ = Bᵀx = z − z_dimple,   c_d = 2 ζ_d √(k_d m)
+//! K ∋ k_z (z − z_dimple)²/2 + k_pitch (pitch + dw/dx|dimple)²/2 + k_roll (roll − roll_dimple)²/2
+//! ```
+//!
+//! Every mass feels +m a(t), so a > 0 lifts the load beam off the slider and unloads the dimple.
+//! dw/dx = Σ slope_row u has the sign opposite to pitch (pitch > 0: leading edge up; the
+//! suspension's root lies beyond the leading edge). The contact pushes only; its force is
+//! continuous with a kink where the dimple opens.
+
+use crate::slider::SliderParameters;
+use crate::slider::body::Inertia;
+use crate::suspension::{ReducedSuspension, SuspensionParameters};
+
+/// Index of the slider's z among the coordinates.
+const SLIDER_Z: usize = 0;
+/// Index of the dimple's z among the coordinates.
+const DIMPLE_Z: usize = 3;
+
+/// The linear matrices (row by row) and the dimple.
+#[derive(Clone, Debug)]
+pub(super) struct Mechanics {
+    n: usize,
+    mass: Vec<f64>,
+    inverse_mass: Vec<f64>,
+    damping: Vec<f64>,
+    stiffness: Vec<f64>,
+    inertia_load: Vec<f64>,
+    preload_n: f64,
+    contact_n_per_m: f64,
+    contact_n_s_per_m: f64,
+    suspension_weights: Vec<f64>,
+}
+
+impl Mechanics {
+    /// Assembles the system. `suspension` must come from `parameters`.
+    pub fn new(
+        parameters: &SuspensionParameters,
+        suspension: &ReducedSuspension,
+        slider: &SliderParameters,
+    ) -> Option<Self> {
+        let (bending, torsion) = (&suspension.bending, &suspension.torsion);
+        let roll_at = DIMPLE_Z + bending.len();
+        let n = roll_at + torsion.len();
+        let mut mass = vec![0.0; n * n];
+        let mut damping = vec![0.0; n * n];
+        let mut stiffness = vec![0.0; n * n];
+        let mut inertia_load = vec![0.0; n];
+
+        let inertia = Inertia::of(slider);
+        for (i, m) in inertia.diagonal().into_iter().enumerate() {
+            mass[i * n + i] = m;
+        }
+        inertia_load[SLIDER_Z] = inertia.mass_kg;
+        for (first, block) in [(DIMPLE_Z, bending), (roll_at, torsion)] {
+            for i in 0..block.len() {
+                for j in 0..block.len() {
+                    mass[(first + i) * n + first + j] = block.mass[(i, j)];
+                    damping[(first + i) * n + first + j] = block.damping[(i, j)];
+                }
+                stiffness[(first + i) * n + first + i] = block.stiffness[i];
+                inertia_load[first + i] = block.inertia_load[i];
+            }
+        }
+
+        let gimbal = &parameters.gimbal;
+        let mut vertical = vec![0.0; n];
+        vertical[SLIDER_Z] = 1.0;
+        vertical[DIMPLE_Z] = -1.0;
+        let mut pitch = vec![0.0; n];
+        pitch[1] = 1.0;
+        pitch[DIMPLE_Z..roll_at].copy_from_slice(bending.slope_row.as_slice());
+        let mut roll = vec![0.0; n];
+        roll[2] = 1.0;
+        roll[roll_at] = -1.0;
+        for (spring, row) in [
+            (gimbal.vertical_n_per_m, &vertical),
+            (gimbal.pitch_n_m_per_rad, &pitch),
+            (gimbal.roll_n_m_per_rad, &roll),
+        ] {
+            for i in 0..n {
+                for j in 0..n {
+                    stiffness[i * n + j] += spring * row[i] * row[j];
+                }
+            }
+        }
+
+        let mut inverse_mass = vec![0.0; n * n];
+        let (mut work, mut column) = (mass.clone(), vec![0.0; n]);
+        for j in 0..n {
+            work.copy_from_slice(&mass);
+            column.fill(0.0);
+            column[j] = 1.0;
+            if !eliminate(&mut work, &mut column) {
+                return None;
+            }
+            for i in 0..n {
+                inverse_mass[i * n + j] = column[i];
+            }
+        }
+
+        // Force at the dimple that an error of a suspension coordinate causes through the mass
+        // coupling at its own frequency, or directly for the interface coordinates.
+        let mut suspension_weights = vec![0.0; n];
+        for (k, weight) in suspension_weights.iter_mut().enumerate().take(roll_at) {
+            if k > DIMPLE_Z {
+                *weight = bending.mass[(0, k - DIMPLE_Z)].abs() * bending.stiffness[k - DIMPLE_Z];
+            }
+        }
+
+        let dimple = &parameters.dimple;
+        Some(Self {
+            n,
+            mass,
+            inverse_mass,
+            damping,
+            stiffness,
+            inertia_load,
+            preload_n: parameters.gram_load_n,
+            contact_n_per_m: dimple.stiffness_n_per_m,
+            contact_n_s_per_m: 2.0
+                * dimple.damping_ratio
+                * (dimple.stiffness_n_per_m * inertia.mass_kg).sqrt(),
+            suspension_weights,
+        })
+    }
+
+    /// Number of coordinates.
+    pub fn len(&self) -> usize {
+        self.n
+    }
+
+    /// Contact force N of the dimple; 0 when it is open.
+    #[inline]
+    pub fn dimple_force(&self, x: &[f64], v: &[f64]) -> f64 {
+        self.signed_dimple_force(x, v).max(0.0)
+    }
+
+    #[inline]
+    fn signed_dimple_force(&self, x: &[f64], v: &[f64]) -> f64 {
+        self.preload_n
+            + self.contact_n_per_m * (x[SLIDER_Z] - x[DIMPLE_Z])
+            + self.contact_n_s_per_m * (v[SLIDER_Z] - v[DIMPLE_Z])
+    }
+
+    /// Total generalised force at inertia load `a` with the film's excess force F − F₀.
+    fn force(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
+        let rows = self
+            .stiffness
+            .chunks_exact(self.n)
+            .zip(self.damping.chunks_exact(self.n));
+        for ((out, load), (stiffness, damping)) in out.iter_mut().zip(&self.inertia_load).zip(rows)
+        {
+            *out = load * a - dot(stiffness, x) - dot(damping, v);
+        }
+        for (out, f) in out.iter_mut().zip(film) {
+            *out += f;
+        }
+        let excess = self.dimple_force(x, v) - self.preload_n;
+        out[SLIDER_Z] -= excess;
+        out[DIMPLE_Z] += excess;
+    }
+
+    /// Acceleration ẍ.
+    pub fn acceleration(
+        &self,
+        a: f64,
+        film: [f64; 3],
+        x: &[f64],
+        v: &[f64],
+        scratch: &mut [f64],
+        out: &mut [f64],
+    ) {
+        self.force(a, film, x, v, scratch);
+        multiply(&self.inverse_mass, scratch, out);
+    }
+
+    /// Adds the jump of ẍ that a jump `da` of the inertia load causes.
+    pub fn add_acceleration_jump(&self, da: f64, out: &mut [f64]) {
+        for (out, row) in out.iter_mut().zip(self.inverse_mass.chunks_exact(self.n)) {
+            *out += da * dot(row, &self.inertia_load);
+        }
+    }
+
+    /// Residual M (v − v_known)/d − force of a stage.
+    pub fn residual(&self, state: &StageState<'_>, out: &mut [f64], scratch: &mut [f64]) {
+        self.force(state.a, state.film, state.x, state.v, scratch);
+        let rows = self.mass.chunks_exact(self.n).zip(&*scratch);
+        for (out, (mass, force)) in out.iter_mut().zip(rows) {
+            *out = (dot(mass, state.v) - dot(mass, state.v_known)) / state.d_s - force;
+        }
+    }
+
+    /// Derivative of the residual by x with v = (x − x_known)/d, without the film; `closed` is the
+    /// state of the dimple.
+    pub fn stage_matrix(&self, d_s: f64, closed: bool, out: &mut [f64]) {
+        let (per_d, per_d2) = (1.0 / d_s, 1.0 / (d_s * d_s));
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = self.mass[i] * per_d2 + self.damping[i] * per_d + self.stiffness[i];
+        }
+        if closed {
+            let contact = self.contact_n_per_m + self.contact_n_s_per_m * per_d;
+            let n = self.n;
+            out[SLIDER_Z * n + SLIDER_Z] += contact;
+            out[DIMPLE_Z * n + DIMPLE_Z] += contact;
+            out[SLIDER_Z * n + DIMPLE_Z] -= contact;
+            out[DIMPLE_Z * n + SLIDER_Z] -= contact;
+        }
+    }
+
+    /// Right-hand side of the filter: M e_v/d + (M/d² + C/d) e_x.
+    pub fn filter_load(&self, d_s: f64, closed: bool, e_x: &[f64], e_v: &[f64], out: &mut [f64]) {
+        let rows = self
+            .mass
+            .chunks_exact(self.n)
+            .zip(self.damping.chunks_exact(self.n));
+        for (out, (mass, damping)) in out.iter_mut().zip(rows) {
+            *out = (dot(mass, e_v) + dot(mass, e_x) / d_s + dot(damping, e_x)) / d_s;
+        }
+        if closed {
+            let f = self.contact_n_s_per_m * (e_x[SLIDER_Z] - e_x[DIMPLE_Z]) / d_s;
+            out[SLIDER_Z] += f;
+            out[DIMPLE_Z] -= f;
+        }
+    }
+
+    /// Whether the dimple is closed at (x, v).
+    pub fn is_closed(&self, x: &[f64], v: &[f64]) -> bool {
+        self.signed_dimple_force(x, v) > 0.0
+    }
+
+    /// Force at the dimple that errors of the suspension's modes cause, N.
+    pub fn suspension_force_error(&self, e_x: &[f64]) -> f64 {
+        self.suspension_weights
+            .iter()
+            .zip(e_x)
+            .map(|(w, e)| w * e.abs())
+            .sum()
+    }
+}
+
+/// One iterate of a stage.
+pub(super) struct StageState<'a> {
+    /// d = γ Δt, s.
+    pub d_s: f64,
+    /// Inertia load per mass, m/s2.
+    pub a: f64,
+    /// F − F₀ of the film.
+    pub film: [f64; 3],
+    /// Coordinates.
+    pub x: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+    /// Known part of the velocities.
+    pub v_known: &'a [f64],
+}
+
+fn multiply(matrix: &[f64], x: &[f64], out: &mut [f64]) {
+    for (out, row) in out.iter_mut().zip(matrix.chunks_exact(x.len())) {
+        *out = dot(row, x);
+    }
+}
+
+#[inline]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Solves a small dense system in place by elimination with row exchanges, leaving the solution in
+/// `rhs`; false when a pivot is zero or not finite.
+///
+/// Rows are compared after scaling by their largest entry, since metres and radians meet in one
+/// matrix.
+pub(super) fn eliminate(matrix: &mut [f64], rhs: &mut [f64]) -> bool {
+    let n = rhs.len();
+    for i in 0..n {
+        let row = &mut matrix[i * n..(i + 1) * n];
+        let largest = row.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+        if !(largest > 0.0 && largest.is_finite()) {
+            return false;
+        }
+        row.iter_mut().for_each(|a| *a /= largest);
+        rhs[i] /= largest;
+    }
+    for k in 0..n {
+        let pivot_row = (k..n)
+            .max_by(|&a, &b| matrix[a * n + k].abs().total_cmp(&matrix[b * n + k].abs()))
+            .unwrap_or(k);
+        if pivot_row != k {
+            let (above, below) = matrix.split_at_mut(pivot_row * n);
+            above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
+            rhs.swap(k, pivot_row);
+        }
+        let pivot = matrix[k * n + k];
+        if !(pivot != 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        let (done, rest) = matrix.split_at_mut((k + 1) * n);
+        let pivot_entries = &done[k * n + k..];
+        let pivot_rhs = rhs[k];
+        for (row, r) in rest.chunks_exact_mut(n).zip(&mut rhs[k + 1..]) {
+            let multiplier = row[k] / pivot;
+            for (a, p) in row[k..].iter_mut().zip(pivot_entries) {
+                *a -= multiplier * p;
+            }
+            *r -= multiplier * pivot_rhs;
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = matrix[k * n + k + 1..(k + 1) * n]
+            .iter()
+            .zip(&rhs[k + 1..])
+            .map(|(a, x)| a * x)
+            .sum();
+        rhs[k] = (rhs[k] - known) / matrix[k * n + k];
+    }
+    rhs.iter().all(|x| x.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::eliminate;
+
+    #[test]
+    fn elimination_needs_row_exchanges_and_survives_mixed_units() {
+        // Exact solution (1, -2, 3); the first pivot is zero and rows differ by 1e14 in scale.
+        let rows = [[0.0, 2.0, 1.0], [3e14, 1e14, -2e14], [1e-9, 1e-9, 4e-9]];
+        let exact = [1.0, -2.0, 3.0];
+        let mut matrix: Vec<f64> = rows.iter().flatten().copied().collect();
+        let mut rhs: Vec<f64> = rows
+            .iter()
+            .map(|r| r.iter().zip(exact).map(|(a, x)| a * x).sum())
+            .collect();
+        assert!(eliminate(&mut matrix, &mut rhs));
+        for (x, wanted) in rhs.iter().zip(exact) {
+            assert!((x - wanted).abs() < 1e-13);
+        }
+        assert!(!eliminate(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
+        assert!(!eliminate(&mut [1.0, f64::NAN, 2.0, 4.0], &mut [1.0, 1.0]));
+    }
+}

@@ -1,0 +1,197 @@
+//! The immutable model of one head.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::HeadResolution;
+use super::mechanics::Mechanics;
+use crate::air_bearing::steady::Flight;
+use crate::air_bearing::{Attitude, Film};
+use crate::disk::DiskPose;
+use crate::integrator::{TR_BDF2, Tableau};
+use crate::shock::Pulse;
+use crate::slider::SliderParameters;
+use crate::suspension::{ReducedSuspension, SuspensionError, SuspensionParameters};
+
+/// Why a head cannot be built.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum HeadError {
+    /// The suspension cannot be built.
+    #[error(transparent)]
+    Suspension(#[from] SuspensionError),
+    /// A number of the resolution is out of its range.
+    #[error("{quantity} must be positive and finite, found {value}")]
+    NotPositive {
+        /// Which one.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The slider's or the suspension's mass matrix is singular.
+    #[error("the mass matrix of slider and suspension is singular")]
+    SingularMass,
+    /// The steady state lies below the failure limit already.
+    #[error(
+        "steady clearance {min_clearance_m:e} m is not above the failure limit {fail_below_m:e} m"
+    )]
+    StartsFailed {
+        /// Steady clearance, m.
+        min_clearance_m: f64,
+        /// Failure limit, m.
+        fail_below_m: f64,
+    },
+    /// The flight has another number of cells than the film.
+    #[error("the flight has {flight} cells, the film {film}")]
+    CellMismatch {
+        /// Cells of the flight.
+        flight: usize,
+        /// Cells of the film.
+        film: usize,
+    },
+}
+
+/// A shock: unit pulse and signed amplitude.
+#[derive(Clone, Copy, Debug)]
+pub struct ShockLoad<'a> {
+    /// Unit pulse.
+    pub pulse: &'a Pulse,
+    /// Inertia load per mass at the pulse's peak, m/s2.
+    pub amplitude_m_per_s2: f64,
+}
+
+/// Film, slider, gimbal and suspension of one head, ready to run any shock.
+#[derive(Clone, Debug)]
+pub struct HeadModel {
+    pub(super) film: Arc<Film>,
+    pub(super) flight: Arc<Flight>,
+    pub(super) suspension: ReducedSuspension,
+    pub(super) mechanics: Mechanics,
+    pub(super) resolution: HeadResolution,
+    pub(super) tableau: Tableau,
+    pub(super) fail_below_m: f64,
+    /// Film force of the steady state, which the load balances.
+    pub(super) steady_force: [f64; 3],
+    pub(super) steady_clearance_m: f64,
+    /// Change of the clearance at the slider's ends per attitude: 1, L/2, W/2.
+    pub(super) arms: [f64; 3],
+    /// Stiffness of the film against heave, N/m: turns force errors into gap.
+    pub(super) film_n_per_m: f64,
+    /// Time in which a velocity error becomes a gap error: 1/ω of the slider on its film, s.
+    pub(super) velocity_to_gap_s: f64,
+    pub(super) film_mass: f64,
+}
+
+impl HeadModel {
+    /// Assembles the head of `slider` on `suspension`, flying in `film` as `flight` says.
+    ///
+    /// # Errors
+    /// A suspension that cannot be built, a resolution out of range, a steady state that is
+    /// already below `fail_below_m`.
+    pub fn build(
+        suspension: &SuspensionParameters,
+        slider: &SliderParameters,
+        film: Arc<Film>,
+        flight: Arc<Flight>,
+        resolution: &HeadResolution,
+        fail_below_m: f64,
+    ) -> Result<Self, HeadError> {
+        for (quantity, value) in [
+            ("head tolerance", resolution.tolerance),
+            ("approach share", resolution.approach_share),
+            ("coupling tolerance", resolution.coupling_tolerance),
+            ("slider density", slider.density_kg_per_m3),
+            ("slider height", slider.height_m),
+            ("gram load", suspension.gram_load_n),
+            ("dimple stiffness", suspension.dimple.stiffness_n_per_m),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(HeadError::NotPositive { quantity, value });
+            }
+        }
+        if flight.psi.len() != film.n_cells() {
+            return Err(HeadError::CellMismatch {
+                flight: flight.psi.len(),
+                film: film.n_cells(),
+            });
+        }
+        let reduced = ReducedSuspension::build(suspension, resolution.suspension_modes)?;
+        let mechanics =
+            Mechanics::new(suspension, &reduced, slider).ok_or(HeadError::SingularMass)?;
+        let steady_clearance_m = film.min_clearance(&flight.attitude).value_m;
+        let flies = steady_clearance_m > fail_below_m;
+        if !flies {
+            return Err(HeadError::StartsFailed {
+                min_clearance_m: steady_clearance_m,
+                fail_below_m,
+            });
+        }
+        let film_n_per_m = flight.stiffness[0][0].abs();
+        let mass = slider.density_kg_per_m3 * slider.length_m * slider.width_m * slider.height_m;
+        Ok(Self {
+            suspension: reduced,
+            mechanics,
+            resolution: resolution.clone(),
+            tableau: TR_BDF2,
+            fail_below_m,
+            steady_force: film.force(&flight.psi, &flight.attitude),
+            steady_clearance_m,
+            arms: [1.0, 0.5 * slider.length_m, 0.5 * slider.width_m],
+            film_n_per_m,
+            velocity_to_gap_s: (mass / film_n_per_m).sqrt(),
+            film_mass: film
+                .capacity()
+                .iter()
+                .zip(&flight.psi)
+                .map(|(c, p)| c * p)
+                .sum(),
+            film,
+            flight,
+        })
+    }
+
+    /// The same head integrated by another scheme than the default one.
+    #[must_use]
+    pub fn with_tableau(mut self, tableau: Tableau) -> Self {
+        self.tableau = tableau;
+        self
+    }
+
+    /// The suspension's reduced model.
+    pub fn suspension(&self) -> &ReducedSuspension {
+        &self.suspension
+    }
+
+    /// Smallest clearance of the steady state, m.
+    pub fn steady_clearance_m(&self) -> f64 {
+        self.steady_clearance_m
+    }
+
+    /// Unknowns of a step: cells, coordinates, velocities.
+    pub fn n_unknowns(&self) -> usize {
+        self.film.n_cells() + 2 * self.mechanics.len()
+    }
+
+    /// Attitude over the disk with the slider displaced by `x` and the disk posed at `pose`.
+    #[inline]
+    pub(super) fn attitude(&self, x: &[f64], pose: &DiskPose) -> Attitude {
+        let steady = &self.flight.attitude;
+        Attitude {
+            centre_height_m: steady.centre_height_m + x[0] - pose.displacement_m,
+            pitch_rad: steady.pitch_rad + x[1] - pose.pitch_rad,
+            roll_rad: steady.roll_rad + x[2] - pose.roll_rad,
+        }
+    }
+
+    /// Gap that changes by at most this much when the slider's coordinates change by `dx`, m.
+    #[inline]
+    pub(super) fn gap_change(&self, dx: &[f64]) -> f64 {
+        self.arms.iter().zip(dx).map(|(arm, d)| arm * d.abs()).sum()
+    }
+
+    /// Clearance to which errors are relative, m.
+    #[inline]
+    pub(super) fn gap_scale(&self, clearance_m: f64) -> f64 {
+        clearance_m.max(self.film.floor_m())
+    }
+}

@@ -1,0 +1,143 @@
+//! What the head answers about one shock. Times are seconds after the onset of the pulse.
+
+/// Survival is decided, or it is not; a number that is not a number never decides it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// The clearance stayed above the failure limit for the whole window.
+    Survives,
+    /// The clearance fell below the failure limit.
+    Fails {
+        /// Time of touch, s.
+        t_fail_s: f64,
+        /// Place of touch on the slider.
+        place: Place,
+    },
+    /// No answer.
+    Undecided {
+        /// Why.
+        cause: Cause,
+    },
+}
+
+/// A point of the slider's surface, slider coordinates, m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// From the leading edge, m.
+    pub x_m: f64,
+    /// From the inner edge, m.
+    pub y_m: f64,
+}
+
+/// Why a run has no verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// The coupled solve did not converge at the smallest step.
+    NotConverged {
+        /// Time, s.
+        time_s: f64,
+        /// Largest scaled residual.
+        residual: f64,
+    },
+    /// The step limit was reached.
+    StepLimit {
+        /// Time reached, s.
+        time_s: f64,
+        /// The limit.
+        max_steps: u64,
+    },
+    /// A non-finite number appeared.
+    NotFinite {
+        /// Time, s.
+        time_s: f64,
+        /// Which quantity.
+        quantity: &'static str,
+    },
+}
+
+/// Dimple force over the simulated head.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DimpleRecord {
+    /// Smallest contact force, N.
+    pub min_force_n: f64,
+    /// Total time open, s.
+    pub open_s: f64,
+}
+
+/// Columns at the head's accepted steps; a run that stops at touch ends with the touch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HeadColumns {
+    /// Time, s.
+    pub time_s: Vec<f64>,
+    /// Rise of the slider's centre from its steady place, m, in the base's frame.
+    pub slider_z_m: Vec<f64>,
+    /// Pitch in the base's frame, steady pitch included, rad.
+    pub slider_pitch_rad: Vec<f64>,
+    /// Roll in the base's frame, steady roll included, rad.
+    pub slider_roll_rad: Vec<f64>,
+    /// Smallest clearance, m.
+    pub min_clearance_m: Vec<f64>,
+    /// Vertical force of the film, N.
+    pub bearing_force_n: Vec<f64>,
+    /// Contact force of the dimple, N.
+    pub dimple_force_n: Vec<f64>,
+}
+
+/// What a run cost, and signs of trouble.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeadCost {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps rejected for their error, their approach or a stage that did not converge.
+    pub rejected: u64,
+    /// Evaluations of the film's flux balance.
+    pub film_residuals: u64,
+    /// Right-hand sides solved with the film's factors.
+    pub film_solves: u64,
+    /// Film factorisations.
+    pub factorisations: u64,
+    /// Evaluations of the film's Jacobian.
+    pub linearisations: u64,
+    /// Largest estimated error of a stage solve at acceptance, relative to the clearance.
+    pub max_residual: f64,
+    /// Smallest film pressure, Pa.
+    pub min_pressure_pa: f64,
+    /// Largest net mass that a stage failed to account for, relative to the film's mass.
+    pub mass_balance_error: f64,
+}
+
+impl Default for HeadCost {
+    fn default() -> Self {
+        Self {
+            steps: 0,
+            rejected: 0,
+            film_residuals: 0,
+            film_solves: 0,
+            factorisations: 0,
+            linearisations: 0,
+            max_residual: 0.0,
+            min_pressure_pa: f64::INFINITY,
+            mass_balance_error: 0.0,
+        }
+    }
+}
+
+/// Everything one run of the head answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadRun {
+    /// Verdict.
+    pub verdict: Verdict,
+    /// Smallest clearance met, between steps too, m.
+    pub min_clearance_m: f64,
+    /// Its time, s.
+    pub t_min_clearance_s: f64,
+    /// Its place on the slider.
+    pub place: Place,
+    /// Time up to which the head was simulated, s.
+    pub end_s: f64,
+    /// Dimple.
+    pub dimple: DimpleRecord,
+    /// Histories, when asked for.
+    pub columns: Option<HeadColumns>,
+    /// Cost.
+    pub cost: HeadCost,
+}

@@ -1,0 +1,492 @@
+//! One shock: the time loop, its events, the search for touch between steps, the record.
+
+use super::model::{HeadModel, ShockLoad};
+use super::outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
+use super::stage::{StageFailure, StageScratch, Stages};
+use crate::air_bearing::Attitude;
+use crate::disk::DiskMotion;
+use crate::fixed_point::FixedPoint;
+use crate::integrator::{StepControl, Stepper, hermite};
+use crate::shock::{Pulse, PulseShape};
+use crate::slider::clearance::Clearance;
+
+/// Smallest step, s: below it a stage that does not converge leaves the run undecided.
+const SMALLEST_STEP_S: f64 = 1e-14;
+/// Largest step, s: a share of the shortest period in the disk's motion that matters here.
+const LARGEST_STEP_S: f64 = 10e-6;
+/// First step of a run, s.
+const FIRST_STEP_S: f64 = 1e-7;
+/// Places inside a step at which the clearance is looked at.
+const LOOKS: usize = 5;
+
+/// State and scratch of one run at a time, sized once for a model.
+#[derive(Clone, Debug)]
+pub struct HeadWorkspace {
+    /// ψ of every cell, coordinates, velocities.
+    y: Vec<f64>,
+    rate: Vec<f64>,
+    stepper: Stepper,
+    scratch: StageScratch,
+    exchange: Option<FixedPoint>,
+    pressure: Vec<f64>,
+    pulse_events_s: Vec<f64>,
+}
+
+impl HeadWorkspace {
+    /// Storage for runs of `model`.
+    pub fn new(model: &HeadModel) -> Self {
+        let n = model.n_unknowns();
+        Self {
+            y: vec![0.0; n],
+            rate: vec![0.0; n],
+            stepper: Stepper::new(model.tableau, n),
+            scratch: StageScratch::new(model),
+            exchange: model
+                .resolution
+                .coupling
+                .method()
+                .map(|m| FixedPoint::new(m, 3)),
+            pressure: vec![0.0; model.film.n_cells()],
+            pulse_events_s: Vec::new(),
+        }
+    }
+}
+
+impl HeadModel {
+    /// Runs one shock for `window_s` after its onset under `motion` of the disk.
+    ///
+    /// With `stop_at_failure` the run ends at touch; otherwise it goes on with the film's floored
+    /// height, and the verdict keeps the first touch. `record` asks for histories.
+    ///
+    /// # Panics
+    /// When `workspace` was made for another model's sizes.
+    pub fn run(
+        &self,
+        motion: &dyn DiskMotion,
+        load: &ShockLoad<'_>,
+        window_s: f64,
+        stop_at_failure: bool,
+        record: bool,
+        workspace: &mut HeadWorkspace,
+    ) -> HeadRun {
+        assert_eq!(workspace.y.len(), self.n_unknowns());
+        let mut run = Run::start(self, motion, *load, record, workspace);
+        let end = run.advance(window_s, stop_at_failure);
+        run.finish(end)
+    }
+}
+
+/// Why the loop ended.
+enum End {
+    Window,
+    Touch,
+    Undecided(Cause),
+}
+
+struct Run<'a> {
+    model: &'a HeadModel,
+    motion: &'a dyn DiskMotion,
+    load: ShockLoad<'a>,
+    w: &'a mut HeadWorkspace,
+    time_s: f64,
+    clearance: Clearance,
+    smallest: (Clearance, f64),
+    failed: Option<(f64, Place)>,
+    dimple: DimpleRecord,
+    dimple_force_n: f64,
+    columns: Option<HeadColumns>,
+    cost: HeadCost,
+}
+
+impl<'a> Run<'a> {
+    /// Puts the steady state into the workspace.
+    fn start(
+        model: &'a HeadModel,
+        motion: &'a dyn DiskMotion,
+        load: ShockLoad<'a>,
+        record: bool,
+        w: &'a mut HeadWorkspace,
+    ) -> Self {
+        let n_cells = model.film.n_cells();
+        w.y.fill(0.0);
+        w.y[..n_cells].copy_from_slice(&model.flight.psi);
+        w.rate.fill(0.0);
+        w.scratch.reset();
+        w.stepper.forget();
+        pulse_events(load.pulse, &mut w.pulse_events_s);
+        let attitude = model.attitude(&w.y[n_cells..], &motion.pose(0.0));
+        let clearance = model.film.min_clearance(&attitude);
+        let preload = model
+            .mechanics
+            .dimple_force(&w.y[n_cells..], &w.y[n_cells..]);
+        let mut run = Self {
+            model,
+            motion,
+            load,
+            w,
+            time_s: 0.0,
+            clearance,
+            smallest: (clearance, 0.0),
+            failed: None,
+            dimple: DimpleRecord {
+                min_force_n: preload,
+                open_s: 0.0,
+            },
+            dimple_force_n: preload,
+            columns: record.then(HeadColumns::default),
+            cost: HeadCost::default(),
+        };
+        run.initial_rate(&attitude);
+        run.record(&attitude);
+        run
+    }
+
+    /// Rates at time 0 from the equations themselves; later ones come from the stages.
+    fn initial_rate(&mut self, attitude: &Attitude) {
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let psi = &w.y[..n_cells];
+        model
+            .film
+            .flux_residual(psi, attitude, &mut w.scratch.residual, &mut w.scratch.film);
+        for ((rate, r), c) in w.rate[..n_cells]
+            .iter_mut()
+            .zip(&w.scratch.residual)
+            .zip(model.film.capacity())
+        {
+            *rate = -r / c;
+        }
+        let film = model.film.force(psi, attitude);
+        let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
+        let (x, v) = w.y[n_cells..].split_at(n);
+        let a = self.load.amplitude_m_per_s2 * just_after(self.load.pulse, 0.0);
+        let out = &mut w.rate[n_cells + n..];
+        model
+            .mechanics
+            .acceleration(a, film, x, v, &mut w.scratch.small, out);
+    }
+
+    fn advance(&mut self, window_s: f64, stop_at_failure: bool) -> End {
+        let resolution = &self.model.resolution;
+        let table = self.model.tableau;
+        let mut control = StepControl::new(table.error_order, SMALLEST_STEP_S, LARGEST_STEP_S);
+        let mut dt = control.rung(FIRST_STEP_S);
+        let (mut next_motion, mut next_pulse) = (0, 0);
+        while self.time_s < window_s {
+            let event = self.next_event(window_s, &mut next_motion, &mut next_pulse);
+            let left = event - self.time_s;
+            // A step that would leave a sliver before the event is halved or stretched to it.
+            let trial = if dt >= 0.999 * left {
+                left
+            } else if dt > 0.5 * left {
+                0.5 * left
+            } else {
+                dt
+            };
+            if self.cost.steps + self.cost.rejected >= resolution.max_steps {
+                return End::Undecided(Cause::StepLimit {
+                    time_s: self.time_s,
+                    max_steps: resolution.max_steps,
+                });
+            }
+            match self.try_step(trial) {
+                Err(failure) => {
+                    self.cost.rejected += 1;
+                    self.w.scratch.discard_factors();
+                    if trial <= 2.0 * SMALLEST_STEP_S {
+                        return End::Undecided(self.cause(failure));
+                    }
+                    dt = control.after_failure(trial);
+                }
+                Ok(trial_step) if trial_step.error > 1.0 => {
+                    self.cost.rejected += 1;
+                    if trial <= 2.0 * SMALLEST_STEP_S {
+                        return End::Undecided(Cause::NotConverged {
+                            time_s: self.time_s,
+                            residual: trial_step.error * resolution.tolerance,
+                        });
+                    }
+                    dt = control.after_reject(trial, trial_step.error);
+                }
+                Ok(trial_step) if trial_step.approach > 1.25 && trial > 4.0 * SMALLEST_STEP_S => {
+                    self.cost.rejected += 1;
+                    dt = control.rung(trial * (0.9 / trial_step.approach).max(0.1));
+                }
+                Ok(trial_step) => {
+                    let touched = self.accept(trial, event, &trial_step);
+                    if touched && stop_at_failure {
+                        return End::Touch;
+                    }
+                    let wanted = control.after_accept(trial, trial_step.error);
+                    // A step cut short by an event says nothing against the step before it.
+                    let wanted = if trial < dt { wanted.max(dt) } else { wanted };
+                    let bound = trial / trial_step.approach.max(1e-3);
+                    dt = if wanted > bound {
+                        control.rung(bound)
+                    } else {
+                        wanted
+                    };
+                }
+            }
+        }
+        End::Window
+    }
+
+    /// End of the next step at the latest: the next jump or kink after now.
+    fn next_event(&self, window_s: f64, motion: &mut usize, pulse: &mut usize) -> f64 {
+        let after = self.time_s * (1.0 + 1e-12) + SMALLEST_STEP_S;
+        let mut event = window_s;
+        for (events, next) in [
+            (self.motion.events_s(), motion),
+            (self.w.pulse_events_s.as_slice(), pulse),
+        ] {
+            while events.get(*next).is_some_and(|&t| t <= after) {
+                *next += 1;
+            }
+            if let Some(&t) = events.get(*next) {
+                event = event.min(t);
+            }
+        }
+        event
+    }
+
+    fn try_step(&mut self, dt_s: f64) -> Result<TrialStep, StageFailure> {
+        let (model, w) = (self.model, &mut *self.w);
+        let gap_m = model.gap_scale(self.clearance.value_m);
+        let mut stages = Stages {
+            model,
+            motion: self.motion,
+            load: self.load,
+            scratch: &mut w.scratch,
+            exchange: w.exchange.as_mut(),
+            gap_m,
+        };
+        w.stepper
+            .step(&mut stages, self.time_s, dt_s, &w.y, &w.rate)?;
+        let n_cells = model.film.n_cells();
+        let y = w.stepper.value();
+        let pose = self.motion.pose(self.time_s + dt_s);
+        let attitude = model.attitude(&y[n_cells..], &pose);
+        let clearance = model.film.min_clearance(&attitude);
+        if !clearance.value_m.is_finite() {
+            return Err(StageFailure::NotFinite("clearance"));
+        }
+        let error = self.error_norm(gap_m);
+        if !error.is_finite() {
+            return Err(StageFailure::NotFinite("error estimate"));
+        }
+        let closed_by = self.clearance.value_m - clearance.value_m;
+        let from = model.gap_scale(self.clearance.value_m.abs());
+        Ok(TrialStep {
+            error,
+            approach: (closed_by / from).max(0.0) / model.resolution.approach_share,
+            attitude,
+            clearance,
+        })
+    }
+
+    /// Error of the trial step over tolerance: gap error at the slider's ends, directly and
+    /// through its velocity, that of the film's gas, and that which the suspension's modes cause.
+    fn error_norm(&self, gap_m: f64) -> f64 {
+        let model = self.model;
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let (e_psi, rest) = self.w.stepper.error().split_at(n_cells);
+        let (e_x, e_v) = rest.split_at(n);
+        let psi = &self.w.stepper.value()[..n_cells];
+        let square: f64 = e_psi.iter().zip(psi).map(|(e, p)| (e / p) * (e / p)).sum();
+        let film = (square / n_cells as f64).sqrt();
+        let gap = model.gap_change(e_x) + model.velocity_to_gap_s * model.gap_change(e_v);
+        let suspension = model.mechanics.suspension_force_error(e_x) / model.film_n_per_m;
+        ((gap + suspension) / gap_m + film) / model.resolution.tolerance
+    }
+
+    /// Takes the trial step over; whether the slider has touched in it.
+    fn accept(&mut self, dt_s: f64, event_s: f64, step: &TrialStep) -> bool {
+        self.cost.steps += 1;
+        let touched = self.search_step(dt_s, step);
+
+        let start_s = self.time_s;
+        // Time at an event is the event's own, so that rounding never opens a sliver beside it.
+        self.time_s = if dt_s == event_s - start_s {
+            event_s
+        } else {
+            start_s + dt_s
+        };
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        w.y.copy_from_slice(w.stepper.value());
+        w.rate.copy_from_slice(w.stepper.rate());
+        w.stepper.accept(dt_s);
+        self.clearance = step.clearance;
+
+        let (x, v) = w.y[n_cells..].split_at(n);
+        let before = self.dimple_force_n;
+        self.dimple_force_n = model.mechanics.dimple_force(x, v);
+        self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
+        let open_ends = [before, self.dimple_force_n]
+            .iter()
+            .filter(|&&f| f == 0.0)
+            .count();
+        self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
+
+        let pulse = self.load.pulse;
+        let jump = just_after(pulse, self.time_s) - pulse.value(self.time_s);
+        if jump != 0.0 {
+            let da = jump * self.load.amplitude_m_per_s2;
+            model
+                .mechanics
+                .add_acceleration_jump(da, &mut w.rate[n_cells + n..]);
+        }
+        model
+            .film
+            .pressure(&w.y[..n_cells], &step.attitude, &mut w.pressure);
+        let lowest = w.pressure.iter().copied().fold(f64::INFINITY, f64::min);
+        self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
+        self.record(&step.attitude);
+        touched
+    }
+
+    /// Looks for the smallest clearance and for touch inside the step from the present state to
+    /// the stepper's; whether the limit was passed.
+    fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> bool {
+        let (model, w) = (self.model, &*self.w);
+        let n_cells = model.film.n_cells();
+        let n = model.mechanics.len();
+        let (x0, v0) = w.y[n_cells..].split_at(n);
+        let (x1, v1) = w.stepper.value()[n_cells..].split_at(n);
+        let (start_s, motion) = (self.time_s, self.motion);
+        let look = |theta: f64| -> Clearance {
+            let x: [f64; 3] = std::array::from_fn(|i| {
+                hermite::value(theta, dt_s, [x0[i], x1[i]], [v0[i], v1[i]])
+            });
+            let pose = motion.pose(start_s + theta * dt_s);
+            model.film.min_clearance(&model.attitude(&x, &pose))
+        };
+        let ends = self.clearance.value_m.min(step.clearance.value_m);
+        let inside = (1..LOOKS)
+            .map(|i| look(i as f64 / LOOKS as f64).value_m)
+            .fold(f64::INFINITY, f64::min);
+        let (theta, lowest) = if inside < ends {
+            let (theta, _) = hermite::minimum(LOOKS, |theta| look(theta).value_m);
+            (theta, look(theta))
+        } else if step.clearance.value_m <= self.clearance.value_m {
+            (1.0, step.clearance)
+        } else {
+            (0.0, self.clearance)
+        };
+        if lowest.value_m < self.smallest.0.value_m {
+            self.smallest = (lowest, start_s + theta * dt_s);
+        }
+        let limit = model.fail_below_m;
+        let below = lowest.value_m < limit;
+        if !below || self.failed.is_some() {
+            return false;
+        }
+        let crossing =
+            hermite::first_below_zero(LOOKS, Some(theta), |theta| look(theta).value_m - limit);
+        let theta = crossing.unwrap_or(theta);
+        let touch = look(theta);
+        self.failed = Some((
+            start_s + theta * dt_s,
+            Place {
+                x_m: touch.x_m,
+                y_m: touch.y_m,
+            },
+        ));
+        true
+    }
+
+    fn record(&mut self, attitude: &Attitude) {
+        let Some(columns) = &mut self.columns else {
+            return;
+        };
+        let n_cells = self.model.film.n_cells();
+        let x = &self.w.y[n_cells..];
+        let steady = &self.model.flight.attitude;
+        columns.time_s.push(self.time_s);
+        columns.slider_z_m.push(x[0]);
+        columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
+        columns.slider_roll_rad.push(steady.roll_rad + x[2]);
+        columns.min_clearance_m.push(self.clearance.value_m);
+        columns
+            .bearing_force_n
+            .push(self.model.film.force(&self.w.y[..n_cells], attitude)[0]);
+        columns.dimple_force_n.push(self.dimple_force_n);
+    }
+
+    fn cause(&self, failure: StageFailure) -> Cause {
+        match failure {
+            StageFailure::NotConverged(residual) => Cause::NotConverged {
+                time_s: self.time_s,
+                residual,
+            },
+            StageFailure::NotFinite(quantity) => Cause::NotFinite {
+                time_s: self.time_s,
+                quantity,
+            },
+        }
+    }
+
+    fn finish(self, end: End) -> HeadRun {
+        let verdict = match (self.failed, end) {
+            (Some((t_fail_s, place)), _) => Verdict::Fails { t_fail_s, place },
+            (None, End::Undecided(cause)) => Verdict::Undecided { cause },
+            (None, End::Window | End::Touch) => Verdict::Survives,
+        };
+        let counters = self.w.scratch.counters;
+        let (lowest, t_min_clearance_s) = self.smallest;
+        HeadRun {
+            verdict,
+            min_clearance_m: lowest.value_m,
+            t_min_clearance_s,
+            place: Place {
+                x_m: lowest.x_m,
+                y_m: lowest.y_m,
+            },
+            end_s: self.time_s,
+            dimple: self.dimple,
+            columns: self.columns,
+            cost: HeadCost {
+                film_residuals: counters.residuals,
+                film_solves: counters.solves,
+                factorisations: counters.factorisations,
+                linearisations: counters.linearisations,
+                max_residual: counters.max_residual,
+                mass_balance_error: counters.mass_balance_error,
+                ..self.cost
+            },
+        }
+    }
+}
+
+/// A step that could be taken.
+struct TrialStep {
+    /// Error over tolerance.
+    error: f64,
+    /// Relative approach over its share.
+    approach: f64,
+    attitude: Attitude,
+    clearance: Clearance,
+}
+
+/// Instants at which the pulse jumps or kinks.
+fn pulse_events(pulse: &Pulse, out: &mut Vec<f64>) {
+    out.clear();
+    match &pulse.shape {
+        PulseShape::Trapezoid { rise_share } => {
+            let rise = rise_share * pulse.width_s;
+            out.extend([rise, pulse.width_s - rise]);
+        }
+        PulseShape::Table { time_s, .. } => out.extend_from_slice(time_s),
+        PulseShape::HalfSine
+        | PulseShape::Haversine
+        | PulseShape::Square
+        | PulseShape::DampedSine { .. } => {}
+    }
+    out.push(pulse.width_s);
+}
+
+/// Limit of the pulse from the right.
+fn just_after(pulse: &Pulse, time_s: f64) -> f64 {
+    pulse.value(time_s * (1.0 + 1e-12) + f64::MIN_POSITIVE)
+}

@@ -1,0 +1,487 @@
+//! Stage equations of the coupled head and their monolithic Newton solution.
+//!
+//! With v = (x − x_known)/d a stage is, for film ψ and coordinates x,
+//!
+//! ```text
+//! r_f = c (ψ − ψ_known)/d + R(ψ, q)                          A = c/d + R_ψ,  Z = A⁻¹ R_q
+//! r_m = M (v − v_known)/d + C v + K x + B (N − N₀) − f a − (F − F₀)
+//! (S − F_q + F_ψ Z) δx = −r_m − F_ψ A⁻¹ r_f,     δψ = −A⁻¹ r_f − Z δq
+//! ```
+//!
+//! with S the derivative of r_m by x without the film. A, Z, F_ψ and F_q are kept as long as the
+//! iteration contracts; S follows the dimple at every iterate, so opening and closing cost no
+//! factorisation. An iterate that would take more than nine tenths of a cell's gas away is cut,
+//! and a cut iterate is never accepted.
+
+use super::HeadModel;
+use super::ShockLoad;
+use super::mechanics::{StageState, eliminate};
+use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
+use crate::disk::{DiskMotion, DiskPose};
+use crate::fixed_point::FixedPoint;
+use crate::integrator::StageSystem;
+use crate::linalg::banded::BandedLu;
+
+/// Iterations of one stage before it is given up.
+const MAX_ITERATIONS: usize = 14;
+/// Contraction above which the Jacobian is renewed.
+const SLOW: f64 = 0.35;
+/// Range of d over which factors made for another d are used.
+const REUSE: f64 = 1.3;
+/// Clearance below which the Jacobian is renewed at every iterate, m.
+const ALWAYS_RENEW_M: f64 = 0.5e-9;
+/// Share of a cell's gas that one iterate may take.
+const LARGEST_LOSS: f64 = 0.9;
+
+/// Why a stage was given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum StageFailure {
+    /// The iteration did not converge; the last estimate of its error relative to the gap.
+    NotConverged(f64),
+    /// A number was not finite.
+    NotFinite(&'static str),
+}
+
+/// Scratch of the stage solves, sized once.
+#[derive(Clone, Debug)]
+pub(super) struct StageScratch {
+    pub film: FilmScratch,
+    linearisation: FilmLinearisation,
+    lu: BandedLu,
+    /// d for which the factors were made; `None`: there are none.
+    factored_d_s: Option<f64>,
+    /// Z, row by row.
+    columns: Vec<[f64; 3]>,
+    force_by_psi: [Vec<f64>; 3],
+    force_by_attitude: [[f64; 3]; 3],
+    /// F_ψ Z − F_q.
+    film_matrix: [[f64; 3]; 3],
+    pub residual: Vec<f64>,
+    pub mechanical: Vec<f64>,
+    pub velocity: Vec<f64>,
+    pub small: Vec<f64>,
+    pub matrix: Vec<f64>,
+    /// Contraction of the last iteration with the present factors.
+    contraction: f64,
+    /// Whether the dimple was closed at the last mechanical iterate.
+    last_closed: bool,
+    pub counters: Counters,
+}
+
+/// What the stage solves have cost, and their worst figures.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counters {
+    pub residuals: u64,
+    pub solves: u64,
+    pub factorisations: u64,
+    pub linearisations: u64,
+    pub max_residual: f64,
+    pub mass_balance_error: f64,
+}
+
+impl StageScratch {
+    pub fn new(model: &HeadModel) -> Self {
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let linearisation = model.film.linearisation();
+        let half_bandwidth = linearisation.by_psi.half_bandwidth();
+        Self {
+            film: model.film.scratch(),
+            lu: BandedLu::new(n_cells, half_bandwidth),
+            linearisation,
+            factored_d_s: None,
+            columns: vec![[0.0; 3]; n_cells],
+            force_by_psi: std::array::from_fn(|_| vec![0.0; n_cells]),
+            force_by_attitude: [[0.0; 3]; 3],
+            film_matrix: [[0.0; 3]; 3],
+            residual: vec![0.0; n_cells],
+            mechanical: vec![0.0; n],
+            velocity: vec![0.0; n],
+            small: vec![0.0; n],
+            matrix: vec![0.0; n * n],
+            contraction: 0.1,
+            last_closed: true,
+            counters: Counters::default(),
+        }
+    }
+
+    /// Forgets factors and counts, keeping the storage.
+    pub fn reset(&mut self) {
+        self.factored_d_s = None;
+        self.contraction = 0.1;
+        self.counters = Counters::default();
+    }
+
+    /// The factors no longer fit the state.
+    pub fn discard_factors(&mut self) {
+        self.factored_d_s = None;
+    }
+
+    /// A⁻¹ applied to `residual` in place, and F_ψ of the result.
+    pub fn solve_film(&mut self) -> [f64; 3] {
+        self.lu.solve(&mut self.residual);
+        self.counters.solves += 1;
+        std::array::from_fn(|f| dot(&self.force_by_psi[f], &self.residual))
+    }
+}
+
+/// The coupled head as a system of stages, over one step.
+pub(super) struct Stages<'a> {
+    pub model: &'a HeadModel,
+    pub motion: &'a dyn DiskMotion,
+    pub load: ShockLoad<'a>,
+    pub scratch: &'a mut StageScratch,
+    /// Iteration between film and structure, when they are solved in turn.
+    pub exchange: Option<&'a mut FixedPoint>,
+    /// Clearance to which errors are relative, m.
+    pub gap_m: f64,
+}
+
+/// Pose and inertia load at one stage.
+#[derive(Clone, Copy)]
+pub(super) struct Instant {
+    pub pose: DiskPose,
+    pub a: f64,
+    pub d_s: f64,
+}
+
+impl Stages<'_> {
+    fn instant(&self, time_s: f64, d_s: f64) -> Instant {
+        Instant {
+            pose: self.motion.pose(time_s),
+            a: self.load.amplitude_m_per_s2 * self.load.pulse.value(time_s),
+            d_s,
+        }
+    }
+
+    /// Renews Jacobian and factors at (ψ, attitude) for `d_s`.
+    pub fn renew(
+        &mut self,
+        psi: &[f64],
+        attitude: &Attitude,
+        d_s: f64,
+    ) -> Result<(), StageFailure> {
+        let (film, s) = (&self.model.film, &mut *self.scratch);
+        film.linearise(psi, attitude, &mut s.linearisation, &mut s.film);
+        film.force_gradients(psi, attitude, &mut s.force_by_psi, &mut s.force_by_attitude);
+        s.counters.linearisations += 1;
+        self.factor(d_s)
+    }
+
+    /// Factors the present Jacobian for `d_s` and eliminates the film onto the slider.
+    fn factor(&mut self, d_s: f64) -> Result<(), StageFailure> {
+        let s = &mut *self.scratch;
+        s.factored_d_s = None;
+        s.counters.factorisations += 1;
+        if s.lu
+            .factor(
+                &s.linearisation.by_psi,
+                1.0 / d_s,
+                self.model.film.capacity(),
+            )
+            .is_err()
+        {
+            return Err(StageFailure::NotConverged(f64::INFINITY));
+        }
+        let [by_h, by_pitch, by_roll] = &s.linearisation.by_attitude;
+        for (((z, h), p), r) in s.columns.iter_mut().zip(by_h).zip(by_pitch).zip(by_roll) {
+            *z = [*h, *p, *r];
+        }
+        s.lu.solve_columns(&mut s.columns);
+        s.counters.solves += 3;
+        for f in 0..3 {
+            let mut sum = [0.0; 3];
+            for (g, z) in s.force_by_psi[f].iter().zip(&s.columns) {
+                for (sum, z) in sum.iter_mut().zip(z) {
+                    *sum += g * z;
+                }
+            }
+            let by_attitude = s.force_by_attitude[f];
+            s.film_matrix[f] = std::array::from_fn(|q| sum[q] - by_attitude[q]);
+        }
+        s.factored_d_s = Some(d_s);
+        s.contraction = 0.1;
+        Ok(())
+    }
+
+    /// Makes sure there are factors good enough for `d_s`.
+    pub fn ensure_factors(
+        &mut self,
+        psi: &[f64],
+        attitude: &Attitude,
+        d_s: f64,
+    ) -> Result<bool, StageFailure> {
+        match self.scratch.factored_d_s {
+            Some(d) if d < d_s * REUSE && d_s < d * REUSE => Ok(false),
+            Some(_) => self.factor(d_s).map(|()| false),
+            None => self.renew(psi, attitude, d_s).map(|()| true),
+        }
+    }
+
+    /// Film residual r_f at the iterate into the scratch; F − F₀.
+    pub fn film_residual(
+        &mut self,
+        instant: &Instant,
+        attitude: &Attitude,
+        psi: &[f64],
+        psi_known: &[f64],
+    ) -> [f64; 3] {
+        let (film, s) = (&self.model.film, &mut *self.scratch);
+        film.flux_residual(psi, attitude, &mut s.residual, &mut s.film);
+        s.counters.residuals += 1;
+        let per_d = 1.0 / instant.d_s;
+        for (r, ((psi, known), c)) in s
+            .residual
+            .iter_mut()
+            .zip(psi.iter().zip(psi_known).zip(film.capacity()))
+        {
+            *r += c * (psi - known) * per_d;
+        }
+        let force = film.force(psi, attitude);
+        std::array::from_fn(|f| force[f] - self.model.steady_force[f])
+    }
+
+    /// S + film's condensed stiffness into the scratch's small matrix.
+    fn assemble_small(&mut self, d_s: f64, closed: bool, with_film: bool) {
+        let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
+        self.model
+            .mechanics
+            .stage_matrix(d_s, closed, &mut s.matrix);
+        if with_film {
+            for f in 0..3 {
+                for q in 0..3 {
+                    s.matrix[f * n + q] += s.film_matrix[f][q];
+                }
+            }
+        }
+    }
+
+    /// One mechanical correction δx for residual r_m and film term `condensed`, left in
+    /// `scratch.mechanical`. Without film when `condensed` is `None`.
+    pub fn mechanical_step(
+        &mut self,
+        state: &MechanicalIterate<'_>,
+        condensed: Option<[f64; 3]>,
+    ) -> Result<(), StageFailure> {
+        let s = &mut *self.scratch;
+        let stage = StageState {
+            d_s: state.instant.d_s,
+            a: state.instant.a,
+            film: state.film,
+            x: state.x,
+            v: &s.velocity,
+            v_known: state.v_known,
+        };
+        self.model
+            .mechanics
+            .residual(&stage, &mut s.mechanical, &mut s.small);
+        let closed = self.model.mechanics.is_closed(state.x, &s.velocity);
+        s.last_closed = closed;
+        s.mechanical.iter_mut().for_each(|r| *r = -*r);
+        if let Some(condensed) = condensed {
+            for (r, f) in s.mechanical.iter_mut().zip(condensed) {
+                *r -= f;
+            }
+        }
+        self.assemble_small(state.instant.d_s, closed, condensed.is_some());
+        let s = &mut *self.scratch;
+        if eliminate(&mut s.matrix, &mut s.mechanical) {
+            Ok(())
+        } else {
+            Err(StageFailure::NotFinite("slider and suspension"))
+        }
+    }
+
+    /// Newton on film and mechanics together.
+    fn monolithic(
+        &mut self,
+        instant: &Instant,
+        known: &[f64],
+        y: &mut [f64],
+    ) -> Result<(), StageFailure> {
+        let (n_cells, n) = (self.model.film.n_cells(), self.model.mechanics.len());
+        let (psi_known, rest) = known.split_at(n_cells);
+        let (x_known, v_known) = rest.split_at(n);
+        let (psi, rest) = y.split_at_mut(n_cells);
+        let (x, v) = rest.split_at_mut(n);
+        let tolerance = self.model.resolution.coupling_tolerance;
+
+        let attitude = self.model.attitude(x, &instant.pose);
+        let mut fresh = self.ensure_factors(psi, &attitude, instant.d_s)?;
+        let mut previous = f64::INFINITY;
+        let mut estimate = f64::INFINITY;
+        for iteration in 0..MAX_ITERATIONS {
+            let attitude = self.model.attitude(x, &instant.pose);
+            if iteration > 0 && self.model.film.min_clearance(&attitude).value_m < ALWAYS_RENEW_M {
+                self.renew(psi, &attitude, instant.d_s)?;
+                fresh = true;
+            }
+            for ((v, x), known) in self.scratch.velocity.iter_mut().zip(&*x).zip(x_known) {
+                *v = (x - known) / instant.d_s;
+            }
+            let film = self.film_residual(instant, &attitude, psi, psi_known);
+            let spurious: f64 = self.scratch.residual.iter().sum();
+            let condensed = self.scratch.solve_film();
+            let iterate = MechanicalIterate {
+                instant,
+                film,
+                x,
+                v_known,
+            };
+            self.mechanical_step(&iterate, Some(condensed))?;
+
+            let (size, cut) = self.apply(psi, x)?;
+            if cut {
+                self.scratch.discard_factors();
+                let attitude = self.model.attitude(x, &instant.pose);
+                self.renew(psi, &attitude, instant.d_s)?;
+                (fresh, previous) = (true, f64::INFINITY);
+                continue;
+            }
+            let contraction = if previous.is_finite() {
+                (size / previous).max(1e-4)
+            } else {
+                self.scratch.contraction
+            };
+            if previous.is_finite() {
+                self.scratch.contraction = contraction.min(0.9);
+            }
+            estimate = if contraction < 1.0 {
+                size * contraction / (1.0 - contraction)
+            } else {
+                size
+            };
+            if estimate <= tolerance && contraction < 1.0 {
+                for ((v, x), known) in v.iter_mut().zip(&*x).zip(x_known) {
+                    *v = (x - known) / instant.d_s;
+                }
+                let counters = &mut self.scratch.counters;
+                counters.max_residual = counters.max_residual.max(estimate);
+                let imbalance = (spurious * instant.d_s / self.model.film_mass).abs() * contraction;
+                counters.mass_balance_error = counters.mass_balance_error.max(imbalance);
+                return Ok(());
+            }
+            if previous.is_finite() && contraction > SLOW {
+                if contraction > 2.0 && fresh && iteration > 3 {
+                    break;
+                }
+                let attitude = self.model.attitude(x, &instant.pose);
+                self.renew(psi, &attitude, instant.d_s)?;
+                (fresh, previous) = (true, f64::INFINITY);
+            } else {
+                previous = size;
+            }
+        }
+        Err(StageFailure::NotConverged(estimate))
+    }
+
+    /// Applies the correction held in the scratch (A⁻¹ r_f and δx) to (ψ, x). Returns its size
+    /// relative to the gap and whether it was cut.
+    fn apply(&mut self, psi: &mut [f64], x: &mut [f64]) -> Result<(f64, bool), StageFailure> {
+        let s = &mut *self.scratch;
+        let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
+        let (mut square, mut loss) = (0.0, 0.0_f64);
+        for ((delta, z), psi) in s.residual.iter_mut().zip(&s.columns).zip(&*psi) {
+            *delta = -*delta - (z[0] * dq[0] + z[1] * dq[1] + z[2] * dq[2]);
+            let relative = *delta / psi;
+            square += relative * relative;
+            loss = loss.max(-relative);
+        }
+        let gap = self.model.gap_change(&dq) / self.gap_m;
+        let size = gap + (square / psi.len() as f64).sqrt();
+        if !size.is_finite() {
+            return Err(StageFailure::NotFinite("film pressure"));
+        }
+        let factor = if loss > LARGEST_LOSS {
+            LARGEST_LOSS / loss
+        } else {
+            1.0
+        };
+        for (psi, delta) in psi.iter_mut().zip(&s.residual) {
+            *psi += factor * delta;
+        }
+        for (x, delta) in x.iter_mut().zip(&s.mechanical) {
+            *x += factor * delta;
+        }
+        Ok((size, factor < 1.0))
+    }
+}
+
+/// Iterate of the mechanics within a stage; velocities are in the scratch.
+pub(super) struct MechanicalIterate<'a> {
+    pub instant: &'a Instant,
+    pub film: [f64; 3],
+    pub x: &'a [f64],
+    pub v_known: &'a [f64],
+}
+
+impl StageSystem for Stages<'_> {
+    type Failure = StageFailure;
+
+    fn solve_stage(
+        &mut self,
+        time_s: f64,
+        d_s: f64,
+        known: &[f64],
+        y: &mut [f64],
+    ) -> Result<(), StageFailure> {
+        let instant = self.instant(time_s, d_s);
+        // The guess may be anything where the step is long; the film needs gas in every cell.
+        let n_cells = self.model.film.n_cells();
+        for (psi, known) in y[..n_cells].iter_mut().zip(known) {
+            let has_gas = *psi > 0.0;
+            if !has_gas {
+                *psi = known.abs().max(f64::MIN_POSITIVE);
+            }
+        }
+        match self.exchange.take() {
+            None => self.monolithic(&instant, known, y),
+            Some(exchange) => {
+                let solved = self.solve_partitioned(exchange, &instant, known, y);
+                self.exchange = Some(exchange);
+                solved
+            }
+        }
+    }
+
+    fn filter(&mut self, d_s: f64, error: &mut [f64]) {
+        let (n_cells, n) = (self.model.film.n_cells(), self.model.mechanics.len());
+        let (e_psi, rest) = error.split_at_mut(n_cells);
+        let (e_x, e_v) = rest.split_at_mut(n);
+        let s = &mut *self.scratch;
+        let per_d = 1.0 / d_s;
+        for ((r, e), c) in s
+            .residual
+            .iter_mut()
+            .zip(&*e_psi)
+            .zip(self.model.film.capacity())
+        {
+            *r = c * e * per_d;
+        }
+        let force = s.solve_film();
+        let closed = s.last_closed;
+        self.model
+            .mechanics
+            .filter_load(d_s, closed, e_x, e_v, &mut s.mechanical);
+        for (r, f) in s.mechanical.iter_mut().zip(force) {
+            *r += f;
+        }
+        self.assemble_small(d_s, closed, true);
+        let s = &mut *self.scratch;
+        if !eliminate(&mut s.matrix, &mut s.mechanical) {
+            error.fill(f64::NAN);
+            return;
+        }
+        let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
+        for ((e, r), z) in e_psi.iter_mut().zip(&s.residual).zip(&s.columns) {
+            *e = r - (z[0] * dq[0] + z[1] * dq[1] + z[2] * dq[2]);
+        }
+        for ((e_x, e_v), x) in e_x.iter_mut().zip(e_v).zip(&s.mechanical) {
+            *e_v = (x - *e_x) / d_s;
+            *e_x = *x;
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
