@@ -1,5 +1,6 @@
 //! Study files, search, store, report and command line.
 
+mod bad_inputs;
 mod report_files;
 mod report_run;
 mod search_critical_shock;

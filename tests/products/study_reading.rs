@@ -75,3 +75,573 @@ fn errors_are_listed_together() {
     let text = "study_format = 1\n[pulse]\nwidth_ms = 2\n[disk]\nthickness_mm = -1\nrpm = \"5400\"\n[ramp]\nmodels=[\"rigid\"]\n";
     assert_eq!(codes(read(text, &[])), ["E112", "E110", "E130", "E113"]);
 }
+
+#[test]
+fn the_table_of_keys_is_consistent() {
+    use opshock_study::study::key::{Kind, Presence};
+    use opshock_study::study::keys::{CHOICES, KEYS, find};
+    use opshock_study::study::unit;
+
+    // Ratios, shares, exponents and the like: everything else carries its unit.
+    let plain = [
+        "poisson",
+        "modal_ratio",
+        "damping_ratio",
+        "participation",
+        "restitution",
+        "rise_share",
+        "decay_share",
+        "approach_share",
+        "head_tolerance",
+        "coupling_tolerance",
+        "table_relative",
+    ];
+    for (position, key) in KEYS.iter().enumerate() {
+        assert!(
+            KEYS[..position].iter().all(|other| other.path != key.path),
+            "{} twice",
+            key.path
+        );
+        assert!(
+            key.help.ends_with('.') && !key.help.is_empty(),
+            "{}: {:?}",
+            key.path,
+            key.help
+        );
+        assert!(!key.example().is_empty(), "{} has no example", key.path);
+        let number = matches!(
+            key.kind,
+            Kind::Number(_)
+                | Kind::NumberOrWord(..)
+                | Kind::Axis(_)
+                | Kind::Numbers(_)
+                | Kind::Pair(_)
+                | Kind::Points
+        );
+        assert_eq!(
+            number && unit::of_path(key.path).is_none(),
+            number && plain.contains(&key.name()),
+            "{}: {:?}",
+            key.path,
+            unit::of_path(key.path).map(|unit| unit.suffix)
+        );
+        if let (Kind::Number(range), Some((low, high))) = (key.kind, key.usual) {
+            assert!(
+                low < high && (range.contains(low) || low == 0.0) && range.contains(high),
+                "{}",
+                key.path
+            );
+        }
+        if let Presence::Together(_) = key.presence {
+            assert!(CHOICES.iter().any(|choice| {
+                choice
+                    .alternatives
+                    .iter()
+                    .any(|paths| paths.contains(&key.path))
+            }));
+        }
+    }
+    for choice in CHOICES {
+        for path in choice.alternatives.iter().flat_map(|paths| paths.iter()) {
+            assert!(find(path).is_some(), "{path}");
+        }
+    }
+    for unit in unit::UNITS.iter().filter(|unit| unit.in_use) {
+        let used = KEYS
+            .iter()
+            .any(|key| unit::of_path(key.path).is_some_and(|found| found.suffix == unit.suffix));
+        let promised = ["s", "us", "kg", "urad"].contains(&unit.suffix);
+        assert!(used || promised, "no key uses _{}", unit.suffix);
+    }
+}
+
+/// A value of the key that differs from its default and fits a study built around it.
+fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
+    use opshock_study::study::key::Kind;
+    let words = |words: &[&str]| {
+        words
+            .iter()
+            .map(|word| format!("{word:?}"))
+            .collect::<Vec<_>>()
+    };
+    Some(match key.path {
+        "study_format" => return None,
+        "name" => "\"another\"".to_string(),
+        "outputs" => "[\"disk_displacement\"]".to_string(),
+        "ramp.models" => "[\"none\", \"rigid\"]".to_string(),
+        "ramp.radius_mm" => "32.0".to_string(),
+        "pulse.shape" => "\"square\"".to_string(),
+        "pulse.table" | "slider.surface.file" | "slider.surface.preset" | "slider.surface.rail" => {
+            return None;
+        }
+        "pulse.table_time_ms" | "pulse.table_relative" => return None,
+        "ramp.deformable.modes" | "ramp.deformable.bottom_modes" => {
+            "[{ frequency_hz = 900.0, mass_mg = 50.0, participation = 0.2 }]".to_string()
+        }
+        "solver.leave_out" => return None,
+        _ => match key.kind {
+            Kind::Flag => "false".to_string(),
+            Kind::Integer(low, _) => (low + 17).to_string(),
+            Kind::Word(all) => words(all).pop()?,
+            Kind::Words(_) => "[\"-\"]".to_string(),
+            Kind::Axis(_) => "[2.5]".to_string(),
+            Kind::Number(_) | Kind::NumberOrWord(..) => match key.example().parse::<f64>().ok()? {
+                0.0 => "0.001".to_string(),
+                value => format!("{:?}", value * 0.99),
+            },
+            _ => return None,
+        },
+    })
+}
+
+#[test]
+fn every_value_changes_the_digest_and_is_written_out() {
+    use opshock_study::study::keys::KEYS;
+    let base = read(SHORT, &[]).unwrap();
+    let mut tried = 0;
+    for key in KEYS.iter().filter(|key| !key.path.contains("[]")) {
+        let Some(value) = other_value(key) else {
+            continue;
+        };
+        let set = format!("{}={value}", key.path);
+        let study = read(SHORT, &[&set]).unwrap_or_else(|errors| panic!("{set}: {errors}"));
+        assert_ne!(study.digest, base.digest, "{set}");
+        assert!(study.resolved_toml().contains(key.name()), "{set}");
+        let again =
+            read(&study.resolved_toml(), &[]).unwrap_or_else(|errors| panic!("{set}: {errors}"));
+        assert_eq!(again.digest, study.digest, "{set}");
+        tried += 1;
+    }
+    assert!(tried > 80, "{tried}");
+    for rail in ["x_um=[20, 169]", "y_um=[30, 671]", "recess_um=0.26"] {
+        let set = format!("slider.surface.rail[0].{rail}");
+        assert_ne!(read(SHORT, &[&set]).unwrap().digest, base.digest, "{set}");
+    }
+}
+
+#[test]
+fn the_digest_does_not_see_order_spelling_and_comments() {
+    let one = "study_format = 1\nname = \"d\"\n[pulse]\nwidths_ms = [0.5, 2.0]\n[disk]\nrpm = 5400.0\nthickness_mm = 0.635\n[ramp]\nmodels = [\"none\", \"rigid\"]\nclearance_um = 100.0\n";
+    let other = "# a comment\nname = 'd'\nramp = { clearance_um = 1e2, models = [\"none\", \"rigid\"] }\n\ndisk.thickness_mm = 0.63500\nstudy_format = 0x1\npulse.widths_ms = [\n  0.5, # short\n  2,\n]\ndisk.rpm = 5_400\n";
+    let (one, other) = (read(one, &[]).unwrap(), read(other, &[]).unwrap());
+    assert_eq!(one.digest, other.digest);
+    assert_eq!(one.resolved_toml(), other.resolved_toml());
+    let ids = |study: &Study| {
+        study
+            .points
+            .iter()
+            .map(|point| point.id)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(ids(&one), ids(&other));
+}
+
+#[test]
+fn an_identity_depends_on_the_scene_and_on_nothing_else() {
+    let base = read(SHORT, &[]).unwrap();
+    for set in [
+        "name=other",
+        "outputs=[\"min_clearance\"]",
+        "search.tolerance_pct=2",
+        "output.checkpoint_s=60",
+        "pulse.start_ms=1",
+        "ramp.clearance_top_um=100",
+        "gas.altitude_m=0",
+        "pulse.rise_share=0.2",
+    ] {
+        assert_eq!(
+            read(SHORT, &[set]).unwrap().points[0].id,
+            base.points[0].id,
+            "{set}"
+        );
+    }
+    let both = read(SHORT, &["ramp.models=[\"none\", \"rigid\"]"]).unwrap();
+    let mut ids: Vec<_> = both.points.iter().map(|point| point.id).collect();
+    assert!(ids.contains(&base.points[0].id) && ids.contains(&base.points[1].id));
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), 4);
+}
+
+#[test]
+fn the_command_line_wins_and_both_values_are_recorded() {
+    let text = "study_format = 1\nname = \"w\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\nclearance_top_um = 90.0\nclearance_bottom_um = 110.0\n[disk]\nrpm = 5400.0\ndamping = { rayleigh = { alpha_per_s = 25.0, beta_s = 1.0e-7 } }\n";
+    let study = read(text, &[
+        "disk.rpm=7200",
+        "disk.damping.modal_ratio=0.004",
+        "ramp.clearance_um=80",
+        "ramp.deformable.modes=[{ frequency_hz = 900.0, mass_mg = 54.4, participation = 0.275, damping_ratio = 0.005 }]",
+        "ramp.models=deformable",
+        "outputs=[\"disk_displacement\"]",
+        "pulse.signs=-",
+        "name=from the command line",
+    ])
+    .unwrap();
+    let scene = &study.points[0].scene;
+    assert_eq!(
+        scene.disk.spin_rad_per_s,
+        7200.0 * std::f64::consts::TAU / 60.0
+    );
+    assert_eq!(
+        scene.disk.damping,
+        opshock_solver::disk::DiskDamping::ModalRatio(0.004)
+    );
+    assert_eq!(
+        (scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m),
+        (80e-6, 80e-6)
+    );
+    match &scene.ramp.model {
+        opshock_solver::ramp::RampModel::Deformable { top, bottom } => {
+            assert_eq!(top, bottom);
+            assert_eq!(
+                (top.len(), top[0].mass_kg, top[0].damping_ratio),
+                (1, 54.4e-6, 0.005)
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(study.points.len(), 1);
+    assert_eq!(study.points[0].sign, Sign::Minus);
+    assert_eq!(study.name, "from the command line");
+    assert!(!study.needs_head());
+    let rpm = &study.overrides[0];
+    assert_eq!(
+        (
+            rpm.key.as_str(),
+            rpm.file_value.as_str(),
+            rpm.set_value.as_str()
+        ),
+        ("disk.rpm", "5400.0", "7200")
+    );
+    assert_eq!(study.overrides[1].file_value, "");
+}
+
+#[test]
+fn an_entry_of_a_default_list_can_be_set_alone() {
+    let study = read(
+        SHORT,
+        &[
+            "ramp.models=deformable",
+            "ramp.deformable.modes[1].mass_mg=[30, 40]",
+        ],
+    )
+    .unwrap();
+    let masses: Vec<f64> = study
+        .points
+        .iter()
+        .map(|point| match &point.scene.ramp.model {
+            opshock_solver::ramp::RampModel::Deformable { top, .. } => {
+                assert_eq!(top[0].mass_kg, 57.9e-6);
+                top[1].mass_kg
+            }
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(masses, [30e-6, 30e-6, 40e-6, 40e-6]);
+    assert_eq!(study.axes[0].path, "ramp.deformable.modes[1].mass_mg");
+    assert_eq!(study.axes[0].column, "mass_mg");
+    assert!(read(SHORT, &["ramp.deformable.modes[2].mass_mg=30"]).is_err());
+}
+
+#[test]
+fn axes_of_words_and_spaced_numbers_expand() {
+    let study = read(
+        SHORT,
+        &[
+            "gas.model=[\"continuum\", \"slip_1\"]",
+            "disk.rpm={ from = 4000, to = 8000, count = 3, spacing = \"log\" }",
+            "pulse.widths_ms={ from = 0.25, to = 4.0, count = 5, spacing = \"log\" }",
+            "pulse.window_ms=[5.0, \"until_decayed\"]",
+            "slider.radius_mm=[20.0, 21.0]",
+            "ramp.radius_mm=[32.0, 32.15]",
+        ],
+    )
+    .unwrap();
+    let columns: Vec<&str> = study.axes.iter().map(|axis| axis.column.as_str()).collect();
+    assert_eq!(
+        columns,
+        [
+            "model",
+            "rpm",
+            "window_ms",
+            "slider.radius_mm",
+            "ramp.radius_mm"
+        ]
+    );
+    assert_eq!(study.points.len(), 2 * 3 * 2 * 2 * 2 * 5 * 2);
+    assert_eq!(study.widths_ms, [0.25, 0.5, 1.0, 2.0, 4.0]);
+    assert_eq!(study.axes[1].values[0], AxisValue::Number(4000.0));
+    assert_eq!(study.axes[1].values[2], AxisValue::Number(8000.0));
+    match study.axes[1].values[1] {
+        AxisValue::Number(rpm) => assert!((rpm - 4000.0 * 2.0_f64.sqrt()).abs() < 1e-9),
+        ref other => panic!("{other:?}"),
+    }
+    let order = study.table_order();
+    assert_eq!(order.len(), study.points.len());
+    let first: Vec<f64> = order[..5]
+        .iter()
+        .map(|&at| study.points[at].pulse_ms)
+        .collect();
+    assert_eq!(first, [0.25, 0.5, 1.0, 2.0, 4.0]);
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    assert!(sorted.into_iter().eq(0..study.points.len()));
+}
+
+#[test]
+fn gas_follows_altitude_and_temperature() {
+    let sea = read(SHORT, &[]).unwrap().points[0].scene.gas.clone();
+    assert_eq!(
+        (sea.pressure_pa, sea.viscosity_pa_s, sea.mean_free_path_m),
+        (101325.0, 1.806e-5, 63.5e-9)
+    );
+    let high = read(SHORT, &["gas.altitude_m=3000"]).unwrap().points[0]
+        .scene
+        .gas
+        .clone();
+    assert!((high.pressure_pa / 70108.5 - 1.0).abs() < 1e-5);
+    assert!((high.mean_free_path_m * high.pressure_pa / (63.5e-9 * 101325.0) - 1.0).abs() < 1e-12);
+    let warm = read(SHORT, &["gas.temperature_c=60"]).unwrap().points[0]
+        .scene
+        .gas
+        .clone();
+    assert!(
+        (warm.viscosity_pa_s - 2.0e-5).abs() < 0.02e-5,
+        "{:e}",
+        warm.viscosity_pa_s
+    );
+    assert!(warm.mean_free_path_m > 63.5e-9);
+    let given = read(SHORT, &["gas.temperature_c=60", "gas.mean_free_path_nm=70"]).unwrap();
+    assert_eq!(given.points[0].scene.gas.mean_free_path_m, 70e-9);
+}
+
+#[test]
+fn a_single_shock_needs_every_axis_chosen() {
+    use opshock_study::study::{Choice, ChoiceError};
+    let study = read(
+        SHORT,
+        &["ramp.clearance_um=[60, 80]", "pulse.widths_ms=[0.5, 2]"],
+    )
+    .unwrap();
+    match study.select(&Choice::default()) {
+        Err(ChoiceError::Free(free)) => {
+            let options: Vec<&str> = free.iter().map(|axis| axis.option.as_str()).collect();
+            assert_eq!(
+                options,
+                [
+                    "--pulse-ms",
+                    "--sign",
+                    "--set ramp.clearance_um=VALUE",
+                    "--amplitude-g"
+                ]
+            );
+            assert_eq!(free[2].values, ["60", "80"]);
+        }
+        other => panic!("{other:?}"),
+    }
+    let choice = Choice {
+        ramp: Some(Ramp::None),
+        pulse_ms: Some(0.7),
+        sign: Some(Sign::Minus),
+        amplitude_g: Some(100.0),
+    };
+    assert!(matches!(study.select(&choice), Err(ChoiceError::Free(free)) if free.len() == 1));
+    let study = read(SHORT, &["ramp.clearance_um=60"]).unwrap();
+    let shot = study.select(&choice).unwrap();
+    assert_eq!(shot.amplitude_m_per_s2, -980.665);
+    assert_eq!(
+        (shot.point.ramp, shot.point.pulse_width_s),
+        (Ramp::None, 0.0007)
+    );
+    for (pulse_ms, amplitude_g) in [
+        (f64::NAN, 1.0),
+        (0.0, 1.0),
+        (-1.0, 1.0),
+        (1e-320, 1.0),
+        (1.0, f64::NAN),
+        (1.0, -1.0),
+    ] {
+        let wrong = Choice {
+            pulse_ms: Some(pulse_ms),
+            amplitude_g: Some(amplitude_g),
+            ..choice.clone()
+        };
+        assert!(
+            matches!(study.select(&wrong), Err(ChoiceError::Value { .. })),
+            "{pulse_ms} {amplitude_g}"
+        );
+    }
+    let short = Choice {
+        pulse_ms: Some(0.003),
+        ..choice.clone()
+    };
+    match study.select(&short) {
+        Err(ChoiceError::Study(errors)) => assert_eq!(errors.errors[0].code, "E151"),
+        other => panic!("{other:?}"),
+    }
+    assert!(
+        study
+            .select(&Choice {
+                amplitude_g: Some(0.0),
+                ..choice
+            })
+            .is_ok()
+    );
+    assert!(study.select_drive(&Choice::default()).is_ok());
+}
+
+#[test]
+fn a_sampled_pulse_is_stretched_and_scaled() {
+    use opshock_solver::shock::PulseShape;
+    let study = read(
+        SHORT,
+        &[
+            "pulse.shape=table",
+            "pulse.table_time_ms=[0, 1, 4]",
+            "pulse.table_relative=[0, -20, 5]",
+        ],
+    )
+    .unwrap();
+    match &study.points[0].scene.pulse.shape {
+        PulseShape::Table { time_s, relative } => {
+            assert_eq!(time_s, &[0.0, 0.0005, 0.002]);
+            assert_eq!(relative, &[0.0, -1.0, 0.25]);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn clockwise_and_closed_polygons_become_counter_clockwise_and_open() {
+    use opshock_solver::slider::RailOutline;
+    let set = "slider.surface.rail=[{ kind = \"polygon\", points_um = [[0, 0], [0, 200], [200, 200], [0, 0]], recess_um = 0 }]";
+    let study = read(SHORT, &[set]).unwrap();
+    match &study.points[0].scene.slider.surface.rails[0].outline {
+        RailOutline::Polygon { points_m } => {
+            assert_eq!(points_m, &[[200e-6, 200e-6], [0.0, 200e-6], [0.0, 0.0]]);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn rungs_set_the_resolutions_and_single_keys_override_them() {
+    let fine = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=500"]).unwrap();
+    let scene = &fine.points[0].scene;
+    assert_eq!(scene.film_resolution.cells, 500);
+    assert_eq!(scene.structure_resolution.step_s, 0.1e-6);
+    for rung in ["5%", "1%", "0.1%"] {
+        // What the resolved study writes out must give back the rung's own bits.
+        let study = read(SHORT, &[&format!("solver.accuracy={rung}")]).unwrap();
+        let again = read(&study.resolved_toml(), &[]).unwrap();
+        assert_eq!(study.points[0].scene, again.points[0].scene, "{rung}");
+    }
+}
+
+#[test]
+fn the_schema_knows_every_key_and_no_other() {
+    use opshock_study::study::keys::KEYS;
+    let schema = opshock_study::study::schema::json_schema();
+    let mut paths = Vec::new();
+    collect(&schema, "", &mut paths);
+    let mut expected: Vec<String> = KEYS.iter().map(|key| key.path.to_string()).collect();
+    expected.sort();
+    paths.sort();
+    assert_eq!(paths, expected);
+    assert_eq!(
+        schema["required"],
+        serde_json::json!(["study_format", "name", "pulse", "ramp"])
+    );
+    assert_eq!(
+        schema["properties"]["pulse"]["required"],
+        serde_json::json!(["widths_ms"])
+    );
+    assert!(
+        opshock_study::study::schema::units()
+            .iter()
+            .any(|unit| unit.starts_with("_um: "))
+    );
+}
+
+/// Paths of everything in a schema that is described, in the form of the table of keys.
+fn collect(schema: &serde_json::Value, path: &str, paths: &mut Vec<String>) {
+    let Some(properties) = schema["properties"].as_object() else {
+        return;
+    };
+    for (name, child) in properties {
+        let path = if path.is_empty() {
+            name.clone()
+        } else {
+            format!("{path}.{name}")
+        };
+        if child.get("description").is_some() {
+            paths.push(path.clone());
+        }
+        if child.get("items").is_some() {
+            collect(&child["items"], &format!("{path}[]"), paths);
+        } else if child["type"] == "object" {
+            collect(child, &path, paths);
+        }
+    }
+}
+
+#[test]
+fn the_example_study_is_valid_for_any_name() {
+    for name in [
+        "my drive",
+        "",
+        "a/b",
+        "\"quoted\"",
+        "back\\slash",
+        "tab\there",
+        "日本",
+    ] {
+        let study = Study::from_text(&Study::example(name), &[])
+            .unwrap_or_else(|errors| panic!("{name:?}: {errors}"));
+        assert!(study.remarks.is_empty());
+    }
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(300))]
+
+    /// Whatever is done to a study's text, reading it ends with a study or with errors that have
+    /// places, never with a panic.
+    #[test]
+    fn no_text_makes_the_reader_panic(edits in proptest::collection::vec((0.0..1.0_f64, 0..8_usize, 0..12_usize), 1..6)) {
+        let mut text = read(SHORT, &[]).unwrap().resolved_toml();
+        for (place, cut, piece) in edits {
+            let mut at = (place * text.len() as f64) as usize;
+            while !text.is_char_boundary(at) {
+                at -= 1;
+            }
+            let end = (at + cut).min(text.len());
+            let insert = ["", "]", "[", "{", "}", "=", "\n", "-1", "nan", "\"", "é", "[[1e999, 0.5], {}]"][piece];
+            if text.is_char_boundary(end) {
+                text.replace_range(at..end, insert);
+            }
+        }
+        match read(&text, &[]) {
+            Ok(study) => proptest::prop_assert!(!study.points.is_empty()),
+            Err(errors) => {
+                proptest::prop_assert!(!errors.errors.is_empty());
+                proptest::prop_assert!(errors.errors.len() <= 50);
+                let _ = errors.to_terminal(80, true);
+                let _ = errors.to_json();
+            }
+        }
+    }
+
+    /// Any --set argument is refused or read, never a panic.
+    #[test]
+    fn no_set_argument_makes_the_reader_panic(key in "[a-z_.\\[\\]0-3]{1,24}", value in "[\\[\\]{}=,\"a-z0-9.+-]{1,24}") {
+        if let Ok(set) = SetArg::parse(&format!("{key}={value}")) {
+            let _ = Study::from_text(SHORT, &[set]);
+        }
+        for known in ["disk.rpm", "pulse.widths_ms", "ramp.models", "slider.surface", "ramp.deformable.modes", "outputs", "disk", "slider.surface.rail[1]"] {
+            if let Ok(set) = SetArg::parse(&format!("{known}={value}")) {
+                let _ = Study::from_text(SHORT, &[set]);
+            }
+        }
+    }
+}

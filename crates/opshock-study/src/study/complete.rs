@@ -1,31 +1,20 @@
-//! Completing what a study file says: choices, the surface's base, tables, defaults, and what is
-//! missing.
-
-use std::path::{Path, PathBuf};
+//! Completing what a study file says: choices, defaults, and what is missing.
 
 use super::fault::StudyError;
+use super::included::{self, Location};
 use super::key::Presence;
 use super::keys::{CHOICES, KEYS};
 use super::read::Reader;
 use super::settings::{Datum, Setting};
-use super::source::{self, Origin, Place, Source};
-use super::tree::{self, Node, Value};
-use super::{samples, surfaces, unit};
-
-/// Where a study stands: its file, and the folder its file paths start from.
-#[derive(Clone, Debug)]
-pub struct Location {
-    /// The study file as named by the user.
-    pub file: PathBuf,
-    /// The folder of relative paths.
-    pub folder: PathBuf,
-}
+use super::source::{Origin, Place};
+use super::tree::{Node, Value};
+use super::unit;
 
 /// Completes the settings read from a file and the command line. `root` is the merged tree.
 pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
     settle_choices(reader);
-    surface_base(reader, location);
-    pulse_table(reader, location);
+    included::surface_base(reader, location);
+    included::pulse_table(reader, location);
     defaults(reader);
     missing(reader, root);
 }
@@ -96,157 +85,6 @@ fn settle_choices(reader: &mut Reader) {
     }
 }
 
-/// Reads preset or file under what the study says about the surface itself.
-fn surface_base(reader: &mut Reader, location: &Location) {
-    const PREFIX: &str = "slider.surface";
-    let text_of = |reader: &Reader, path: &str| match reader
-        .settings
-        .get(path)
-        .map(|s| (&s.values[0], s.place.clone()))
-    {
-        Some((Datum::Word(text) | Datum::Text(text), place)) => Some((text.clone(), place)),
-        _ => None,
-    };
-    if let Some((file, place)) = text_of(reader, "slider.surface.file") {
-        if let Some(source) = open_named(reader, location, "slider.surface.file", &file, &place) {
-            match tree::parse(&source, Origin::Included) {
-                Err(faults) => {
-                    reader.errors.extend(faults);
-                    reader.settings.spoil(PREFIX);
-                }
-                Ok(node) => {
-                    if let Some(inner) = node.get("file").or(node.get("preset")) {
-                        let fault = StudyError::at(
-                            "E106",
-                            &inner.key_place,
-                            "slider.surface.file",
-                            format!(
-                                "a surface file cannot name another one: {} -> {} -> {}",
-                                location.file.display(),
-                                source.name,
-                                inner.place.text()
-                            ),
-                        )
-                        .value(inner.place.text())
-                        .allowed("the surface itself: base_recess_um, crown_nm, [[rail]], ...");
-                        reader.spoil(PREFIX, fault);
-                    } else {
-                        reader.table(&node, PREFIX, PREFIX);
-                    }
-                }
-            }
-        }
-        return;
-    }
-    let preset = match text_of(reader, "slider.surface.preset") {
-        Some((name, _)) => Some(name),
-        None if reader.settings.has("slider.surface.rail")
-            || !reader.settings.are_sound(&[PREFIX]) =>
-        {
-            None
-        }
-        None => Some("femto-2.5in".to_string()),
-    };
-    if let Some(name) = preset
-        && let Some(text) = surfaces::text(&name)
-        && let Ok(node) = tree::parse(&Source::new(format!("preset {name}"), text), Origin::Preset)
-    {
-        reader.table(&node, PREFIX, PREFIX);
-    }
-}
-
-/// Reads the file of a sampled pulse into the two lists that may also be given directly.
-fn pulse_table(reader: &mut Reader, location: &Location) {
-    let Some(setting) = reader.settings.get("pulse.table").cloned() else {
-        return;
-    };
-    let Datum::Text(file) = &setting.values[0] else {
-        return;
-    };
-    let Some(source) = open_named(reader, location, "pulse.table", file, &setting.place) else {
-        return;
-    };
-    match samples::read(&source) {
-        Err(faults) => {
-            reader.errors.extend(faults);
-            reader.settings.spoil("pulse.table");
-        }
-        Ok(samples) => {
-            let place = Place {
-                span: 0..source.text.len(),
-                source,
-                origin: Origin::Included,
-            };
-            for (path, numbers) in [
-                ("pulse.table_time_ms", samples.time_ms),
-                ("pulse.table_relative", samples.relative),
-            ] {
-                reader.settings.put(
-                    path.to_string(),
-                    Setting {
-                        values: vec![Datum::Numbers(numbers)],
-                        is_axis: false,
-                        place: place.clone(),
-                        key_place: setting.key_place.clone(),
-                        value_places: Vec::new(),
-                    },
-                );
-            }
-        }
-    }
-}
-
-/// Opens a file a study names; its path starts from the study's folder.
-fn open_named(
-    reader: &mut Reader,
-    location: &Location,
-    key: &str,
-    file: &str,
-    place: &Place,
-) -> Option<std::sync::Arc<Source>> {
-    let path = location.folder.join(file);
-    let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    };
-    if same(&path, &location.file) {
-        let fault = StudyError::at(
-            "E106",
-            place,
-            key,
-            format!(
-                "the study names itself: {} -> {}",
-                location.file.display(),
-                path.display()
-            ),
-        )
-        .value(place.text())
-        .allowed("another file");
-        reader.spoil(key, fault);
-        return None;
-    }
-    match source::read_text(&path) {
-        Ok(text) => Some(Source::new(path.display().to_string(), text)),
-        Err(fault) => {
-            let named = StudyError::at(
-                fault.code,
-                place,
-                key,
-                format!("{}: {}", fault.file, fault.message),
-            )
-            .value(place.text())
-            .allowed(fault.allowed.clone())
-            .hint(if fault.hint.is_empty() || fault.code == "E105" {
-                "file paths start from the study's folder".to_string()
-            } else {
-                fault.hint.clone()
-            });
-            reader.spoil(key, named);
-            None
-        }
-    }
-}
-
 /// Fills in what the study leaves out.
 fn defaults(reader: &mut Reader) {
     let unchosen = |reader: &Reader, path: &str| {
@@ -271,10 +109,10 @@ fn defaults(reader: &mut Reader) {
                     && paths.iter().any(|other| {
                         *other != path
                             && (reader.settings.is_spoilt(other)
-                                || reader
-                                    .settings
-                                    .get(other)
-                                    .is_some_and(|s| s.origin() != Origin::Default))
+                                || reader.settings.get(other).is_some_and(|s| {
+                                    // The command line alone may change one of a pair.
+                                    matches!(s.origin(), Origin::File | Origin::Included)
+                                }))
                     })
             })
     };

@@ -173,9 +173,26 @@ impl Kind {
                 range.to_string()
             }
             Self::NumberOrWord(range, words) => format!("{range}, or {}", quoted(words)),
+            Self::Integer(low, high) if low == high => low.to_string(),
             Self::Integer(low, high) => format!("whole numbers {low} to {high}"),
             Self::Word(words) | Self::Words(words) => quoted(words),
             _ => self.expected().to_string(),
+        }
+    }
+}
+
+impl Kind {
+    /// Kind and range together: what a value of another kind should have been.
+    pub fn wanted(self) -> String {
+        match self {
+            Self::Number(_)
+            | Self::Axis(_)
+            | Self::Numbers(_)
+            | Self::Pair(_)
+            | Self::Integer(..) => {
+                format!("{}, {}", self.expected(), self.allowed())
+            }
+            _ => self.allowed(),
         }
     }
 }

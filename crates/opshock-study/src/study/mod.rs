@@ -19,8 +19,10 @@
 mod complete;
 mod example;
 pub mod fault;
+mod included;
 pub mod key;
 pub mod keys;
+mod overlay;
 mod points;
 mod polygon;
 mod read;
@@ -42,13 +44,13 @@ mod words;
 use std::path::{Path, PathBuf};
 
 pub use fault::{Severity, StudyError, StudyErrors};
+pub use overlay::Override;
 pub use points::{Axis, AxisValue, Point};
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
 pub use set_arg::{SetArg, SetSyntaxError};
-pub use tree::Override;
 pub use words::{Certify, Effects, KeepHistories, Ramp, Sign, coupling_word, rung_word};
 
-use complete::Location;
+use included::Location;
 use read::Reader;
 use settings::{Settings, View};
 use source::{Origin, Source};
@@ -151,13 +153,20 @@ impl Study {
         let source = Source::new(location.file.display().to_string(), text);
         let mut root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
         if matches!(&root.value, tree::Value::Table(members) if members.is_empty()) {
-            let fault = StudyError::in_file("E101", &source.name, "the study file is empty")
+            let start = source::Place {
+                source: source.clone(),
+                span: 0..0,
+                origin: Origin::File,
+            };
+            let fault = StudyError::at("E101", &start, "", "the study file is empty")
                 .allowed("a study")
                 .hint("the smallest valid study is printed by `opshock new`");
             return Err(fault.into());
         }
         let mut reader = Reader::default();
-        let overrides = tree::lay_over(&mut root, sets, &mut reader.errors);
+        let base = |root: &tree::Node, path: &str| included::base_list(root, sets, path, &location);
+        overlay::seed_lists(&mut root, sets, base);
+        let overrides = overlay::lay_over(&mut root, sets, &mut reader.errors);
         reader.table(&root, "", "");
         complete::complete(&mut reader, &root, &location);
         let Reader {

@@ -11,6 +11,19 @@ pub fn signed_area(corners: &[[f64; 2]]) -> f64 {
         .sum::<f64>()
 }
 
+/// Whether all corners lie on one line.
+pub fn on_one_line(corners: &[[f64; 2]]) -> bool {
+    let Some(&[x0, y0]) = corners.first() else {
+        return true;
+    };
+    let Some(&[x1, y1]) = corners.iter().find(|corner| **corner != [x0, y0]) else {
+        return true;
+    };
+    corners
+        .iter()
+        .all(|[x, y]| (x1 - x0) * (y - y0) == (y1 - y0) * (x - x0))
+}
+
 /// The first two edges (by the corner they start from) that cross or touch though they are no
 /// neighbours, or overlap though they are.
 pub fn crossing_edges(corners: &[[f64; 2]]) -> Option<(usize, usize)> {

@@ -6,12 +6,14 @@ use super::fault::StudyError;
 use super::source::{Origin, Place, Source};
 
 /// A sampled pulse as read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Samples {
     /// Times, ms.
     pub time_ms: Vec<f64>,
     /// Relative acceleration.
     pub relative: Vec<f64>,
+    /// Place of each row.
+    pub places: Vec<Place>,
 }
 
 /// Reads the two columns. Columns are separated by a comma, a semicolon, a tab or blanks; numbers
@@ -23,6 +25,7 @@ pub fn read(source: &Arc<Source>) -> Result<Samples, Vec<StudyError>> {
     let mut samples = Samples {
         time_ms: Vec::new(),
         relative: Vec::new(),
+        places: Vec::new(),
     };
     let mut faults = Vec::new();
     let mut at = 0;
@@ -55,6 +58,7 @@ pub fn read(source: &Arc<Source>) -> Result<Samples, Vec<StudyError>> {
             [time, relative] if fields.len() == 2 && time.is_finite() && relative.is_finite() => {
                 samples.time_ms.push(*time);
                 samples.relative.push(*relative);
+                samples.places.push(place);
             }
             _ => faults.push(
                 StudyError::at(
@@ -68,6 +72,21 @@ pub fn read(source: &Arc<Source>) -> Result<Samples, Vec<StudyError>> {
                 .hint("write numbers with a decimal point and two columns"),
             ),
         }
+    }
+    if faults.is_empty()
+        && let Some((row, message)) = self::faults(&samples.time_ms, &samples.relative)
+    {
+        let whole = Place {
+            span: 0..0,
+            source: source.clone(),
+            origin: Origin::Included,
+        };
+        let place = samples.places.get(row).unwrap_or(&whole);
+        faults.push(
+            StudyError::at("E153", place, "pulse.table", message)
+                .value(place.text().trim())
+                .allowed("2 rows or more, times rising from 0"),
+        );
     }
     if faults.is_empty() {
         Ok(samples)

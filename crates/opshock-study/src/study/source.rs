@@ -252,6 +252,33 @@ fn too_deep(text: &str) -> Option<usize> {
     None
 }
 
+/// Offset of the first bracket that is never closed.
+pub fn unclosed_bracket(text: &str) -> Option<usize> {
+    let bytes = text.as_bytes();
+    let (mut open, mut at) = (Vec::new(), 0_usize);
+    while at < bytes.len() {
+        match bytes[at] {
+            b'#' => {
+                while at < bytes.len() && bytes[at] != b'\n' {
+                    at += 1;
+                }
+                continue;
+            }
+            quote @ (b'"' | b'\'') => {
+                at = after_string(bytes, at, quote);
+                continue;
+            }
+            b'[' | b'{' => open.push(at),
+            b']' | b'}' => {
+                open.pop();
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    open.first().copied()
+}
+
 /// Offset behind the string that opens at `at`; an unclosed one ends with its line.
 fn after_string(bytes: &[u8], at: usize, quote: u8) -> usize {
     let triple = bytes[at..].starts_with(&[quote; 3]);

@@ -12,11 +12,12 @@ pub fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
     names
         .iter()
         .map(|known| {
-            (
-                strsim::jaro_winkler(&lower, known)
-                    .max(strsim::normalized_damerau_levenshtein(&lower, known)),
-                *known,
-            )
+            // One slip is forgiven even in a word of three letters.
+            let slip = lower.len() >= 3 && strsim::damerau_levenshtein(&lower, known) == 1;
+            let likeness = strsim::jaro_winkler(&lower, known)
+                .max(strsim::normalized_damerau_levenshtein(&lower, known))
+                .max(if slip { 0.9 } else { 0.0 });
+            (likeness, *known)
         })
         .filter(|(likeness, _)| *likeness >= 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
@@ -32,19 +33,31 @@ pub fn unknown(
     name: &str,
     node: &Node,
     is_section: bool,
-) -> StudyError {
+) -> Unknown {
+    let plain = |fault: StudyError| Unknown { fault, meant: None };
     let siblings = keys::names_below(pattern);
     if is_section {
         let sections = keys::sections();
         let fault = StudyError::at("E111", place, path, format!("unknown section [{name}]"))
             .allowed(sections.join(", "));
-        return match nearest(name, &sections) {
-            Some(near) => fault.hint(format!("did you mean [{near}]?")),
-            None => fault.hint("sections are listed by `opshock schema`"),
-        };
+        let alias = ALIASES
+            .iter()
+            .find(|(other, _)| *other == name.to_ascii_lowercase());
+        return plain(
+            match alias
+                .map(|(_, section)| *section)
+                .or(nearest(name, &sections))
+            {
+                Some(near) => fault.hint(format!("did you mean [{near}]?")),
+                None => fault.hint("sections are listed by `opshock schema`"),
+            },
+        );
     }
-    if let Some(fault) = wrong_unit(place, path, name, &siblings) {
-        return fault.value(node.place.text());
+    if let Some((sibling, fault)) = wrong_unit(place, path, name, &siblings) {
+        return Unknown {
+            fault: fault.value(node.place.text()),
+            meant: Some(sibling),
+        };
     }
     let table = if pattern.is_empty() {
         "at the top of the file".to_string()
@@ -58,15 +71,57 @@ pub fn unknown(
     let elsewhere = keys::KEYS
         .iter()
         .find(|key| key.name() == name && !key.path.contains("[]"));
-    match (elsewhere, nearest(name, &siblings)) {
-        (Some(key), _) => fault.hint(format!("did you mean {}?", key.path)),
-        (None, Some(near)) => fault.hint(format!("did you mean {near}?")),
-        (None, None) => fault.hint("keys are listed by `opshock schema`"),
-    }
+    plain(
+        match (
+            elsewhere,
+            nearest(name, &siblings).or(only_with_unit(name, &siblings)),
+        ) {
+            (Some(key), _) => fault.hint(format!("did you mean {}?", key.path)),
+            (None, Some(near)) => fault.hint(format!("did you mean {near}?")),
+            (None, None) => fault.hint("keys are listed by `opshock schema`"),
+        },
+    )
+}
+
+/// An unknown name: the fault, and the key that was certainly meant.
+pub struct Unknown {
+    /// The fault.
+    pub fault: StudyError,
+    /// The sibling whose unit alone was written wrongly.
+    pub meant: Option<&'static str>,
+}
+
+/// Other names people give sections.
+const ALIASES: &[(&str, &str)] = &[
+    ("shock", "pulse"),
+    ("platter", "disk"),
+    ("head", "slider"),
+    ("air", "gas"),
+    ("bearing", "gas"),
+    ("numerics", "solver"),
+    ("sweep", "search"),
+    ("store", "output"),
+];
+
+/// The one name among the siblings that has the same unit.
+fn only_with_unit<'a>(name: &str, siblings: &[&'a str]) -> Option<&'a str> {
+    let wanted = unit::part(name).unit?.suffix;
+    let mut same = siblings.iter().filter(|sibling| {
+        unit::part(sibling)
+            .unit
+            .is_some_and(|unit| unit.suffix == wanted)
+    });
+    let only = same.next().copied();
+    if same.next().is_none() { only } else { None }
 }
 
 /// E122, E123 or E124 when a sibling has the same stem and another unit.
-fn wrong_unit(place: &Place, path: &str, name: &str, siblings: &[&str]) -> Option<StudyError> {
+fn wrong_unit(
+    place: &Place,
+    path: &str,
+    name: &str,
+    siblings: &[&'static str],
+) -> Option<(&'static str, StudyError)> {
     let found = unit::part(name);
     let (sibling, wanted) = siblings
         .iter()
@@ -93,7 +148,7 @@ fn wrong_unit(place: &Place, path: &str, name: &str, siblings: &[&str]) -> Optio
             .allowed(format!("{sibling}, in {}", wanted.symbol))
             .hint(format!("did you mean {sibling}?"))
     };
-    Some(match found.unit {
+    let fault = match found.unit {
         None => fault(
             "E122",
             format!(
@@ -122,7 +177,8 @@ fn wrong_unit(place: &Place, path: &str, name: &str, siblings: &[&str]) -> Optio
                 wanted.suffix, wanted.symbol, unit.suffix, unit.symbol
             ),
         ),
-    })
+    };
+    Some((sibling, fault))
 }
 
 fn units_of(dimension: Dimension) -> String {

@@ -1,11 +1,10 @@
-//! A TOML text as a tree of values that know their places, and the command line laid over it.
+//! A TOML text as a tree of values that know their places.
 
 use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
 use super::fault::StudyError;
-use super::set_arg::SetArg;
 use super::source::{self, Origin, Place, Source};
 
 /// A value and its place.
@@ -120,7 +119,34 @@ fn syntax_fault(source: &Arc<Source>, origin: Origin, error: &toml::de::Error) -
             error.message().replace('\n', ", ")
         ),
     )
-    .hint("see https://toml.io for the syntax")
+    .hint(syntax_hint(source, text, line))
+}
+
+/// The likely cause of a syntax error on a line.
+fn syntax_hint(source: &Source, text: &str, line: usize) -> String {
+    let value = text
+        .split_once('=')
+        .map_or("", |(_, value)| value.trim_start());
+    let comma = value.split_once(',').is_some_and(|(whole, rest)| {
+        let digits = |part: &str| {
+            part.bytes()
+                .next()
+                .is_some_and(|byte| byte.is_ascii_digit())
+        };
+        digits(whole) && digits(rest) && whole.bytes().all(|byte| byte.is_ascii_digit())
+    });
+    if comma {
+        return "numbers have a decimal point, whatever the locale".to_string();
+    }
+    if value.is_empty() && text.trim_end().ends_with('=') {
+        return "a value is missing after =".to_string();
+    }
+    match source::unclosed_bracket(&source.text).map(|at| source.line_column(at).0) {
+        Some(opened) if opened <= line => {
+            format!("a bracket opened in line {opened} is not closed")
+        }
+        _ => "see https://toml.io for the syntax".to_string(),
+    }
 }
 
 /// A value from the command line: TOML, and text when it is not.
@@ -249,152 +275,4 @@ impl Node {
             _ => {}
         }
     }
-}
-
-/// A value of the file that the command line replaced.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Override {
-    /// Key.
-    pub key: String,
-    /// Value in the file, as written; empty when the file did not have the key.
-    pub file_value: String,
-    /// Value that counts, as written on the command line.
-    pub set_value: String,
-}
-
-/// Lays the `--set` arguments over a file's tree; they win. Returns what they replaced.
-///
-/// # Errors
-/// E114 when the same key (or a key and its table) is set twice differently, E113 when a key's
-/// path leads through something that is no table or list.
-pub fn lay_over(root: &mut Node, sets: &[SetArg], faults: &mut Vec<StudyError>) -> Vec<Override> {
-    let mut overrides = Vec::new();
-    for (position, set) in sets.iter().enumerate() {
-        if let Some(earlier) = sets[..position]
-            .iter()
-            .find(|other| collide(&other.key, &set.key))
-        {
-            if earlier.key == set.key && earlier.text == set.text {
-                continue;
-            }
-            let place = set.node(position).place;
-            faults.push(
-                StudyError::at(
-                    "E114",
-                    &place,
-                    &set.key,
-                    format!(
-                        "set twice: --set {}={} and --set {}={}",
-                        earlier.key, earlier.text, set.key, set.text
-                    ),
-                )
-                .value(&set.text)
-                .allowed("one value for a key")
-                .hint("leave one of the two out"),
-            );
-            continue;
-        }
-        let node = set.node(position);
-        match insert(root, &set.key, node) {
-            Ok(replaced) => overrides.push(Override {
-                key: set.key.clone(),
-                file_value: replaced
-                    .map(|old| old.place.text().to_string())
-                    .unwrap_or_default(),
-                set_value: set.text.clone(),
-            }),
-            Err(fault) => faults.push(*fault),
-        }
-    }
-    overrides
-}
-
-/// Whether two paths name the same key, or one lies inside the other.
-fn collide(a: &str, b: &str) -> bool {
-    let inside = |outer: &str, inner: &str| {
-        inner
-            .strip_prefix(outer)
-            .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-    };
-    inside(a, b) || inside(b, a)
-}
-
-/// Puts a node at a dotted path, making tables on the way; returns what stood there.
-fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<StudyError>> {
-    let place = node.key_place.clone();
-    let blocked = |message: String| {
-        Box::new(
-            StudyError::at("E113", &place, path, message)
-                .hint("set the whole value instead, as one TOML value"),
-        )
-    };
-    let mut here = root;
-    let mut steps = path
-        .split('.')
-        .flat_map(|segment| {
-            let (name, position) = match segment.split_once('[') {
-                None => (segment, None),
-                Some((name, rest)) => (
-                    name,
-                    rest.strip_suffix(']')
-                        .and_then(|digits| digits.parse().ok()),
-                ),
-            };
-            std::iter::once(Step::Name(name)).chain(position.map(Step::Position))
-        })
-        .peekable();
-    while let Some(step) = steps.next() {
-        let last = steps.peek().is_none();
-        let kind = here.value.kind();
-        here = match (step, &mut here.value) {
-            (Step::Name(name), Value::Table(members)) => {
-                let at = match members.iter().position(|(member, _)| member == name) {
-                    Some(at) => at,
-                    None => {
-                        if matches!(steps.peek(), Some(Step::Position(_))) {
-                            return Err(blocked(format!(
-                                "there is no list {name} to take an entry of"
-                            )));
-                        }
-                        let value = Value::Table(Vec::new());
-                        let fresh = Node {
-                            value,
-                            place: place.clone(),
-                            key_place: place.clone(),
-                        };
-                        if last {
-                            members.push((name.to_string(), node));
-                            return Ok(None);
-                        }
-                        members.push((name.to_string(), fresh));
-                        members.len() - 1
-                    }
-                };
-                &mut members[at].1
-            }
-            (Step::Position(position), Value::List(items)) => {
-                let count = items.len();
-                items.get_mut(position).ok_or_else(|| {
-                    blocked(format!(
-                        "entry {position} does not exist; the list has {count}, counted from 0"
-                    ))
-                })?
-            }
-            (Step::Name(name), _) => {
-                return Err(blocked(format!("cannot hold a key {name}: found {kind}")));
-            }
-            (Step::Position(_), _) => {
-                return Err(blocked(format!("cannot take an entry: found {kind}")));
-            }
-        };
-        if last {
-            return Ok(Some(std::mem::replace(here, node)));
-        }
-    }
-    Ok(None)
-}
-
-enum Step<'a> {
-    Name(&'a str),
-    Position(usize),
 }

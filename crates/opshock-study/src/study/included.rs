@@ -1,0 +1,219 @@
+//! What a study takes from elsewhere: the surface's preset or file, the file of a sampled pulse.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::fault::StudyError;
+use super::key::{Kind, Presence};
+use super::read::Reader;
+use super::set_arg::SetArg;
+use super::settings::{Datum, Setting};
+use super::source::{self, Origin, Place, Source};
+use super::tree::{self, Node, Value};
+use super::{samples, surfaces};
+
+/// The surface of a study that says nothing about rails.
+const DEFAULT_SURFACE: &str = "femto-2.5in";
+
+/// Where a study stands: its file, and the folder its file paths start from.
+#[derive(Clone, Debug)]
+pub struct Location {
+    /// The study file as named by the user.
+    pub file: PathBuf,
+    /// The folder of relative paths.
+    pub folder: PathBuf,
+}
+
+/// The list a `--set list[0]...` argument reaches into when the study file does not hold it: the
+/// key's default, or the rails of the surface's preset or file.
+pub fn base_list(root: &Node, sets: &[SetArg], path: &str, location: &Location) -> Option<Node> {
+    let key = super::keys::find(path)?;
+    if let Presence::Default(literal) = key.presence {
+        return (key.kind == Kind::Tables).then(|| tree::literal(literal));
+    }
+    let rail = path.strip_prefix("slider.surface.")?;
+    let text_at = |name: &str| {
+        let from_set = sets
+            .iter()
+            .find(|set| set.key == format!("slider.surface.{name}"));
+        let node = from_set.map(|set| set.node(0)).or_else(|| {
+            root.get("slider")
+                .and_then(|slider| slider.get("surface"))
+                .and_then(|surface| surface.get(name))
+                .cloned()
+        });
+        match node.map(|node| node.value) {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        }
+    };
+    let (source, origin) = match text_at("file") {
+        Some(file) => {
+            let file = location.folder.join(file);
+            // What cannot be read is reported when the surface itself is read.
+            (
+                Source::new(file.display().to_string(), source::read_text(&file).ok()?),
+                Origin::Included,
+            )
+        }
+        None => {
+            let name = text_at("preset").unwrap_or_else(|| DEFAULT_SURFACE.to_string());
+            (
+                Source::new(format!("preset {name}"), surfaces::text(&name)?),
+                Origin::Preset,
+            )
+        }
+    };
+    tree::parse(&source, origin).ok()?.get(rail).cloned()
+}
+
+/// Reads preset or file under what the study says about the surface itself.
+pub fn surface_base(reader: &mut Reader, location: &Location) {
+    const PREFIX: &str = "slider.surface";
+    let text_of = |reader: &Reader, path: &str| match reader
+        .settings
+        .get(path)
+        .map(|s| (&s.values[0], s.place.clone()))
+    {
+        Some((Datum::Word(text) | Datum::Text(text), place)) => Some((text.clone(), place)),
+        _ => None,
+    };
+    if let Some((file, place)) = text_of(reader, "slider.surface.file") {
+        if let Some(source) = open_named(reader, location, "slider.surface.file", &file, &place) {
+            match tree::parse(&source, Origin::Included) {
+                Err(faults) => {
+                    reader.errors.extend(faults);
+                    reader.settings.spoil(PREFIX);
+                }
+                Ok(node) => {
+                    if let Some(inner) = node.get("file").or(node.get("preset")) {
+                        let fault = StudyError::at(
+                            "E106",
+                            &inner.key_place,
+                            "slider.surface.file",
+                            format!(
+                                "a surface file cannot name another one: {} -> {} -> {}",
+                                location.file.display(),
+                                source.name,
+                                inner.place.text()
+                            ),
+                        )
+                        .value(inner.place.text())
+                        .allowed("the surface itself: base_recess_um, crown_nm, [[rail]], ...");
+                        reader.spoil(PREFIX, fault);
+                    } else {
+                        reader.table(&node, PREFIX, PREFIX);
+                    }
+                }
+            }
+        }
+        return;
+    }
+    let preset = match text_of(reader, "slider.surface.preset") {
+        Some((name, _)) => Some(name),
+        None if reader.settings.has("slider.surface.rail")
+            || !reader.settings.are_sound(&[PREFIX]) =>
+        {
+            None
+        }
+        None => Some(DEFAULT_SURFACE.to_string()),
+    };
+    if let Some(name) = preset
+        && let Some(text) = surfaces::text(&name)
+        && let Ok(node) = tree::parse(&Source::new(format!("preset {name}"), text), Origin::Preset)
+    {
+        reader.table(&node, PREFIX, PREFIX);
+    }
+}
+
+/// Reads the file of a sampled pulse into the two lists that may also be given directly.
+pub fn pulse_table(reader: &mut Reader, location: &Location) {
+    let Some(setting) = reader.settings.get("pulse.table").cloned() else {
+        return;
+    };
+    let Datum::Text(file) = &setting.values[0] else {
+        return;
+    };
+    let Some(source) = open_named(reader, location, "pulse.table", file, &setting.place) else {
+        return;
+    };
+    match samples::read(&source) {
+        Err(faults) => {
+            reader.errors.extend(faults);
+            reader.settings.spoil("pulse.table");
+        }
+        Ok(samples) => {
+            let place = Place {
+                span: 0..source.text.len(),
+                source,
+                origin: Origin::Included,
+            };
+            for (path, numbers) in [
+                ("pulse.table_time_ms", samples.time_ms),
+                ("pulse.table_relative", samples.relative),
+            ] {
+                reader.settings.put(
+                    path.to_string(),
+                    Setting {
+                        values: vec![Datum::Numbers(numbers)],
+                        is_axis: false,
+                        place: place.clone(),
+                        key_place: setting.key_place.clone(),
+                        value_places: Vec::new(),
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// Opens a file a study names; its path starts from the study's folder.
+fn open_named(
+    reader: &mut Reader,
+    location: &Location,
+    key: &str,
+    file: &str,
+    place: &Place,
+) -> Option<Arc<Source>> {
+    let path = location.folder.join(file);
+    let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    if same(&path, &location.file) {
+        let fault = StudyError::at(
+            "E106",
+            place,
+            key,
+            format!(
+                "the study names itself: {} -> {}",
+                location.file.display(),
+                path.display()
+            ),
+        )
+        .value(place.text())
+        .allowed("another file");
+        reader.spoil(key, fault);
+        return None;
+    }
+    match source::read_text(&path) {
+        Ok(text) => Some(Source::new(path.display().to_string(), text)),
+        Err(fault) => {
+            let named = StudyError::at(
+                fault.code,
+                place,
+                key,
+                format!("{}: {}", fault.file, fault.message),
+            )
+            .value(place.text())
+            .allowed(fault.allowed.clone())
+            .hint(if fault.hint.is_empty() || fault.code == "E105" {
+                "file paths start from the study's folder".to_string()
+            } else {
+                fault.hint.clone()
+            });
+            reader.spoil(key, named);
+            None
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The command line laid over a study file: its values win, and what they replace is recorded.
+
+use super::fault::StudyError;
+use super::set_arg::SetArg;
+use super::tree::{Node, Value};
+
+/// A value of the file that the command line replaced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    /// Key.
+    pub key: String,
+    /// Value in the file, as written; empty when the file did not have the key.
+    pub file_value: String,
+    /// Value that counts, as written on the command line.
+    pub set_value: String,
+}
+
+/// Lays the `--set` arguments over a file's tree; they win. Returns what they replaced.
+///
+/// # Errors
+/// E114 when the same key (or a key and its table) is set twice differently, E113 when a key's
+/// path leads through something that is no table or list.
+pub fn lay_over(root: &mut Node, sets: &[SetArg], faults: &mut Vec<StudyError>) -> Vec<Override> {
+    let mut overrides = Vec::new();
+    for (position, set) in sets.iter().enumerate() {
+        if let Some(earlier) = sets[..position]
+            .iter()
+            .find(|other| collide(&other.key, &set.key))
+        {
+            if earlier.key == set.key && earlier.text == set.text {
+                continue;
+            }
+            let place = set.node(position).place;
+            faults.push(
+                StudyError::at(
+                    "E114",
+                    &place,
+                    &set.key,
+                    format!(
+                        "set twice: --set {}={} and --set {}={}",
+                        earlier.key, earlier.text, set.key, set.text
+                    ),
+                )
+                .value(&set.text)
+                .allowed("one value for a key")
+                .hint("leave one of the two out"),
+            );
+            continue;
+        }
+        let node = set.node(position);
+        match insert(root, &set.key, node) {
+            Ok(replaced) => overrides.push(Override {
+                key: set.key.clone(),
+                file_value: replaced
+                    .map(|old| old.place.text().to_string())
+                    .unwrap_or_default(),
+                set_value: set.text.clone(),
+            }),
+            Err(fault) => faults.push(*fault),
+        }
+    }
+    overrides
+}
+
+/// Puts lists under `--set list[0].member=...` arguments that the file itself does not hold:
+/// the default of the key, or what `base` knows (a preset, an included file).
+pub fn seed_lists(root: &mut Node, sets: &[SetArg], base: impl Fn(&Node, &str) -> Option<Node>) {
+    for set in sets {
+        let Some((list, _)) = set.key.split_once('[') else {
+            continue;
+        };
+        let known = list
+            .split('.')
+            .try_fold(&*root, |here, name| here.get(name))
+            .is_some();
+        // A list the command line gives as a whole is its own.
+        if known || sets.iter().any(|other| other.key == list) {
+            continue;
+        }
+        if let Some(node) = base(root, list) {
+            // The way there may be blocked by a value; the argument itself then reports it.
+            let _ = insert(root, list, node);
+        }
+    }
+}
+
+/// Whether two paths name the same key, or one lies inside the other.
+fn collide(a: &str, b: &str) -> bool {
+    let inside = |outer: &str, inner: &str| {
+        inner
+            .strip_prefix(outer)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    inside(a, b) || inside(b, a)
+}
+
+/// Puts a node at a dotted path, making tables on the way; returns what stood there.
+fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<StudyError>> {
+    let place = node.key_place.clone();
+    let blocked = |message: String| {
+        Box::new(
+            StudyError::at("E113", &place, path, message)
+                .hint("set the whole value instead, as one TOML value"),
+        )
+    };
+    let mut here = root;
+    let mut steps = path
+        .split('.')
+        .flat_map(|segment| {
+            let (name, position) = match segment.split_once('[') {
+                None => (segment, None),
+                Some((name, rest)) => (
+                    name,
+                    rest.strip_suffix(']')
+                        .and_then(|digits| digits.parse().ok()),
+                ),
+            };
+            std::iter::once(Step::Name(name)).chain(position.map(Step::Position))
+        })
+        .peekable();
+    while let Some(step) = steps.next() {
+        let last = steps.peek().is_none();
+        let kind = here.value.kind();
+        here = match (step, &mut here.value) {
+            (Step::Name(name), Value::Table(members)) => {
+                let at = match members.iter().position(|(member, _)| member == name) {
+                    Some(at) => at,
+                    None => {
+                        if matches!(steps.peek(), Some(Step::Position(_))) {
+                            return Err(blocked(format!(
+                                "there is no list {name} to take an entry of"
+                            )));
+                        }
+                        let value = Value::Table(Vec::new());
+                        let fresh = Node {
+                            value,
+                            place: place.clone(),
+                            key_place: place.clone(),
+                        };
+                        if last {
+                            members.push((name.to_string(), node));
+                            return Ok(None);
+                        }
+                        members.push((name.to_string(), fresh));
+                        members.len() - 1
+                    }
+                };
+                &mut members[at].1
+            }
+            (Step::Position(position), Value::List(items)) => {
+                let count = items.len();
+                items.get_mut(position).ok_or_else(|| {
+                    blocked(format!(
+                        "entry {position} does not exist; the list has {count}, counted from 0"
+                    ))
+                })?
+            }
+            (Step::Name(name), _) => {
+                return Err(blocked(format!("cannot hold a key {name}: found {kind}")));
+            }
+            (Step::Position(_), _) => {
+                return Err(blocked(format!("cannot take an entry: found {kind}")));
+            }
+        };
+        if last {
+            return Ok(Some(std::mem::replace(here, node)));
+        }
+    }
+    Ok(None)
+}
+
+enum Step<'a> {
+    Name(&'a str),
+    Position(usize),
+}

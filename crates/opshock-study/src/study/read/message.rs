@@ -1,0 +1,90 @@
+//! Messages about values of the wrong kind or size.
+
+use super::Reader;
+use crate::study::fault::StudyError;
+use crate::study::key::{Key, Kind};
+use crate::study::suggest;
+use crate::study::tree::{Node, Value};
+
+impl Reader {
+    pub(super) fn wrong_kind(&self, key: &'static Key, path: &str, node: &Node) -> StudyError {
+        let fault = StudyError::at(
+            "E113",
+            &node.place,
+            path,
+            format!(
+                "expected {}, found {}",
+                key.kind.expected(),
+                node.value.kind()
+            ),
+        )
+        .value(node.place.text())
+        .allowed(key.kind.wanted());
+        match (&node.value, key.kind) {
+            (
+                Value::Text(text),
+                Kind::Number(_) | Kind::Integer(..) | Kind::Axis(_) | Kind::NumberOrWord(..),
+            ) => {
+                let number: String = text
+                    .trim()
+                    .chars()
+                    .take_while(|letter| letter.is_ascii_digit() || "+-.eE".contains(*letter))
+                    .collect();
+                if number.parse::<f64>().is_ok() {
+                    fault.hint(format!(
+                        "write {} = {number}: without quotes, the unit is in the key's name",
+                        key.name()
+                    ))
+                } else {
+                    fault.hint(format!("for example {} = {}", key.name(), key.example()))
+                }
+            }
+            _ => fault.hint(format!("for example {} = {}", key.name(), key.example())),
+        }
+    }
+}
+
+pub(super) fn not_a_word(
+    key: &Key,
+    path: &str,
+    node: &Node,
+    text: &str,
+    words: &[&str],
+) -> StudyError {
+    let code = if key.code == "E130" || matches!(key.kind, Kind::NumberOrWord(..)) {
+        "E113"
+    } else {
+        key.code
+    };
+    let message = match code {
+        "E157" => "not an accuracy opshock has a named rung for".to_string(),
+        "E158" => "unknown output".to_string(),
+        _ => "not one of the words allowed here".to_string(),
+    };
+    let fault = StudyError::at(code, &node.place, path, message)
+        .value(node.place.text())
+        .allowed(key.kind.allowed());
+    match (code, suggest::nearest(text, words)) {
+        ("E157", _) => {
+            fault.hint("the finest rung reaches 0.1%; single resolutions can be set finer")
+        }
+        (_, Some(near)) => fault.hint(format!("did you mean {near:?}?")),
+        _ => fault,
+    }
+}
+
+pub(super) fn memory_hint(path: &str, count: f64) -> String {
+    let bytes = match path {
+        // Sparse factors by nested dissection: about 31 n log2 n entries.
+        "solver.film_cells" => 8.0 * 31.0 * count * count.max(2.0).log2(),
+        // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
+        "solver.disk_harmonics" => count * 2.0 * 82.0 * 82.0 * 8.0,
+        "solver.disk_elements" => 8.0 * (2.0 * count + 2.0).powi(2),
+        "solver.suspension_modes" => 8.0 * count * count,
+        _ => return "take a smaller number".to_string(),
+    };
+    format!(
+        "it would take about {:.1} GB of memory in every worker",
+        bytes / 1e9
+    )
+}

@@ -1,0 +1,166 @@
+//! Geometry of disk, ramp, slider and suspension.
+
+use super::Check;
+use crate::study::unit;
+
+impl Check<'_, '_> {
+    pub(super) fn disk_and_ramp(&mut self) {
+        let radii = ["disk.inner_radius_mm", "disk.outer_radius_mm"];
+        let mut disk_fits = false;
+        if self.sound(&radii) {
+            let (inner, outer) = (self.view.number(radii[0]), self.view.number(radii[1]));
+            disk_fits = inner < outer;
+            if !disk_fits {
+                let fault = self.fault(
+                    "E140",
+                    &radii,
+                    format!("the inner radius {inner} mm is not below the outer radius {outer} mm"),
+                );
+                fault.allowed = "inner_radius_mm < outer_radius_mm".to_string();
+            }
+        }
+        if disk_fits && self.sound(&["ramp.radius_mm"]) {
+            let (inner, outer) = (self.view.number(radii[0]), self.view.number(radii[1]));
+            let ramp = self.view.number("ramp.radius_mm");
+            if ramp <= inner || ramp > outer {
+                let side = if ramp > outer {
+                    "outside the disk"
+                } else {
+                    "inside the clamp"
+                };
+                let fault = self.fault(
+                    "E141",
+                    &["ramp.radius_mm", radii[0], radii[1]],
+                    format!("the ramp at {ramp} mm is {side}"),
+                );
+                fault.allowed = format!("> {inner} and <= {outer} mm");
+            }
+        }
+        for path in [
+            "ramp.clearance_um",
+            "ramp.clearance_top_um",
+            "ramp.clearance_bottom_um",
+        ] {
+            if self.sound(&[path]) && self.view.maybe_number(path) == Some(0.0) {
+                let fault = self.fault("N143", &[path], "disk and ramp touch at rest");
+                fault.hint = "allowed; contact begins with the shock".to_string();
+            }
+        }
+    }
+
+    pub(super) fn slider_place(&mut self) {
+        let paths = [
+            "slider.radius_mm",
+            "slider.length_mm",
+            "slider.width_mm",
+            "slider.skew_deg",
+            "disk.inner_radius_mm",
+            "disk.outer_radius_mm",
+        ];
+        if !self.sound(&paths) {
+            return;
+        }
+        let [radius, length, width, skew_deg, inner, outer] =
+            paths.map(|path| self.view.number(path));
+        if inner >= outer {
+            return;
+        }
+        let skew = unit::si("skew_deg", skew_deg);
+        // Slider axes: the disk moves along (cos skew, sin skew); outward is a quarter turn left.
+        let mut over = Vec::new();
+        for (x, edge) in [(-0.5 * length, "leading"), (0.5 * length, "trailing")] {
+            for (y, side) in [(-0.5 * width, "inner"), (0.5 * width, "outer")] {
+                let along = x * skew.cos() + y * skew.sin();
+                let outward = y * skew.cos() - x * skew.sin();
+                let corner = (radius + outward).hypot(along);
+                if corner > outer {
+                    over.push(format!(
+                        "{edge} {side} corner at {corner:.3} mm over the rim"
+                    ));
+                } else if corner < inner || radius + outward < 0.0 {
+                    over.push(format!(
+                        "{edge} {side} corner at {corner:.3} mm over the clamp"
+                    ));
+                }
+            }
+        }
+        if !over.is_empty() {
+            let message = format!("the slider hangs over: {}", over.join(", "));
+            let fault = self.fault("E142", &paths, message);
+            fault.allowed = format!("every corner between {inner} and {outer} mm");
+            fault.hint = "move the slider's centre".to_string();
+        }
+        let ramp = ["ramp.radius_mm", "ramp.angle_deg", "slider.angle_deg"];
+        if self.sound(&ramp)
+            && self
+                .view
+                .words("ramp.models")
+                .iter()
+                .any(|model| model != "none")
+        {
+            let [ramp_radius, ramp_deg, slider_deg] = ramp.map(|path| self.view.number(path));
+            let apart = unit::si("angle_deg", ramp_deg - slider_deg);
+            let (along, outward) = (
+                ramp_radius * apart.sin(),
+                ramp_radius * apart.cos() - radius,
+            );
+            let x = along * skew.cos() - outward * skew.sin();
+            let y = along * skew.sin() + outward * skew.cos();
+            if x.abs() <= 0.5 * length && y.abs() <= 0.5 * width {
+                let fault = self.fault(
+                    "W203",
+                    &[
+                        "slider.angle_deg",
+                        "slider.radius_mm",
+                        "ramp.radius_mm",
+                        "ramp.angle_deg",
+                    ],
+                    "the slider flies over the ramp's contact point",
+                );
+                fault.allowed = "another angle or radius".to_string();
+                fault.hint = "accept with --accept W203".to_string();
+            }
+        }
+    }
+
+    pub(super) fn suspension(&mut self) {
+        let orders: [(&str, &str, bool); 5] = [
+            (
+                "suspension.hinge.length_mm",
+                "suspension.load_beam.dimple_mm",
+                true,
+            ),
+            (
+                "suspension.load_beam.dimple_mm",
+                "suspension.load_beam.end_mm",
+                true,
+            ),
+            ("suspension.flange.from_mm", "suspension.flange.to_mm", true),
+            (
+                "suspension.flange.to_mm",
+                "suspension.load_beam.end_mm",
+                false,
+            ),
+            (
+                "suspension.flexure.from_mm",
+                "suspension.load_beam.end_mm",
+                true,
+            ),
+        ];
+        for (low, high, strict) in orders {
+            if !self.sound(&[low, high]) {
+                continue;
+            }
+            let (a, b) = (self.view.number(low), self.view.number(high));
+            if a > b || (strict && a == b) {
+                let sign = if strict { "<" } else { "<=" };
+                let fault = self.fault(
+                    "E149",
+                    &[low, high],
+                    format!("{low} is {a} and {high} is {b}, from the root of the hinge"),
+                );
+                fault.allowed = format!("{low} {sign} {high}");
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Pulse against step and window; sampled pulses.
+
+use super::{Check, trim};
+use crate::study::fault::StudyError;
+use crate::study::settings::Datum;
+use crate::study::source::Place;
+use crate::study::{samples, scene, unit};
+
+/// Steps a pulse must span.
+const STEPS_PER_PULSE: f64 = 8.0;
+
+/// Net velocity change of a sampled shock that is taken for a mistake, m/s.
+const LARGEST_VELOCITY_M_PER_S: f64 = 1000.0;
+
+impl Check<'_, '_> {
+    pub(super) fn pulse(&mut self, widths_ms: &[f64]) {
+        if !self.sound(&["pulse.widths_ms"]) {
+            return;
+        }
+        for &width in widths_ms {
+            self.width(width);
+        }
+        self.sampled_pulse();
+    }
+
+    /// One pulse width, ms, against step and window.
+    pub fn width(&mut self, width: f64) {
+        let place = self.width_place(width);
+        let width_s = unit::si("pulse.widths_ms", width);
+        let step_s = scene::resolutions(self.view).structure.step_s;
+        // A step that is exactly an eighth must pass whatever its decimal rounding.
+        let shortest_s = STEPS_PER_PULSE * step_s * (1.0 - 1e-12);
+        if self.sound(&["solver.structure_step_us", "solver.accuracy"]) && width_s < shortest_s {
+            let message = format!(
+                "a pulse of {width} ms is shorter than {STEPS_PER_PULSE} steps of {} us",
+                trim(step_s * 1e6)
+            );
+            let fault = self.push(match place {
+                Some(place) => StudyError::at("E151", &place, "pulse.widths_ms", message),
+                None => StudyError::in_file("E151", "--pulse-ms", message),
+            });
+            fault.value = format!("{width}");
+            fault.allowed = format!(
+                "widths from {} ms, or solver.structure_step_us <= {}",
+                trim(STEPS_PER_PULSE * step_s * 1e3),
+                trim(width_s / STEPS_PER_PULSE * 1e6)
+            );
+            fault.hint = "set a smaller step".to_string();
+        }
+        if self.sound(&["pulse.window_ms", "pulse.window_max_ms"]) {
+            let fixed = self.view.maybe_number("pulse.window_ms");
+            let path = if fixed.is_some() {
+                "pulse.window_ms"
+            } else {
+                "pulse.window_max_ms"
+            };
+            let end_ms = fixed.unwrap_or_else(|| self.view.number("pulse.window_max_ms"));
+            if end_ms < width {
+                let fault = self.fault("E152", &[path], format!(
+                    "the simulation ends {end_ms} ms after the onset, inside the pulse of {width} ms"
+                ));
+                fault.allowed = format!(">= {width} ms");
+            }
+        }
+    }
+
+    /// Place of a width in the study; none when the command line named it.
+    pub(super) fn width_place(&self, width: f64) -> Option<Place> {
+        let setting = self.view.settings.get("pulse.widths_ms")?;
+        match &setting.values[0] {
+            Datum::Numbers(numbers) => {
+                let position = numbers.iter().position(|known| *known == width)?;
+                Some(setting.place_of(position).clone())
+            }
+            _ => None,
+        }
+    }
+
+    pub(super) fn sampled_pulse(&mut self) {
+        let paths = [
+            "pulse.shape",
+            "pulse.table",
+            "pulse.table_time_ms",
+            "pulse.table_relative",
+        ];
+        if !self.sound(&paths) || self.view.word("pulse.shape") != "table" {
+            return;
+        }
+        if !self.view.settings.has("pulse.table_time_ms") {
+            let fault = self.fault(
+                "E112",
+                &["pulse.shape"],
+                "missing key: pulse.table, for example table = \"pulse.csv\"",
+            );
+            fault.key = "pulse.table".to_string();
+            fault.value = String::new();
+            fault.allowed = "a file of two columns: time in ms, relative acceleration".to_string();
+            return;
+        }
+        let (time_ms, relative) = (self.view.numbers(paths[2]), self.view.numbers(paths[3]));
+        if let Some((_, message)) = samples::faults(time_ms, relative) {
+            let fault = self.fault("E153", &["pulse.table_time_ms"], message);
+            fault.allowed = "2 samples or more, times rising from 0".to_string();
+            return;
+        }
+        if !self.sound(&["search.amplitude_g.max"]) {
+            return;
+        }
+        let largest = relative
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
+        let width_ms = self
+            .view
+            .numbers("pulse.widths_ms")
+            .iter()
+            .fold(0.0_f64, |most, width| most.max(*width));
+        let last = time_ms.last().copied().unwrap_or(1.0);
+        let area: f64 = (1..time_ms.len())
+            .map(|row| {
+                0.5 * (relative[row] + relative[row - 1]) * (time_ms[row] - time_ms[row - 1])
+            })
+            .sum();
+        let velocity = self.view.si("search.amplitude_g.max")
+            * (area / largest).abs()
+            * unit::si("pulse.widths_ms", width_ms)
+            / last;
+        if velocity > LARGEST_VELOCITY_M_PER_S {
+            let path = if self.view.settings.has("pulse.table") {
+                "pulse.table"
+            } else {
+                "pulse.table_time_ms"
+            };
+            let fault = self.fault("W204", &[path], format!(
+                "the sampled shock changes the drive's velocity by {velocity:.0} m/s at the highest amplitude"
+            ));
+            fault.allowed = format!("usually below {LARGEST_VELOCITY_M_PER_S} m/s");
+            fault.hint = "check that times are in ms; accept with --accept W204".to_string();
+        }
+    }
+}

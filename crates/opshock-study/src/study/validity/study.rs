@@ -1,0 +1,198 @@
+//! Rules that hold for a study as a whole: names, outputs, search, keys without effect.
+
+use super::{Check, needs_head};
+use crate::study::keys;
+use crate::study::settings::Datum;
+use crate::study::source::Origin;
+
+impl Check<'_, '_> {
+    pub(super) fn names(&mut self) {
+        if !self.sound(&["name"]) {
+            return;
+        }
+        let name = self.view.word("name");
+        let wrong = if name.trim().is_empty() {
+            Some("must not be empty")
+        } else if name
+            .chars()
+            .any(|letter| letter == '/' || letter.is_control())
+        {
+            Some("must not hold / or control characters")
+        } else if name.chars().count() > 200 {
+            Some("must not be longer than 200 characters")
+        } else {
+            None
+        };
+        if let Some(message) = wrong {
+            let fault = self.fault("E159", &["name"], message);
+            fault.allowed =
+                "text of 1 to 200 characters without / and control characters".to_string();
+        }
+    }
+
+    pub(super) fn outputs(&mut self) {
+        if !self.sound(&["outputs"]) {
+            return;
+        }
+        let outputs = self.view.words("outputs");
+        if outputs.is_empty() {
+            let fault = self.fault("E158", &["outputs"], "no output is asked for");
+            fault.allowed = keys::find("outputs")
+                .map(|key| key.kind.allowed())
+                .unwrap_or_default();
+        }
+        if let Some(twice) = repeated(outputs) {
+            let fault = self.fault("E159", &["outputs"], format!("asks for {twice} twice"));
+            fault.allowed = "each output once".to_string();
+        }
+        let Some(head) = outputs.iter().find(|output| needs_head(output)) else {
+            return;
+        };
+        if self.sound(&["solver.leave_out", "solver.effects"])
+            && self
+                .view
+                .words("solver.leave_out")
+                .iter()
+                .any(|effect| effect == "air_bearing")
+        {
+            let fault = self.fault(
+                "E158",
+                &["solver.leave_out"],
+                format!("{head} needs air_bearing, which is left out"),
+            );
+            fault.allowed = format!(
+                "[], or outputs of disk and ramp alone: {}",
+                keys::STRUCTURE_OUTPUTS.join(", ")
+            );
+            fault.hint = format!("remove {head} from outputs, or do not leave air_bearing out");
+        }
+        if self.sound(&["disk.rpm"]) && self.view.number("disk.rpm") == 0.0 {
+            let fault = self.fault(
+                "E133",
+                &["disk.rpm"],
+                format!("{head} needs the air bearing, which needs a spinning disk"),
+            );
+            fault.allowed = "> 0 rev/min".to_string();
+            fault.hint = format!("or ask only for {}", keys::STRUCTURE_OUTPUTS.join(", "));
+        }
+    }
+
+    /// Notes about keys the study gives though another key leaves them without effect.
+    pub(super) fn without_effect(&mut self) {
+        let any = |path: &str, word: &str| {
+            self.view.settings.get(path).is_none_or(|setting| {
+                setting.values.iter().any(|value| match value {
+                    Datum::Word(found) => found == word,
+                    Datum::Words(words) => words.iter().any(|found| found == word),
+                    _ => false,
+                })
+            })
+        };
+        let rules: [(bool, &str, &[&str]); 5] = [
+            (
+                any("pulse.shape", "trapezoid"),
+                "pulse.shape is not trapezoid",
+                &["pulse.rise_share"],
+            ),
+            (
+                any("pulse.shape", "damped_sine"),
+                "pulse.shape is not damped_sine",
+                &["pulse.frequency_hz", "pulse.decay_per_s"],
+            ),
+            (
+                any("pulse.shape", "table"),
+                "pulse.shape is not table",
+                &["pulse.table", "pulse.table_time_ms"],
+            ),
+            (
+                any("pulse.window_ms", "until_decayed"),
+                "pulse.window_ms is not until_decayed",
+                &["pulse.decay_share", "pulse.window_max_ms"],
+            ),
+            (
+                any("ramp.models", "deformable"),
+                "ramp.models has no deformable",
+                &[
+                    "ramp.deformable.modes",
+                    "ramp.deformable.bottom_modes",
+                    "ramp.deformable.damping_ratio",
+                ],
+            ),
+        ];
+        for (has_effect, why, paths) in rules {
+            for path in paths {
+                let given = self.view.settings.get(path).is_some_and(|setting| {
+                    matches!(setting.origin(), Origin::File | Origin::Set(_))
+                });
+                if given && !has_effect {
+                    let fault = self.fault("N116", &[path], format!("has no effect: {why}"));
+                    fault.hint = "leave it out".to_string();
+                }
+            }
+        }
+    }
+
+    pub(super) fn search(&mut self) {
+        let paths = ["search.amplitude_g.min", "search.amplitude_g.max"];
+        if self.sound(&paths) {
+            let (low, high) = (self.view.number(paths[0]), self.view.number(paths[1]));
+            if low >= high {
+                let fault = self.fault(
+                    "E156",
+                    &paths,
+                    format!("the search range {low} to {high} g is empty"),
+                );
+                fault.allowed = "min < max".to_string();
+            }
+        }
+        for (path, what) in [("ramp.models", "ramp models"), ("pulse.signs", "signs")] {
+            if !self.sound(&[path]) {
+                continue;
+            }
+            let words = self.view.words(path);
+            if words.is_empty() {
+                let fault = self.fault(
+                    "E154",
+                    &[path],
+                    format!("the list is empty: a study needs {what}"),
+                );
+                fault.allowed = keys::find(path)
+                    .map(|key| key.kind.allowed())
+                    .unwrap_or_default();
+            }
+            if let Some(twice) = repeated(words) {
+                let fault = self.fault("E154", &[path], format!("holds {twice:?} twice"));
+                fault.allowed = "values that differ".to_string();
+            }
+        }
+        if self.sound(&["pulse.widths_ms"]) {
+            let widths = self.view.numbers("pulse.widths_ms");
+            if widths.is_empty() {
+                let fault = self.fault(
+                    "E154",
+                    &["pulse.widths_ms"],
+                    "the list is empty: a study needs pulse widths",
+                );
+                fault.allowed = "one or more widths".to_string();
+            }
+            let mut sorted = widths.to_vec();
+            sorted.sort_by(f64::total_cmp);
+            if let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+                let fault = self.fault(
+                    "E154",
+                    &["pulse.widths_ms"],
+                    format!("holds {} twice", twice[0]),
+                );
+                fault.allowed = "values that differ".to_string();
+            }
+        }
+    }
+}
+
+fn repeated(words: &[String]) -> Option<&String> {
+    words
+        .iter()
+        .enumerate()
+        .find(|(position, word)| words[..*position].contains(word))
+        .map(|(_, word)| word)
+}
