@@ -1,6 +1,8 @@
 //! Study files, search, store, report and command line.
 
 mod bad_inputs;
+mod cli;
+mod cli_studies;
 mod report_files;
 mod report_run;
 mod search_critical_shock;

@@ -2,6 +2,7 @@
 
 use super::console::{stderr_colour, stderr_width};
 use super::exit::Exit;
+use crate::store::StoreError;
 use crate::study::{SetSyntaxError, StudyErrors};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -13,6 +14,8 @@ pub enum Failure {
     Usage(Vec<Fault>),
     /// The study is not valid.
     Study(StudyErrors),
+    /// The store cannot be used.
+    Store(StoreError),
     /// The machine refused: a file, a thread.
     Internal(anyhow::Error),
     /// The reader of the output went away; nobody is left to be told.
@@ -62,6 +65,7 @@ impl Failure {
         match self {
             Failure::Usage(_) => Exit::Usage,
             Failure::Study(_) => Exit::Study,
+            Failure::Store(_) => Exit::Store,
             Failure::Internal(_) => Exit::Internal,
             Failure::ClosedPipe => Exit::Complete,
         }
@@ -88,6 +92,7 @@ impl Failure {
                 Some(width) => errors.to_terminal(width, stderr_colour()),
                 None => format!("{errors}\n"),
             },
+            Failure::Store(error) => with_causes(error),
             Failure::Internal(error) => with_causes(error.as_ref()),
             Failure::ClosedPipe => String::new(),
         }
@@ -98,6 +103,7 @@ impl Failure {
         let errors = match self {
             Failure::Usage(faults) => faults.clone(),
             Failure::Study(errors) => return errors.to_json(),
+            Failure::Store(error) => vec![Fault::new(error.code(), one_line(error))],
             Failure::Internal(error) => vec![Fault::new("internal", format!("{error:#}"))],
             Failure::ClosedPipe => Vec::new(),
         };
@@ -115,9 +121,25 @@ fn with_causes(error: &(dyn std::error::Error + 'static)) -> String {
     text
 }
 
+fn one_line(error: &(dyn std::error::Error + 'static)) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(reason) = cause {
+        let _ = write!(text, ": {reason}");
+        cause = reason.source();
+    }
+    text
+}
+
 impl From<StudyErrors> for Failure {
     fn from(errors: StudyErrors) -> Self {
         Failure::Study(errors)
+    }
+}
+
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        Failure::Store(error)
     }
 }
 

@@ -8,17 +8,22 @@ mod exit;
 mod failure;
 mod modes;
 mod new;
+mod report;
 mod schema;
 mod selection;
+mod status;
+mod steady;
+mod stored;
 mod study_file;
 
 pub use exit::Exit;
 
 use crate::provenance;
-use clap::{ArgAction, Args, Parser, Subcommand};
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use console::Console;
 use failure::{Failure, Fault};
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Simulates a hard disk drive's head-disk interface under operational shock and finds the
@@ -46,6 +51,9 @@ struct GlobalArgs {
     /// Print version and commit
     #[arg(short = 'V', long, action = ArgAction::Version)]
     version: Option<bool>,
+    /// Worker threads [default: all cores]
+    #[arg(short, long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
     /// Results, and errors, as JSON
     #[arg(long, global = true)]
     json: bool,
@@ -60,9 +68,37 @@ struct GlobalArgs {
         allow_hyphen_values = true
     )]
     set: Vec<String>,
+    /// Folder of the store [default: STUDYFOLDER.opshock]
+    #[arg(long, global = true, value_name = "DIR")]
+    store: Option<PathBuf>,
+    /// How progress is shown
+    #[arg(long, global = true, value_name = "HOW", value_enum, default_value_t)]
+    progress: ProgressChoice,
     /// Codes of warnings that need not stop the command, as W201,W305
     #[arg(long, global = true, value_name = "CODES", value_delimiter = ',')]
     accept: Vec<String>,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ProgressChoice {
+    /// A live table on a terminal, lines elsewhere
+    #[default]
+    Auto,
+    /// A live table
+    Bar,
+    /// Lines
+    Lines,
+    /// Nothing
+    None,
+}
+
+impl GlobalArgs {
+    /// Worker threads: `-j`, else one for each core.
+    fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.jobs.map_or_else(cores, usize::from)
+    }
 }
 
 #[derive(Subcommand, Debug)]
@@ -70,6 +106,9 @@ enum Command {
     New(new::NewArgs),
     Check(check::CheckArgs),
     Modes(modes::ModesArgs),
+    Steady(steady::SteadyArgs),
+    Report(report::ReportArgs),
+    Status(status::StatusArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -104,6 +143,9 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::New(arguments) => new::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, &cli.global, console),
         Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
+        Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
+        Command::Report(arguments) => report::run(arguments, &cli.global, console),
+        Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
         Command::Completions(arguments) => completions::run(arguments, console),
     }

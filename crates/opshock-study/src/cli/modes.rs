@@ -1,10 +1,11 @@
-//! `opshock modes`: natural frequencies of disk, ramp and suspension.
+//! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film.
 
 use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::selection::{PointArgs, unshaken_point};
+use super::steady::{ModeJson, air_bearing_modes};
 use super::study_file;
 use anyhow::Context as _;
 use clap::Args;
@@ -14,7 +15,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Print natural frequencies of disk, ramp and suspension
+/// Print natural frequencies of disk, ramp, suspension and slider
 #[derive(Args, Debug)]
 pub struct ModesArgs {
     /// Study file
@@ -32,15 +33,16 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
     let kept = scene.head_resolution.suspension_modes;
     let suspension =
         ReducedSuspension::build(&scene.suspension, kept).context("no modes of the suspension")?;
+    let head = air_bearing_modes(&scene)?;
     if console.json {
-        console.result_json(&as_json(&structure, &suspension))?;
+        console.result_json(&as_json(&structure, &suspension, &head))?;
     } else {
-        console.result(&as_text(&structure, &suspension))?;
+        console.result(&as_text(&structure, &suspension, &head))?;
     }
     Ok(Exit::Complete)
 }
 
-fn as_json(structure: &StructureModes, suspension: &ReducedSuspension) -> Value {
+fn as_json(structure: &StructureModes, suspension: &ReducedSuspension, head: &[ModeJson]) -> Value {
     let disk: Vec<Value> = structure
         .disk
         .iter()
@@ -81,10 +83,15 @@ fn as_json(structure: &StructureModes, suspension: &ReducedSuspension) -> Value 
             "torsion_free_hz": suspension.torsion.free_hz,
             "torsion_pinned_hz": suspension.torsion.pinned_hz,
         },
+        "head": head,
     })
 }
 
-fn as_text(structure: &StructureModes, suspension: &ReducedSuspension) -> String {
+fn as_text(
+    structure: &StructureModes,
+    suspension: &ReducedSuspension,
+    head: &[ModeJson],
+) -> String {
     let mut text = String::from(
         "disk\n  circles  diameters  rotating (Hz)  forward (Hz)  backward (Hz)  damping ratio\n",
     );
@@ -134,5 +141,14 @@ fn as_text(structure: &StructureModes, suspension: &ReducedSuspension) -> String
         list(&suspension.torsion.free_hz),
         list(&suspension.torsion.pinned_hz),
     );
+    text.push_str("head: slider free on its film\n  frequency (kHz)  damping ratio\n");
+    for mode in head {
+        let _ = writeln!(
+            text,
+            "  {:>15.2}  {:>13.4}",
+            1e-3 * mode.frequency_hz,
+            mode.damping_ratio
+        );
+    }
     text
 }

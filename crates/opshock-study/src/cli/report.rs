@@ -1,0 +1,88 @@
+//! `opshock report`: the table of a store, and its files.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::stored;
+use crate::provenance;
+use crate::report::{ReportSource, table, write_report};
+use crate::store::{Status, Summary};
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Show the critical shocks of a store; write table, figure and HTML page
+#[derive(Args, Debug)]
+pub struct ReportArgs {
+    /// Store, or study file
+    #[arg(value_name = "STORE|STUDY")]
+    source: PathBuf,
+    /// Format of the table on standard output
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<TableFormat>,
+    /// Folder for table.md, table.csv, fig13.svg, fig13.png, report.html and results.h5
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TableFormat {
+    Csv,
+    Md,
+    Json,
+}
+
+/// Runs the command.
+pub fn run(
+    arguments: &ReportArgs,
+    global: &GlobalArgs,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let folder = stored::folder(&arguments.source, global)?;
+    let stored = stored::read(&folder, console)?;
+    let program = provenance::program();
+    if let Some(out) = &arguments.out {
+        let source = ReportSource {
+            summary: &stored.summary,
+            runs: &stored.runs,
+            program: &program,
+            resolved_study: stored.resolved_study.as_deref(),
+        };
+        let mut written = write_report(out, &source).context("cannot write the report")?;
+        let copy = out.join("results.h5");
+        std::fs::copy(folder.join("results.h5"), &copy)
+            .with_context(|| format!("cannot write {}", copy.display()))?;
+        written.push(copy);
+        for path in written {
+            console.tell(&format!("wrote {}", path.display()));
+        }
+    }
+    let format = match arguments.format {
+        None if console.json => Some(TableFormat::Json),
+        format => format,
+    };
+    match format {
+        None => console.result(&table::terminal(&stored.summary))?,
+        Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,
+        Some(TableFormat::Md) => {
+            let provenance = format!("{program}, study {}", stored.summary.digest);
+            console.result(&table::markdown(&stored.summary, &provenance))?;
+        }
+        Some(TableFormat::Json) => console.result_json(&stored.summary)?,
+    }
+    Ok(exit_of(&stored.summary))
+}
+
+/// Complete, or complete but for open points.
+pub fn exit_of(summary: &Summary) -> Exit {
+    if summary
+        .points
+        .iter()
+        .all(|point| point.status == Status::Ok)
+    {
+        Exit::Complete
+    } else {
+        Exit::Open
+    }
+}

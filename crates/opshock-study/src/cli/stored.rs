@@ -1,0 +1,101 @@
+//! The store a command reads: named itself, or by its study.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::failure::{Failure, Fault};
+use crate::report::RunDot;
+use crate::store::folder::session;
+use crate::store::{self, Loaded, Results, StoreError, Summary};
+use crate::study::Study;
+use crate::sweep::{SweepInput, replay};
+use std::path::{Path, PathBuf};
+
+/// Folder of the store of the study at `path`: `--store`, else `STUDYFOLDER.opshock` in the
+/// working directory.
+pub fn folder_of_study(path: &Path, global: &GlobalArgs) -> PathBuf {
+    if let Some(folder) = &global.store {
+        return folder.clone();
+    }
+    let folder = std::path::absolute(path).ok();
+    let name = folder
+        .as_deref()
+        .and_then(Path::parent)
+        .and_then(Path::file_name)
+        .map_or_else(|| "study".into(), std::ffi::OsStr::to_os_string);
+    PathBuf::from(name).with_added_extension("opshock")
+}
+
+/// Folder of the store that `path`, a store or a study file, stands for.
+///
+/// # Errors
+///
+/// A path that is neither.
+pub fn folder(path: &Path, global: &GlobalArgs) -> Result<PathBuf, Failure> {
+    if path.is_dir() {
+        Ok(path.to_owned())
+    } else if path.is_file() {
+        Ok(folder_of_study(path, global))
+    } else {
+        Err(Failure::Usage(vec![Fault {
+            value: Some(path.display().to_string()),
+            allowed: Some("a store or a study file".into()),
+            hint: Some("run `opshock sweep STUDY` first".into()),
+            ..Fault::new("usage", format!("{} does not exist", path.display()))
+        }]))
+    }
+}
+
+/// What a store holds.
+pub struct Stored {
+    /// Critical shocks.
+    pub summary: Summary,
+    /// Every simulation behind them, `point` a row of the summary.
+    pub runs: Vec<RunDot>,
+    /// The study with every default.
+    pub resolved_study: Option<String>,
+}
+
+/// Reads everything finished in a store, and tells what is wrong with it.
+///
+/// # Errors
+///
+/// A store that is empty, damaged or newer.
+pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
+    let (loaded, results) = store::load(folder)?;
+    for (code, message) in &loaded.notes {
+        console.tell(&format!("warning: {code}: {message}"));
+    }
+    let resolved_study = std::fs::read_to_string(folder.join("study.resolved.toml")).ok();
+    let checkpointed = results
+        .as_ref()
+        .map_or(0, |results| results.runs.len() + results.outside.len());
+    // Simulations finished after the last checkpoint count too: the searches are played again.
+    let newer = (loaded.runs.len() > checkpointed)
+        .then(|| replayed(resolved_study.as_deref()?, loaded))
+        .flatten();
+    let results: Results = newer.or(results).ok_or_else(|| StoreError::Empty {
+        path: folder.to_owned(),
+    })?;
+    let runs: Vec<RunDot> = results
+        .runs
+        .iter()
+        .map(|row| RunDot {
+            point: row.point,
+            amplitude_g: row.amplitude_g,
+            verdict: row.result().verdict.as_str().to_owned(),
+            h_min_m: row.result().h_min_m,
+        })
+        .collect();
+    Ok(Stored {
+        summary: results.summary,
+        runs,
+        resolved_study,
+    })
+}
+
+/// The table from finished simulations; `None` when this program does not read the study.
+fn replayed(resolved_study: &str, loaded: Loaded) -> Option<Results> {
+    let study = Study::from_text(resolved_study, &[]).ok()?;
+    let input = SweepInput::of(&study).ok()?;
+    Some(replay(&input, loaded, &session(1)))
+}

@@ -1,0 +1,143 @@
+//! Running the program: what every test of the command line shares, and what every command keeps.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The program in `folder`, without the caller's terminal settings.
+pub fn opshock(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_opshock-under-test"));
+    command
+        .current_dir(folder)
+        .env_remove("NO_COLOR")
+        .env_remove("COLUMNS");
+    command
+}
+
+/// What a command did.
+pub struct Done {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Done {
+    /// Runs the program with `arguments` in `folder`.
+    pub fn of(folder: &Path, arguments: &[&str]) -> Self {
+        let output = opshock(folder)
+            .args(arguments)
+            .output()
+            .expect("the program starts");
+        Self {
+            code: output.status.code().expect("an exit code"),
+            stdout: String::from_utf8(output.stdout).expect("UTF-8"),
+            stderr: String::from_utf8(output.stderr).expect("UTF-8"),
+        }
+    }
+
+    /// Standard output as JSON.
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout)
+            .unwrap_or_else(|error| panic!("{error}\n{}\n{}", self.stdout, self.stderr))
+    }
+
+    /// `errors` of the JSON on standard error.
+    pub fn errors(&self) -> Vec<Value> {
+        let told: Value = serde_json::from_str(&self.stderr)
+            .unwrap_or_else(|error| panic!("{error}\n{}", self.stderr));
+        told["errors"].as_array().expect("a list").clone()
+    }
+}
+
+/// A study of the repository.
+pub fn study(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../studies")
+        .join(name)
+        .join("study.toml")
+}
+
+/// Files below `folder`.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn version_names_the_commit_and_help_the_exit_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    for option in ["--version", "-V"] {
+        let version = Done::of(folder.path(), &[option]);
+        assert_eq!(version.code, 0);
+        let (name, rest) = version
+            .stdout
+            .trim()
+            .split_once(' ')
+            .expect("name and version");
+        assert_eq!(name, "opshock");
+        assert!(
+            rest.starts_with("0.") && rest.contains('(') && rest.ends_with(')'),
+            "{rest}"
+        );
+    }
+    let help = Done::of(folder.path(), &["--help"]);
+    assert_eq!(help.code, 0);
+    assert!(help.stdout.contains("Exit codes:") && help.stderr.is_empty());
+}
+
+#[test]
+fn a_wrong_command_line_is_exit_2_on_stderr_also_as_json() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [
+        &[][..],
+        &["fly"],
+        &["check"],
+        &["check", "s.toml", "--frobnicate"],
+    ] {
+        let told = Done::of(folder.path(), arguments);
+        assert_eq!(told.code, 2, "{arguments:?}");
+        assert!(
+            told.stdout.is_empty() && !told.stderr.is_empty(),
+            "{arguments:?}"
+        );
+        let mut with_json = arguments.to_vec();
+        with_json.push("--json");
+        let told = Done::of(folder.path(), &with_json);
+        assert_eq!(told.code, 2, "{arguments:?}");
+        if !arguments.is_empty() {
+            assert_eq!(told.errors()[0]["code"], "usage", "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_the_program_quietly() {
+    use std::io::Read as _;
+    use std::process::Stdio;
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // More than a pipe holds is written: closing after the first byte breaks it.
+    let mut first = [0];
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
+fn completions_are_printed_for_the_shells() {
+    let folder = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish"] {
+        let done = Done::of(folder.path(), &["completions", shell]);
+        assert_eq!(done.code, 0);
+        assert!(done.stdout.contains("opshock"), "{shell}");
+    }
+}
