@@ -530,6 +530,8 @@ fn rungs_set_the_resolutions_and_single_keys_override_them() {
     let scene = &fine.points[0].scene;
     assert_eq!(scene.film_resolution.cells, 500);
     assert_eq!(scene.structure_resolution.step_s, 0.1e-6);
+    let spelt = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=5e2"]).unwrap();
+    assert_eq!(spelt.digest, fine.digest);
     for rung in ["5%", "1%", "0.1%"] {
         // What the resolved study writes out must give back the rung's own bits.
         let study = read(SHORT, &[&format!("solver.accuracy={rung}")]).unwrap();
@@ -644,4 +646,22 @@ proptest::proptest! {
             }
         }
     }
+}
+
+#[test]
+fn a_study_of_the_largest_size_has_points_that_all_differ() {
+    let study = read(
+        SHORT,
+        &[
+            "disk.rpm={ from = 4000, to = 8000, count = 100 }",
+            "ramp.clearance_um={ from = 50, to = 150, count = 100 }",
+            "pulse.widths_ms=[0.5, 1, 2, 3, 4]",
+        ],
+    )
+    .unwrap();
+    assert_eq!(study.points.len(), 100_000);
+    let mut ids: Vec<_> = study.points.iter().map(|point| point.id).collect();
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), 100_000);
 }

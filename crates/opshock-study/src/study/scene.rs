@@ -298,7 +298,7 @@ fn suspension(view: &View<'_>) -> SuspensionParameters {
 
 /// Pressure from itself or the altitude; viscosity from itself or the temperature; mean free path
 /// from itself or scaled from the reference state.
-fn gas_parameters(view: &View<'_>) -> GasParameters {
+pub fn gas_parameters(view: &View<'_>) -> GasParameters {
     let pressure_pa = view
         .maybe_si("gas.pressure_pa")
         .or_else(|| {

@@ -230,23 +230,26 @@ impl Reader {
                 .value(node.place.text())
                 .allowed(&allowed)
         };
-        let (digits, radix) = match &node.value {
-            Value::Integer(digits, radix) => (digits, *radix),
+        let value = match &node.value {
+            // Beyond i128 is beyond every limit of the table.
+            Value::Integer(digits, radix) => {
+                i128::from_str_radix(digits, *radix).unwrap_or(if digits.starts_with('-') {
+                    i128::MIN
+                } else {
+                    i128::MAX
+                })
+            }
+            // 2e3 is a whole number too; the conversion saturates.
             _ => {
-                self.finite(key, path, node)?;
-                self.errors.push(fault(
-                    "E134",
-                    "must be a whole number, without a decimal point".to_string(),
-                ));
-                return None;
+                let value = self.finite(key, path, node)?;
+                if value.fract() != 0.0 {
+                    self.errors
+                        .push(fault("E134", "must be a whole number".to_string()));
+                    return None;
+                }
+                value as i128
             }
         };
-        // Beyond i128 is beyond every limit of the table.
-        let value = i128::from_str_radix(digits, radix).unwrap_or(if digits.starts_with('-') {
-            i128::MIN
-        } else {
-            i128::MAX
-        });
         if (i128::from(low)..=i128::from(high)).contains(&value) {
             return Some(Datum::Integer(value as i64));
         }

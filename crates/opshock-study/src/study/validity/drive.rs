@@ -1,7 +1,9 @@
 //! Geometry of disk, ramp, slider and suspension.
 
+use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
+
 use super::Check;
-use crate::study::unit;
+use crate::study::{scene, unit};
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
@@ -161,6 +163,35 @@ impl Check<'_, '_> {
                 );
                 fault.allowed = format!("{low} {sign} {high}");
             }
+        }
+    }
+
+    /// A mean free path given by hand that is far from what pressure and viscosity imply for air:
+    /// often a pressure was changed and the path forgotten.
+    pub(super) fn gas(&mut self) {
+        let path = "gas.mean_free_path_nm";
+        let Some(given_m) = self.view.maybe_si(path) else {
+            return;
+        };
+        if !self.sound(&["gas"]) {
+            return;
+        }
+        let gas = scene::gas_parameters(self.view);
+        let temperature_k = self
+            .view
+            .maybe_si("gas.temperature_c")
+            .unwrap_or(REFERENCE_TEMPERATURE_K);
+        let air_m = mean_free_path_m(gas.viscosity_pa_s, gas.pressure_pa, temperature_k);
+        if !(0.8..=1.25).contains(&(given_m / air_m)) {
+            let fault = self.fault(
+                "N117",
+                &[path],
+                format!(
+                    "air at this pressure and viscosity has a mean free path of {:.1} nm",
+                    air_m * 1e9
+                ),
+            );
+            fault.hint = "leave it out for air; keep it for another gas".to_string();
         }
     }
 }

@@ -32,6 +32,7 @@ impl Check<'_, '_> {
     /// Every rule about a point.
     pub fn point(&mut self, widths_ms: &[f64]) {
         self.disk_and_ramp();
+        self.gas();
         self.slider_place();
         self.rails();
         self.suspension();
