@@ -36,6 +36,16 @@ pub trait UnilateralSystem {
     fn mobility(&self) -> [[f64; 2]; 2];
     /// Gap ahead per impulse now, s/kg.
     fn compliance_ahead(&self) -> [[f64; 2]; 2];
+    /// Longest time over which an impulse can be aimed at a gap, s: π/ω of the fastest mode, beyond
+    /// which that mode answers an impulse with the wrong sign. Longer steps are divided.
+    fn longest_aim_s(&self) -> f64 {
+        f64::INFINITY
+    }
+    /// Energy per squared impulse that damping takes in one step from the ripple which a train of
+    /// equal impulses, one per step, makes of a constant force, 1/kg; none by default.
+    fn ripple_loss(&self) -> [[f64; 2]; 2] {
+        [[0.0; 2]; 2]
+    }
     /// Applies impulses (N s) now, and to the state ahead what they lead to.
     fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind);
     /// Makes ahead the new now.
@@ -53,6 +63,12 @@ pub struct ImpactLaw {
     pub max_impacts_per_step: u32,
 }
 
+/// Which contacts last from step to step; carried by the caller, fresh at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ContactMemory {
+    lasting: [bool; 2],
+}
+
 /// What happened in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepReport {
@@ -63,7 +79,28 @@ pub struct StepReport {
 }
 
 /// Advances `system` by `h_s`.
-pub fn advance(system: &mut impl UnilateralSystem, h_s: f64, law: &ImpactLaw) -> StepReport {
+pub fn advance(
+    system: &mut impl UnilateralSystem,
+    h_s: f64,
+    law: &ImpactLaw,
+    memory: &mut ContactMemory,
+) -> StepReport {
+    let n_parts = (h_s / system.longest_aim_s()).ceil().max(1.0);
+    let mut total = StepReport::default();
+    for _ in 0..n_parts as u64 {
+        let report = advance_part(system, h_s / n_parts, law, memory);
+        total.impacts += report.impacts;
+        total.accumulated |= report.accumulated;
+    }
+    total
+}
+
+fn advance_part(
+    system: &mut impl UnilateralSystem,
+    h_s: f64,
+    law: &ImpactLaw,
+    memory: &mut ContactMemory,
+) -> StepReport {
     let mut report = StepReport::default();
     let n = system.n_contacts();
     let mut left = h_s;
@@ -72,17 +109,10 @@ pub fn advance(system: &mut impl UnilateralSystem, h_s: f64, law: &ImpactLaw) ->
     for pass in 0..=max_passes {
         system.look_ahead(left);
         if pass == 0 {
-            let now = system.gaps();
-            let closed = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
-            if closed[0] || closed[1] {
-                let p = aimed_impulse(system, closed);
-                if p != [0.0; 2] {
-                    system.impulse(p, ImpulseKind::Sustained);
-                }
-            }
+            begin_at_node(system, left, n, law, memory, &mut report);
         }
         let crossing = if pass < max_passes {
-            first_crossing(system, left, n, law)
+            first_crossing(system, left, n, law, pass > 0 && law.restitution > 0.0)
         } else {
             report.accumulated = true;
             None
@@ -95,12 +125,40 @@ pub fn advance(system: &mut impl UnilateralSystem, h_s: f64, law: &ImpactLaw) ->
         system.commit();
         left = (left - tau).max(0.0);
         report.impacts += 1;
-        collide(system, left, n, law, &mut report);
+        collide(system, left, n, law, memory, &mut report);
         if left == 0.0 {
             return report;
         }
     }
     report
+}
+
+/// Impulse of the contacts that are closed at a node.
+fn begin_at_node(
+    system: &mut impl UnilateralSystem,
+    left_s: f64,
+    n: usize,
+    law: &ImpactLaw,
+    memory: &mut ContactMemory,
+    report: &mut StepReport,
+) {
+    let now = system.gaps();
+    let closed: [bool; 2] = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
+    let arrives = (0..n).any(|i| closed[i] && !memory.lasting[i] && now[i].rate_m_per_s < 0.0);
+    for (lasting, closed) in memory.lasting.iter_mut().zip(closed) {
+        *lasting &= closed;
+    }
+    if arrives {
+        // The collision falls on the node itself.
+        report.impacts += 1;
+        collide(system, left_s, n, law, memory, report);
+        system.look_ahead(left_s);
+    } else if closed[0] || closed[1] {
+        let p = aimed_impulse(system, closed, system.ripple_loss());
+        if p != [0.0; 2] {
+            system.impulse(p, ImpulseKind::Sustained);
+        }
+    }
 }
 
 /// Impact at the current instant, `left_s` before the next node.
@@ -109,6 +167,7 @@ fn collide(
     left_s: f64,
     n: usize,
     law: &ImpactLaw,
+    memory: &mut ContactMemory,
     report: &mut StepReport,
 ) {
     system.look_ahead(left_s);
@@ -120,15 +179,24 @@ fn collide(
         lcp::solve(system.mobility(), target, closed).unwrap_or([0.0; 2])
     } else {
         report.accumulated |= law.restitution > 0.0;
-        aimed_impulse(system, closed)
+        let p = aimed_impulse(system, closed, [[0.0; 2]; 2]);
+        for (lasting, p) in memory.lasting.iter_mut().zip(p) {
+            *lasting |= p > 0.0;
+        }
+        p
     };
     if p != [0.0; 2] {
         system.impulse(p, ImpulseKind::Impact);
     }
 }
 
-/// Impulse now that brings the gaps ahead to zero, between stopping dead and full reversal.
-fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2]) -> [f64; 2] {
+/// Impulse now that brings the gaps ahead to zero, between stopping dead and the energy bound
+/// P·v⁻ + ½ P·W P ≤ P·R P with `refund` R.
+fn aimed_impulse(
+    system: &impl UnilateralSystem,
+    closed: [bool; 2],
+    refund: [[f64; 2]; 2],
+) -> [f64; 2] {
     let (now, ahead) = (system.gaps(), system.gaps_ahead());
     let w = system.mobility();
     let rate = [now[0].rate_m_per_s, now[1].rate_m_per_s];
@@ -141,38 +209,54 @@ fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2]) -> [f64; 2] 
     let predicted = [ahead[0].value_m, ahead[1].value_m];
     let aim = lcp::solve(system.compliance_ahead(), predicted, closed).unwrap_or(stop);
     if !(closed[0] && closed[1]) {
-        return std::array::from_fn(|i| aim[i].clamp(stop[i], 2.0 * stop[i]));
+        return std::array::from_fn(|i| {
+            if stop[i] == 0.0 {
+                return 0.0;
+            }
+            let largest = 2.0 * stop[i] / (1.0 - 2.0 * refund[i][i] / w[i][i]);
+            aim[i].clamp(stop[i], largest)
+        });
     }
-    let after: [f64; 2] = std::array::from_fn(|i| rate[i] + w[i][0] * aim[0] + w[i][1] * aim[1]);
-    let enough = (0..2).all(|i| stop[i] == 0.0 || after[i] >= 0.0);
+    let after = product(w, aim);
+    let enough = (0..2).all(|i| stop[i] == 0.0 || rate[i] + after[i] >= 0.0);
     let p = if enough { aim } else { stop };
-    // Energy change P·v⁻ + ½ P·W P must not be positive.
     let work = p[0] * rate[0] + p[1] * rate[1];
-    let quadratic =
-        p[0] * (w[0][0] * p[0] + w[0][1] * p[1]) + p[1] * (w[1][0] * p[0] + w[1][1] * p[1]);
-    if work + 0.5 * quadratic <= 0.0 {
+    let (wp, rp) = (product(w, p), product(refund, p));
+    let quadratic = p[0] * (0.5 * wp[0] - rp[0]) + p[1] * (0.5 * wp[1] - rp[1]);
+    if work + quadratic <= 0.0 {
         p
     } else {
-        let scale = (-2.0 * work / quadratic).max(0.0);
+        let scale = (-work / quadratic).max(0.0);
         [scale * p[0], scale * p[1]]
     }
 }
 
+fn product(m: [[f64; 2]; 2], p: [f64; 2]) -> [f64; 2] {
+    std::array::from_fn(|i| m[i][0] * p[0] + m[i][1] * p[1])
+}
+
 /// Time to the first gap that becomes negative before the instant ahead, `h_s` from now.
 ///
-/// Leaves the state ahead at `h_s` when there is none.
+/// Leaves the state ahead at `h_s` when there is none. `bounced`: an impact of this step may have
+/// sent a closed gap away only to return within it.
 fn first_crossing(
     system: &mut impl UnilateralSystem,
     h_s: f64,
     n: usize,
     law: &ImpactLaw,
+    bounced: bool,
 ) -> Option<f64> {
     let (now, ahead) = (system.gaps(), system.gaps_ahead());
     let mut first: Option<f64> = None;
     let mut disturbed = false;
     for i in 0..n {
         if now[i].value_m <= law.gap_tolerance_m {
-            continue;
+            // A closed gap is aimed at, not located; but one that has just bounced may return.
+            let returns =
+                bounced && now[i].rate_m_per_s > 0.0 && ahead[i].value_m < -law.gap_tolerance_m;
+            if !returns {
+                continue;
+            }
         }
         let end = if ahead[i].value_m < 0.0 {
             Some(h_s)

@@ -6,5 +6,8 @@
 
 pub mod advance;
 pub mod lcp;
+pub mod moreau_jean;
 
-pub use advance::{Gap, ImpactLaw, ImpulseKind, StepReport, UnilateralSystem, advance};
+pub use advance::{
+    ContactMemory, Gap, ImpactLaw, ImpulseKind, StepReport, UnilateralSystem, advance,
+};

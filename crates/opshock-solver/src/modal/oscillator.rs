@@ -163,6 +163,19 @@ impl Oscillator {
         }
     }
 
+    /// Energy per squared impulse that damping takes in one step of `h_s` from the ripple of equal
+    /// impulses, one per step (unit mass, unit shape): (2γ + c) ∫ ṙ² over the periodic motion less
+    /// its mean, for ω h < π.
+    pub fn ripple_loss(&self, h_s: f64) -> f64 {
+        let angle = (self.omega_rad_per_s * h_s).min(std::f64::consts::PI);
+        let integral = if angle < 1e-2 {
+            h_s / 12.0 * (1.0 + angle * angle / 30.0)
+        } else {
+            h_s / 8.0 * (1.0 - angle.sin() / angle) / (0.5 * angle).sin().powi(2)
+        };
+        2.0 * self.eta() * integral
+    }
+
     /// Energy of the material, J for unit mass and q in m kg^½.
     pub fn material_energy(&self, q: Complex<f64>, r: Complex<f64>) -> f64 {
         let s = r + Complex::new(0.0, self.turn_rad_per_s) * q;

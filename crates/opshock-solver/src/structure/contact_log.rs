@@ -38,7 +38,7 @@ impl ContactLog {
                 episodes.push(Episode {
                     on_s: self.time_s[first],
                     off_s: self.time_s[i],
-                    impulse_n_s: self.impulse_n_s[first..=i].iter().sum(),
+                    impulse_n_s: total(&self.impulse_n_s[first..=i]),
                     peak_20us_n: self.peak(first, i, step_s),
                 });
                 first = i + 1;
@@ -46,7 +46,7 @@ impl ContactLog {
         }
         ArmContact {
             first_touch_s: self.time_s.first().copied(),
-            impulse_n_s: self.impulse_n_s.iter().sum(),
+            impulse_n_s: total(&self.impulse_n_s),
             episodes,
         }
     }
@@ -89,4 +89,9 @@ impl ContactLog {
             })
             .collect()
     }
+}
+
+/// Sum from +0: the sum of no impulse is 0, not −0.
+fn total(impulses: &[f64]) -> f64 {
+    impulses.iter().fold(0.0, |a, b| a + b)
 }

@@ -454,6 +454,10 @@ impl UnilateralSystem for ContactSystem<'_> {
         [[disk + arm(0), -disk], [-disk, disk + arm(1)]]
     }
 
+    fn ripple_loss(&self) -> [[f64; 2]; 2] {
+        self.shared.ripple_loss
+    }
+
     fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind) {
         let shared = self.shared;
         let [p, time_s] = [impulse_n_s, [self.now_s(); 2]];
@@ -465,7 +469,15 @@ impl UnilateralSystem for ContactSystem<'_> {
         let change: f64 = (0..2).map(|i| p[i] * (rate[i] + 0.5 * jump[i])).sum();
         match kind {
             ImpulseKind::Impact => self.ledger.impact -= change,
-            ImpulseKind::Sustained => self.ledger.algorithmic += change,
+            ImpulseKind::Sustained => {
+                // Damping of the ripple is the impulses' doing and not the structure's.
+                let r = shared.ripple_loss;
+                let ripple: f64 = (0..2)
+                    .map(|i| p[i] * (r[i][0] * p[0] + r[i][1] * p[1]))
+                    .sum();
+                self.ledger.algorithmic += change - ripple;
+                self.ledger.damping -= ripple;
+            }
         }
         let on_disk = p[1] - p[0];
         let w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);

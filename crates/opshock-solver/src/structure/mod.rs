@@ -9,6 +9,7 @@ mod history;
 mod model;
 mod modes;
 mod record;
+mod reference;
 
 pub use history::StructuralHistory;
 pub use model::{
@@ -19,11 +20,13 @@ pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
 };
+pub use reference::ReferenceRun;
 
 /// Numerical resolution of the structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructureResolution {
-    /// Step of the grid on which motion is stored and contact is resolved, s.
+    /// Step of the grid on which motion is stored and contact is resolved, s. Divided into equal
+    /// parts when the fastest mode of the disk needs it.
     pub step_s: f64,
 }
 

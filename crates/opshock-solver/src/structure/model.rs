@@ -6,7 +6,7 @@ use super::free_motion::{ForcedModes, ForcedShapes, FreeMotion, Sample};
 use super::history::StructuralHistory;
 use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
 use super::{StructureResolution, Window};
-use crate::complementarity::{self, Gap, ImpactLaw};
+use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution};
 use crate::modal::bank::padded;
 use crate::modal::{BankFlow, Oscillator, Readout};
@@ -22,6 +22,11 @@ const GAP_TOLERANCE_M: f64 = 1e-13;
 const MAX_IMPACTS_PER_STEP: u32 = 8;
 /// Penetration above which a run warns, m.
 const PENETRATION_WARNING_M: f64 = 1e-7;
+/// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
+/// cannot be aimed (see [`crate::complementarity`]).
+const FASTEST_DISK_ANGLE: f64 = 3.0;
+/// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
+const FASTEST_ARM_ANGLE: f64 = 1.5;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
 
@@ -100,6 +105,11 @@ pub enum StructureWarning {
     },
     /// Harmonics with modes below the cut were left out.
     HarmonicsBounded,
+    /// Arm modes too fast for the step were slowed at constant stiffness.
+    ArmModesSlowed {
+        /// Number of modes.
+        modes: usize,
+    },
     /// Both arms held one point: only the net force is determined.
     BothArmsOnePoint,
     /// The disk spins above a critical speed and air held in space drives a travelling wave.
@@ -157,6 +167,7 @@ pub(super) struct Shared {
     pub step_flow: BankFlow,
     pub weights: EnergyWeights,
     pub mobility: [[f64; 2]; 2],
+    pub ripple_loss: [[f64; 2]; 2],
     pub warnings: Vec<StructureWarning>,
 }
 
@@ -209,7 +220,7 @@ impl StructureModel {
             window,
             resolution,
         } = *parameters;
-        let n_steps = count_steps(window, resolution.step_s)?;
+        check_times(window, resolution.step_s)?;
         ramp.validate()?;
         disk::basis::validate_place(disk, "slider", slider.radius_m)?;
         disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
@@ -218,23 +229,35 @@ impl StructureModel {
         let basis = DiskBasis::build(disk, disk_resolution, &radii, Some(0))?;
 
         let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
-        let arms = match &ramp.model {
-            RampModel::None | RampModel::Rigid => [bank.add_arm(&[]), bank.add_arm(&[])],
-            RampModel::Deformable { top, bottom } => [bank.add_arm(top), bank.add_arm(bottom)],
+        // The same for every ramp, so that all share one grid.
+        let fastest = basis
+            .modes
+            .iter()
+            .map(|m| m.omega_rad_per_s)
+            .fold(0.0, f64::max);
+        let n_parts = (fastest * resolution.step_s / FASTEST_DISK_ANGLE)
+            .ceil()
+            .max(1.0);
+        let step_s = resolution.step_s / n_parts;
+        let n_steps = count_steps(window, step_s)?;
+        let arms: [&[ArmMode]; 2] = match &ramp.model {
+            RampModel::None | RampModel::Rigid => [&[], &[]],
+            RampModel::Deformable { top, bottom } => [&top[..], &bottom[..]],
         };
+        let arms = arms.map(|modes| bank.add_arm(modes, step_s));
         bank.pad();
 
-        let step_s = resolution.step_s;
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());
         step_flow.set(&bank.oscillators, step_s);
-        let on_disk: f64 = bank.contact.iter().map(|b| b * b).sum();
-        let on_arm = |i: usize| bank.arm_shape[i].iter().map(|b: &f64| b * b).sum::<f64>();
-        let mobility = [
-            [on_disk + on_arm(0), -on_disk],
-            [-on_disk, on_disk + on_arm(1)],
-        ];
+        let mobility = bank.contact_matrix(|_| 1.0);
+        let ripple_loss = bank.contact_matrix(|o| o.ripple_loss(step_s));
         let slider_jump = bank.slider_jump();
         let mut warnings = instabilities(&basis, &bank.oscillators);
+        if bank.n_slowed > 0 {
+            warnings.push(StructureWarning::ArmModesSlowed {
+                modes: bank.n_slowed,
+            });
+        }
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
@@ -268,6 +291,7 @@ impl StructureModel {
                 step_flow,
                 weights,
                 mobility,
+                ripple_loss,
                 warnings,
             }),
         })
@@ -296,11 +320,17 @@ impl StructureModel {
         let state = workspace.state.get_or_insert_with(RunState::default);
         state.prepare(shared, record);
         let mut system = ContactSystem::new(shared, amplitude_m_per_s2, state);
+        let mut memory = ContactMemory::default();
         system.record_node();
         for k in 0..shared.n_steps {
             if system.awake() || shared.may_touch(amplitude_m_per_s2, k) {
                 system.begin_step();
-                let report = complementarity::advance(&mut system, shared.free.step_s, &shared.law);
+                let report = complementarity::advance(
+                    &mut system,
+                    shared.free.step_s,
+                    &shared.law,
+                    &mut memory,
+                );
                 system.end_step(report);
             } else {
                 system.sleep_step();
@@ -390,34 +420,50 @@ impl StructureRun {
     }
 }
 
-fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
-    let positive = "finite and above 0";
-    let fail = |name, value, allowed| {
-        Err(StructureError::Time {
-            name,
-            value,
-            allowed,
-        })
-    };
-    let length = match window {
+fn window_length(window: Window) -> f64 {
+    match window {
         Window::Fixed { length_s } => length_s,
-        Window::UntilDecayed { share, max_s } => {
-            if !(share > 0.0 && share < 1.0) {
-                return fail("decay share", share, "between 0 and 1");
-            }
-            max_s
-        }
+        Window::UntilDecayed { max_s, .. } => max_s,
+    }
+}
+
+fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
+    let positive = "finite and above 0";
+    let above_0 = |x: f64| x.is_finite() && x > 0.0;
+    let (length, share) = match window {
+        Window::Fixed { length_s } => (length_s, 0.5),
+        Window::UntilDecayed { share, max_s } => (max_s, share),
     };
-    if !(length.is_finite() && length > 0.0) {
-        return fail("window", length, positive);
+    for (name, value, ok, allowed) in [
+        ("window", length, above_0(length), positive),
+        ("step", step_s, above_0(step_s), positive),
+        (
+            "decay share",
+            share,
+            above_0(share) && share < 1.0,
+            "between 0 and 1",
+        ),
+    ] {
+        if !ok {
+            return Err(StructureError::Time {
+                name,
+                value,
+                allowed,
+            });
+        }
     }
-    if !(step_s.is_finite() && step_s > 0.0) {
-        return fail("step", step_s, positive);
-    }
+    Ok(())
+}
+
+fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
     // A window that is a multiple of the step but for rounding gets no step more.
-    let n = (length / step_s - 1e-6).ceil().max(1.0);
+    let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
     if n > MAX_STEPS {
-        return fail("steps in the window", n, "at most 2e7");
+        return Err(StructureError::Time {
+            name: "steps in the window",
+            value: n,
+            allowed: "at most 2e7",
+        });
     }
     Ok(n as usize)
 }
@@ -449,6 +495,7 @@ struct Bank {
     contact_turn: Vec<f64>,
     arm_shape: [Vec<f64>; 2],
     n_arms: usize,
+    n_slowed: usize,
     rim: Vec<f64>,
     slider: [Readout; 3],
     slope_to_pose: [f64; 2],
@@ -476,6 +523,7 @@ impl Bank {
             contact_turn: zero(),
             arm_shape: [zero(), zero()],
             n_arms: 0,
+            n_slowed: 0,
             rim: zero(),
             slider: std::array::from_fn(|_| Readout {
                 re: zero(),
@@ -537,9 +585,21 @@ impl Bank {
         bank
     }
 
-    fn add_arm(&mut self, modes: &[ArmMode]) -> Arm {
+    /// Appends the modes of an arm. A mode too fast for the step is slowed to
+    /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: its stiffness, its load and so all slow
+    /// motion stay as they are.
+    fn add_arm(&mut self, modes: &[ArmMode], step_s: f64) -> Arm {
         let start = self.oscillators.len();
-        for mode in modes {
+        for given in modes {
+            let mut mode = *given;
+            let fastest_hz = FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s);
+            if mode.frequency_hz > fastest_hz {
+                let gain = (mode.frequency_hz / fastest_hz).powi(2);
+                mode.frequency_hz = fastest_hz;
+                mode.mass_kg *= gain;
+                mode.participation /= gain;
+                self.n_slowed += 1;
+            }
             let o = Oscillator::fixed(
                 std::f64::consts::TAU * mode.frequency_hz,
                 mode.damping_ratio,
@@ -579,6 +639,17 @@ impl Bank {
         for column in &mut self.arm_shape {
             column.resize(n, 0.0);
         }
+    }
+
+    /// Σ shape² weight of the modes under both contacts: mobility for a weight of 1.
+    fn contact_matrix(&self, weight: impl Fn(&Oscillator) -> f64) -> [[f64; 2]; 2] {
+        let sum = |shape: &[f64]| -> f64 {
+            let pairs = shape.iter().zip(&self.oscillators);
+            pairs.map(|(b, o)| b * b * weight(o)).sum()
+        };
+        let disk = sum(&self.contact);
+        let [top, bottom] = [0, 1].map(|i| sum(&self.arm_shape[i]));
+        [[disk + top, -disk], [-disk, disk + bottom]]
     }
 
     fn slider_jump(&self) -> DiskPose {
