@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, sweep};
+use opshock_study::search::Status;
+use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, stored, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
 
@@ -62,9 +63,19 @@ fn killed_sweeps_end_with_the_same_bits_and_lose_nothing() {
         child.kill().expect("kills");
         child.wait().expect("waits");
     }
+    // What a killed sweep left can be read before it goes on.
+    let partial = stored(&fig13(), &folder).expect("reads").summary;
+    assert!(partial.totals.runs > 0);
+    for (row, answer) in partial.points.iter().zip(&reference.summary.points) {
+        assert!(row == answer || row.status == Status::Open);
+    }
     let end = finish(&folder);
     assert_eq!(end.summary, reference.summary);
     assert_eq!(content(&folder), expected);
+    assert_eq!(
+        stored(&fig13(), &folder).expect("reads").summary,
+        reference.summary
+    );
     assert!(
         end.computed_runs < reference.computed_runs,
         "the killed sweeps left nothing"

@@ -163,7 +163,7 @@ fn two_threads_are_kept_busy_in_spite_of_the_hints() {
     let input = fig13();
     let folder = tempfile::tempdir().expect("folder");
     let mut simulator = MockSimulator::new(&input);
-    simulator.sleep = Duration::from_millis(8);
+    simulator.sleep = Duration::from_millis(15);
     let recorder = Recorder::default();
     let end = sweep(
         &input,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use opshock_study::search::{Flag, RampClass, Status};
-use opshock_study::store::{Record, RunRecord, Store, folder::session, journal};
+use opshock_study::store::{Record, RunRecord, Store, folder::session, hdf5_file, journal};
 use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
 
@@ -153,4 +153,47 @@ fn a_failure_found_outside_the_search_is_told_and_not_used() {
     let second = sweep(&input, &simulator, folder.path(), &options, &recorder).expect("sweeps");
     assert_eq!(second.summary, first.summary);
     assert_eq!(recorder.warnings(), ["lucky"]);
+}
+
+#[test]
+fn the_histories_of_the_bracket_are_kept_once() {
+    let input = study(&[RampClass::None, RampClass::Rigid], &[0.5, 2.0]);
+    let folder = tempfile::tempdir().expect("folder");
+    let mut simulator = MockSimulator::new(&input);
+    simulator.records = true;
+    let options = SweepOptions::with_threads(2);
+    let run = || sweep(&input, &simulator, folder.path(), &options, &Silent).expect("sweeps");
+    let end = run();
+    let files = || {
+        let mut names: Vec<String> = std::fs::read_dir(folder.path().join("histories"))
+            .expect("folder")
+            .map(|entry| {
+                entry
+                    .expect("entry")
+                    .file_name()
+                    .into_string()
+                    .expect("text")
+            })
+            .collect();
+        names.sort();
+        names
+    };
+    let kept = files();
+    assert_eq!(kept.len(), 2 * end.summary.points.len(), "{kept:?}");
+    let failure = end.summary.points[0].a_fail_g.expect("bracketed");
+    let name = kept
+        .iter()
+        .find(|name| name.starts_with(&format!("none_0.5ms_plus_{failure:.3}g_")))
+        .expect("the failure of the first point");
+    let file = hdf5_file::open(&folder.path().join("histories").join(name)).expect("HDF5");
+    let t_fail_s: f64 = file
+        .attr("t_fail_s")
+        .expect("attribute")
+        .read_scalar()
+        .expect("number");
+    assert!((t_fail_s - (5e-4 + 1e-3 / failure)).abs() < 1e-12);
+    let calls = simulator.calls();
+    run();
+    assert_eq!(simulator.calls(), calls, "nothing is recorded twice");
+    assert_eq!(files(), kept);
 }

@@ -5,11 +5,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
+use opshock_solver::simulation::{self, History, Outcome, StructureColumns};
 use opshock_study::search::{
     Certify, Coordinates, Probe, ProbeResult, RampClass, RunCost, SearchSettings, Sign,
     UndecidedCause, Verdict,
 };
 use opshock_study::store::{PointDigest, StudyTexts};
+use opshock_study::study::KeepHistories;
 use opshock_study::sweep::{Event, Onset, Progress, Simulator, SweepInput, SweepPoint};
 
 /// Widths of the paper's figure, ms.
@@ -51,6 +53,8 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
         points,
         settings: settings(Certify::Staggered),
         checkpoint: Duration::from_secs(30),
+        start_s: 5e-4,
+        keep_histories: KeepHistories::Bracket,
     }
 }
 
@@ -96,6 +100,8 @@ pub struct MockSimulator<'a> {
     input: &'a SweepInput,
     /// Time each run takes.
     pub sleep: Duration,
+    /// Whether histories can be recorded.
+    pub records: bool,
     /// What is wrong with which point.
     pub poison: Vec<(Coordinates, Poison)>,
     calls: AtomicU64,
@@ -107,6 +113,7 @@ impl<'a> MockSimulator<'a> {
         MockSimulator {
             input,
             sleep: Duration::ZERO,
+            records: false,
             poison: Vec::new(),
             calls: AtomicU64::new(0),
         }
@@ -193,6 +200,52 @@ impl Simulator for MockSimulator<'_> {
             }
         }
         result
+    }
+
+    fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {
+        let result = self.simulate(point, probe, amplitude_m_per_s2);
+        let column = vec![0.0, 1.0];
+        let structure = StructureColumns {
+            time_s: column.clone(),
+            shock_m_per_s2: column.clone(),
+            disk_slider_m: column.clone(),
+            disk_ramp_m: column.clone(),
+            disk_rim_m: column.clone(),
+            disk_pitch_rad: column.clone(),
+            disk_roll_rad: column.clone(),
+            ramp_top_m: column.clone(),
+            ramp_bottom_m: column.clone(),
+            contact_top_n: column.clone(),
+            contact_bottom_n: column.clone(),
+            energy_j: column.clone(),
+            energy_h_j: column,
+        };
+        self.records.then(|| Outcome {
+            verdict: match result.verdict {
+                Verdict::Survives => simulation::Verdict::Survives,
+                Verdict::Fails { t_fail_s, x_m, y_m } => simulation::Verdict::Fails {
+                    t_fail_s,
+                    place: simulation::Place { x_m, y_m },
+                },
+                Verdict::Undecided { .. } => unreachable!("only decided runs are kept"),
+            },
+            min_clearance_m: result.h_min_m,
+            t_min_clearance_s: result.t_min_s,
+            steady: None,
+            disk: Default::default(),
+            top: Default::default(),
+            bottom: Default::default(),
+            dimple: None,
+            energy: Default::default(),
+            complementarity: Default::default(),
+            effects: vec!["disk.bending"],
+            warnings: Vec::new(),
+            cost: Default::default(),
+            history: Some(History {
+                structure,
+                head: Default::default(),
+            }),
+        })
     }
 
     fn onset(&self, point: usize) -> Onset {

@@ -6,12 +6,21 @@ use std::path::Path;
 
 /// Replaces `path` by `bytes`.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = folder_of(path);
-    let mut aside = tempfile::Builder::new()
-        .prefix(".aside-")
-        .tempfile_in(folder)?;
+    let mut aside = file(path)?;
     aside.write_all(bytes)?;
     persist(aside, path)
+}
+
+/// A file beside `path`, with the permissions that any new file has.
+pub(super) fn file(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".aside-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder_of(path))
 }
 
 /// Syncs a finished file and renames it over `path`.

@@ -250,7 +250,7 @@ fn clear_aside(folder: &Path) {
     for entry in entries.flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        if [".aside-", ".results-", ".probe-"]
+        if [".aside-", ".probe-"]
             .iter()
             .any(|prefix| name.starts_with(prefix))
         {

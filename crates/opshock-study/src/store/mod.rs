@@ -8,6 +8,7 @@
 mod aside;
 pub mod error;
 pub mod folder;
+pub mod hdf5_file;
 pub mod history;
 pub mod journal;
 pub mod lock;

@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{RecvTimeoutError, Sender};
@@ -14,6 +15,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::estimate;
 use super::guard;
+use super::histories;
 use super::input::SweepInput;
 use super::ledger::{Job, Ledger, Told};
 use super::progress::{Event, Progress};
@@ -23,7 +25,7 @@ use super::writer::{self, Message};
 use crate::search::{ProbeResult, Verdict};
 use crate::store::summary::{PointSummary, Status, Summary};
 use crate::store::{
-    Loaded, PointDigest, Record, Results, RunKey, RunMachine, RunRecord, Session, Store,
+    self, Loaded, PointDigest, Record, Results, RunKey, RunMachine, RunRecord, Session, Store,
     StoreError, StoredTouch, TouchRecord, folder, machine,
 };
 
@@ -119,7 +121,7 @@ pub fn sweep(
     std::thread::scope(|scope| {
         let writer = scope.spawn(move || writer::write(&mut store, &messages, progress));
         let run = Run::new(input, options, session, loaded, to_writer);
-        let end = run.drive(simulator);
+        let end = run.drive(simulator, folder);
         match writer.join() {
             Ok(written) => written.map(|()| end),
             Err(panic) => std::panic::resume_unwind(panic),
@@ -132,6 +134,18 @@ pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results 
     let mut ledger = Ledger::new(input, loaded);
     ledger.absorb_all();
     ledger.results(session)
+}
+
+/// Table and runs of a store as it stands, a sweep in progress or a killed one included; nothing
+/// is simulated, locked or changed.
+///
+/// # Errors
+///
+/// [`StoreError`]: nothing is stored, the files are newer or damaged.
+pub fn stored(input: &SweepInput, folder: &Path) -> Result<Results, StoreError> {
+    let (loaded, results) = store::load(folder)?;
+    let session = results.map_or_else(|| folder::session(0), |results| results.session);
+    Ok(replay(input, loaded, &session))
 }
 
 /// Answer of a thread.
@@ -192,13 +206,26 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn drive(mut self, simulator: &dyn Simulator) -> SweepEnd {
+    fn drive(mut self, simulator: &dyn Simulator, folder: &Path) -> SweepEnd {
         for (code, message) in std::mem::take(&mut self.notes) {
             self.tell(Event::Warning { code, message });
         }
         let told = self.ledger.absorb_all();
         self.report(&told, None);
-        let ending = self.hand_out(simulator);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.options.threads)
+            .thread_name(|number| format!("sweep-{number}"))
+            .build()
+            .expect("threads can be started");
+        let mut ending = self.hand_out(simulator, &pool);
+        if ending == Ending::Complete {
+            // Answers are safe before the histories are recorded.
+            let results = self.ledger.results(&self.session);
+            self.send(Message::Checkpoint(Box::new(results)));
+            if let Some(stopped) = self.record_histories(simulator, &pool, folder) {
+                ending = stopped;
+            }
+        }
         let results = self.ledger.results(&self.session);
         for message in self.lucky(&results) {
             self.tell(Event::Warning {
@@ -223,13 +250,44 @@ impl<'a> Run<'a> {
         end
     }
 
-    fn hand_out(&mut self, simulator: &dyn Simulator) -> Ending {
+    /// Runs what is kept once more, recording; says why if it did not get to the end.
+    fn record_histories(
+        &mut self,
+        simulator: &dyn Simulator,
+        pool: &rayon::ThreadPool,
+        folder: &Path,
+    ) -> Option<Ending> {
+        let wanted = histories::wanted(self.input, &self.ledger, folder);
+        let (to_here, trouble) = crossbeam_channel::unbounded();
+        let busy_ms = AtomicU64::new(0);
+        let input = self.input;
+        let this = &*self;
+        pool.install(|| {
+            use rayon::prelude::*;
+            wanted.par_iter().for_each(|one| {
+                if this.stopped().is_some() {
+                    return;
+                }
+                let began = Instant::now();
+                if let Err(message) = guard::record(input, simulator, one) {
+                    let _ = to_here.send(message);
+                }
+                busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);
+            });
+        });
+        self.busy_s += busy_ms.into_inner() as f64 * 1e-3;
+        for message in trouble.try_iter() {
+            self.tell(Event::Warning {
+                code: "history",
+                message,
+            });
+        }
+        self.stopped()
+            .filter(|_| !histories::wanted(self.input, &self.ledger, folder).is_empty())
+    }
+
+    fn hand_out(&mut self, simulator: &dyn Simulator, pool: &rayon::ThreadPool) -> Ending {
         let threads = self.options.threads;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|number| format!("sweep-{number}"))
-            .build()
-            .expect("threads can be started");
         let (to_here, answers) = crossbeam_channel::unbounded::<Done>();
         let mut in_flight = 0;
         let mut checkpoint_at = Instant::now();

@@ -49,6 +49,8 @@ impl SweepInput {
                 .map(|place| sweep_point(&study.points[place]))
                 .collect(),
             settings,
+            start_s: study.start_s,
+            keep_histories: study.output.keep_histories,
             checkpoint: Duration::from_secs_f64(study.output.checkpoint_s.clamp(0.1, 1e6)),
         })
     }

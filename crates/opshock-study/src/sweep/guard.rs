@@ -3,6 +3,8 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::histories::{self, Wanted};
+use super::input::SweepInput;
 use super::simulator::{Onset, Simulator};
 use crate::search::{Probe, ProbeResult, RunCost, UndecidedCause, Verdict};
 use crate::store::StoredTouch;
@@ -44,6 +46,22 @@ pub(super) fn onset(simulator: &dyn Simulator, point: usize) -> StoredTouch {
         }
         Ok(Onset::At { .. } | Onset::Unknown) | Err(_) => StoredTouch::Unknown,
     }
+}
+
+/// Records a history.
+///
+/// # Errors
+///
+/// A sentence for a warning.
+pub(super) fn record(
+    input: &SweepInput,
+    simulator: &dyn Simulator,
+    wanted: &Wanted,
+) -> Result<(), String> {
+    catch_unwind(AssertUnwindSafe(|| {
+        histories::record(input, simulator, wanted)
+    }))
+    .unwrap_or_else(|_| Err("a recording run panicked".into()))
 }
 
 /// A survivor without a finite clearance, or a failure without a finite time, decides nothing.

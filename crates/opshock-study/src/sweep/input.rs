@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::progress::PointLabel;
 use crate::search::{Coordinates, SearchSettings};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
+use crate::study::KeepHistories;
 
 /// A point of the study.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +33,10 @@ pub struct SweepInput {
     pub settings: SearchSettings,
     /// Time between checkpoints.
     pub checkpoint: Duration,
+    /// Onset of the pulse on the study's time axis, s.
+    pub start_s: f64,
+    /// Which histories are kept.
+    pub keep_histories: KeepHistories,
 }
 
 impl SweepInput {

@@ -298,6 +298,7 @@ impl<'a> Ledger<'a> {
                 totals,
             },
             nodes_per_octave: lattice.nodes_per_octave,
+            start_s: self.input.start_s,
             points: self
                 .input
                 .points

@@ -10,6 +10,7 @@ mod engine;
 pub mod estimate;
 mod from_study;
 mod guard;
+mod histories;
 mod input;
 mod ledger;
 pub mod progress;
@@ -18,7 +19,7 @@ pub mod simulator;
 pub mod stop;
 mod writer;
 
-pub use engine::{Ending, SweepEnd, SweepOptions, replay, sweep};
+pub use engine::{Ending, SweepEnd, SweepOptions, replay, stored, sweep};
 pub use input::{SweepInput, SweepPoint};
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use simulator::{Onset, Simulator};

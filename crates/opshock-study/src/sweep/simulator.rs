@@ -1,5 +1,7 @@
 //! What a sweep asks of the physics: a verdict for an amplitude, and where the ramp is touched.
 
+use opshock_solver::simulation::Outcome;
+
 use crate::search::{Probe, ProbeResult};
 
 /// Runs simulations for the points of a study, by their place in the study.
@@ -16,6 +18,12 @@ pub trait Simulator: Sync {
     /// Smallest amplitude, m/s2 (positive), at which the disk touches the ramp of `point` within
     /// the window; below it the answers are those of the same scene without ramp.
     fn onset(&self, point: usize) -> Onset;
+
+    /// Runs a probe once more with its histories recorded; `None` when there are none to record.
+    fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {
+        let _ = (point, probe, amplitude_m_per_s2);
+        None
+    }
 }
 
 /// First touch of disk and ramp.

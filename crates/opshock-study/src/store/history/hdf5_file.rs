@@ -1,8 +1,9 @@
 //! History as HDF5.
 
 use super::{Column, HISTORY_FORMAT, HistoryFileError, HistoryHeader, head_columns, root_columns};
+use crate::store::hdf5_file::create;
 use hdf5::types::VarLenUnicode;
-use hdf5::{File, Group, Location};
+use hdf5::{Group, Location};
 use opshock_solver::simulation::History;
 use std::path::Path;
 
@@ -34,7 +35,7 @@ pub fn write_hdf5(
 }
 
 fn fill(path: &Path, history: &History, header: &HistoryHeader) -> hdf5::Result<()> {
-    let file = File::create(path)?;
+    let file = create(path)?;
     let root = file.as_group()?;
     text(&root, "format", "opshock history")?;
     number(&root, "format_version", HISTORY_FORMAT)?;

@@ -8,6 +8,7 @@ use super::columns::{get, get_number, get_text, get_texts};
 use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
 use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
 use crate::store::error::StoreError;
+use crate::store::hdf5_file;
 use crate::store::record::{
     COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
 };
@@ -35,8 +36,8 @@ pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
         what,
         hint: "if the journal is sound, `opshock sweep` writes it anew from there",
     };
-    let file =
-        File::open(path).map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
+    let file = hdf5_file::open(path)
+        .map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
     let found =
         format(&file).map_err(|error| damaged(format!("not results of opshock ({error})")))?;
     if found > RESULTS_FORMAT {
@@ -112,6 +113,7 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
             totals,
         },
         nodes_per_octave: get_number(&root, "nodes_per_octave")?,
+        start_s: get_number(&root, "start_s")?,
         points,
         runs,
         outside,
@@ -251,11 +253,11 @@ fn axis(group: &Group, name: &str) -> hdf5::Result<Vec<AxisValue>> {
 fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result<Vec<RunRecord>> {
     let numbers: Vec<Vec<f64>> = [
         "amplitude_m_per_s2",
-        "t_fail_s",
+        "t_fail_after_onset_s",
         "x_m",
         "y_m",
         "h_min_m",
-        "t_min_s",
+        "t_min_after_onset_s",
     ]
     .iter()
     .map(|name| get(group, name))

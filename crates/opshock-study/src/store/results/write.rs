@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hdf5::{File, Group};
+use hdf5::Group;
 
 use super::columns::{self, Column, Values, counts, numbers, put_number, put_text, texts};
 use super::{RESULTS_FORMAT, Results, RunRow};
@@ -10,6 +10,7 @@ use crate::search::Verdict;
 use crate::search::lattice::REFERENCE_G;
 use crate::store::aside;
 use crate::store::error::StoreError;
+use crate::store::hdf5_file;
 use crate::store::record::{COST_NAMES, RunRecord, StoredTouch, cost_counts};
 use crate::store::summary::{AxisValue, ErrorPart, PointSummary, Summary};
 
@@ -23,18 +24,14 @@ pub fn write(path: &Path, results: &Results) -> Result<(), StoreError> {
         path: path.to_owned(),
         source,
     };
-    let file = tempfile::Builder::new()
-        .prefix(".results-")
-        .suffix(".h5")
-        .tempfile_in(aside::folder_of(path))
-        .map_err(unwritable)?;
+    let file = aside::file(path).map_err(unwritable)?;
     fill(file.path(), results)
         .map_err(|error| unwritable(std::io::Error::other(error.to_string())))?;
     aside::persist(file, path).map_err(unwritable)
 }
 
 fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
-    let file = File::create(path)?;
+    let file = hdf5_file::create(path)?;
     let root = file.as_group()?;
     let Results {
         summary, session, ..
@@ -50,6 +47,7 @@ fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
     put_text(&root, "axes", &summary.axes.join(" "))?;
     put_number(&root, "nodes_per_octave", results.nodes_per_octave)?;
     put_number(&root, "reference_g", REFERENCE_G)?;
+    put_number(&root, "start_s", results.start_s)?;
     put_text(&root, "content_blake3", &results.content_digest())?;
 
     let points = root.create_group("points")?;
@@ -60,7 +58,7 @@ fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
     let runs = root.create_group("runs")?;
     columns::write(&runs, &row_columns(&results.runs))?;
     let records: Vec<&RunRecord> = results.runs.iter().map(|row| &row.run).collect();
-    columns::write(&runs, &run_columns(&records))?;
+    columns::write(&runs, &run_columns(&records, results.start_s))?;
 
     machine(&root.create_group("machine")?, results, &records)?;
     file.close()
@@ -80,7 +78,7 @@ fn machine(group: &Group, results: &Results, records: &[&RunRecord]) -> hdf5::Re
     let group = group.create_group("outside")?;
     let digest = texts("point_digest", &outside, |run| run.key.point.hex());
     columns::write(&group, &[digest])?;
-    columns::write(&group, &run_columns(&outside))?;
+    columns::write(&group, &run_columns(&outside, results.start_s))?;
     columns::write(&group, &time_columns(&outside))
 }
 
@@ -177,7 +175,7 @@ fn row_columns(rows: &[RunRow]) -> Vec<Column> {
     ]
 }
 
-fn run_columns(runs: &[&RunRecord]) -> Vec<Column> {
+fn run_columns(runs: &[&RunRecord], start_s: f64) -> Vec<Column> {
     let touch = |place: usize| {
         move |run: &&RunRecord| match &run.result.verdict {
             Verdict::Fails { t_fail_s, x_m, y_m } => Some([*t_fail_s, *x_m, *y_m][place]),
@@ -205,11 +203,17 @@ fn run_columns(runs: &[&RunRecord]) -> Vec<Column> {
         }),
         texts("cause", runs, reason(0)),
         texts("message", runs, reason(1)),
-        numbers("t_fail_s", "s", runs, touch(0)),
+        numbers("t_fail_s", "s", runs, |run| {
+            touch(0)(run).map(|time_s| start_s + time_s)
+        }),
+        numbers("t_fail_after_onset_s", "s", runs, touch(0)),
         numbers("x_m", "m", runs, touch(1)),
         numbers("y_m", "m", runs, touch(2)),
         numbers("h_min_m", "m", runs, |run| run.result.h_min_m),
-        numbers("t_min_s", "s", runs, |run| run.result.t_min_s),
+        numbers("t_min_s", "s", runs, |run| {
+            run.result.t_min_s.map(|time_s| start_s + time_s)
+        }),
+        numbers("t_min_after_onset_s", "s", runs, |run| run.result.t_min_s),
     ];
     for (place, name) in COST_NAMES.iter().enumerate() {
         columns.push(counts(name, runs, |run| {
