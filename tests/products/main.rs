@@ -5,6 +5,7 @@ mod cli;
 mod cli_studies;
 mod report_files;
 mod report_run;
+mod report_store;
 mod search_critical_shock;
 mod store_damage;
 mod store_kill;

@@ -5,6 +5,7 @@ mod check;
 mod completions;
 mod console;
 mod exit;
+mod export;
 mod failure;
 mod modes;
 mod new;
@@ -109,6 +110,7 @@ enum Command {
     Steady(steady::SteadyArgs),
     Report(report::ReportArgs),
     Status(status::StatusArgs),
+    Export(export::ExportArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -146,6 +148,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
+        Command::Export(arguments) => export::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
         Command::Completions(arguments) => completions::run(arguments, console),
     }

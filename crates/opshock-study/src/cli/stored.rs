@@ -61,21 +61,7 @@ pub struct Stored {
 ///
 /// A store that is empty, damaged or newer.
 pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
-    let (loaded, results) = store::load(folder)?;
-    for (code, message) in &loaded.notes {
-        console.tell(&format!("warning: {code}: {message}"));
-    }
-    let resolved_study = std::fs::read_to_string(folder.join("study.resolved.toml")).ok();
-    let checkpointed = results
-        .as_ref()
-        .map_or(0, |results| results.runs.len() + results.outside.len());
-    // Simulations finished after the last checkpoint count too: the searches are played again.
-    let newer = (loaded.runs.len() > checkpointed)
-        .then(|| replayed(resolved_study.as_deref()?, loaded))
-        .flatten();
-    let results: Results = newer.or(results).ok_or_else(|| StoreError::Empty {
-        path: folder.to_owned(),
-    })?;
+    let results = results(folder, console)?;
     let runs: Vec<RunDot> = results
         .runs
         .iter()
@@ -89,8 +75,35 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
     Ok(Stored {
         summary: results.summary,
         runs,
-        resolved_study,
+        resolved_study: resolved_study(folder),
     })
+}
+
+/// As [`read`], in full.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn results(folder: &Path, console: &Console) -> Result<Results, Failure> {
+    let (loaded, results) = store::load(folder)?;
+    for (code, message) in &loaded.notes {
+        console.tell(&format!("warning: {code}: {message}"));
+    }
+    let checkpointed = results
+        .as_ref()
+        .map_or(0, |results| results.runs.len() + results.outside.len());
+    // Simulations finished after the last checkpoint count too: the searches are played again.
+    let newer = (loaded.runs.len() > checkpointed)
+        .then(|| replayed(&resolved_study(folder)?, loaded))
+        .flatten();
+    let empty = || StoreError::Empty {
+        path: folder.to_owned(),
+    };
+    Ok(newer.or(results).ok_or_else(empty)?)
+}
+
+fn resolved_study(folder: &Path) -> Option<String> {
+    std::fs::read_to_string(folder.join("study.resolved.toml")).ok()
 }
 
 /// The table from finished simulations; `None` when this program does not read the study.

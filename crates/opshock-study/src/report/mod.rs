@@ -8,6 +8,7 @@ mod outcome_map;
 pub mod run_json;
 mod run_plots;
 mod run_text;
+pub mod runs_table;
 pub mod table;
 
 pub use critical_shock::critical_shock_figure;

@@ -46,7 +46,7 @@ pub fn csv(summary: &Summary) -> String {
 }
 
 /// A line of CSV (RFC 4180: a cell with comma, quote or line break is quoted).
-fn csv_line(cells: &[String]) -> String {
+pub(super) fn csv_line(cells: &[String]) -> String {
     let quoted: Vec<String> = cells
         .iter()
         .map(|cell| {
