@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::{Done, opshock, study};
 use opshock_study::study::{SetArg, Severity, Study, StudyErrors, check_threads};
 
 /// Files in the order of their names. Paths are relative, so that messages are the same anywhere.
@@ -250,4 +251,40 @@ fn warnings_stop_a_batch_run_until_accepted_by_code() {
         Study::from_path(Path::new("bad_inputs/n143_touching_at_rest.toml"), &[]).unwrap();
     assert!(touching.unaccepted(&[]).is_empty());
     assert_eq!(touching.remarks.len(), 1);
+}
+
+#[test]
+fn the_program_refuses_every_file_with_exit_code_3_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    for path in cases().iter().filter(|path| stem(path).starts_with('e')) {
+        let study = path.canonicalize().unwrap();
+        let done = Done::of(folder.path(), &["check", study.to_str().unwrap(), "--json"]);
+        let name = stem(path);
+        assert_eq!(done.code, 3, "{name}: {}", done.stderr);
+        let code = name.split('_').next().unwrap().to_uppercase();
+        assert!(
+            done.errors().iter().any(|error| error["code"] == *code),
+            "{name}: {}",
+            done.stderr
+        );
+        assert_eq!(done.stdout, "", "{name}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_locale_with_decimal_comma_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study("fig13").canonicalize().unwrap();
+    let said = |locale: &str| {
+        let output = opshock(folder.path())
+            .args(["check", path.to_str().unwrap(), "--json"])
+            .env("LC_ALL", locale)
+            .env("LANG", locale)
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        output.stdout
+    };
+    assert_eq!(said("C"), said("de_DE.UTF-8"));
 }

@@ -649,19 +649,19 @@ proptest::proptest! {
 }
 
 #[test]
-fn a_study_of_the_largest_size_has_points_that_all_differ() {
+fn the_points_of_a_large_study_all_differ() {
     let study = read(
         SHORT,
         &[
-            "disk.rpm={ from = 4000, to = 8000, count = 100 }",
+            "disk.rpm={ from = 4000, to = 8000, count = 20 }",
             "ramp.clearance_um={ from = 50, to = 150, count = 100 }",
             "pulse.widths_ms=[0.5, 1, 2, 3, 4]",
         ],
     )
     .unwrap();
-    assert_eq!(study.points.len(), 100_000);
+    assert_eq!(study.points.len(), 20_000);
     let mut ids: Vec<_> = study.points.iter().map(|point| point.id).collect();
     ids.sort();
     ids.dedup();
-    assert_eq!(ids.len(), 100_000);
+    assert_eq!(ids.len(), 20_000);
 }

@@ -1,7 +1,5 @@
 //! One shock out of a study: which point, and with which amplitude.
 
-use std::collections::BTreeMap;
-
 use opshock_solver::quantity;
 
 use super::fault::{StudyError, StudyErrors};
@@ -90,12 +88,16 @@ impl Study {
     /// amplitude when it is missing; [`ChoiceError::Value`] and [`ChoiceError::Study`] refuse
     /// values.
     pub fn select(&self, choice: &Choice) -> Result<Shot, ChoiceError> {
-        let amplitude_g = choice.amplitude_g.ok_or(());
-        let point = self.select_point_or(choice, amplitude_g.is_err())?;
-        let Ok(amplitude_g) = amplitude_g else {
-            // Unreachable: a missing amplitude is listed among the free axes.
-            return Err(ChoiceError::Free(vec![amplitude_axis()]));
+        let Some(amplitude_g) = choice.amplitude_g else {
+            let mut free = self.free_axes(choice);
+            free.push(FreeAxis {
+                path: "amplitude".to_string(),
+                option: "--amplitude-g".to_string(),
+                values: vec!["any".to_string()],
+            });
+            return Err(ChoiceError::Free(free));
         };
+        let point = self.select_point(choice)?;
         if !amplitude_g.is_finite() || amplitude_g < 0.0 {
             return Err(ChoiceError::Value {
                 option: "--amplitude-g",
@@ -116,7 +118,24 @@ impl Study {
     /// # Errors
     /// As [`Study::select`].
     pub fn select_point(&self, choice: &Choice) -> Result<Point, ChoiceError> {
-        self.select_point_or(choice, false)
+        let free = self.free_axes(choice);
+        if !free.is_empty() {
+            return Err(ChoiceError::Free(free));
+        }
+        let pulse_ms = choice.pulse_ms.unwrap_or(self.widths_ms[0]);
+        let is_width = pulse_ms.is_finite() && pulse_ms > 0.0;
+        if !is_width || !unit::si("pulse.widths_ms", pulse_ms).is_normal() {
+            return Err(ChoiceError::Value {
+                option: "--pulse-ms",
+                value: pulse_ms.to_string(),
+                allowed: "a finite number > 0",
+            });
+        }
+        let view = View::first(&self.settings);
+        check_width(&view, pulse_ms)?;
+        let ramp = choice.ramp.unwrap_or(self.ramps[0]);
+        let sign = choice.sign.unwrap_or(self.signs[0]);
+        Ok(points::point(&view, &self.axes, ramp, pulse_ms, sign))
     }
 
     /// The drive a choice names, for what no shock enters (modes, steady flight): ramp, width and
@@ -125,100 +144,72 @@ impl Study {
     /// # Errors
     /// As [`Study::select`].
     pub fn select_drive(&self, choice: &Choice) -> Result<Point, ChoiceError> {
-        let choice = Choice {
+        self.select_point(&Choice {
             ramp: choice.ramp.or(self.ramps.last().copied()),
             pulse_ms: choice.pulse_ms.or(self.widths_ms.first().copied()),
             sign: choice.sign.or(self.signs.first().copied()),
             amplitude_g: None,
-        };
-        self.select_point_or(&choice, false)
+        })
     }
 
-    fn select_point_or(
-        &self,
-        choice: &Choice,
-        amplitude_missing: bool,
-    ) -> Result<Point, ChoiceError> {
-        let only = |values: &[String], path: &str, option: &str, free: &mut Vec<FreeAxis>| {
-            if values.len() != 1 {
+    /// Axes with several values that a choice leaves open.
+    fn free_axes(&self, choice: &Choice) -> Vec<FreeAxis> {
+        let mut free = Vec::new();
+        let mut leave_open = |chosen: bool, path: &str, option: String, values: Vec<String>| {
+            if !chosen && values.len() != 1 {
                 free.push(FreeAxis {
                     path: path.to_string(),
-                    option: option.to_string(),
-                    values: values.to_vec(),
+                    option,
+                    values,
                 });
             }
         };
-        let texts = |values: &mut dyn Iterator<Item = String>| values.collect::<Vec<_>>();
-        let mut free = Vec::new();
-        if choice.ramp.is_none() {
-            let values = texts(&mut self.ramps.iter().map(ToString::to_string));
-            only(&values, "ramp.models", "--ramp", &mut free);
-        }
-        if choice.pulse_ms.is_none() {
-            let values = texts(&mut self.widths_ms.iter().map(ToString::to_string));
-            only(&values, "pulse.widths_ms", "--pulse-ms", &mut free);
-        }
-        if choice.sign.is_none() {
-            let values = texts(&mut self.signs.iter().map(ToString::to_string));
-            only(&values, "pulse.signs", "--sign", &mut free);
-        }
+        let ramps = self.ramps.iter().map(ToString::to_string).collect();
+        leave_open(
+            choice.ramp.is_some(),
+            "ramp.models",
+            "--ramp".to_string(),
+            ramps,
+        );
+        let widths = self.widths_ms.iter().map(ToString::to_string).collect();
+        leave_open(
+            choice.pulse_ms.is_some(),
+            "pulse.widths_ms",
+            "--pulse-ms".to_string(),
+            widths,
+        );
+        let signs = self.signs.iter().map(ToString::to_string).collect();
+        leave_open(
+            choice.sign.is_some(),
+            "pulse.signs",
+            "--sign".to_string(),
+            signs,
+        );
         for axis in &self.axes {
-            let values = texts(&mut axis.values.iter().map(ToString::to_string));
-            only(
-                &values,
+            let values = axis.values.iter().map(ToString::to_string).collect();
+            leave_open(
+                false,
                 &axis.path,
-                &format!("--set {}=VALUE", axis.path),
-                &mut free,
+                format!("--set {}=VALUE", axis.path),
+                values,
             );
         }
-        if amplitude_missing {
-            free.push(amplitude_axis());
-        }
-        if !free.is_empty() {
-            return Err(ChoiceError::Free(free));
-        }
-        let pulse_ms = choice.pulse_ms.unwrap_or(self.widths_ms[0]);
-        if !pulse_ms.is_finite()
-            || pulse_ms <= 0.0
-            || !unit::si("pulse.widths_ms", pulse_ms).is_normal()
-        {
-            return Err(ChoiceError::Value {
-                option: "--pulse-ms",
-                value: pulse_ms.to_string(),
-                allowed: "a finite number > 0",
-            });
-        }
-        let view = View {
-            settings: &self.settings,
-            positions: BTreeMap::new(),
-        };
-        self.check_width(&view, pulse_ms)?;
-        let ramp = choice.ramp.unwrap_or(self.ramps[0]);
-        let sign = choice.sign.unwrap_or(self.signs[0]);
-        Ok(points::point(&view, &self.axes, ramp, pulse_ms, sign))
-    }
-
-    /// A width from the command line must fit step and window as one of the study would.
-    fn check_width(&self, view: &View<'_>, pulse_ms: f64) -> Result<(), StudyErrors> {
-        let mut faults: Vec<StudyError> = Vec::new();
-        Check {
-            view,
-            faults: &mut faults,
-        }
-        .width(pulse_ms);
-        faults.retain(|fault| fault.severity() == Severity::Error);
-        if faults.is_empty() {
-            Ok(())
-        } else {
-            Err(StudyErrors::new(faults))
-        }
+        free
     }
 }
 
-fn amplitude_axis() -> FreeAxis {
-    FreeAxis {
-        path: "amplitude".to_string(),
-        option: "--amplitude-g".to_string(),
-        values: vec!["any".to_string()],
+/// A width from the command line must fit step and window as one of the study would.
+fn check_width(view: &View<'_>, pulse_ms: f64) -> Result<(), StudyErrors> {
+    let mut faults: Vec<StudyError> = Vec::new();
+    Check {
+        view,
+        faults: &mut faults,
+    }
+    .width(pulse_ms);
+    faults.retain(|fault| fault.severity() == Severity::Error);
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(StudyErrors::new(faults))
     }
 }

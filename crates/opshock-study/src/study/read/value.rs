@@ -202,7 +202,7 @@ impl Reader {
                 )
                 .value(&shown)
                 .allowed(format!("usually {low} to {high}{unit}"))
-                .hint("check the unit in the key's name; accept with --accept W201"),
+                .hint("check the unit in the key's name"),
             );
         }
         if key.code == "E132" && key.name().ends_with("ratio") && value >= 1.0 {
@@ -210,7 +210,7 @@ impl Reader {
                 StudyError::at("W202", &node.place, path, "overdamped")
                     .value(&shown)
                     .allowed("usually below 1")
-                    .hint("a ratio of 0.02 is 2 %; accept with --accept W202"),
+                    .hint("a ratio of 0.02 is 2 %"),
             );
         }
         Some(Datum::Number(value))

@@ -120,7 +120,7 @@ impl Check<'_, '_> {
                     "the slider flies over the ramp's contact point",
                 );
                 fault.allowed = "another angle or radius".to_string();
-                fault.hint = "accept with --accept W203".to_string();
+                fault.hint = "check the angles".to_string();
             }
         }
     }

@@ -134,7 +134,7 @@ impl Check<'_, '_> {
                 "the sampled shock changes the drive's velocity by {velocity:.0} m/s at the highest amplitude"
             ));
             fault.allowed = format!("usually below {LARGEST_VELOCITY_M_PER_S} m/s");
-            fault.hint = "check that times are in ms; accept with --accept W204".to_string();
+            fault.hint = "check that times are in ms".to_string();
         }
     }
 }
