@@ -228,6 +228,19 @@ fn a_newer_store_and_another_study_are_refused_by_name() {
         message.starts_with("E181") && message.contains("99"),
         "{message}"
     );
+
+    // The journal of a newer program, its header's checksum in order.
+    std::fs::remove_file(folder.path().join("results.h5")).expect("removes");
+    let path = folder.path().join("journal");
+    let mut bytes = std::fs::read(&path).expect("reads");
+    bytes[8..12].copy_from_slice(&7_u32.to_le_bytes());
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four")) as usize;
+    let crc = crc32fast::hash(&bytes[8..16 + length]);
+    bytes[16 + length..20 + length].copy_from_slice(&crc.to_le_bytes());
+    std::fs::write(&path, &bytes).expect("writes");
+    let error = run(&input, folder.path()).expect_err("is refused");
+    assert_eq!(error.code(), "E181");
+    assert!(error.to_string().contains("format 7"), "{error}");
 }
 
 #[test]

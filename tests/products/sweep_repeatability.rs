@@ -7,7 +7,7 @@ use opshock_study::search::RampClass;
 use opshock_study::store::results;
 use opshock_study::sweep::{Ending, Event, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
-use opshock_tests::mock_sweep::{MockSimulator, Recorder, fig13, study};
+use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, fig13, study};
 
 fn run(input: &SweepInput, folder: &Path, threads: usize) -> SweepEnd {
     let end = sweep(
@@ -47,6 +47,32 @@ fn table_and_results_do_not_depend_on_the_threads() {
     }
     let runs = reference.summary.totals.runs;
     assert!(runs <= 36 * 16, "{runs} runs for 36 points");
+}
+
+#[test]
+fn missing_verdicts_do_not_let_the_threads_show() {
+    let input = fig13();
+    let folder = tempfile::tempdir().expect("folder");
+    let run = |threads: usize| {
+        let mut simulator = MockSimulator::new(&input);
+        // The first points of their chains: others must do without their hints.
+        simulator.poison = [
+            (0, Poison::NeverConverges),
+            (12, Poison::Panic),
+            (35, Poison::NotANumber),
+        ]
+        .iter()
+        .map(|&(point, poison)| (input.points[point].coordinates.clone(), poison))
+        .collect();
+        let place = folder.path().join(threads.to_string());
+        let options = SweepOptions::with_threads(threads);
+        let end = sweep(&input, &simulator, &place, &options, &Silent).expect("sweeps");
+        (json(&end), results_of(&place))
+    };
+    let reference = run(1);
+    for threads in [2, 8] {
+        assert_eq!(run(threads), reference, "{threads} threads");
+    }
 }
 
 #[test]

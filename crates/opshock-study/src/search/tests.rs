@@ -457,3 +457,66 @@ fn without_the_amplitude_of_first_touch_nothing_is_inherited() {
         assert!(findings.runs > 0);
     }
 }
+
+/// Numbers in [0, 1), the same at every run of the tests.
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[test]
+fn any_landscape_ends_with_a_consistent_answer_and_wide_windows_are_found() {
+    let settings = settings();
+    let lattice = settings.lattice;
+    for seed in 1..2000 {
+        let mut random = random(seed);
+        let onset_g = 60.0 + 200.0 * random();
+        let critical_g = onset_g * (1.0 + 2.0 * random());
+        let start_g = onset_g + (critical_g - onset_g) * random();
+        let share = 0.3 * random();
+        let window = start_g..(start_g * (1.0 + share)).min(critical_g);
+        let sick = lattice.nearest(onset_g * (1.0 + random()));
+        let has_sick = random() < 0.3;
+        let hint_g = (random() < 0.8).then(|| critical_g * (0.5 + random()));
+        let onset = (random() < 0.8).then(|| lattice.at_or_above(onset_g));
+        let law = |probe: Probe, a: f64| {
+            if has_sick && probe.index == sick && probe.retry < Retry::OtherContact {
+                undecided()
+            } else if a >= critical_g || window.contains(&a) {
+                fails()
+            } else {
+                Verdict::Survives
+            }
+        };
+        let search = run(PointSearch::new(settings, from(hint_g, onset)), law);
+        let findings = search.findings();
+        assert_eq!(findings.status, Status::Ok, "seed {seed}");
+        let (survivor, failure) = (
+            findings.survivor.expect("survivor"),
+            findings.failure.expect("failure"),
+        );
+        assert_eq!(failure - survivor, 1, "seed {seed}");
+        assert!(matches!(
+            law(Probe::at(failure), lattice.amplitude_g(failure)),
+            Verdict::Fails { .. } | Verdict::Undecided { .. }
+        ));
+        assert!(findings.runs <= 45, "seed {seed}: {} runs", findings.runs);
+        let n_window = lattice.at_or_above(window.end) - lattice.at_or_above(window.start);
+        // Where the whole range is the point's own, the scan coarsens below 0.71 of the bracket.
+        let is_fine = onset.is_some() || window.start > 0.75 * critical_g;
+        if n_window >= settings.scan_gap && is_fine {
+            assert_eq!(failure, lattice.at_or_above(window.start), "seed {seed}");
+        }
+        if onset.is_some() {
+            assert!(
+                findings.largest_gap <= Some(settings.scan_gap),
+                "seed {seed}"
+            );
+        }
+    }
+}
