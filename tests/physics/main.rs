@@ -4,4 +4,5 @@ mod bodies;
 mod contact;
 mod free_motion;
 mod plate;
+mod spinning;
 mod suspension;

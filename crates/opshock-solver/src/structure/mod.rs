@@ -1,6 +1,7 @@
 //! Disk, ramp and their contact: one run gives a structural history.
 #![doc = include_str!("theory.md")]
 
+mod bank;
 mod contact_log;
 mod contact_system;
 mod energy;

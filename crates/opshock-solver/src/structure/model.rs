@@ -1,14 +1,14 @@
 //! What is common to all amplitudes of one scene, and the run of one amplitude.
 
+use super::bank::Bank;
 use super::contact_system::{ContactSystem, RunState};
 use super::energy::EnergyWeights;
-use super::free_motion::{ForcedModes, ForcedShapes, FreeMotion, Sample};
+use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
 use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
 use super::{StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution};
-use crate::modal::bank::padded;
 use crate::modal::{BankFlow, Oscillator, Readout};
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
 use crate::shock::{Pulse, PulseError};
@@ -25,8 +25,6 @@ const PENETRATION_WARNING_M: f64 = 1e-7;
 /// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
 /// cannot be aimed (see [`crate::complementarity`]).
 const FASTEST_DISK_ANGLE: f64 = 3.0;
-/// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
-const FASTEST_ARM_ANGLE: f64 = 1.5;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
 
@@ -482,183 +480,4 @@ fn instabilities(basis: &DiskBasis, oscillators: &[Oscillator]) -> Vec<Structure
             })
         })
         .collect()
-}
-
-/// Columns over all oscillators while they are put together.
-struct Bank {
-    oscillators: Vec<Oscillator>,
-    n_disk: usize,
-    forced: ForcedModes,
-    forced_index: Vec<usize>,
-    shapes: ForcedShapes,
-    contact: Vec<f64>,
-    contact_turn: Vec<f64>,
-    arm_shape: [Vec<f64>; 2],
-    n_arms: usize,
-    n_slowed: usize,
-    rim: Vec<f64>,
-    slider: [Readout; 3],
-    slope_to_pose: [f64; 2],
-}
-
-impl Bank {
-    /// Disk modes. Angles are measured from the ramp, so that the contact force drives real parts.
-    fn new(basis: &DiskBasis, disk: &DiskParameters, slider: SliderPlace, ramp_angle: f64) -> Self {
-        let n_disk = padded(basis.modes.len());
-        let zero = || vec![0.0; n_disk];
-        // x runs with the disk; with negative spin it runs against growing angle.
-        let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
-        let (sine, cosine) = slider.skew_rad.sin_cos();
-        // Along the disk's velocity the slope is w_t, outwards w_r:
-        // w_x = w_t cos − w_r sin, w_y = w_t sin + w_r cos; pitch = −w_x, roll = w_y.
-        let pitch = [sine, -cosine];
-        let roll = [cosine, sine];
-        let mut bank = Self {
-            oscillators: vec![Oscillator::default(); n_disk],
-            n_disk,
-            forced: ForcedModes::default(),
-            forced_index: Vec::new(),
-            shapes: ForcedShapes::default(),
-            contact: zero(),
-            contact_turn: zero(),
-            arm_shape: [zero(), zero()],
-            n_arms: 0,
-            n_slowed: 0,
-            rim: zero(),
-            slider: std::array::from_fn(|_| Readout {
-                re: zero(),
-                im: zero(),
-            }),
-            slope_to_pose: [pitch[0], roll[0]],
-        };
-        for (i, mode) in basis.modes.iter().enumerate() {
-            let n = mode.nodal_diameters as f64;
-            let fixed = disk.space_fixed_damping_per_s;
-            let gamma = mode.damping_ratio * mode.omega_rad_per_s;
-            // Without turning both dampings are one.
-            let (gamma, fixed) = if mode.nodal_diameters == 0 {
-                (gamma + 0.5 * fixed, 0.0)
-            } else {
-                (gamma, fixed)
-            };
-            bank.oscillators[i] = Oscillator {
-                omega_rad_per_s: mode.omega_rad_per_s,
-                half_damping_per_s: gamma,
-                turn_rad_per_s: n * disk.spin_rad_per_s,
-                fixed_damping_per_s: fixed,
-            };
-            let [(contact, _), (value, slope), (rim, _)] = mode.shape[..] else {
-                unreachable!("the basis is sampled at three radii")
-            };
-            bank.contact[i] = contact;
-            bank.contact_turn[i] = n * contact;
-            bank.rim[i] = rim;
-            // w = φ Re(q e^{inα}): real part of q reads cos, imaginary −sin.
-            let (s, c) = (n * (slider.angle_rad - ramp_angle)).sin_cos();
-            let along = sense * n * value / slider.radius_m;
-            let rows = [
-                (value * c, -value * s),
-                (
-                    pitch[0] * slope * c - pitch[1] * along * s,
-                    -pitch[0] * slope * s - pitch[1] * along * c,
-                ),
-                (
-                    roll[0] * slope * c - roll[1] * along * s,
-                    -roll[0] * slope * s - roll[1] * along * c,
-                ),
-            ];
-            for (readout, (re, im)) in bank.slider.iter_mut().zip(rows) {
-                readout.re[i] = re;
-                readout.im[i] = im;
-            }
-            // The static correction acts on the contact force only.
-            if mode.nodal_diameters == 0 && mode.nodal_circles.is_some() {
-                bank.forced.oscillators.push(bank.oscillators[i]);
-                bank.forced.participation.push(mode.participation);
-                bank.forced_index.push(i);
-                bank.shapes.contact.push(contact);
-                bank.shapes.rim.push(rim);
-                bank.shapes.slider.push(value);
-                bank.shapes.slider_slope.push(slope);
-            }
-        }
-        bank
-    }
-
-    /// Appends the modes of an arm. A mode too fast for the step is slowed to
-    /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: its stiffness, its load and so all slow
-    /// motion stay as they are.
-    fn add_arm(&mut self, modes: &[ArmMode], step_s: f64) -> Arm {
-        let start = self.oscillators.len();
-        for given in modes {
-            let mut mode = *given;
-            let fastest_hz = FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s);
-            if mode.frequency_hz > fastest_hz {
-                let gain = (mode.frequency_hz / fastest_hz).powi(2);
-                mode.frequency_hz = fastest_hz;
-                mode.mass_kg *= gain;
-                mode.participation /= gain;
-                self.n_slowed += 1;
-            }
-            let o = Oscillator::fixed(
-                std::f64::consts::TAU * mode.frequency_hz,
-                mode.damping_ratio,
-            );
-            let shape = mode.mass_kg.sqrt().recip();
-            self.forced_index.push(self.oscillators.len());
-            self.forced.oscillators.push(o);
-            self.forced
-                .participation
-                .push(mode.mass_kg.sqrt() * mode.participation);
-            self.oscillators.push(o);
-            for side in 0..2 {
-                let own = if side == self.n_arms { shape } else { 0.0 };
-                self.arm_shape[side].push(own);
-            }
-            // Shapes of the arms follow those of the disk in the forced columns.
-            let column = if self.n_arms == 0 {
-                &mut self.shapes.top
-            } else {
-                &mut self.shapes.bottom
-            };
-            column.resize(self.forced.oscillators.len() - 1, 0.0);
-            column.push(shape);
-        }
-        self.n_arms += 1;
-        Arm {
-            modes: start..self.oscillators.len(),
-        }
-    }
-
-    fn pad(&mut self) {
-        let n = padded(self.oscillators.len());
-        self.oscillators.resize(n, Oscillator::default());
-        for column in [&mut self.contact, &mut self.contact_turn, &mut self.rim] {
-            column.resize(n, 0.0);
-        }
-        for column in &mut self.arm_shape {
-            column.resize(n, 0.0);
-        }
-    }
-
-    /// Σ shape² weight of the modes under both contacts: mobility for a weight of 1.
-    fn contact_matrix(&self, weight: impl Fn(&Oscillator) -> f64) -> [[f64; 2]; 2] {
-        let sum = |shape: &[f64]| -> f64 {
-            let pairs = shape.iter().zip(&self.oscillators);
-            pairs.map(|(b, o)| b * b * weight(o)).sum()
-        };
-        let disk = sum(&self.contact);
-        let [top, bottom] = [0, 1].map(|i| sum(&self.arm_shape[i]));
-        [[disk + top, -disk], [-disk, disk + bottom]]
-    }
-
-    fn slider_jump(&self) -> DiskPose {
-        let jump =
-            |row: &Readout| -> f64 { row.re.iter().zip(&self.contact).map(|(a, b)| a * b).sum() };
-        DiskPose {
-            displacement_m: jump(&self.slider[0]),
-            pitch_rad: jump(&self.slider[1]),
-            roll_rad: jump(&self.slider[2]),
-        }
-    }
 }
