@@ -1,5 +1,16 @@
 //! One simulation: structure, then head; criterion, outcome, histories, energy book.
+//!
+//! ```text
+//! scene -> Model::build -> simulate(amplitude) -> structure run -> head run -> Outcome
+//! ```
+//!
+//! The film's force on the disk is neglected beside the disk's inertia (the paper's section 3), so
+//! the structure runs first, by itself, over the whole window; its history then drives the head.
 
-pub mod outcome;
+mod model;
+mod outcome;
+mod run;
 
+pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;
+pub use run::{Request, Workspace, simulate};

@@ -13,6 +13,7 @@ mod guard;
 mod histories;
 mod input;
 mod ledger;
+pub mod physics;
 pub mod progress;
 mod rows;
 pub mod simulator;
@@ -20,6 +21,7 @@ pub mod stop;
 mod writer;
 
 pub use engine::{Ending, SweepEnd, SweepOptions, replay, stored, sweep};
+pub use physics::Physics;
 pub use input::{SweepInput, SweepPoint};
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use simulator::{Onset, Simulator};

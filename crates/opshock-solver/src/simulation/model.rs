@@ -1,0 +1,162 @@
+//! The immutable model of one scene, and the parts that scenes share.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use crate::air_bearing::steady::{Flight, SteadyError, fly};
+use crate::air_bearing::{Film, FilmError};
+use crate::head::{HeadError, HeadModel};
+use crate::scene::Scene;
+use crate::structure::{SliderPlace, StructureError, StructureModel, StructureParameters};
+
+/// Why a scene cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// Disk, ramp, pulse or window.
+    #[error("structure: {0}")]
+    Structure(#[from] StructureError),
+    /// Film.
+    #[error("air bearing: {0}")]
+    Film(#[from] FilmError),
+    /// The slider finds no steady flying state.
+    #[error("steady flight: {0}")]
+    Steady(#[from] SteadyError),
+    /// Suspension or head.
+    #[error("head: {0}")]
+    Head(#[from] HeadError),
+}
+
+/// Which half of the drive a question needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Disk and ramp alone: displacements and contact forces.
+    Structure,
+    /// Disk, ramp and head: clearance and verdict.
+    Full,
+}
+
+/// Film and steady flight of one slider.
+#[derive(Clone, Debug)]
+pub struct Bearing {
+    /// Discrete film.
+    pub film: Arc<Film>,
+    /// Steady flying state under the gram load.
+    pub flight: Arc<Flight>,
+}
+
+impl Bearing {
+    /// Builds the film of `scene` and finds its steady flying state.
+    ///
+    /// # Errors
+    /// [`BuildError::Film`], [`BuildError::Steady`].
+    pub fn build(scene: &Scene) -> Result<Self, BuildError> {
+        let film = Film::build(
+            &scene.slider,
+            &scene.gas,
+            scene.flow,
+            scene.disk.spin_rad_per_s,
+            &scene.film_resolution,
+        )?;
+        let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
+        Ok(Self {
+            film: Arc::new(film),
+            flight: Arc::new(flight),
+        })
+    }
+
+    /// Whether two scenes have the same film and the same steady flight.
+    pub fn is_shared(a: &Scene, b: &Scene) -> bool {
+        a.slider == b.slider
+            && a.gas == b.gas
+            && a.flow == b.flow
+            && a.film_resolution == b.film_resolution
+            && a.disk.spin_rad_per_s == b.disk.spin_rad_per_s
+            && a.suspension.gram_load_n == b.suspension.gram_load_n
+    }
+}
+
+/// A scene made ready to simulate any amplitude of either sign.
+#[derive(Clone)]
+pub struct Model {
+    pub(super) scene: Scene,
+    pub(super) structure: StructureModel,
+    pub(super) head: Option<HeadModel>,
+    bearing: Option<Bearing>,
+    /// Tells whether scratch was made for this model; clones are the same model.
+    pub(super) identity: Arc<()>,
+}
+
+impl Model {
+    /// Builds what `scope` needs of `scene`.
+    ///
+    /// A `donor`, built from another scene, gives its film and steady flight when they would be
+    /// the same; building is deterministic, so the numbers do not depend on it.
+    ///
+    /// # Errors
+    /// [`BuildError`] names the part and the quantity.
+    pub fn build(scene: &Scene, scope: Scope, donor: Option<&Model>) -> Result<Self, BuildError> {
+        let structure = StructureModel::build(&StructureParameters {
+            disk: &scene.disk,
+            disk_resolution: &scene.disk_resolution,
+            ramp: &scene.ramp,
+            slider: SliderPlace {
+                radius_m: scene.slider.radius_m,
+                angle_rad: scene.slider.angle_rad,
+                skew_rad: scene.slider.skew_rad,
+            },
+            pulse: &scene.pulse,
+            window: scene.window,
+            resolution: &scene.structure_resolution,
+        })?;
+        let (head, bearing) = match scope {
+            Scope::Structure => (None, None),
+            Scope::Full => {
+                let bearing = match donor {
+                    Some(Model {
+                        scene: other,
+                        bearing: Some(bearing),
+                        ..
+                    }) if Bearing::is_shared(scene, other) => bearing.clone(),
+                    _ => Bearing::build(scene)?,
+                };
+                let head = HeadModel::build(
+                    &scene.suspension,
+                    &scene.slider,
+                    Arc::clone(&bearing.film),
+                    Arc::clone(&bearing.flight),
+                    &scene.head_resolution,
+                    scene.fail_below_m,
+                )?;
+                (Some(head), Some(bearing))
+            }
+        };
+        Ok(Self {
+            scene: scene.clone(),
+            structure,
+            head,
+            bearing,
+            identity: Arc::new(()),
+        })
+    }
+
+    /// The scene it was built from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The structural half.
+    pub fn structure(&self) -> &StructureModel {
+        &self.structure
+    }
+
+    /// The head, when it was built.
+    pub fn head(&self) -> Option<&HeadModel> {
+        self.head.as_ref()
+    }
+
+    /// Film and steady flight, when they were built.
+    pub fn bearing(&self) -> Option<&Bearing> {
+        self.bearing.as_ref()
+    }
+}

@@ -1,0 +1,205 @@
+//! The life of one simulation.
+
+use std::sync::Arc;
+
+use super::model::Model;
+use super::outcome::{
+    Cause, Cost, DiskExtremes, EnergyBook, History, Outcome, SteadyState, Verdict, Warning,
+};
+use crate::head::{HeadRun, HeadWorkspace, ShockLoad};
+use crate::ramp::RampModel;
+use crate::structure::{self, StructureError, StructureRun, StructureWarning};
+
+/// What is asked of one simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// Signed amplitude A, m/s2: the inertia load per mass at the pulse's peak.
+    pub amplitude_m_per_s2: f64,
+    /// The head's run ends at touch; the structure always runs the whole window.
+    pub stop_at_failure: bool,
+    /// Histories are kept.
+    pub record: bool,
+}
+
+/// Scratch of one thread for one model; other models make it anew.
+#[derive(Default)]
+pub struct Workspace {
+    structure: structure::Workspace,
+    head: Option<(Arc<()>, HeadWorkspace)>,
+}
+
+/// Runs one shock through `model`.
+///
+/// Never fails: what prevents an answer is [`Verdict::Undecided`] with its cause. A model without
+/// a head has no clearance, and its verdict only says that the structure ran to the end.
+pub fn simulate(model: &Model, request: &Request, workspace: &mut Workspace) -> Outcome {
+    let structure = model.structure.run(
+        request.amplitude_m_per_s2,
+        request.record,
+        &mut workspace.structure,
+    );
+    match structure {
+        Ok(run) => {
+            let head = model.head.as_ref().map(|head| {
+                let mut scratch = match workspace.head.take() {
+                    Some((owner, scratch)) if Arc::ptr_eq(&owner, &model.identity) => scratch,
+                    _ => HeadWorkspace::new(head),
+                };
+                let load = ShockLoad {
+                    pulse: &model.scene.pulse,
+                    amplitude_m_per_s2: request.amplitude_m_per_s2,
+                };
+                let result = head.run(
+                    &run.history,
+                    &load,
+                    run.end_s,
+                    request.stop_at_failure,
+                    request.record,
+                    &mut scratch,
+                );
+                workspace.head = Some((Arc::clone(&model.identity), scratch));
+                result
+            });
+            assemble(model, run, head)
+        }
+        Err(error) => without_structure(&error),
+    }
+}
+
+fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome {
+    let warnings = run
+        .warnings
+        .iter()
+        .map(describe)
+        .collect();
+    let mut cost = Cost {
+        structure_steps: run.steps,
+        ..Cost::default()
+    };
+    if let Some(head) = &head {
+        let film = head.cost;
+        cost.steps = film.steps;
+        cost.rejected = film.rejected;
+        cost.film_solves = film.film_solves;
+        cost.factorisations = film.factorisations;
+        cost.max_residual = film.max_residual;
+        cost.min_pressure_pa = film.min_pressure_pa;
+        cost.mass_balance_error = film.mass_balance_error;
+    }
+    if let Some(bearing) = model.bearing() {
+        cost.film_unknowns = bearing.film.n_cells() as u64;
+    }
+    let steady = model.bearing().map(|bearing| SteadyState {
+        min_clearance_m: bearing.flight.min_clearance_m,
+        pitch_rad: bearing.flight.attitude.pitch_rad,
+        roll_rad: bearing.flight.attitude.roll_rad,
+    });
+    let history = run.columns.map(|structure| History {
+        structure,
+        head: head
+            .as_ref()
+            .and_then(|h| h.columns.clone())
+            .unwrap_or_default(),
+    });
+    Outcome {
+        verdict: head
+            .as_ref()
+            .map_or(Verdict::Survives, |h| h.verdict.clone()),
+        min_clearance_m: head.as_ref().map(|h| h.min_clearance_m),
+        t_min_clearance_s: head.as_ref().map(|h| h.t_min_clearance_s),
+        steady,
+        disk: run.disk,
+        top: run.top,
+        bottom: run.bottom,
+        dimple: head.as_ref().map(|h| h.dimple),
+        energy: run.energy,
+        complementarity: run.complementarity,
+        effects: effects(model),
+        warnings,
+        cost,
+        history,
+    }
+}
+
+fn without_structure(error: &StructureError) -> Outcome {
+    let time_s = match error {
+        StructureError::NotFinite { time_s } => *time_s,
+        _ => 0.0,
+    };
+    Outcome {
+        verdict: Verdict::Undecided {
+            cause: Cause::NotFinite {
+                time_s,
+                quantity: "structural motion",
+            },
+        },
+        min_clearance_m: None,
+        t_min_clearance_s: None,
+        steady: None,
+        disk: DiskExtremes::default(),
+        top: Default::default(),
+        bottom: Default::default(),
+        dimple: None,
+        energy: EnergyBook::default(),
+        complementarity: Default::default(),
+        effects: Vec::new(),
+        warnings: Vec::new(),
+        cost: Cost::default(),
+        history: None,
+    }
+}
+
+/// Names of the effects in the model.
+fn effects(model: &Model) -> Vec<&'static str> {
+    let mut names = vec!["disk.bending", "disk.spin_stiffening", "disk.rotating_damping"];
+    if model.scene.disk.space_fixed_damping_per_s > 0.0 {
+        names.push("disk.space_fixed_damping");
+    }
+    match model.scene.ramp.model {
+        RampModel::None => {}
+        RampModel::Rigid => names.extend(["ramp.contact", "disk.travelling_waves"]),
+        RampModel::Deformable { .. } => {
+            names.extend(["ramp.contact", "ramp.arms", "disk.travelling_waves"]);
+        }
+    }
+    if model.head.is_some() {
+        names.extend(["head.film", "head.slider", "head.suspension", "head.dimple"]);
+    }
+    names
+}
+
+/// A warning of the structure in words.
+fn describe(warning: &StructureWarning) -> Warning {
+    let (code, message) = match *warning {
+        StructureWarning::Penetration { depth_m } => (
+            "penetration",
+            format!(
+                "disk and ramp overlapped by {:.3} um: shorten structure_step_us",
+                1e6 * depth_m
+            ),
+        ),
+        StructureWarning::BouncesAccumulated { steps } => (
+            "bounces_accumulated",
+            format!("bounces accumulated within {steps} steps and were taken as lasting contact"),
+        ),
+        StructureWarning::HarmonicsBounded => (
+            "harmonics_bounded",
+            "harmonics with modes below disk_cut_khz are left out by disk_harmonics".to_string(),
+        ),
+        StructureWarning::BothArmsOnePoint => (
+            "both_arms_one_point",
+            "both arms held one point: only the net force is determined".to_string(),
+        ),
+        StructureWarning::PhysicalInstability {
+            nodal_diameters,
+            growth_per_s,
+        } => (
+            "physical_instability",
+            format!(
+                "above a critical speed: the wave with {nodal_diameters} nodal diameters grows at \
+                 {growth_per_s:.3} per second by itself"
+            ),
+        ),
+    };
+    Warning { code, message }
+}

@@ -1,0 +1,228 @@
+//! The simulator of a sweep that runs the physics.
+//!
+//! Points with the same scene (the two signs) share one model; models share film and steady
+//! flight where those are the same. Models are made when first asked for. None of this reaches
+//! the numbers: building is deterministic and a model never changes.
+
+use std::sync::{Arc, Mutex, OnceLock};
+
+use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::Scene;
+use opshock_solver::simulation::{
+    BuildError, Cause, Model, Outcome, Request, Scope, Verdict as SolverVerdict, Workspace,
+    simulate,
+};
+
+use super::simulator::{Onset, Simulator};
+use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
+
+type Built = Result<Arc<Model>, BuildError>;
+
+/// Models of one scene.
+struct Slot {
+    scene: Scene,
+    plain: OnceLock<Built>,
+    /// The doubled window, kept while both signs may ask for it.
+    longer: Mutex<Option<Arc<Model>>>,
+}
+
+/// Runs the physics for the points of a study.
+pub struct Physics {
+    slots: Vec<Slot>,
+    /// Slot and sign factor of every point.
+    points: Vec<(usize, f64)>,
+    scope: Scope,
+    donors: Mutex<Vec<Arc<Model>>>,
+    workspaces: Mutex<Vec<Workspace>>,
+}
+
+impl Physics {
+    /// Points given as scene and sign factor (1 or -1), in the study's order.
+    pub fn new<'a>(points: impl IntoIterator<Item = (&'a Scene, f64)>, scope: Scope) -> Self {
+        let mut slots: Vec<Slot> = Vec::new();
+        let points = points
+            .into_iter()
+            .map(|(scene, sign)| {
+                let known = slots.iter().position(|slot| slot.scene == *scene);
+                let slot = known.unwrap_or_else(|| {
+                    slots.push(Slot {
+                        scene: scene.clone(),
+                        plain: OnceLock::new(),
+                        longer: Mutex::new(None),
+                    });
+                    slots.len() - 1
+                });
+                (slot, sign)
+            })
+            .collect();
+        Self {
+            slots,
+            points,
+            scope,
+            donors: Mutex::new(Vec::new()),
+            workspaces: Mutex::new(Vec::new()),
+        }
+    }
+
+    /// The model of a point's own scene.
+    ///
+    /// # Errors
+    /// Why the scene cannot be built.
+    pub fn model(&self, point: usize) -> Result<Arc<Model>, BuildError> {
+        let slot = &self.slots[self.points[point].0];
+        slot.plain.get_or_init(|| self.build(&slot.scene)).clone()
+    }
+
+    fn build(&self, scene: &Scene) -> Built {
+        let donor = {
+            let donors = lock(&self.donors);
+            donors
+                .iter()
+                .find(|model| opshock_solver::simulation::Bearing::is_shared(scene, model.scene()))
+                .cloned()
+        };
+        let model = Arc::new(Model::build(scene, self.scope, donor.as_deref())?);
+        if donor.is_none() {
+            lock(&self.donors).push(Arc::clone(&model));
+        }
+        Ok(model)
+    }
+
+    /// The model a probe runs on.
+    fn model_for(&self, point: usize, probe: Probe) -> Built {
+        if probe.retry == Retry::None && probe.window_factor == 1 {
+            return self.model(point);
+        }
+        let slot = &self.slots[self.points[point].0];
+        let longer = |scene: &Scene| {
+            if probe.window_factor == 1 {
+                scene.clone()
+            } else {
+                scene.with_window_times(f64::from(probe.window_factor))
+            }
+        };
+        match probe.retry {
+            Retry::None => {
+                if let Some(model) = lock(&slot.longer).clone() {
+                    return Ok(model);
+                }
+                let model = self.build(&longer(&slot.scene))?;
+                *lock(&slot.longer) = Some(Arc::clone(&model));
+                Ok(model)
+            }
+            Retry::HalfStep => self.build(&longer(&slot.scene.with_finer_steps(2.0))),
+            Retry::QuarterStep => self.build(&longer(&slot.scene.with_finer_steps(4.0))),
+            Retry::OtherCoupling => self.build(&longer(&slot.scene.with_other_coupling())),
+            Retry::OtherContact => self.build(&longer(&slot.scene.with_finer_steps(8.0))),
+        }
+    }
+
+    /// Runs one shock of a point with what `request` asks for.
+    ///
+    /// # Errors
+    /// Why the scene cannot be built.
+    pub fn outcome(&self, point: usize, request: &Request) -> Result<Outcome, BuildError> {
+        let model = self.model(point)?;
+        Ok(self.run(&model, request))
+    }
+
+    fn run(&self, model: &Model, request: &Request) -> Outcome {
+        let mut workspace = lock(&self.workspaces).pop().unwrap_or_default();
+        let outcome = simulate(model, request, &mut workspace);
+        lock(&self.workspaces).push(workspace);
+        outcome
+    }
+}
+
+/// A poisoned lock only means that another probe panicked; what it guards is whole at all times.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+impl Simulator for Physics {
+    fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
+        match self.model_for(point, probe) {
+            Err(error) => ProbeResult {
+                verdict: Verdict::Undecided {
+                    cause: UndecidedCause::NotBuilt,
+                    message: error.to_string(),
+                },
+                h_min_m: None,
+                t_min_s: None,
+                cost: RunCost::default(),
+            },
+            Ok(model) => {
+                let request = Request {
+                    amplitude_m_per_s2,
+                    stop_at_failure: true,
+                    record: false,
+                };
+                probe_result(&self.run(&model, &request))
+            }
+        }
+    }
+
+    fn onset(&self, point: usize) -> Onset {
+        let (_, sign) = self.points[point];
+        match self.model(point) {
+            Err(_) => Onset::Unknown,
+            Ok(model) if model.scene().ramp.model == RampModel::None => Onset::NoRamp,
+            Ok(model) => match model.structure().touch_amplitude_m_per_s2(sign > 0.0) {
+                Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
+                None => Onset::Unknown,
+            },
+        }
+    }
+}
+
+/// An outcome as the search sees it.
+pub fn probe_result(outcome: &Outcome) -> ProbeResult {
+    let verdict = match &outcome.verdict {
+        SolverVerdict::Survives => Verdict::Survives,
+        SolverVerdict::Fails { t_fail_s, place } => Verdict::Fails {
+            t_fail_s: *t_fail_s,
+            x_m: place.x_m,
+            y_m: place.y_m,
+        },
+        SolverVerdict::Undecided { cause } => Verdict::Undecided {
+            cause: match cause {
+                Cause::NotConverged { .. } => UndecidedCause::NotConverged,
+                Cause::StepLimit { .. } => UndecidedCause::StepLimit,
+                Cause::NotFinite { .. } => UndecidedCause::NotFinite,
+            },
+            message: sentence(cause),
+        },
+    };
+    let cost = &outcome.cost;
+    let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
+    ProbeResult {
+        verdict,
+        h_min_m: finite(outcome.min_clearance_m),
+        t_min_s: finite(outcome.t_min_clearance_s),
+        cost: RunCost {
+            steps: cost.steps,
+            rejected: cost.rejected,
+            film_solves: cost.film_solves,
+            factorisations: cost.factorisations,
+            structure_steps: cost.structure_steps,
+            film_unknowns: cost.film_unknowns,
+        },
+    }
+}
+
+fn sentence(cause: &Cause) -> String {
+    match cause {
+        Cause::NotConverged { time_s, residual } => format!(
+            "the coupled solve did not converge at {:.3} us (residual {residual:.1e})",
+            1e6 * time_s
+        ),
+        Cause::StepLimit { time_s, max_steps } => {
+            format!("{max_steps} steps reached {:.3} us only", 1e6 * time_s)
+        }
+        Cause::NotFinite { time_s, quantity } => {
+            format!("{quantity} is not finite at {:.3} us", 1e6 * time_s)
+        }
+    }
+}

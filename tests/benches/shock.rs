@@ -1,0 +1,81 @@
+//! One shock and its parts: what each costs, as a time and as a ratio in the same run.
+//!
+//! The reference scene is the paper's drive with the deformable ramp, 190 g for 0.5 ms, 5 ms
+//! window, at the study's accuracy.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use opshock_solver::simulation::{Bearing, Model, Request, Scope, Workspace, simulate};
+use opshock_tests::scenes;
+
+const REQUEST: Request = Request {
+    amplitude_m_per_s2: 190.0 * 9.80665,
+    stop_at_failure: true,
+    record: false,
+};
+
+fn shock(c: &mut Criterion) {
+    let scene = scenes::scene("fig13", "deformable", 0.5, &[]);
+    let full = Model::build(&scene, Scope::Full, None).expect("the scene builds");
+    let structure = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
+    let none = Model::build(
+        &scenes::scene("fig13", "none", 0.5, &[]),
+        Scope::Structure,
+        None,
+    )
+    .expect("the scene builds");
+    let mut workspace = Workspace::default();
+
+    let mut group = c.benchmark_group("shock");
+    group.sample_size(10);
+    group.bench_function("full", |b| {
+        b.iter(|| black_box(simulate(&full, &REQUEST, &mut workspace)));
+    });
+    group.bench_function("structure", |b| {
+        b.iter(|| black_box(simulate(&structure, &REQUEST, &mut workspace)));
+    });
+    group.bench_function("no_ramp", |b| {
+        b.iter(|| black_box(simulate(&none, &REQUEST, &mut workspace)));
+    });
+    group.bench_function("steady_flight", |b| {
+        b.iter(|| black_box(Bearing::build(&scene)));
+    });
+    group.bench_function("build_structure", |b| {
+        b.iter(|| black_box(Model::build(&scene, Scope::Structure, None)));
+    });
+    group.finish();
+
+    let median = |f: &mut dyn FnMut()| {
+        let mut times: Vec<f64> = (0..5)
+            .map(|_| {
+                let start = Instant::now();
+                f();
+                start.elapsed().as_secs_f64()
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        times[2]
+    };
+    let mut workspace = Workspace::default();
+    let whole = median(&mut || {
+        black_box(simulate(&full, &REQUEST, &mut workspace));
+    });
+    let part = median(&mut || {
+        black_box(simulate(&structure, &REQUEST, &mut workspace));
+    });
+    let cost = simulate(&full, &REQUEST, &mut workspace).cost;
+    println!(
+        "full shock {whole:.3} s, structure alone {:.2} ms: the head is {:.0} times the structure",
+        1e3 * part,
+        whole / part
+    );
+    println!(
+        "{} film unknowns, {} steps, {} rejected, {} film solves, {} factorisations",
+        cost.film_unknowns, cost.steps, cost.rejected, cost.film_solves, cost.factorisations
+    );
+}
+
+criterion_group!(benches, shock);
+criterion_main!(benches);
