@@ -7,3 +7,23 @@ pub mod mock_sweep;
 pub mod scenes;
 pub mod structures;
 pub mod suspensions;
+
+/// Reads a file of reference numbers (`tests/reference/README.md` says where they come from).
+///
+/// # Panics
+/// When the file is missing or is not JSON.
+pub fn reference(name: &str) -> serde_json::Value {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("reference")
+        .join(name);
+    let text = std::fs::read_to_string(&path).expect("reference file");
+    serde_json::from_str(&text).expect("reference file is JSON")
+}
+
+/// A number out of reference data.
+///
+/// # Panics
+/// When the value is not a number.
+pub fn number(value: &serde_json::Value) -> f64 {
+    value.as_f64().expect("a number in the reference data")
+}

@@ -18,7 +18,11 @@ pub fn study_path(name: &str) -> std::path::PathBuf {
 pub fn study(name: &str, sets: &[(&str, &str)]) -> Study {
     let sets: Vec<SetArg> = sets
         .iter()
-        .map(|(key, value)| format!("{key}={value}").parse().expect("a well-formed setting"))
+        .map(|(key, value)| {
+            format!("{key}={value}")
+                .parse()
+                .expect("a well-formed setting")
+        })
         .collect();
     Study::from_path(&study_path(name), &sets).unwrap_or_else(|faults| panic!("{faults}"))
 }

@@ -67,11 +67,7 @@ pub fn simulate(model: &Model, request: &Request, workspace: &mut Workspace) -> 
 }
 
 fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome {
-    let warnings = run
-        .warnings
-        .iter()
-        .map(describe)
-        .collect();
+    let warnings = run.warnings.iter().map(describe).collect();
     let mut cost = Cost {
         structure_steps: run.steps,
         ..Cost::default()
@@ -151,7 +147,11 @@ fn without_structure(error: &StructureError) -> Outcome {
 
 /// Names of the effects in the model.
 fn effects(model: &Model) -> Vec<&'static str> {
-    let mut names = vec!["disk.bending", "disk.spin_stiffening", "disk.rotating_damping"];
+    let mut names = vec![
+        "disk.bending",
+        "disk.spin_stiffening",
+        "disk.rotating_damping",
+    ];
     if model.scene.disk.space_fixed_damping_per_s > 0.0 {
         names.push("disk.space_fixed_damping");
     }
@@ -185,6 +185,13 @@ fn describe(warning: &StructureWarning) -> Warning {
         StructureWarning::HarmonicsBounded => (
             "harmonics_bounded",
             "harmonics with modes below disk_cut_khz are left out by disk_harmonics".to_string(),
+        ),
+        StructureWarning::ArmModesSlowed { modes } => (
+            "arm_modes_slowed",
+            format!(
+                "{modes} arm modes are too fast for structure_step_us and were slowed at constant \
+                 stiffness"
+            ),
         ),
         StructureWarning::BothArmsOnePoint => (
             "both_arms_one_point",

@@ -21,8 +21,8 @@ pub mod stop;
 mod writer;
 
 pub use engine::{Ending, SweepEnd, SweepOptions, replay, stored, sweep};
-pub use physics::Physics;
 pub use input::{SweepInput, SweepPoint};
+pub use physics::Physics;
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use simulator::{Onset, Simulator};
 pub use stop::StopFlag;
