@@ -9,12 +9,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{
-    BuildError, Cause, Model, Outcome, Request, Scope, Verdict as SolverVerdict, Workspace,
-    simulate,
+    Bearing, BuildError, Cause, Model, Outcome, Request, Scope, Verdict as SolverVerdict,
+    Workspace, simulate,
 };
 
 use super::simulator::{Onset, Simulator};
 use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
+use crate::study::{Sign, Study};
 
 type Built = Result<Arc<Model>, BuildError>;
 
@@ -37,7 +38,25 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Points given as scene and sign factor (1 or -1), in the study's order.
+    /// The points of a study, in the order of its tables like [`super::SweepInput::of`].
+    pub fn of(study: &Study) -> Self {
+        let scope = if study.needs_head() {
+            Scope::Full
+        } else {
+            Scope::Structure
+        };
+        let points = study.table_order().into_iter().map(|place| {
+            let point = &study.points[place];
+            let factor = match point.sign {
+                Sign::Plus => 1.0,
+                Sign::Minus => -1.0,
+            };
+            (&point.scene, factor)
+        });
+        Self::new(points, scope)
+    }
+
+    /// Points given as scene and sign factor (1 or -1).
     pub fn new<'a>(points: impl IntoIterator<Item = (&'a Scene, f64)>, scope: Scope) -> Self {
         let mut slots: Vec<Slot> = Vec::new();
         let points = points
@@ -78,7 +97,7 @@ impl Physics {
             let donors = lock(&self.donors);
             donors
                 .iter()
-                .find(|model| opshock_solver::simulation::Bearing::is_shared(scene, model.scene()))
+                .find(|model| Bearing::is_shared(scene, model.scene()))
                 .cloned()
         };
         let model = Arc::new(Model::build(scene, self.scope, donor.as_deref())?);
@@ -115,15 +134,6 @@ impl Physics {
             Retry::OtherCoupling => self.build(&longer(&slot.scene.with_other_coupling())),
             Retry::OtherContact => self.build(&longer(&slot.scene.with_finer_steps(8.0))),
         }
-    }
-
-    /// Runs one shock of a point with what `request` asks for.
-    ///
-    /// # Errors
-    /// Why the scene cannot be built.
-    pub fn outcome(&self, point: usize, request: &Request) -> Result<Outcome, BuildError> {
-        let model = self.model(point)?;
-        Ok(self.run(&model, request))
     }
 
     fn run(&self, model: &Model, request: &Request) -> Outcome {
@@ -164,6 +174,16 @@ impl Simulator for Physics {
         }
     }
 
+    fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {
+        let model = self.model_for(point, probe).ok()?;
+        let request = Request {
+            amplitude_m_per_s2,
+            stop_at_failure: true,
+            record: true,
+        };
+        Some(self.run(&model, &request))
+    }
+
     fn onset(&self, point: usize) -> Onset {
         let (_, sign) = self.points[point];
         match self.model(point) {
@@ -196,11 +216,10 @@ pub fn probe_result(outcome: &Outcome) -> ProbeResult {
         },
     };
     let cost = &outcome.cost;
-    let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
     ProbeResult {
         verdict,
-        h_min_m: finite(outcome.min_clearance_m),
-        t_min_s: finite(outcome.t_min_clearance_s),
+        h_min_m: outcome.min_clearance_m,
+        t_min_s: outcome.t_min_clearance_s,
         cost: RunCost {
             steps: cost.steps,
             rejected: cost.rejected,
