@@ -55,11 +55,6 @@ impl Fault {
 }
 
 impl Failure {
-    /// A mistake on the command line.
-    pub fn usage(message: impl Into<String>) -> Self {
-        Self::Usage(vec![Fault::new("usage", message)])
-    }
-
     /// Exit code.
     pub fn exit(&self) -> Exit {
         match self {

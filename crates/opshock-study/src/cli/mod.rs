@@ -10,16 +10,19 @@ mod failure;
 mod modes;
 mod new;
 mod report;
+mod run;
 mod schema;
 mod selection;
 mod status;
 mod steady;
 mod stored;
 mod study_file;
+mod sweep;
 
 pub use exit::Exit;
 
 use crate::provenance;
+use crate::sweep::ProgressKind;
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use console::Console;
 use failure::{Failure, Fault};
@@ -94,6 +97,17 @@ enum ProgressChoice {
     None,
 }
 
+impl From<ProgressChoice> for ProgressKind {
+    fn from(choice: ProgressChoice) -> Self {
+        match choice {
+            ProgressChoice::Auto => ProgressKind::Auto,
+            ProgressChoice::Bar => ProgressKind::Bar,
+            ProgressChoice::Lines => ProgressKind::Lines,
+            ProgressChoice::None => ProgressKind::None,
+        }
+    }
+}
+
 impl GlobalArgs {
     /// Worker threads: `-j`, else one for each core.
     fn threads(&self) -> usize {
@@ -106,8 +120,10 @@ impl GlobalArgs {
 enum Command {
     New(new::NewArgs),
     Check(check::CheckArgs),
+    Run(run::RunArgs),
     Modes(modes::ModesArgs),
     Steady(steady::SteadyArgs),
+    Sweep(sweep::SweepArgs),
     Report(report::ReportArgs),
     Status(status::StatusArgs),
     Export(export::ExportArgs),
@@ -144,8 +160,10 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
     match &cli.command {
         Command::New(arguments) => new::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, &cli.global, console),
+        Command::Run(arguments) => run::run(arguments, &cli.global, console),
         Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
         Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
+        Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),

@@ -33,7 +33,7 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
     let kept = scene.head_resolution.suspension_modes;
     let suspension =
         ReducedSuspension::build(&scene.suspension, kept).context("no modes of the suspension")?;
-    let head = air_bearing_modes(&scene)?;
+    let head = air_bearing_modes(&study, &scene)?;
     if console.json {
         console.result_json(&as_json(&structure, &suspension, &head))?;
     } else {

@@ -6,6 +6,7 @@ use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::{PointArgs, unshaken_point};
 use super::study_file;
+use crate::study::Study;
 use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
@@ -38,6 +39,9 @@ pub struct SteadyArgs {
     impedance: Vec<f64>,
 }
 
+/// Rows of a 3x3 matrix in the order (height, pitch, roll).
+type Matrix = [[f64; 3]; 3];
+
 /// `opshock steady --json`. Matrices are -dF/dq in the order (height, pitch, roll).
 #[derive(Debug, Serialize)]
 struct SteadyJson {
@@ -54,8 +58,8 @@ struct SteadyJson {
     centre_of_pressure: [f64; 2],
     p_max_pa: f64,
     p_min_pa: f64,
-    stiffness: [[f64; 3]; 3],
-    damping: [[f64; 3]; 3],
+    stiffness: Matrix,
+    damping: Matrix,
     /// Slider free on its film; null when a held attitude has none.
     modes: Option<Vec<ModeJson>>,
     unknowns: usize,
@@ -73,8 +77,8 @@ pub struct ModeJson {
 #[derive(Debug, Serialize)]
 struct ImpedanceJson {
     frequency_hz: f64,
-    stiffness: [[f64; 3]; 3],
-    damping: [[f64; 3]; 3],
+    stiffness: Matrix,
+    damping: Matrix,
 }
 
 /// Runs the command.
@@ -87,10 +91,10 @@ pub fn run(
     check_frequencies(&arguments.impedance)?;
     let study = study_file::read(&arguments.study, global, console)?;
     let scene = unshaken_point(&study, &arguments.point)?.scene;
-    let film = film(&scene)?;
+    let film = film(&study, &scene)?;
     let state = match held {
         Some(attitude) => held_state(&film, &scene, attitude)?,
-        None => flying_state(&film, &scene)?,
+        None => flying_state(&film, &study, &scene)?,
     };
     let steady = SteadyJson {
         impedance: impedance(&film, &state, &arguments.impedance)?,
@@ -109,9 +113,12 @@ pub fn run(
 /// # Errors
 ///
 /// No steady flight, or a mode that does not settle.
-pub fn air_bearing_modes(scene: &Scene) -> Result<Vec<ModeJson>, Failure> {
-    let film = film(scene)?;
-    Ok(flying_state(&film, scene)?.json.modes.unwrap_or_default())
+pub fn air_bearing_modes(study: &Study, scene: &Scene) -> Result<Vec<ModeJson>, Failure> {
+    let film = film(study, scene)?;
+    Ok(flying_state(&film, study, scene)?
+        .json
+        .modes
+        .unwrap_or_default())
 }
 
 /// A state of the film and what is said about it.
@@ -121,7 +128,7 @@ struct State {
     json: SteadyJson,
 }
 
-fn film(scene: &Scene) -> Result<Film, Failure> {
+fn film(study: &Study, scene: &Scene) -> Result<Film, Failure> {
     let film = Film::build(
         &scene.slider,
         &scene.gas,
@@ -129,12 +136,12 @@ fn film(scene: &Scene) -> Result<Film, Failure> {
         scene.disk.spin_rad_per_s,
         &scene.film_resolution,
     );
-    Ok(film.context("the film cannot be built")?)
+    film.map_err(|error| study_file::cannot_be_simulated(study, &error))
 }
 
-fn flying_state(film: &Film, scene: &Scene) -> Result<State, Failure> {
+fn flying_state(film: &Film, study: &Study, scene: &Scene) -> Result<State, Failure> {
     let load = [scene.suspension.gram_load_n, 0.0, 0.0];
-    let flight = fly(film, load).context("no steady flight")?;
+    let flight = fly(film, load).map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let mut state = described(film, flight.psi, flight.attitude);
     state.json.stiffness = flight.stiffness;
     state.json.damping = flight.damping;
@@ -239,7 +246,7 @@ fn impedance(
 fn at_frequency(
     motion: &mut SmallMotion<'_>,
     frequency_hz: f64,
-) -> Result<([[f64; 3]; 3], [[f64; 3]; 3]), Failure> {
+) -> Result<(Matrix, Matrix), Failure> {
     let z = motion
         .impedance(frequency_hz)
         .with_context(|| format!("no impedance at {frequency_hz} Hz"))?;
@@ -349,7 +356,7 @@ fn as_text(steady: &SteadyJson) -> String {
     text
 }
 
-fn matrix(text: &mut String, name: &str, rows: &[[f64; 3]; 3]) {
+fn matrix(text: &mut String, name: &str, rows: &Matrix) {
     for (index, row) in rows.iter().enumerate() {
         let name = if index == 0 { name } else { "" };
         let _ = writeln!(

@@ -60,6 +60,15 @@ pub fn refuse_unaccepted(study: &Study, global: &GlobalArgs) -> Result<(), Failu
     Err(StudyErrors::new(open).into())
 }
 
+/// A scene that passes every check of its numbers and still has no answer, as a slider without
+/// steady flight.
+pub fn cannot_be_simulated(study: &Study, error: &dyn std::error::Error) -> Failure {
+    let file = study.path.display().to_string();
+    let fault = StudyError::in_file("E190", &file, error.to_string())
+        .hint("change the scene; `opshock steady` and `opshock modes` show its parts");
+    StudyErrors::from(fault).into()
+}
+
 fn tell(remarks: &[StudyError], console: &Console) {
     if remarks.is_empty() || console.quiet || console.json {
         return;

@@ -188,22 +188,23 @@ impl Drawing<'_> {
     }
 
     fn disk_displacement(&self, structure: &[Column]) -> NamedFigure {
+        // The rim goes first: it runs so close to the ramp point that it would hide it.
         let mut curves = vec![
-            (
-                "disk_slider_m",
-                "disk under the slider",
-                1e6,
-                colour::BLUE,
-                Dash::Solid,
-            ),
+            ("disk_rim_m", "disk rim", 1e6, colour::SKY, Dash::Solid),
             (
                 "disk_ramp_m",
-                "disk at the ramp point",
+                "disk at ramp",
                 1e6,
                 colour::BLACK,
                 Dash::Solid,
             ),
-            ("disk_rim_m", "disk rim", 1e6, colour::GREY, Dash::Solid),
+            (
+                "disk_slider_m",
+                "disk at slider",
+                1e6,
+                colour::BLUE,
+                Dash::Solid,
+            ),
         ];
         if self.caption.ramp_clearance_m.is_some() {
             curves.push((
@@ -266,10 +267,10 @@ impl Drawing<'_> {
                 "slider_roll_rad",
             ),
         };
-        let of_disk = series(structure, (disk, "disk", 1e6, colour::BLUE, Dash::Solid));
+        let of_disk = series(structure, (disk, "disk", 1e6, colour::BLUE, Dash::Dashed));
         let of_slider = series(
             head,
-            (slider, "slider", 1e6, colour::VERMILLION, Dash::Dashed),
+            (slider, "slider", 1e6, colour::VERMILLION, Dash::Solid),
         );
         NamedFigure {
             name,

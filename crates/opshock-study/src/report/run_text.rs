@@ -17,7 +17,8 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
                 " (steady {:.3} nm, pitch {:.2} urad, roll {:.2} urad)",
                 1e9 * steady.min_clearance_m,
                 1e6 * steady.pitch_rad,
-                1e6 * steady.roll_rad
+                // Without the sign that rounding would leave on nothing.
+                (1e8 * steady.roll_rad).round() / 100.0 + 0.0
             )
         });
         line(

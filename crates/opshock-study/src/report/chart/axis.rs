@@ -129,15 +129,16 @@ fn padded(scale: Scale, low: f64, high: f64) -> (f64, f64) {
     }
 }
 
-/// Five to eight round values, a step of 1, 2, 2.5 or 5 times a power of ten apart.
+/// Some six round values, a step of 1, 2, 2.5 or 5 times a power of ten apart.
 fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
-    let raw = (high - low) / 6.0;
-    let magnitude = 10f64.powf(raw.log10().floor());
+    let wanted = (high - low) / 6.0;
+    let magnitude = 10f64.powf(wanted.log10().floor());
+    let off = |step: &f64| (step / wanted).ln().abs();
     let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-        .into_iter()
         .map(|m| m * magnitude)
-        .find(|step| *step >= raw * (1.0 - 1e-9))
-        .unwrap_or(10.0 * magnitude);
+        .into_iter()
+        .min_by(|a, b| off(a).total_cmp(&off(b)))
+        .unwrap_or(wanted);
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     (first..=last).map(|i| i as f64 * step).collect()

