@@ -8,9 +8,11 @@
 //! enters through dψ/dt alone. Faces are [two half cells](super::flux); at the slider's edges the
 //! face pressure is the ambient one.
 
+use super::corner::{Widths, conductance_factors};
 use super::flow_factor::FlowFactor;
 use super::flux::{HalfCell, Partials};
 use super::layout;
+use super::steady::usual_attitude;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
 use crate::gas::GasParameters;
@@ -219,8 +221,29 @@ impl Film {
         resolution: &FilmResolution,
     ) -> Result<Self, FilmError> {
         check(slider, gas, resolution.floor_m)?;
-        let lines = layout::lines(&Surface::new(slider), resolution.cells);
-        Self::on_lines(slider, gas, flow, spin_rad_per_s, resolution.floor_m, lines)
+        let surface = Surface::new(slider);
+        let film =
+            |lines| Self::on_lines(slider, gas, flow, spin_rad_per_s, resolution.floor_m, lines);
+        let lines = |cells| {
+            layout::plain(&surface, cells).ok_or(FilmError::Lines {
+                direction: 'x',
+                extent_m: slider.length_m,
+            })
+        };
+        let estimate = layout::estimate_cells(resolution.cells);
+        let mut built = film(lines(estimate)?)?;
+        for round in 1..=layout::ROUNDS {
+            let cells = if round == layout::ROUNDS {
+                resolution.cells
+            } else {
+                estimate
+            };
+            match layout::refined(&built, &surface, cells) {
+                Some(lines) => built = film(lines)?,
+                None => return film(lines(resolution.cells)?),
+            }
+        }
+        Ok(built)
     }
 
     /// The same on given grid lines, along x and along y, instead of the built-in layout.
@@ -369,6 +392,45 @@ impl Film {
             }
         }
 
+        let flow = FlowFactor::new(flow, gas.mean_free_path_m * gas.pressure_pa);
+        let clearance = ClearanceMap::new(&surface);
+        let usual = usual_attitude(&clearance, slider.length_m);
+        let kappa = |cell: usize, place: &Place| {
+            let h = place.height(&usual) + cells[cell].recess;
+            flow.conductance(gas.pressure_pa * h).0 * h * h
+        };
+        for (i, &x) in xs.iter().enumerate().take(nx).skip(1) {
+            for (j, &y) in ys.iter().enumerate().take(ny).skip(1) {
+                // Counter-clockwise from the cell left below, as the faces between them.
+                let around = [
+                    index(i - 1, j - 1),
+                    index(i, j - 1),
+                    index(i, j),
+                    index(i - 1, j),
+                ];
+                let depth = around.map(|c| cells[c].recess);
+                if depth.iter().all(|d| (d - depth[0]).abs() < SAME_RECESS_M) {
+                    continue;
+                }
+                let place = Place::new(&surface, x, y);
+                let widths = Widths {
+                    left: lines[0].width(i - 1),
+                    right: lines[0].width(i),
+                    below: lines[1].width(j - 1),
+                    above: lines[1].width(j),
+                };
+                let factors = conductance_factors(around.map(|c| kappa(c, &place)), &widths);
+                let x_face = |j: usize| j * (nx - 1) + (i - 1);
+                let y_face = |i: usize| ny * (nx - 1) + (j - 1) * nx + i;
+                let meeting = [x_face(j - 1), y_face(i), x_face(j), y_face(i - 1)];
+                for (face, factor) in meeting.into_iter().zip(factors) {
+                    for side in &mut faces[face].sides {
+                        side.inverse_distance *= factor;
+                    }
+                }
+            }
+        }
+
         Ok(Self {
             capacity: cells
                 .iter()
@@ -379,10 +441,10 @@ impl Film {
             faces,
             edge_faces,
             lines,
-            flow: FlowFactor::new(flow, gas.mean_free_path_m * gas.pressure_pa),
+            flow,
             floor: Floor { h0: floor_m },
             ambient_pa: gas.pressure_pa,
-            clearance: ClearanceMap::new(&surface),
+            clearance,
         })
     }
 
@@ -409,6 +471,12 @@ impl Film {
     /// Ambient pressure, Pa.
     pub fn ambient_pa(&self) -> f64 {
         self.ambient_pa
+    }
+
+    /// Attitude of a slider in ordinary flight, the first guess of steady states and what the grid
+    /// is laid out for.
+    pub fn usual_attitude(&self) -> Attitude {
+        usual_attitude(&self.clearance, self.extent_m()[0])
     }
 
     /// Length and width of the slider, m.
@@ -687,6 +755,56 @@ impl Film {
                 &face.place,
             );
         }
+    }
+
+    /// Error densities e_x of the strips between lines along x, and e_y: see [`layout`].
+    pub(super) fn strip_errors(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        adjoint: &[f64],
+    ) -> [Vec<f64>; 2] {
+        let [nx, ny] = [self.lines[0].n_cells(), self.lines[1].n_cells()];
+        let columns: Vec<Column> = (0..self.n_cells())
+            .map(|c| self.column(&self.cells[c], psi[c], attitude))
+            .collect();
+        // Sum over both faces of a direction of face minus centre, of pressure and of adjoint.
+        let mut bends = vec![[[0.0; 2]; 2]; self.n_cells()];
+        for (k, face) in self.faces.iter().enumerate() {
+            let d = usize::from(k >= (nx - 1) * ny);
+            let base = face.place.height(attitude);
+            let half: [HalfCell; 2] = std::array::from_fn(|s| {
+                let side = &face.sides[s];
+                self.half_cell(side, psi, &columns[side.cell], base).0
+            });
+            let [a, b] = [half[0].flux(), half[1].flux()];
+            let p = (a.alpha + b.alpha) / (a.beta + b.beta);
+            let weight = half.map(|h| h.g * h.h_centre * h.h_face * h.inverse_distance);
+            let [l, r] = face.sides.map(|side| side.cell);
+            let z = (weight[0] * adjoint[l] + weight[1] * adjoint[r]) / (weight[0] + weight[1]);
+            for cell in [l, r] {
+                bends[cell][d][0] += p - psi[cell] / columns[cell].h;
+                bends[cell][d][1] += z - adjoint[cell];
+            }
+        }
+        // Edge faces come in the order of their direction: both ends of every row, of every column.
+        for (k, face) in self.edge_faces.iter().enumerate() {
+            let (d, cell) = (usize::from(k >= 2 * ny), face.side.cell);
+            bends[cell][d][0] += self.ambient_pa - psi[cell] / columns[cell].h;
+            bends[cell][d][1] -= adjoint[cell];
+        }
+        let mut errors = [vec![0.0; nx], vec![0.0; ny]];
+        for (c, (bend, column)) in bends.iter().zip(&columns).enumerate() {
+            let at = [c % nx, c / nx];
+            for d in 0..2 {
+                let width = self.lines[d].width(at[d]);
+                let across = self.lines[1 - d].width(at[1 - d]);
+                let kappa = column.g * column.h * column.h;
+                let product = bend[d][0] * bend[d][1];
+                errors[d][at[d]] += across * kappa * product.abs() * (2.0 / width).powi(4);
+            }
+        }
+        errors
     }
 
     /// R and the force with all their derivatives.

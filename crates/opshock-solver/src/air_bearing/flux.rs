@@ -61,17 +61,17 @@ pub(super) struct HalfCell {
 pub(super) struct HalfFlux {
     pub(super) alpha: f64,
     pub(super) beta: f64,
-    /// Pe.
-    pub(super) pe: f64,
-    /// Rise δ of ψ from the centre to the face by convection, and its derivatives by ψ, by ψ
-    /// behind and by Pe.
-    pub(super) rise: f64,
-    pub(super) rise_by: [f64; 3],
-    /// B(Pe), (D/Δ) B(Pe), (D/Δ) B′(Pe).
-    pub(super) b: f64,
+    /// Pe and B(Pe).
+    pe: f64,
+    b: f64,
+    /// δ and its derivatives by ψ, by ψ behind and by Pe.
+    rise: f64,
+    rise_by: [f64; 3],
+    /// Logarithmic mean of the heights, and its derivatives by h_centre and h_face.
+    mean: [f64; 3],
+    /// (D/Δ) B(Pe), (D/Δ) B′(Pe) and D/Δ.
     k: f64,
     k_slope: f64,
-    /// D/Δ.
     conductance: f64,
 }
 
@@ -96,11 +96,12 @@ impl HalfCell {
     /// Outward flux coefficients.
     #[inline]
     pub(super) fn flux(&self) -> HalfFlux {
-        let conductance = self.g * self.h_centre * self.inverse_distance;
-        let pe = self.wind / conductance + (self.h_face - self.h_centre) / self.h_centre;
+        let (mean, log_ratio) = logarithmic_mean(self.h_centre, self.h_face);
+        let conductance = self.g * mean[0] * self.inverse_distance;
+        let pe = self.wind / conductance + log_ratio;
         let (b, b_slope) = bernoulli(pe);
         let k = conductance * b;
-        let (rise, rise_by) = if self.reach > 0.0 && pe > 0.0 {
+        let (rise, rise_by) = if self.reach > 0.0 {
             self.rise(pe, b)
         } else {
             (0.0, [0.0; 3])
@@ -109,9 +110,10 @@ impl HalfCell {
             alpha: k * self.psi + conductance * pe * (self.psi + rise),
             beta: (k * self.h_face).max(SMALLEST_BETA),
             pe,
+            b,
             rise,
             rise_by,
-            b,
+            mean,
             k,
             k_slope: conductance * b_slope,
             conductance,
@@ -121,15 +123,18 @@ impl HalfCell {
     /// δ = ψ (g(s) − 1), s = ω(Pe) reach (1 − ψ_behind/ψ), with derivatives by ψ, ψ behind, Pe.
     #[inline]
     fn rise(&self, pe: f64, b: f64) -> (f64, [f64; 3]) {
-        let (weight, weight_slope) = if pe < 0.02 {
+        let (weight, weight_slope) = if pe.abs() < 0.02 {
             let q = pe * pe;
-            (pe * (1.0 / 3.0 - q / 45.0), 1.0 / 3.0 - q / 15.0)
+            (
+                q * (1.0 / 6.0 - q * (7.0 / 360.0)),
+                pe * (1.0 / 3.0 - q * (7.0 / 90.0)),
+            )
         } else {
-            // coth(Pe) from coth(Pe/2) = 1 + 2/(exp(Pe) − 1).
+            // Pe/sinh(Pe) and coth(Pe) from coth(Pe/2) = 1 + 2/(exp(Pe) − 1).
             let half = 1.0 + 2.0 * b / pe;
             let coth = 0.5 * (half + 1.0 / half);
-            let inverse = 1.0 / pe;
-            (coth - inverse, 1.0 - coth * coth + inverse * inverse)
+            let sink = pe * 0.5 * (half - 1.0 / half);
+            (1.0 - sink, sink * (coth - 1.0 / pe))
         };
         let ratio = self.psi_behind / self.psi;
         let per_weight = self.reach * (1.0 - ratio);
@@ -151,108 +156,174 @@ impl HalfCell {
         )
     }
 
-    /// All derivatives at constant face pressure p.
+    /// Mean over the half cell of the pressure's excess over its centre.
     #[inline]
-    pub(super) fn partials(&self, flux: &HalfFlux, p: f64) -> HalfPartials {
-        let pe = self.pe_partials(flux);
-        let rise = self.rise_partials(flux, &pe);
-        let (excess, excess_by_p) = self.mean_excess_partials(flux, p, &pe, &rise);
-        HalfPartials {
-            flux: self.flux_partials(flux, p, &pe, &rise),
-            excess,
-            excess_by_p,
+    pub(super) fn mean_excess(&self, flux: &HalfFlux, p: f64) -> f64 {
+        let centre = self.psi / self.h_centre;
+        if self.wind == 0.0 {
+            return 0.5 * (p - centre);
+        }
+        let share = self.layer_share(flux).0;
+        let carried = self.carried_mean(flux, p) * self.mean_inverse_height()[0];
+        share * (p - centre) + (1.0 - 2.0 * share) * (carried - centre)
+    }
+
+    /// Weight of the face pressure in the mean, and its derivative by Pe.
+    #[inline]
+    fn layer_share(&self, flux: &HalfFlux) -> (f64, f64) {
+        let (share, slope) = layer(flux.pe, flux.b);
+        if self.wind > 0.0 {
+            (share, slope)
+        } else {
+            (1.0 - share, -slope)
         }
     }
 
-    /// Derivatives of Pe.
+    /// Mean of ψ outside the exponential layer.
     #[inline]
-    fn pe_partials(&self, flux: &HalfFlux) -> Partials {
-        let inverse_h = 1.0 / self.h_centre;
+    fn carried_mean(&self, flux: &HalfFlux, p: f64) -> f64 {
+        if self.wind > 0.0 {
+            self.psi + 0.5 * flux.rise
+        } else {
+            0.5 * (self.psi + p * self.h_face)
+        }
+    }
+
+    /// Mean of 1/h (Simpson) and its derivatives by h_centre and h_face.
+    #[inline]
+    fn mean_inverse_height(&self) -> [f64; 3] {
+        let (a, b) = (1.0 / self.h_centre, 1.0 / self.h_face);
+        let m = 1.0 / (self.h_centre + self.h_face);
         [
-            -self.wind / flux.conductance * self.g_slope / self.g,
+            (a + 8.0 * m + b) / 6.0,
+            -(a * a + 8.0 * m * m) / 6.0,
+            -(b * b + 8.0 * m * m) / 6.0,
+        ]
+    }
+
+    /// All derivatives at constant face pressure p.
+    #[inline]
+    pub(super) fn partials(&self, flux: &HalfFlux, p: f64) -> HalfPartials {
+        let [mean, mean_centre, mean_face] = flux.mean;
+        // Relative derivatives of D/Δ, then of Pe, then of δ.
+        let log = [
+            self.g_slope / self.g,
             0.0,
-            -(flux.pe + 1.0) * inverse_h,
-            inverse_h,
-        ]
-    }
+            mean_centre / mean,
+            mean_face / mean,
+        ];
+        let blown = -self.wind / flux.conductance;
+        let pe = [
+            blown * log[0],
+            0.0,
+            blown * log[2] - 1.0 / self.h_centre,
+            blown * log[3] + 1.0 / self.h_face,
+        ];
+        let [rise_psi, rise_behind, rise_pe] = flux.rise_by;
+        let rise = [
+            rise_psi + rise_pe * pe[0],
+            rise_behind,
+            rise_pe * pe[2],
+            rise_pe * pe[3],
+        ];
 
-    /// Derivatives of δ.
-    #[inline]
-    fn rise_partials(&self, flux: &HalfFlux, pe: &Partials) -> Partials {
-        let [by_psi, by_behind, by_pe] = flux.rise_by;
-        [
-            by_psi + by_pe * pe[0],
-            by_behind,
-            by_pe * pe[2],
-            by_pe * pe[3],
-        ]
-    }
-
-    /// Derivatives of α − β p at constant face pressure p.
-    #[inline]
-    fn flux_partials(&self, flux: &HalfFlux, p: f64, pe: &Partials, rise: &Partials) -> Partials {
+        // α − β p = K (ψ − p h_f) + V (ψ + δ) with K = (D/Δ) B(Pe), V = w + G (h_f − h_c)/Δ.
         let g = self.g * self.inverse_distance;
         let g_slope = self.g_slope * self.inverse_distance;
         let drive = self.psi - p * self.h_face;
         let carried = self.psi + flux.rise;
         let velocity = flux.conductance * flux.pe;
-        [
-            (flux.k * self.g_slope / self.g + flux.k_slope * pe[0]) * drive
-                + carried * g_slope * (self.h_face - self.h_centre)
-                + flux.k
-                + velocity * (1.0 + rise[0]),
+        let k = |v: usize| (flux.k * log[v] + flux.k_slope * pe[v]) * drive + velocity * rise[v];
+        let by_flux = [
+            k(0) + carried * g_slope * (self.h_face - self.h_centre) + flux.k + velocity,
             velocity * rise[1],
-            (flux.k / self.h_centre + flux.k_slope * pe[2]) * drive - carried * g
-                + velocity * rise[2],
-            flux.k_slope * pe[3] * drive + carried * g - p * flux.k + velocity * rise[3],
-        ]
-    }
+            k(2) - carried * g,
+            k(3) + carried * g - p * flux.k,
+        ];
 
-    /// Mean over the half cell of the pressure's excess over its centre, and its derivatives with
-    /// the face pressure as a fifth variable.
-    #[inline]
-    pub(super) fn mean_excess(&self, flux: &HalfFlux, p: f64) -> f64 {
         let inverse_h = 1.0 / self.h_centre;
-        let rise = flux.rise * inverse_h;
-        0.5 * rise + layer(flux).0 * (p - self.psi * inverse_h - rise)
-    }
-
-    /// Derivatives of [`HalfCell::mean_excess`], and by the face pressure.
-    #[inline]
-    fn mean_excess_partials(
-        &self,
-        flux: &HalfFlux,
-        p: f64,
-        pe: &Partials,
-        rise: &Partials,
-    ) -> (Partials, f64) {
-        let inverse_h = 1.0 / self.h_centre;
-        let (share, share_slope) = layer(flux);
-        let bend = (p - (self.psi + flux.rise) * inverse_h) * share_slope;
-        let mut partials: Partials =
-            std::array::from_fn(|v| (0.5 - share) * inverse_h * rise[v] + bend * pe[v]);
-        partials[0] -= share * inverse_h;
-        partials[2] -= ((0.5 - share) * flux.rise - share * self.psi) * inverse_h * inverse_h;
-        (partials, share)
+        let centre = self.psi * inverse_h;
+        let centre_by = [inverse_h, -centre * inverse_h];
+        if self.wind == 0.0 {
+            return HalfPartials {
+                flux: by_flux,
+                excess: [-0.5 * centre_by[0], 0.0, -0.5 * centre_by[1], 0.0],
+                excess_by_p: 0.5,
+            };
+        }
+        let (share, share_slope) = self.layer_share(flux);
+        let [q, q_centre, q_face] = self.mean_inverse_height();
+        let mean_psi = self.carried_mean(flux, p);
+        let outside = 1.0 - 2.0 * share;
+        let bend = share_slope * (p + centre - 2.0 * mean_psi * q);
+        let at_centre = share + outside;
+        let (mean_by, mean_by_p) = if self.wind > 0.0 {
+            (
+                [
+                    1.0 + 0.5 * rise[0],
+                    0.5 * rise[1],
+                    0.5 * rise[2],
+                    0.5 * rise[3],
+                ],
+                0.0,
+            )
+        } else {
+            ([0.5, 0.0, 0.0, 0.5 * p], 0.5 * self.h_face)
+        };
+        let part = |v: usize| bend * pe[v] + outside * q * mean_by[v];
+        HalfPartials {
+            flux: by_flux,
+            excess: [
+                part(0) - at_centre * centre_by[0],
+                part(1),
+                part(2) - at_centre * centre_by[1] + outside * mean_psi * q_centre,
+                part(3) + outside * mean_psi * q_face,
+            ],
+            excess_by_p: share + outside * q * mean_by_p,
+        }
     }
 }
 
-/// Mean of the exponential profile between centre and face as a share of its whole rise, and the
-/// derivative by Pe: (1 − B)/Pe towards a face the wind blows to. Where the wind comes from the face
-/// the profile is that of the slope in [`HalfCell::rise`], so the share goes back to 1/2; the bend in
-/// between keeps the derivative continuous.
+/// Logarithmic mean of two heights with its derivatives by both, and ln(h_face/h_centre).
 #[inline]
-fn layer(flux: &HalfFlux) -> (f64, f64) {
-    let pe = flux.pe;
-    if pe <= 0.0 {
-        let q = 1.0 / (1.0 + pe * pe);
-        (0.5 - pe * q / 12.0, -q * q * (1.0 - pe * pe) / 12.0)
-    } else if pe < 0.02 {
+fn logarithmic_mean(h_centre: f64, h_face: f64) -> ([f64; 3], f64) {
+    let sum = h_centre + h_face;
+    let s = (h_face - h_centre) / sum;
+    let q = s * s;
+    // s/artanh(s) and its derivative.
+    let (ratio, slope, artanh) = if q < 0.0025 {
+        let artanh = s * (1.0 + q * (1.0 / 3.0 + q * (0.2 + q * (1.0 / 7.0 + q / 9.0))));
+        (
+            1.0 - q * (1.0 / 3.0 + q * (4.0 / 45.0 + q * (44.0 / 945.0 + q * 428.0 / 14175.0))),
+            -s * (2.0 / 3.0 + q * (16.0 / 45.0 + q * (264.0 / 945.0 + q * 3424.0 / 14175.0))),
+            artanh,
+        )
+    } else {
+        let artanh = 0.5 * (h_face / h_centre).ln();
+        let ratio = s / artanh;
+        (ratio, (1.0 - ratio / (1.0 - q)) / artanh, artanh)
+    };
+    let lean = slope / sum;
+    (
+        [
+            0.5 * sum * ratio,
+            0.5 * ratio - lean * h_face,
+            0.5 * ratio + lean * h_centre,
+        ],
+        2.0 * artanh,
+    )
+}
+
+/// (1 − B(Pe))/Pe: the mean of the exponential profile between centre and face as a share of its
+/// whole rise; with the derivative by Pe.
+#[inline]
+fn layer(pe: f64, b: f64) -> (f64, f64) {
+    if pe.abs() < 0.02 {
         let q = pe * pe;
         (0.5 - pe / 12.0 * (1.0 - q / 60.0), -1.0 / 12.0 + q / 240.0)
     } else {
-        let share = (1.0 - flux.b) / pe;
-        let b_slope = flux.b * (1.0 - flux.b - pe) / pe;
+        let share = (1.0 - b) / pe;
+        let b_slope = b * (1.0 - b - pe) / pe;
         (share, -(b_slope + share) / pe)
     }
 }
@@ -274,13 +345,15 @@ mod tests {
 
     #[test]
     fn half_cell_derivatives_match_differences() {
-        for wind in [-60.0, -3.0, 0.0, 0.001, 0.05, 5.0, 80.0, 4000.0] {
+        for wind in [
+            -4000.0, -60.0, -3.0, -0.05, 0.0, 0.001, 0.05, 5.0, 80.0, 4000.0,
+        ] {
             for (h_face, psi_behind) in [(0.7, 1.2), (1.0, 2.5), (1.3, 1.9)] {
                 let p = 1.2;
                 let make = |v: [f64; 4]| HalfCell {
                     psi: v[0],
                     psi_behind: v[1],
-                    reach: 0.45,
+                    reach: if wind > 0.0 { 0.45 } else { 0.0 },
                     g: v[0] + 3.0 + 0.2 * v[0] * v[0],
                     g_slope: 1.0 + 0.4 * v[0],
                     h_centre: v[2],

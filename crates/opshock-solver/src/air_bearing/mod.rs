@@ -1,5 +1,6 @@
 //! Air bearing: compressible Reynolds equation with rarefaction under one slider.
 
+mod corner;
 mod film;
 mod flow_factor;
 mod flux;

@@ -19,6 +19,7 @@
 use super::Attitude;
 use super::film::{Film, FilmLinearisation, FilmScratch};
 use crate::linalg::banded::{BandedError, BandedLu};
+use crate::slider::clearance::ClearanceMap;
 use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
 
@@ -158,6 +159,25 @@ impl<'a> Newton<'a> {
         let stiffness = Matrix3::from_fn(|i, j| product[i][j] - lin.force_by_attitude[i][j]);
         let pending = Vector3::from_fn(|i, _| product[i][3]);
         (Vector3::from(lin.force), stiffness, pending)
+    }
+
+    /// Gradient by ψ of the clearance a small force error costs at constant load: of r K⁻¹ F with r
+    /// the arms of the closest point.
+    pub(super) fn clearance_goal(&mut self, attitude: &Attitude) -> Option<Vec<f64>> {
+        let (_, stiffness, _) = self.schur();
+        let film = self.film;
+        let closest = film.min_clearance(attitude);
+        let [l, w] = film.extent_m();
+        let arms = Vector3::new(1.0, -(closest.x_m - 0.5 * l), closest.y_m - 0.5 * w);
+        let row = stiffness.transpose().try_inverse()? * arms;
+        let gradients = &self.linearisation.force_by_psi;
+        Some(
+            (0..film.n_cells())
+                .map(|k| {
+                    row[0] * gradients[0][k] + row[1] * gradients[1][k] + row[2] * gradients[2][k]
+                })
+                .collect(),
+        )
     }
 
     /// −F_ψ A⁻¹ M A⁻¹ C with the capacities M, from the columns [`Newton::schur`] left behind.
@@ -356,7 +376,7 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, Stea
 ///
 /// As [`fly_from`].
 pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
-    fly_from(film, load, &usual_attitude(film, USUAL_CLEARANCE_M))
+    fly_from(film, load, &film.usual_attitude())
 }
 
 /// As [`fly`], from `start`, which may be far from the answer.
@@ -374,17 +394,15 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
         found: Vec::new(),
         last: *start,
     };
-    let usual = usual_attitude(film, USUAL_CLEARANCE_M);
+    let usual = film.usual_attitude();
     search.attempt(start)?;
     if *start != usual {
         search.attempt(&usual)?;
     }
     if search.best().is_none() {
-        for from in [
-            usual,
-            usual_attitude(film, 10.0 * USUAL_CLEARANCE_M),
-            *start,
-        ] {
+        let mut high = usual;
+        high.centre_height_m += 1e-7;
+        for from in [usual, high, *start] {
             search.attempt_by_drift(&from)?;
             if search.best().is_some() {
                 break;
@@ -403,21 +421,20 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     search.finish()
 }
 
-/// Clearance of the usual start, m.
-const USUAL_CLEARANCE_M: f64 = 3e-8;
+/// Clearance of the usual attitude, m.
+const USUAL_CLEARANCE_M: f64 = 1e-8;
 
-/// Height of the leading edge over the trailing edge of the usual start, m.
+/// Height of the leading edge over the trailing edge in the usual attitude, m.
 const USUAL_RISE_M: f64 = 1e-7;
 
-/// Leading edge up by a usual amount, no roll, the closest point at `clearance_m`.
-fn usual_attitude(film: &Film, clearance_m: f64) -> Attitude {
-    let mut attitude = Attitude {
-        centre_height_m: 0.0,
-        pitch_rad: USUAL_RISE_M / film.extent_m()[0],
+/// Leading edge up by a usual amount, no roll, the closest point at `USUAL_CLEARANCE_M`.
+pub(super) fn usual_attitude(clearance: &ClearanceMap, length_m: f64) -> Attitude {
+    let pitch_rad = USUAL_RISE_M / length_m;
+    Attitude {
+        centre_height_m: USUAL_CLEARANCE_M - clearance.minimum(0.0, pitch_rad, 0.0).value_m,
+        pitch_rad,
         roll_rad: 0.0,
-    };
-    attitude.centre_height_m = clearance_m - film.min_clearance(&attitude).value_m;
-    attitude
+    }
 }
 
 /// Equilibria met so far.

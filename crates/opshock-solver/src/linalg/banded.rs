@@ -96,6 +96,19 @@ impl BandMatrix {
         self.entries[index] += value;
     }
 
+    /// Aᵀ.
+    pub fn transposed(&self) -> Self {
+        let mut out = Self::zeros(self.n, self.half_bandwidth);
+        for i in 0..self.n {
+            let last = (i + self.half_bandwidth).min(self.n - 1);
+            for j in i.saturating_sub(self.half_bandwidth)..=last {
+                let index = out.index(j, i);
+                out.entries[index] = self.entries[self.index(i, j)];
+            }
+        }
+        out
+    }
+
     /// out = A x.
     pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
         assert_eq!(x.len(), self.n);
