@@ -4,6 +4,7 @@
 mod check;
 mod completions;
 mod console;
+mod doctor;
 mod exit;
 mod export;
 mod failure;
@@ -127,6 +128,7 @@ enum Command {
     Report(report::ReportArgs),
     Status(status::StatusArgs),
     Export(export::ExportArgs),
+    Doctor(doctor::DoctorArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -167,6 +169,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),
+        Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
         Command::Completions(arguments) => completions::run(arguments, console),
     }

@@ -10,7 +10,6 @@ use crate::report::table;
 use crate::sweep::{Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
-use opshock_solver::simulation::Scope;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -52,13 +51,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     let progress = kind.start(&study.name);
     let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
-    // The sweep's points stand in the order of tables.
-    let order = study.table_order();
-    let points = order.iter().map(|&place| &study.points[place]);
-    let physics = Physics::new(
-        points.map(|point| (&point.scene, point.sign.factor())),
-        Scope::Full,
-    );
+    let physics = Physics::of(&study);
     let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
     drop(progress);
 

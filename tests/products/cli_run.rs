@@ -1,0 +1,285 @@
+//! `run`: one shock through the program; histories and plots agree with the JSON.
+
+use super::cli::{Done, files, study};
+use serde_json::Value;
+use std::path::Path;
+
+/// The paper's drive on a coarse film and a short window: milliseconds, and the same paths.
+const COARSE: [&str; 8] = [
+    "--set",
+    "pulse.widths_ms=[0.5]",
+    "--set",
+    "solver.film_cells=300",
+    "--set",
+    "pulse.window_ms=1.5",
+    "--set",
+    "solver.disk_cut_khz=10",
+];
+
+fn run(folder: &Path, more: &[&str]) -> Done {
+    let path = study("fig13");
+    let shock = [
+        "run",
+        path.to_str().unwrap(),
+        "--ramp",
+        "rigid",
+        "--pulse-ms",
+        "0.5",
+        "--sign",
+        "+",
+    ];
+    Done::of(folder, &[&shock[..], &COARSE, more].concat())
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value
+        .pointer(pointer)
+        .and_then(Value::as_f64)
+        .unwrap_or_else(|| panic!("{pointer}\n{value:#}"))
+}
+
+#[test]
+fn a_history_agrees_with_the_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = run(
+        folder.path(),
+        &["--amplitude-g", "250", "--json", "--history", "h.h5"],
+    );
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let json = done.json();
+    let file = hdf5::File::open(folder.path().join("h.h5")).unwrap();
+    let column = |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+    let largest = |name: &str| column(name).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = |name: &str| column(name).into_iter().fold(f64::INFINITY, f64::min);
+
+    let time = column("time_s");
+    assert_eq!(
+        time[0], 5e-4,
+        "the first sample is the onset on the study's axis"
+    );
+    assert!(
+        (time[time.len() - 1] - 2.0e-3).abs() < 1e-9,
+        "the structure runs the whole window"
+    );
+    let near = |a: f64, b: f64, tolerance: f64| assert!((a - b).abs() <= tolerance, "{a} {b}");
+    // Extremes between samples may lie a little further out.
+    near(
+        largest("disk_slider_m"),
+        number(&json, "/disk/slider_max_m"),
+        1e-9,
+    );
+    near(
+        smallest("disk_ramp_m"),
+        number(&json, "/disk/ramp_min_m"),
+        1e-9,
+    );
+    near(largest("shock_m_per_s2"), 250.0 * 9.80665, 1.0);
+    let first_touch = number(&json, "/contact/top/first_touch_s");
+    let pressing = column("contact_top_n")
+        .iter()
+        .position(|force| *force > 0.0)
+        .unwrap();
+    near(time[pressing], first_touch, 25e-6);
+
+    let head = column("head/time_s");
+    assert!(head.is_sorted() && head[0] >= 5e-4);
+    let clearance = number(&json, "/min_clearance_m");
+    near(smallest("head/min_clearance_m"), clearance, 1e-10);
+    near(
+        column("head/min_clearance_m")[0],
+        number(&json, "/steady/min_clearance_m"),
+        1e-12,
+    );
+    for name in [
+        "slider_z_m",
+        "slider_pitch_rad",
+        "slider_roll_rad",
+        "bearing_force_n",
+        "dimple_force_n",
+    ] {
+        assert_eq!(column(name).len(), time.len(), "{name}");
+        assert_eq!(column(&format!("head/{name}")).len(), head.len(), "{name}");
+    }
+}
+
+#[test]
+fn a_run_writes_only_what_it_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = run(folder.path(), &["--amplitude-g", "50"]);
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    assert!(done.stdout.contains("verdict") && done.stdout.contains("no contact"));
+    assert_eq!(files(folder.path()).len(), 0);
+
+    let done = run(
+        folder.path(),
+        &["--amplitude-g", "50", "--history", "h.csv", "--plots", "p"],
+    );
+    assert_eq!(done.code, 0);
+    assert!(done.stderr.contains("wrote h.csv") && !done.stdout.contains("wrote"));
+    assert_eq!(files(folder.path()).len(), 2);
+    assert_eq!(files(&folder.path().join("p")).len(), 21);
+    let csv = std::fs::read_to_string(folder.path().join("h.csv")).unwrap();
+    assert!(csv.starts_with("time_s,shock_m_per_s2,disk_slider_m,"));
+}
+
+#[test]
+fn a_study_of_the_disk_alone_runs_without_a_head() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "--amplitude-g",
+        "250",
+        "--json",
+        "--set",
+        "outputs=[\"disk_displacement\"]",
+        "--history",
+        "h.h5",
+    ];
+    let json = run(folder.path(), &set).json();
+    for pointer in ["/min_clearance_m", "/steady", "/dimple"] {
+        assert!(json.pointer(pointer).unwrap().is_null(), "{pointer}");
+    }
+    assert_eq!(number(&json, "/cost/film_solves"), 0.0);
+    let file = hdf5::File::open(folder.path().join("h.h5")).unwrap();
+    assert!(file.group("head").is_err());
+}
+
+#[test]
+fn a_step_limit_is_undecided_and_exit_4() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = run(
+        folder.path(),
+        &[
+            "--amplitude-g",
+            "250",
+            "--json",
+            "--set",
+            "solver.max_steps=5",
+        ],
+    );
+    assert_eq!(done.code, 4, "{}", done.stderr);
+    let json = done.json();
+    assert_eq!(json["verdict"], "undecided");
+    assert!(json["cause"].as_str().unwrap().contains("5 steps"));
+    assert!(json["t_fail_s"].is_null());
+}
+
+#[test]
+fn open_axes_are_exit_2_and_listed_all_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study("fig13");
+    let done = Done::of(folder.path(), &["run", path.to_str().unwrap(), "--json"]);
+    assert_eq!(done.code, 2);
+    let keys: Vec<String> = done
+        .errors()
+        .iter()
+        .map(|error| error["key"].as_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(
+        keys,
+        ["ramp.models", "pulse.widths_ms", "pulse.signs", "amplitude"]
+    );
+    for wrong in [
+        &["--amplitude-g", "-5"][..],
+        &["--amplitude-g", "nan"],
+        &["--amplitude-g", "5", "--history", "h.txt"],
+        &["--amplitude-g", "five"],
+    ] {
+        let done = run(folder.path(), wrong);
+        assert_eq!(done.code, 2, "{wrong:?}: {}", done.stderr);
+    }
+    assert_eq!(files(folder.path()).len(), 0);
+}
+
+#[test]
+fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study("fig13");
+    let sweep = |more: &[&str]| {
+        let arguments = [
+            "sweep",
+            path.to_str().unwrap(),
+            "--store",
+            "s.opshock",
+            "--set",
+            "ramp.models=[\"rigid\"]",
+            "--set",
+            "pulse.signs=[\"+\"]",
+            "--set",
+            "search.tolerance_pct=20",
+            "--set",
+            "search.certify=off",
+        ];
+        Done::of(folder.path(), &[&arguments[..], &COARSE, more].concat())
+    };
+    let none = sweep(&["--budget-s", "0", "--json"]);
+    assert_eq!(none.code, 5, "{}", none.stderr);
+    assert!(
+        none.stderr.contains("resume with: opshock sweep "),
+        "{}",
+        none.stderr
+    );
+    let first = sweep(&["--json", "-j1"]);
+    assert!([0, 4].contains(&first.code), "{}", first.stderr);
+    assert_eq!(first.json()["points"].as_array().map(Vec::len), Some(1));
+    let again = sweep(&["--json", "-j2", "--quiet"]);
+    assert_eq!(again.stderr, "");
+    assert_eq!(first.stdout, again.stdout);
+    let report = Done::of(folder.path(), &["report", "s.opshock", "--json"]);
+    assert_eq!((report.code, report.stdout), (first.code, first.stdout));
+}
+
+#[test]
+fn doctor_finds_a_sound_machine_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = Done::of(folder.path(), &["doctor", "--json"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let checks = done.json()["checks"].as_array().unwrap().clone();
+    assert_eq!(checks.len(), 2);
+    assert!(checks.iter().all(|check| check["ok"] == true), "{checks:?}");
+    assert_eq!(files(folder.path()).len(), 0);
+    assert_eq!(
+        Done::of(folder.path(), &["doctor", "no/such/folder"]).code,
+        1
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_saves_and_ends_with_the_code_of_the_signal() {
+    use std::io::{BufRead as _, BufReader};
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+        .current_dir(folder.path())
+        .args([
+            "sweep",
+            study("fig13").to_str().unwrap(),
+            "--store",
+            "s.opshock",
+            "-j1",
+            "--progress",
+            "lines",
+        ])
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    // The second line follows the opening of the store.
+    lines.next().unwrap().unwrap();
+    lines.next().unwrap().unwrap();
+    let pid = child.id().to_string();
+    assert!(
+        std::process::Command::new("kill")
+            .args(["-TERM", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let rest: Vec<String> = lines.map_while(Result::ok).collect();
+    assert_eq!(child.wait().unwrap().code(), Some(143), "{rest:?}");
+    let resume = rest
+        .iter()
+        .find(|line| line.contains("resume with: opshock sweep "))
+        .expect("the line");
+    assert!(resume.ends_with("--store s.opshock"), "{resume}");
+}
