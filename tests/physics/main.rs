@@ -3,6 +3,10 @@
 mod bodies;
 mod contact;
 mod free_motion;
+mod head_coupling;
+mod head_rest;
+mod head_shock;
+mod head_touch;
 mod plate;
 mod spinning;
 mod suspension;

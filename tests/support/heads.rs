@@ -82,7 +82,7 @@ pub fn default_resolution() -> HeadResolution {
         approach_share: 0.3,
         suspension_modes: 4,
         coupling: Coupling::Monolithic,
-        coupling_tolerance: 1e-5,
+        coupling_tolerance: 1e-4,
         max_steps: 200_000,
     }
 }

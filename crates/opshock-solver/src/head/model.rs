@@ -189,9 +189,10 @@ impl HeadModel {
         self.arms.iter().zip(dx).map(|(arm, d)| arm * d.abs()).sum()
     }
 
-    /// Clearance to which errors are relative, m.
+    /// Clearance to which errors are relative, m: the clearance plus twice the film's floor, the
+    /// height below which the film no longer tells heights apart.
     #[inline]
     pub(super) fn gap_scale(&self, clearance_m: f64) -> f64 {
-        clearance_m.max(self.film.floor_m())
+        clearance_m.max(0.0) + 2.0 * self.film.floor_m()
     }
 }
