@@ -14,7 +14,8 @@ pub fn text(name: &str) -> String {
     };
     format!(
         r#"# How hard may this drive be hit before the slider touches the disk?
-# Everything left out has a default; `opshock check --resolved` lists it, `opshock schema` explains it.
+# Everything left out has a default; `opshock check --resolved` lists them all,
+# `opshock schema` explains them.
 
 study_format = 1
 name = "{name}"
