@@ -25,7 +25,7 @@ fn run(coupling: Coupling) -> HeadRun {
     model.run(
         &disk,
         &load,
-        0.6e-3,
+        0.3e-3,
         true,
         false,
         &mut HeadWorkspace::new(&model),
