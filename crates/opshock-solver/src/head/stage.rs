@@ -227,7 +227,7 @@ impl Stages<'_> {
         psi_known: &[f64],
     ) -> [f64; 3] {
         let (film, s) = (&self.model.film, &mut *self.scratch);
-        film.flux_residual(psi, attitude, &mut s.residual, &mut s.film);
+        let force = film.flux_residual_and_force(psi, attitude, &mut s.residual, &mut s.film);
         s.counters.residuals += 1;
         let per_d = 1.0 / instant.d_s;
         for (r, ((psi, known), c)) in s
@@ -237,7 +237,6 @@ impl Stages<'_> {
         {
             *r += c * (psi - known) * per_d;
         }
-        let force = film.force(psi, attitude);
         std::array::from_fn(|f| force[f] - self.model.steady_force[f])
     }
 

@@ -34,10 +34,10 @@ pub struct Resolutions {
 
 /// Resolutions of a rung.
 pub fn resolutions(rung: Rung) -> Resolutions {
-    let (cut_hz, step_s, cells, tolerance) = match rung {
-        Rung::FivePercent => (20e3, 1.0e-6, 1000, 4.0e-3),
-        Rung::OnePercent => (30e3, 0.5e-6, 2000, 1.0e-3),
-        Rung::TenthPercent => (80e3, 0.1e-6, 8000, 1.0e-4),
+    let (cut_hz, step_s, cells, tolerance, coupling_tolerance) = match rung {
+        Rung::FivePercent => (20e3, 1.0e-6, 600, 3.0e-2, 1.0e-4),
+        Rung::OnePercent => (30e3, 0.5e-6, 1000, 1.0e-2, 1.0e-4),
+        Rung::TenthPercent => (80e3, 0.25e-6, 8000, 1.0e-3, 1.0e-5),
     };
     Resolutions {
         disk: DiskResolution {
@@ -56,7 +56,7 @@ pub fn resolutions(rung: Rung) -> Resolutions {
             approach_share: 0.25,
             suspension_modes: 4,
             coupling: Coupling::Monolithic,
-            coupling_tolerance: 1.0e-6,
+            coupling_tolerance,
             max_steps: 2_000_000,
         },
     }
