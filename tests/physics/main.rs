@@ -2,6 +2,11 @@
 
 mod bodies;
 mod contact;
+mod film_flight;
+mod film_flow_factor;
+mod film_plane;
+mod film_squeeze;
+mod film_steps;
 mod free_motion;
 mod head_coupling;
 mod head_rest;

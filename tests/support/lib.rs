@@ -1,6 +1,7 @@
 //! What the tests share: reference data, named scenes, the built program.
 
 pub mod bodies;
+pub mod films;
 pub mod hdf5_dump;
 pub mod heads;
 pub mod mock_sweep;

@@ -39,7 +39,7 @@ const TABLE_RANGE: [f64; 2] = [9.5367431640625e-7, 1_048_576.0];
 
 /// G = Q ψ against ψ, with derivative.
 #[derive(Clone, Debug)]
-pub(super) struct FlowFactor {
+pub struct FlowFactor {
     model: FlowModel,
     /// λ_a p_a, Pa m.
     knudsen_psi: f64,
@@ -54,7 +54,7 @@ pub(super) struct FlowFactor {
 
 impl FlowFactor {
     /// Tabulates `model` for a gas with λ_a p_a = `knudsen_psi` (Pa m).
-    pub(super) fn new(model: FlowModel, knudsen_psi: f64) -> Self {
+    pub fn new(model: FlowModel, knudsen_psi: f64) -> Self {
         let first_interval = interval(TABLE_RANGE[0]);
         let n = if model == FlowModel::FukuiKaneko {
             interval(TABLE_RANGE[1]) - first_interval
@@ -88,7 +88,7 @@ impl FlowFactor {
 
     /// G and dG/dψ at ψ > 0 (Pa m).
     #[inline]
-    pub(super) fn conductance(&self, psi: f64) -> (f64, f64) {
+    pub fn conductance(&self, psi: f64) -> (f64, f64) {
         let l = self.knudsen_psi;
         match self.model {
             FlowModel::Continuum => (psi, 1.0),

@@ -16,8 +16,11 @@
 //! ordinary flight, on a grid with lines crowding evenly towards all edges first, and repeated on
 //! its own result. (Goal-oriented error estimates: Becker and Rannacher 2001, Acta Numerica 10.)
 
+use super::Attitude;
+use super::balance::Column;
 use super::film::Film;
-use super::steady::Newton;
+use super::flux::HalfCell;
+use super::newton::Newton;
 use crate::grid::Lines;
 use crate::linalg::banded::BandedLu;
 use crate::slider::surface::Surface;
@@ -77,7 +80,7 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
     lu.factor(&transposed, 0.0, &vec![0.0; n]).ok()?;
     lu.solve(&mut adjoint);
 
-    let errors = film.strip_errors(&psi, &attitude, &adjoint);
+    let errors = strip_errors(film, &psi, &attitude, &adjoint);
     let edges = surface.edge_coordinates_m();
     let lines = film.lines_m();
     let [x, y] = [
@@ -90,6 +93,51 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
         x.lines(&edges[0], n_x)?,
         y.lines(&edges[1], cells as f64 / n_x)?,
     ])
+}
+
+/// Error densities e_x of the strips between lines along x, and e_y: see the module.
+fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) -> [Vec<f64>; 2] {
+    let [nx, ny] = [film.mesh.lines[0].n_cells(), film.mesh.lines[1].n_cells()];
+    let columns: Vec<Column> = (0..film.n_cells())
+        .map(|c| film.column(&film.mesh.cells[c], psi[c], attitude))
+        .collect();
+    // Sum over both faces of a direction of face minus centre, of pressure and of adjoint.
+    let mut bends = vec![[[0.0; 2]; 2]; film.n_cells()];
+    for (k, face) in film.mesh.faces.iter().enumerate() {
+        let d = usize::from(k >= (nx - 1) * ny);
+        let base = face.place.height(attitude);
+        let half: [HalfCell; 2] = std::array::from_fn(|s| {
+            let side = &face.sides[s];
+            film.half_cell(side, psi, &columns[side.cell], base).0
+        });
+        let [a, b] = [half[0].flux(), half[1].flux()];
+        let p = (a.alpha + b.alpha) / (a.beta + b.beta);
+        let weight = half.map(|h| h.g * h.h_centre * h.h_face * h.inverse_distance);
+        let [l, r] = face.sides.map(|side| side.cell);
+        let z = (weight[0] * adjoint[l] + weight[1] * adjoint[r]) / (weight[0] + weight[1]);
+        for cell in [l, r] {
+            bends[cell][d][0] += p - psi[cell] / columns[cell].h;
+            bends[cell][d][1] += z - adjoint[cell];
+        }
+    }
+    // Edge faces come in the order of their direction: both ends of every row, of every column.
+    for (k, face) in film.mesh.edge_faces.iter().enumerate() {
+        let (d, cell) = (usize::from(k >= 2 * ny), face.side.cell);
+        bends[cell][d][0] += film.ambient_pa - psi[cell] / columns[cell].h;
+        bends[cell][d][1] -= adjoint[cell];
+    }
+    let mut errors = [vec![0.0; nx], vec![0.0; ny]];
+    for (c, (bend, column)) in bends.iter().zip(&columns).enumerate() {
+        let at = [c % nx, c / nx];
+        for d in 0..2 {
+            let width = film.mesh.lines[d].width(at[d]);
+            let across = film.mesh.lines[1 - d].width(at[1 - d]);
+            let kappa = column.g * column.h * column.h;
+            let product = bend[d][0] * bend[d][1];
+            errors[d][at[d]] += across * kappa * product.abs() * (2.0 / width).powi(4);
+        }
+    }
+    errors
 }
 
 /// Density of lines along one direction.

@@ -1,18 +1,23 @@
 //! Air bearing: compressible Reynolds equation with rarefaction under one slider.
 
+mod balance;
 mod corner;
 mod film;
 mod flow_factor;
 mod flux;
 pub mod impedance;
 mod layout;
+mod mesh;
+mod newton;
 pub mod steady;
 mod thickness;
 
 #[cfg(test)]
 mod tests;
 
-pub use film::{Film, FilmError, FilmLinearisation, FilmScratch};
+pub use balance::{FilmLinearisation, FilmScratch};
+pub use film::{Film, FilmError};
+pub use flow_factor::FlowFactor;
 
 /// Rarefaction model of the flow factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,265 @@
+//! Cells and faces of a film: places, recesses, sizes, and the wind through every face.
+//!
+//! Cells are numbered along x first. The two-point fluxes reach one cell further upstream where the
+//! wind carries them; along x that lies within the band the neighbours along y need anyway.
+
+use super::Attitude;
+use super::corner::{Widths, conductance_factors};
+use crate::grid::Lines;
+use crate::slider::surface::Surface;
+
+/// Recesses closer than this belong to one smooth stretch of film.
+const SAME_RECESS_M: f64 = 1e-12;
+
+/// Height of a place: the constant part and the lever arms of pitch and roll.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Form, without recess, m.
+    pub(super) form: f64,
+    /// x − x_c, m.
+    pub(super) x: f64,
+    /// y − y_c, m.
+    pub(super) y: f64,
+}
+
+impl Place {
+    pub(super) fn new(surface: &Surface, x: f64, y: f64) -> Self {
+        let [xc, yc] = surface.centre_m();
+        Self {
+            form: surface.form_m(x, y),
+            x: x - xc,
+            y: y - yc,
+        }
+    }
+
+    #[inline]
+    pub(super) fn height(&self, attitude: &Attitude) -> f64 {
+        attitude.centre_height_m - attitude.pitch_rad * self.x
+            + attitude.roll_rad * self.y
+            + self.form
+    }
+
+    /// Derivatives of the height by attitude.
+    #[inline]
+    pub(super) fn arms(&self) -> [f64; 3] {
+        [1.0, -self.x, self.y]
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    pub(super) place: Place,
+    pub(super) recess: f64,
+    pub(super) area: f64,
+}
+
+/// One cell's side of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    pub(super) cell: usize,
+    /// The next cell away from the face; `cell` itself when `reach` is 0.
+    pub(super) behind: usize,
+    /// See [`HalfCell::reach`](super::flux::HalfCell::reach).
+    pub(super) reach: f64,
+    pub(super) recess: f64,
+    /// 1/Δ.
+    pub(super) inverse_distance: f64,
+    /// 6 μ U · outward normal.
+    pub(super) wind: f64,
+    /// Area of the half cell.
+    pub(super) area: f64,
+}
+
+/// Face between two cells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Face {
+    pub(super) sides: [Side; 2],
+    pub(super) place: Place,
+    pub(super) length: f64,
+}
+
+/// Face on the slider's edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EdgeFace {
+    pub(super) side: Side,
+    pub(super) place: Place,
+    pub(super) length: f64,
+}
+
+/// All cells and faces of one film.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    /// Grid lines along x and along y.
+    pub(super) lines: [Lines; 2],
+    pub(super) cells: Vec<Cell>,
+    /// Faces across x row by row, then faces across y.
+    pub(super) faces: Vec<Face>,
+    /// Both ends of every row, then those of every column.
+    pub(super) edge_faces: Vec<EdgeFace>,
+}
+
+impl Mesh {
+    /// Mesh of `surface` on `lines` with the wind 6 μ U along x and y.
+    pub(super) fn new(surface: &Surface, lines: [Lines; 2], wind: [f64; 2]) -> Self {
+        let cells = cells(surface, &lines);
+        let mut mesh = Self {
+            faces: Vec::with_capacity(2 * cells.len()),
+            edge_faces: Vec::with_capacity(4 * lines[0].n_cells().max(lines[1].n_cells())),
+            cells,
+            lines,
+        };
+        let [nx, ny] = mesh.counts();
+        for row in 0..ny {
+            for line in 0..=nx {
+                mesh.add_face(surface, 0, line, row, wind[0]);
+            }
+        }
+        for line in 0..=ny {
+            for column in 0..nx {
+                mesh.add_face(surface, 1, line, column, wind[1]);
+            }
+        }
+        mesh
+    }
+
+    /// Cells along x and along y.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [self.lines[0].n_cells(), self.lines[1].n_cells()]
+    }
+
+    /// Number of the cell in column i and row j.
+    pub(super) fn index(&self, i: usize, j: usize) -> usize {
+        j * self.lines[0].n_cells() + i
+    }
+
+    /// Entries on either side of the diagonal in a matrix over the cells.
+    pub(super) fn half_bandwidth(&self) -> usize {
+        match self.counts() {
+            [_, 1] => 2,
+            [nx, _] => nx.max(2),
+        }
+    }
+
+    /// Adds the face on line `line` of direction `d` between lines `across` and `across` + 1 of the
+    /// other.
+    fn add_face(&mut self, surface: &Surface, d: usize, line: usize, across: usize, wind: f64) {
+        let n = self.lines[d].n_cells();
+        let at = self.lines[d].as_slice()[line];
+        let middle = self.lines[1 - d].centre(across);
+        let (x, y) = if d == 0 { (at, middle) } else { (middle, at) };
+        let place = Place::new(surface, x, y);
+        let length = self.lines[1 - d].width(across);
+        if line == 0 || line == n {
+            let side = if line == 0 {
+                self.side(d, 0, across, -1.0, wind)
+            } else {
+                self.side(d, n - 1, across, 1.0, wind)
+            };
+            self.edge_faces.push(EdgeFace {
+                side,
+                place,
+                length,
+            });
+        } else {
+            let sides = [
+                self.side(d, line - 1, across, 1.0, wind),
+                self.side(d, line, across, -1.0, wind),
+            ];
+            self.faces.push(Face {
+                sides,
+                place,
+                length,
+            });
+        }
+    }
+
+    /// Side of the k-th cell along direction `d`, whose outward normal points along `sign`.
+    fn side(&self, d: usize, k: usize, across: usize, sign: f64, wind: f64) -> Side {
+        let lines = &self.lines[d];
+        let cell = |k: usize| {
+            if d == 0 {
+                self.index(k, across)
+            } else {
+                self.index(across, k)
+            }
+        };
+        let recess = |k: usize| self.cells[cell(k)].recess;
+        let behind = if sign > 0.0 {
+            k.checked_sub(1)
+        } else {
+            Some(k + 1).filter(|&b| b < lines.n_cells())
+        };
+        let behind = behind.filter(|&b| {
+            d == 0 && sign * wind > 0.0 && (recess(b) - recess(k)).abs() < SAME_RECESS_M
+        });
+        let half_width = 0.5 * lines.width(k);
+        Side {
+            cell: cell(k),
+            behind: cell(behind.unwrap_or(k)),
+            reach: behind.map_or(0.0, |b| lines.width(k) / (lines.width(k) + lines.width(b))),
+            recess: recess(k),
+            inverse_distance: 1.0 / half_width,
+            wind: sign * wind,
+            area: half_width * self.lines[1 - d].width(across),
+        }
+    }
+
+    /// Gives the faces around singular corners of the surface the conductance of the local
+    /// solution; `kappa` is the conductance G h² at a height, and the heights are those at `usual`.
+    pub(super) fn correct_corners(
+        &mut self,
+        surface: &Surface,
+        usual: &Attitude,
+        kappa: impl Fn(f64) -> f64,
+    ) {
+        let [nx, ny] = self.counts();
+        for i in 1..nx {
+            for j in 1..ny {
+                // Counter-clockwise from the cell left below, as the faces between them.
+                let around = [
+                    self.index(i - 1, j - 1),
+                    self.index(i, j - 1),
+                    self.index(i, j),
+                    self.index(i - 1, j),
+                ];
+                let recess = around.map(|c| self.cells[c].recess);
+                if recess.iter().all(|r| (r - recess[0]).abs() < SAME_RECESS_M) {
+                    continue;
+                }
+                let [x, y] = &self.lines;
+                let base = Place::new(surface, x.as_slice()[i], y.as_slice()[j]).height(usual);
+                let widths = Widths {
+                    left: x.width(i - 1),
+                    right: x.width(i),
+                    below: y.width(j - 1),
+                    above: y.width(j),
+                };
+                let factors = conductance_factors(recess.map(|r| kappa(base + r)), &widths);
+                let x_face = |j: usize| j * (nx - 1) + (i - 1);
+                let y_face = |i: usize| ny * (nx - 1) + (j - 1) * nx + i;
+                let meeting = [x_face(j - 1), y_face(i), x_face(j), y_face(i - 1)];
+                for (face, factor) in meeting.into_iter().zip(factors) {
+                    for side in &mut self.faces[face].sides {
+                        side.inverse_distance *= factor;
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn cells(surface: &Surface, lines: &[Lines; 2]) -> Vec<Cell> {
+    let [nx, ny] = [lines[0].n_cells(), lines[1].n_cells()];
+    let (xs, ys) = (lines[0].as_slice(), lines[1].as_slice());
+    let mut cells = Vec::with_capacity(nx * ny);
+    for j in 0..ny {
+        for i in 0..nx {
+            cells.push(Cell {
+                place: Place::new(surface, lines[0].centre(i), lines[1].centre(j)),
+                recess: surface.mean_recess_m([xs[i], xs[i + 1]], [ys[j], ys[j + 1]]),
+                area: lines[0].width(i) * lines[1].width(j),
+            });
+        }
+    }
+    cells
+}

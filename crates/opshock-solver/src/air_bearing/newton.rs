@@ -1,0 +1,266 @@
+//! Newton's method on the film, alone or with the slider's attitude.
+//!
+//! With A = dR/dψ and C = dR/dq, ψ eliminated:
+//!
+//! ```text
+//! K = −dF/dq along R = 0 = F_ψ A⁻¹ C − F_q,    K δq = F − load − F_ψ A⁻¹ R,
+//! δψ = −A⁻¹ R − A⁻¹ C δq.
+//! ```
+//!
+//! K is the quasi-static stiffness of the flying slider. A step never takes more than a set share
+//! of a cell's ψ or of the clearance.
+
+use super::Attitude;
+use super::balance::{FilmLinearisation, FilmScratch};
+use super::film::Film;
+use crate::linalg::banded::{BandedError, BandedLu};
+use nalgebra::{Matrix3, Vector3};
+
+/// Relative step at which Newton's quadratic convergence leaves only rounding.
+pub(super) const CONVERGED: f64 = 1e-9;
+/// Most Newton iterations of one attempt.
+pub(super) const MOST_ITERATIONS: usize = 60;
+/// Most steps of the overdamped motion.
+const MOST_DRIFT_STEPS: usize = 200;
+/// Share of a cell's ψ a step must leave.
+const PSI_KEPT: f64 = 0.2;
+
+/// Scratch of the Newton iterations.
+pub(super) struct Newton<'a> {
+    pub(super) film: &'a Film,
+    scratch: FilmScratch,
+    pub(super) linearisation: FilmLinearisation,
+    pub(super) lu: BandedLu,
+    /// A⁻¹ [C, R].
+    pub(super) columns: Vec<[f64; 4]>,
+    zero: Vec<f64>,
+    pub(super) n_factored: usize,
+}
+
+impl<'a> Newton<'a> {
+    pub(super) fn new(film: &'a Film) -> Self {
+        let n = film.n_cells();
+        let linearisation = film.linearisation();
+        Self {
+            film,
+            scratch: film.scratch(),
+            lu: BandedLu::new(n, linearisation.by_psi.half_bandwidth()),
+            linearisation,
+            columns: vec![[0.0; 4]; n],
+            zero: vec![0.0; n],
+            n_factored: 0,
+        }
+    }
+
+    /// Linearises and factors at a state.
+    pub(super) fn factor(&mut self, psi: &[f64], attitude: &Attitude) -> Result<(), BandedError> {
+        self.n_factored += 1;
+        self.film
+            .linearise(psi, attitude, &mut self.linearisation, &mut self.scratch);
+        self.lu.factor(&self.linearisation.by_psi, 0.0, &self.zero)
+    }
+
+    /// Fills `columns`; returns force, K and F_ψ A⁻¹ R.
+    pub(super) fn schur(&mut self) -> (Vector3<f64>, Matrix3<f64>, Vector3<f64>) {
+        let lin = &self.linearisation;
+        for (k, row) in self.columns.iter_mut().enumerate() {
+            let [a, b, c] = &lin.by_attitude;
+            *row = [a[k], b[k], c[k], lin.residual[k]];
+        }
+        self.lu.solve_columns(&mut self.columns);
+        let mut product = [[0.0; 4]; 3];
+        for (row, gradient) in product.iter_mut().zip(&lin.force_by_psi) {
+            for (g, column) in gradient.iter().zip(&self.columns) {
+                for (sum, c) in row.iter_mut().zip(column) {
+                    *sum += g * c;
+                }
+            }
+        }
+        let stiffness = Matrix3::from_fn(|i, j| product[i][j] - lin.force_by_attitude[i][j]);
+        let pending = Vector3::from_fn(|i, _| product[i][3]);
+        (Vector3::from(lin.force), stiffness, pending)
+    }
+
+    /// Gradient by ψ of the clearance a small force error costs at constant load: of r K⁻¹ F with r
+    /// the arms of the closest point.
+    pub(super) fn clearance_goal(&mut self, attitude: &Attitude) -> Option<Vec<f64>> {
+        let (_, stiffness, _) = self.schur();
+        let film = self.film;
+        let closest = film.min_clearance(attitude);
+        let [l, w] = film.extent_m();
+        let arms = Vector3::new(1.0, -(closest.x_m - 0.5 * l), closest.y_m - 0.5 * w);
+        let row = stiffness.transpose().try_inverse()? * arms;
+        let gradients = &self.linearisation.force_by_psi;
+        Some(
+            (0..film.n_cells())
+                .map(|k| {
+                    row[0] * gradients[0][k] + row[1] * gradients[1][k] + row[2] * gradients[2][k]
+                })
+                .collect(),
+        )
+    }
+
+    /// −F_ψ A⁻¹ M A⁻¹ C with the capacities M, from the columns [`Newton::schur`] left behind.
+    pub(super) fn damping(&mut self) -> Matrix3<f64> {
+        for (row, capacity) in self.columns.iter_mut().zip(self.film.capacity()) {
+            row.iter_mut().for_each(|v| *v *= capacity);
+        }
+        self.lu.solve_columns(&mut self.columns);
+        let gradients = &self.linearisation.force_by_psi;
+        Matrix3::from_fn(|i, j| {
+            -gradients[i]
+                .iter()
+                .zip(&self.columns)
+                .map(|(g, row)| g * row[j])
+                .sum::<f64>()
+        })
+    }
+
+    /// Newton on ψ alone, in place; returns iterations and the last relative step.
+    pub(super) fn hold(
+        &mut self,
+        psi: &mut [f64],
+        attitude: &Attitude,
+        most: usize,
+    ) -> Result<(usize, f64), BandedError> {
+        let mut step = f64::INFINITY;
+        let mut delta = vec![0.0; psi.len()];
+        for iteration in 1..=most {
+            self.factor(psi, attitude)?;
+            delta.copy_from_slice(&self.linearisation.residual);
+            self.lu.solve(&mut delta);
+            step = 0.0;
+            for (psi, delta) in psi.iter_mut().zip(&delta) {
+                let new = (*psi - delta).max(PSI_KEPT * *psi);
+                step = step.max((new - *psi).abs() / *psi);
+                *psi = new;
+            }
+            if step < CONVERGED {
+                return Ok((iteration, step));
+            }
+        }
+        Ok((most, step))
+    }
+
+    /// Newton on (ψ, q), in place; whether it converged.
+    pub(super) fn fly(
+        &mut self,
+        psi: &mut [f64],
+        attitude: &mut Attitude,
+        load: &Vector3<f64>,
+    ) -> Result<bool, BandedError> {
+        for _ in 0..MOST_ITERATIONS {
+            self.factor(psi, attitude)?;
+            let (force, stiffness, pending) = self.schur();
+            let Some(inverse) = stiffness.try_inverse() else {
+                return Ok(false);
+            };
+            let full = inverse * (force - load - pending);
+            if !full.iter().all(|v| v.is_finite()) {
+                return Ok(false);
+            }
+            if self.advance(psi, attitude, &full) < CONVERGED {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Overdamped motion under load and film force, in place, until Newton's method may take over.
+    ///
+    /// An implicit Euler step of D dq/dt = F − load with D of the size of the stiffness of a rigid
+    /// plate on springs; the film follows quasi-statically. D falls with the unbalanced force.
+    pub(super) fn drift(
+        &mut self,
+        psi: &mut [f64],
+        attitude: &mut Attitude,
+        load: &Vector3<f64>,
+    ) -> Result<(), BandedError> {
+        let [l, w] = self.film.extent_m();
+        let unit = Vector3::new(1.0, 0.25 * l * l, 0.25 * w * w);
+        let levers = Vector3::new(1.0, 0.5 * l, 0.5 * w);
+        let scale = load.component_div(&levers).norm().max(1e-6);
+        for _ in 0..MOST_DRIFT_STEPS {
+            self.hold(psi, attitude, 8)?;
+            self.factor(psi, attitude)?;
+            let (force, stiffness, pending) = self.schur();
+            let unbalanced = force - load - pending;
+            let share = unbalanced.component_div(&levers).norm() / scale;
+            if share < 1e-3 {
+                return Ok(());
+            }
+            let clearance = self
+                .film
+                .min_clearance(attitude)
+                .value_m
+                .max(self.film.floor_m());
+            let drag = share * scale / clearance;
+            let step = (stiffness + Matrix3::from_diagonal(&(unit * drag)))
+                .try_inverse()
+                .map_or(unbalanced.component_div(&(unit * drag)), |m| m * unbalanced);
+            self.advance(psi, attitude, &step);
+        }
+        Ok(())
+    }
+
+    /// Takes the admissible share of a change of attitude, the film along with it; the largest
+    /// relative change left or made.
+    fn advance(&self, psi: &mut [f64], attitude: &mut Attitude, full: &Vector3<f64>) -> f64 {
+        let share = self.admissible_share(attitude, full);
+        let change = full * share;
+        let mut step = (1.0 - share).max(relative_change(self.film, attitude, &change));
+        for (psi, row) in psi.iter_mut().zip(&self.columns) {
+            let delta = row[3] + row[0] * change[0] + row[1] * change[1] + row[2] * change[2];
+            let new = (*psi - delta).max(PSI_KEPT * *psi);
+            step = step.max((new - *psi).abs() / *psi);
+            *psi = new;
+        }
+        *attitude = moved(attitude, &change);
+        step
+    }
+
+    /// Largest share of a change of attitude that neither takes most of the clearance nor triples
+    /// it.
+    fn admissible_share(&self, attitude: &Attitude, change: &Vector3<f64>) -> f64 {
+        let film = self.film;
+        let before = film.min_clearance(attitude).value_m.max(film.floor_m());
+        let mut share = 1.0;
+        for _ in 0..60 {
+            let after = film
+                .min_clearance(&moved(attitude, &(change * share)))
+                .value_m;
+            let tilt = span(film, change) * share;
+            if after > 0.4 * before - film.floor_m()
+                && after < 3.0 * before
+                && tilt < 3.0 * before + 2e-8
+            {
+                break;
+            }
+            share *= 0.7;
+        }
+        share
+    }
+}
+
+/// Largest change of height over the slider, m.
+pub(super) fn span(film: &Film, change: &Vector3<f64>) -> f64 {
+    let [l, w] = film.extent_m();
+    change[0].abs() + 0.5 * l * change[1].abs() + 0.5 * w * change[2].abs()
+}
+
+fn relative_change(film: &Film, attitude: &Attitude, change: &Vector3<f64>) -> f64 {
+    span(film, change)
+        / film
+            .min_clearance(attitude)
+            .value_m
+            .abs()
+            .max(film.floor_m())
+}
+
+fn moved(attitude: &Attitude, change: &Vector3<f64>) -> Attitude {
+    Attitude {
+        centre_height_m: attitude.centre_height_m + change[0],
+        pitch_rad: attitude.pitch_rad + change[1],
+        roll_rad: attitude.roll_rad + change[2],
+    }
+}
