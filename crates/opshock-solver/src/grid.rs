@@ -46,3 +46,20 @@ impl Lines {
         self.lines[i + 1] - self.lines[i]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_must_rise() {
+        assert!(Lines::new(vec![0.0]).is_none());
+        assert!(Lines::new(vec![0.0, 1.0, 1.0]).is_none());
+        assert!(Lines::new(vec![0.0, f64::NAN]).is_none());
+        let lines = Lines::uniform(1.0, 3.0, 4).unwrap();
+        assert_eq!(
+            (lines.n_cells(), lines.centre(1), lines.width(3)),
+            (4, 1.75, 0.5)
+        );
+    }
+}

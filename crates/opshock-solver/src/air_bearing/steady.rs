@@ -4,7 +4,7 @@
 //! R(ψ, q) = 0,   F(ψ, q) = load,   q = (h_c, pitch, roll)
 //! ```
 //!
-//! [Newton's method](super::newton) on (ψ, q) finds it from any sensible start. Where that is not
+//! Newton's method on (ψ, q) finds it from any sensible start. Where that is not
 //! enough (a start far away, a pitch of the wrong sign) the slider follows an overdamped motion
 //! under load and film force: every stable equilibrium attracts it, and Newton takes over near the
 //! end. An equilibrium is stable when all eigenvalues of its stiffness have positive real parts.

@@ -230,3 +230,110 @@ fn crossings(a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]) -> Vec<f64> {
         .filter(within)
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
+
+    /// Overlapping rectangles and a polygon, one of them hiding the lowest part of another.
+    fn surface(crown_m: f64, camber_m: f64, twist_m: f64) -> Surface {
+        let rail = |outline, recess_m| Rail { outline, recess_m };
+        Surface::new(&SliderParameters {
+            radius_m: 0.02,
+            angle_rad: 0.0,
+            skew_rad: 0.0,
+            length_m: 850e-6,
+            width_m: 700e-6,
+            height_m: 230e-6,
+            density_kg_per_m3: 4300.0,
+            surface: SurfaceParameters {
+                base_recess_m: 1e-6,
+                crown_m,
+                camber_m,
+                twist_m,
+                taper_length_m: 120e-6,
+                taper_angle_rad: 2e-3,
+                rails: vec![
+                    rail(
+                        RailOutline::Rectangle {
+                            x_m: [0.0, 800e-6],
+                            y_m: [50e-6, 650e-6],
+                        },
+                        0.0,
+                    ),
+                    rail(
+                        RailOutline::Polygon {
+                            points_m: vec![
+                                [500e-6, 40e-6],
+                                [820e-6, 120e-6],
+                                [700e-6, 660e-6],
+                                [480e-6, 400e-6],
+                            ],
+                        },
+                        0.3e-6,
+                    ),
+                    rail(
+                        RailOutline::Rectangle {
+                            x_m: [550e-6, 600e-6],
+                            y_m: [300e-6, 350e-6],
+                        },
+                        0.01e-6,
+                    ),
+                ],
+            },
+        })
+    }
+
+    #[test]
+    fn minimum_is_that_of_a_dense_sampling() {
+        for (crown, camber, twist) in [
+            (15e-9, 2e-9, 0.0),
+            (0.0, 0.0, 0.0),
+            (-20e-9, 4e-9, 3e-9),
+            (200e-9, 150e-9, 30e-9),
+        ] {
+            let surface = surface(crown, camber, twist);
+            let map = ClearanceMap::new(&surface);
+            let [xc, yc] = surface.centre_m();
+            for (pitch, roll) in [
+                (0.0, 0.0),
+                (1.1e-4, 0.0),
+                (-2e-4, 1e-4),
+                (3e-5, -3e-4),
+                (4e-4, 2e-4),
+            ] {
+                let found = map.minimum(5e-8, pitch, roll);
+                let height = |x: f64, y: f64| {
+                    5e-8 - pitch * (x - xc)
+                        + roll * (y - yc)
+                        + surface.form_m(x, y)
+                        + surface.recess_m(x, y)
+                };
+                let mut sampled = f64::INFINITY;
+                for i in 0..=1700 {
+                    for j in 0..=1400 {
+                        sampled = sampled.min(height(i as f64 * 0.5e-6, j as f64 * 0.5e-6));
+                    }
+                }
+                let spacing = 0.5e-6 * (pitch.abs() + roll.abs() + 2e-3);
+                assert!(found.value_m <= sampled + 1e-18, "{found:?} {sampled:e}");
+                assert!(found.value_m > sampled - spacing, "{found:?} {sampled:e}");
+                // The named place has that height, approached from the lower side of its edge.
+                let near = [-1e-12, 0.0, 1e-12]
+                    .into_iter()
+                    .flat_map(|dx| {
+                        [-1e-12, 0.0, 1e-12].map(|dy| height(found.x_m + dx, found.y_m + dy))
+                    })
+                    .fold(f64::INFINITY, |best, h| {
+                        if (h - found.value_m).abs() < (best - found.value_m).abs() {
+                            h
+                        } else {
+                            best
+                        }
+                    });
+                assert!((near - found.value_m).abs() < 1e-14, "{found:?} {near:e}");
+            }
+        }
+    }
+}
