@@ -4,6 +4,7 @@ mod bad_inputs;
 mod cli;
 mod cli_run;
 mod cli_studies;
+mod identity;
 mod report_files;
 mod report_run;
 mod report_store;

@@ -445,63 +445,11 @@ impl Digester {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Study;
-
-    fn scenes(set: &str) -> Scene {
-        let sets = if set.is_empty() {
-            Vec::new()
-        } else {
-            vec![set.parse().unwrap()]
-        };
-        let study = Study::from_text(&Study::example("identity"), &sets).unwrap();
-        study.points[0].scene.clone()
-    }
-
-    #[test]
-    fn the_structure_does_not_depend_on_the_head() {
-        let base = scenes("");
-        for head_only in [
-            "suspension.gram_load_gf=2.3",
-            "solver.film_cells=1999",
-            "gas.pressure_pa=9e4",
-        ] {
-            let other = scenes(head_only);
-            assert_eq!(
-                structure_key(&base, 1),
-                structure_key(&other, 1),
-                "{head_only}"
-            );
-            assert_ne!(head_key(&base, 1, 1), head_key(&other, 1, 1), "{head_only}");
-            assert_ne!(
-                CellId::new(&base, true),
-                CellId::new(&other, true),
-                "{head_only}"
-            );
-        }
-        for both in [
-            "disk.rpm=5401",
-            "slider.angle_deg=7.1",
-            "solver.structure_step_us=0.4",
-        ] {
-            assert_ne!(
-                structure_key(&base, 1),
-                structure_key(&scenes(both), 1),
-                "{both}"
-            );
-        }
-    }
-
-    #[test]
-    fn sign_and_version_are_part_of_the_identity() {
-        let scene = scenes("");
-        assert_ne!(CellId::new(&scene, true), CellId::new(&scene, false));
-        assert_ne!(structure_key(&scene, 1), structure_key(&scene, 2));
-        assert_ne!(head_key(&scene, 1, 1), head_key(&scene, 1, 2));
-    }
 
     #[test]
     fn an_identity_survives_its_text() {
-        let id = CellId::new(&scenes(""), true);
+        let id = CellId(std::array::from_fn(|i| 17 * i as u8));
+        assert_eq!(id.to_string(), "00112233445566778899aabbccddeeff");
         assert_eq!(CellId::from_hex(&id.to_string()), Some(id));
         assert_eq!(CellId::from_hex("12"), None);
     }
