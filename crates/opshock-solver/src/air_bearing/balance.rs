@@ -57,7 +57,7 @@ struct FaceDerivatives {
 }
 
 impl FaceDerivatives {
-    #[inline]
+    #[inline(always)]
     fn add_force_gradients(&self, by_psi: &mut [Vec<f64>; 3], by_attitude: &mut [[f64; 3]; 3]) {
         for (f, arm) in self.arms.into_iter().enumerate() {
             for (cell, by) in self.sources.into_iter().zip(self.load_by_psi) {
@@ -91,7 +91,7 @@ impl Film {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn column(&self, cell: &Cell, psi: f64, attitude: &Attitude) -> Column {
         let (h, h_slope) = self.cell_height(cell, attitude);
         let (g, g_slope) = self.flow.conductance(psi);
@@ -113,7 +113,7 @@ impl Film {
 
     /// Half cell of `side` and the floor's derivative at its face, whose true height without recess
     /// is `base`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn half_cell(
         &self,
         side: &Side,
@@ -261,7 +261,7 @@ impl Film {
 
     /// Hands every face's flux (out of the first cell, into the second) and the forces of its
     /// half cells beyond their centre pressures to `take`.
-    #[inline]
+    #[inline(always)]
     fn sweep(
         &self,
         psi: &[f64],
@@ -275,15 +275,26 @@ impl Film {
                 let side = &face.sides[s];
                 self.half_cell(side, psi, &column(side.cell), base).0
             });
-            let [left, right] = [half[0].flux(), half[1].flux()];
-            let p = (left.alpha + right.alpha) / (left.beta + right.beta);
+            let (out, excess) = if face.sides[0].wind == 0.0 {
+                let [(a, b), (c, d)] = half.map(|h| h.still());
+                let p = (a + c) / (b + d);
+                (a - b * p, half.map(|h| h.still_excess(p)))
+            } else {
+                let [left, right] = [half[0].flux(), half[1].flux()];
+                let p = (left.alpha + right.alpha) / (left.beta + right.beta);
+                let excess = [
+                    half[0].mean_excess(&left, p),
+                    half[1].mean_excess(&right, p),
+                ];
+                (left.alpha - left.beta * p, excess)
+            };
             let loads = [
-                face.sides[0].area * half[0].mean_excess(&left, p),
-                face.sides[1].area * half[1].mean_excess(&right, p),
+                face.sides[0].area * excess[0],
+                face.sides[1].area * excess[1],
             ];
             take(
                 face.sides.map(|side| Some(side.cell)),
-                face.length * (left.alpha - left.beta * p),
+                face.length * out,
                 loads,
                 &face.place,
             );
@@ -378,7 +389,7 @@ impl Film {
     }
 
     /// Hands flux and load of every face with their derivatives to `take`.
-    #[inline]
+    #[inline(always)]
     fn sweep_derivatives(
         &self,
         psi: &[f64],
@@ -462,7 +473,7 @@ impl Film {
 
     /// Adds derivatives by attitude that come through the heights at the cell's centre and at the
     /// face, whose floors have the derivatives `slopes`.
-    #[inline]
+    #[inline(always)]
     fn add_by_attitude(
         &self,
         side: &Side,

@@ -37,7 +37,7 @@
 //! less than a micrometre thick and carry about a per cent of the load; no cell resolves them.
 
 /// B(x) = x/(eˣ − 1) and B′(x).
-#[inline]
+#[inline(always)]
 pub(super) fn bernoulli(x: f64) -> (f64, f64) {
     if x.abs() < 0.02 {
         let s = x * x;
@@ -113,7 +113,7 @@ pub(super) struct HalfPartials {
 
 impl HalfCell {
     /// Outward flux coefficients.
-    #[inline]
+    #[inline(always)]
     pub(super) fn flux(&self) -> HalfFlux {
         let (mean, log_ratio) = logarithmic_mean(self.h_centre, self.h_face);
         let conductance = self.g * mean[0] * self.inverse_distance;
@@ -141,9 +141,23 @@ impl HalfCell {
         }
     }
 
+    /// α and β without wind, where the exponential profile is J = G h_c h_f/Δ (ψ/h_c − p): what
+    /// [`HalfCell::flux`] gives for a wind of 0, without its logarithm and exponential.
+    #[inline(always)]
+    pub(super) fn still(&self) -> (f64, f64) {
+        let c = self.g * self.h_face * self.inverse_distance;
+        (c * self.psi, c * self.h_centre)
+    }
+
+    /// [`HalfCell::mean_excess`] without wind.
+    #[inline(always)]
+    pub(super) fn still_excess(&self, p: f64) -> f64 {
+        0.5 * (p - self.psi / self.h_centre)
+    }
+
     /// δ = ψ (g(s) − 1), s = ω reach (1 − ψ_behind/ψ), ω = (1 − Pe/sinh Pe) Pe_wind/Pe, with
     /// derivatives by ψ, ψ behind, Pe and Pe_wind.
-    #[inline]
+    #[inline(always)]
     fn rise(&self, pe: f64, blow: f64, b: f64) -> (f64, [f64; 4]) {
         let (per_blow, slope) = if pe.abs() < 0.02 {
             let q = pe * pe;
@@ -182,11 +196,11 @@ impl HalfCell {
     }
 
     /// Mean over the half cell of the pressure's excess over its centre.
-    #[inline]
+    #[inline(always)]
     pub(super) fn mean_excess(&self, flux: &HalfFlux, p: f64) -> f64 {
         let centre = self.psi / self.h_centre;
         if self.wind == 0.0 {
-            return 0.5 * (p - centre);
+            return self.still_excess(p);
         }
         let carried = self.carried_mean(flux, p) * self.mean_inverse_height()[0];
         let convective = flux.blow.abs() * convective_share(flux.pe, flux.b).0;
@@ -194,7 +208,7 @@ impl HalfCell {
     }
 
     /// Mean of ψ outside the exponential layer.
-    #[inline]
+    #[inline(always)]
     fn carried_mean(&self, flux: &HalfFlux, p: f64) -> f64 {
         if self.wind > 0.0 {
             self.psi + 0.5 * flux.rise
@@ -204,7 +218,7 @@ impl HalfCell {
     }
 
     /// Mean of 1/h (Simpson) and its derivatives by h_centre and h_face.
-    #[inline]
+    #[inline(always)]
     fn mean_inverse_height(&self) -> [f64; 3] {
         let (a, b) = (1.0 / self.h_centre, 1.0 / self.h_face);
         let m = 1.0 / (self.h_centre + self.h_face);
@@ -216,7 +230,7 @@ impl HalfCell {
     }
 
     /// All derivatives at constant face pressure p.
-    #[inline]
+    #[inline(always)]
     pub(super) fn partials(&self, flux: &HalfFlux, p: f64) -> HalfPartials {
         let [mean, mean_centre, mean_face] = flux.mean;
         // Relative derivatives of D/Δ, then those of Pe and its wind part, then of δ.
@@ -301,7 +315,7 @@ impl HalfCell {
 }
 
 /// Logarithmic mean of two heights with its derivatives by both, and ln(h_face/h_centre).
-#[inline]
+#[inline(always)]
 fn logarithmic_mean(h_centre: f64, h_face: f64) -> ([f64; 3], f64) {
     let sum = h_centre + h_face;
     let s = (h_face - h_centre) / sum;
@@ -332,7 +346,7 @@ fn logarithmic_mean(h_centre: f64, h_face: f64) -> ([f64; 3], f64) {
 
 /// (1 − 2 φ)/Pe with φ = (1 − B(Pe))/Pe, the mean of the exponential profile between centre and face
 /// as a share of its whole rise; and the derivative by Pe.
-#[inline]
+#[inline(always)]
 fn convective_share(pe: f64, b: f64) -> (f64, f64) {
     if pe.abs() < 0.05 {
         let q = pe * pe;
@@ -363,6 +377,26 @@ mod tests {
         assert_eq!(bernoulli(0.0), (1.0, -0.5));
         assert_eq!(bernoulli(800.0).0, 0.0);
         assert_eq!(bernoulli(-800.0), (800.0, -1.0));
+    }
+
+    #[test]
+    fn without_wind_the_short_form_is_the_general_one() {
+        for h_face in [0.02, 0.7, 0.999_999, 1.0, 1.3, 40.0] {
+            let cell = HalfCell {
+                psi: 1.7,
+                psi_behind: 1.1,
+                reach: 0.0,
+                g: 2.3,
+                g_slope: 0.4,
+                h_centre: 1.0,
+                h_face,
+                inverse_distance: 3.0,
+                wind: 0.0,
+            };
+            let (general, (alpha, beta)) = (cell.flux(), cell.still());
+            assert!((general.alpha / alpha - 1.0).abs() < 1e-13, "{h_face}");
+            assert!((general.beta / beta - 1.0).abs() < 1e-13, "{h_face}");
+        }
     }
 
     #[test]

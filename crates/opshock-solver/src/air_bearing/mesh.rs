@@ -32,7 +32,7 @@ impl Place {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn height(&self, attitude: &Attitude) -> f64 {
         attitude.centre_height_m - attitude.pitch_rad * self.x
             + attitude.roll_rad * self.y
@@ -40,7 +40,7 @@ impl Place {
     }
 
     /// Derivatives of the height by attitude.
-    #[inline]
+    #[inline(always)]
     pub(super) fn arms(&self) -> [f64; 3] {
         [1.0, -self.x, self.y]
     }

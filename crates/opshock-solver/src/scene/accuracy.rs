@@ -35,8 +35,8 @@ pub struct Resolutions {
 /// Resolutions of a rung.
 pub fn resolutions(rung: Rung) -> Resolutions {
     let (cut_hz, step_s, cells, tolerance, coupling_tolerance) = match rung {
-        Rung::FivePercent => (20e3, 1.0e-6, 600, 3.0e-2, 1.0e-4),
-        Rung::OnePercent => (30e3, 0.5e-6, 1000, 1.0e-2, 1.0e-4),
+        Rung::FivePercent => (20e3, 1.0e-6, 600, 5.0e-2, 5.0e-4),
+        Rung::OnePercent => (30e3, 0.5e-6, 1000, 2.0e-2, 2.0e-4),
         Rung::TenthPercent => (80e3, 0.25e-6, 8000, 1.0e-3, 1.0e-5),
     };
     Resolutions {
