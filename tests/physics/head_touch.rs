@@ -1,11 +1,14 @@
 //! Touching the disk: found between steps, in time, in place, and never by a number that is none.
 
 use opshock_solver::disk::{DiskMotion, DiskPose};
-use opshock_solver::head::{Cause, HeadWorkspace, ShockLoad, Verdict};
+use opshock_solver::head::{Cause, HeadModel, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_tests::heads::{
-    SingleModeDisk, SuddenDisk, default_film, default_head, default_resolution, head_on,
+    SingleModeDisk, SuddenDisk, default_film, default_head, default_resolution, default_slider,
+    head_on,
 };
+use opshock_tests::suspensions::default_suspension;
+use std::sync::Arc;
 
 const PULSE: Pulse = Pulse {
     shape: PulseShape::HalfSine,
@@ -102,6 +105,65 @@ fn going_on_after_touch_keeps_the_first_touch() {
     );
     assert_eq!(stopped.verdict, gone_on.verdict);
     assert!(gone_on.end_s > stopped.end_s);
+}
+
+/// A run that stops at touch ends with the touch: smallest clearance, its time and place, the end
+/// of the run and the last row are one instant, between two steps of the run that goes on.
+#[test]
+fn a_run_that_stops_ends_at_the_instant_of_touch() {
+    let (film, flight) = default_film(300);
+    let amplitude_m_per_s2 = 900.0 * G;
+    let disk = SingleModeDisk::new(amplitude_m_per_s2, 2e-3);
+    let load = ShockLoad {
+        pulse: &PULSE,
+        amplitude_m_per_s2,
+    };
+    for fail_below_m in [0.0, 1e-9] {
+        let model = HeadModel::build(
+            &default_suspension(),
+            &default_slider(),
+            Arc::clone(&film),
+            Arc::clone(&flight),
+            &default_resolution(),
+            fail_below_m,
+        )
+        .expect("head builds");
+        let mut workspace = HeadWorkspace::new(&model);
+        let run = model.run(&disk, &load, 0.8e-3, true, true, &mut workspace);
+        let Verdict::Fails { t_fail_s, place } = run.verdict else {
+            panic!("{:?}", run.verdict)
+        };
+        assert_eq!(run.min_clearance_m, fail_below_m);
+        assert_eq!(run.t_min_clearance_s, t_fail_s);
+        assert_eq!(run.place, place);
+        assert_eq!(run.end_s, t_fail_s);
+        let columns = run.columns.expect("recorded");
+        let rows = columns.time_s.len();
+        assert_eq!(columns.time_s[rows - 1], t_fail_s);
+        assert_eq!(columns.min_clearance_m[rows - 1], fail_below_m);
+        assert!(columns.time_s.windows(2).all(|pair| pair[0] < pair[1]));
+        let (last, earlier) = columns.min_clearance_m.split_last().expect("rows");
+        assert!(earlier.iter().all(|h| h > last), "no row below the limit");
+
+        let gone_on = model.run(&disk, &load, 0.8e-3, false, true, &mut workspace);
+        let other = gone_on.columns.expect("recorded");
+        // The same steps up to the touch; the step that holds it ends behind it.
+        assert_eq!(columns.time_s[..rows - 1], other.time_s[..rows - 1]);
+        assert!(other.time_s[rows - 1] > t_fail_s);
+        assert!(gone_on.min_clearance_m < fail_below_m);
+        // Its film and slider are those of a moment between the rows around.
+        let between = |column: &[f64], neighbour: &[f64]| {
+            let (a, b) = (neighbour[rows - 2], neighbour[rows - 1]);
+            let slack = 0.1 * (b - a).abs();
+            let x = column[rows - 1];
+            assert!(
+                x >= a.min(b) - slack && x <= a.max(b) + slack,
+                "{a} {x} {b}"
+            );
+        };
+        between(&columns.slider_z_m, &other.slider_z_m);
+        between(&columns.bearing_force_n, &other.bearing_force_n);
+    }
 }
 
 struct BrokenDisk;

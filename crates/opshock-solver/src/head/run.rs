@@ -55,7 +55,8 @@ impl HeadWorkspace {
 impl HeadModel {
     /// Runs one shock for `window_s` after its onset under `motion` of the disk.
     ///
-    /// With `stop_at_failure` the run ends at touch; otherwise it goes on with the film's floored
+    /// With `stop_at_failure` the run ends at the instant of touch, and its smallest clearance is
+    /// the limit; otherwise it goes on with the film's floored
     /// height, and the verdict keeps the first touch. `record` asks for histories.
     ///
     /// # Panics
@@ -213,10 +214,12 @@ impl<'a> Run<'a> {
                     dt = control.rung(trial * (0.9 / trial_step.approach).max(0.1));
                 }
                 Ok(trial_step) => {
-                    let touched = self.accept(trial, event, &trial_step);
-                    if touched && stop_at_failure {
+                    let touch = self.search_step(trial, &trial_step);
+                    if stop_at_failure && let Some(touch) = touch {
+                        self.end_at(trial, &touch);
                         return End::Touch;
                     }
+                    self.accept(trial, event, &trial_step);
                     let wanted = control.after_accept(trial, trial_step.error);
                     // A step cut short by an event says nothing against the step before it.
                     let wanted = if trial < dt { wanted.max(dt) } else { wanted };
@@ -300,11 +303,8 @@ impl<'a> Run<'a> {
         ((gap + suspension) / gap_m + film) / model.resolution.tolerance
     }
 
-    /// Takes the trial step over; whether the slider has touched in it.
-    fn accept(&mut self, dt_s: f64, event_s: f64, step: &TrialStep) -> bool {
-        self.cost.steps += 1;
-        let touched = self.search_step(dt_s, step);
-
+    /// Takes the whole trial step over.
+    fn accept(&mut self, dt_s: f64, event_s: f64, step: &TrialStep) {
         let start_s = self.time_s;
         // Time at an event is the event's own, so that rounding never opens a sliver beside it.
         self.time_s = if dt_s == event_s - start_s {
@@ -313,12 +313,49 @@ impl<'a> Run<'a> {
             start_s + dt_s
         };
         let (model, w) = (self.model, &mut *self.w);
-        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         w.y.copy_from_slice(w.stepper.value());
         w.rate.copy_from_slice(w.stepper.rate());
         w.stepper.accept(dt_s);
         self.clearance = step.clearance;
 
+        let pulse = self.load.pulse;
+        let jump = just_after(pulse, self.time_s) - pulse.value(self.time_s);
+        if jump != 0.0 {
+            let da = jump * self.load.amplitude_m_per_s2;
+            let velocities = model.film.n_cells() + model.mechanics.len();
+            model
+                .mechanics
+                .add_acceleration_jump(da, &mut w.rate[velocities..]);
+        }
+        self.book(dt_s, &step.attitude);
+    }
+
+    /// Ends the run at a touch inside the trial step. The state there is that of the cubic through
+    /// both ends, in which the touch was located.
+    fn end_at(&mut self, dt_s: f64, touch: &Touch) {
+        let w = &mut *self.w;
+        let ends = w.stepper.value().iter().zip(w.stepper.rate());
+        for ((y, rate), (y1, rate1)) in w.y.iter_mut().zip(&w.rate).zip(ends) {
+            *y = hermite::value(touch.theta, dt_s, [*y, *y1], [*rate, *rate1]);
+        }
+        let before_s = self.time_s;
+        self.time_s = touch.time_s;
+        self.clearance = touch.clearance;
+        self.smallest = (touch.clearance, touch.time_s);
+        let n_cells = self.model.film.n_cells();
+        let pose = self.motion.pose(self.time_s);
+        let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
+        // A slider that begins below the limit fails at once: that instant has its row already.
+        if self.time_s > before_s {
+            self.book(self.time_s - before_s, &attitude);
+        }
+    }
+
+    /// Books the state reached `dt_s` after the last: dimple, pressure, columns.
+    fn book(&mut self, dt_s: f64, attitude: &Attitude) {
+        self.cost.steps += 1;
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (x, v) = w.y[n_cells..].split_at(n);
         let before = self.dimple_force_n;
         self.dimple_force_n = model.mechanics.dimple_force(x, v);
@@ -328,27 +365,17 @@ impl<'a> Run<'a> {
             .filter(|&&f| f == 0.0)
             .count();
         self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
-
-        let pulse = self.load.pulse;
-        let jump = just_after(pulse, self.time_s) - pulse.value(self.time_s);
-        if jump != 0.0 {
-            let da = jump * self.load.amplitude_m_per_s2;
-            model
-                .mechanics
-                .add_acceleration_jump(da, &mut w.rate[n_cells + n..]);
-        }
         model
             .film
-            .pressure(&w.y[..n_cells], &step.attitude, &mut w.pressure);
+            .pressure(&w.y[..n_cells], attitude, &mut w.pressure);
         let lowest = w.pressure.iter().copied().fold(f64::INFINITY, f64::min);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
-        self.record(&step.attitude);
-        touched
+        self.record(attitude);
     }
 
     /// Looks for the smallest clearance and for touch inside the step from the present state to
-    /// the stepper's; whether the limit was passed.
-    fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> bool {
+    /// the stepper's; the run's first touch when it lies there.
+    fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> Option<Touch> {
         let (model, w) = (self.model, &*self.w);
         let n_cells = model.film.n_cells();
         let n = model.mechanics.len();
@@ -380,20 +407,27 @@ impl<'a> Run<'a> {
         let limit = model.fail_below_m;
         let below = lowest.value_m < limit;
         if !below || self.failed.is_some() {
-            return false;
+            return None;
         }
         let crossing =
             hermite::first_below_zero(LOOKS, Some(theta), |theta| look(theta).value_m - limit);
         let theta = crossing.unwrap_or(theta);
-        let touch = look(theta);
-        self.failed = Some((
-            start_s + theta * dt_s,
-            Place {
-                x_m: touch.x_m,
-                y_m: touch.y_m,
-            },
-        ));
-        true
+        let mut clearance = look(theta);
+        if theta > 0.0 {
+            // Located to 1e-9 of the step: what is left to the limit is the search's own.
+            clearance.value_m = limit;
+        }
+        let touch = Touch {
+            theta,
+            time_s: start_s + theta * dt_s,
+            clearance,
+        };
+        let place = Place {
+            x_m: clearance.x_m,
+            y_m: clearance.y_m,
+        };
+        self.failed = Some((touch.time_s, place));
+        Some(touch)
     }
 
     fn record(&mut self, attitude: &Attitude) {
@@ -466,6 +500,14 @@ struct TrialStep {
     /// Relative approach over its share.
     approach: f64,
     attitude: Attitude,
+    clearance: Clearance,
+}
+
+/// The first passage of the limit inside a step.
+struct Touch {
+    /// Share of the step.
+    theta: f64,
+    time_s: f64,
     clearance: Clearance,
 }
 
