@@ -5,6 +5,7 @@ mod cli;
 mod cli_run;
 mod cli_studies;
 mod identity;
+mod real_sweep;
 mod report_files;
 mod report_run;
 mod report_store;
