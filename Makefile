@@ -41,13 +41,16 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-structure verify-film verify-durability ## heavy evidence, in parts
+verify: verify-structure verify-film verify-effects verify-durability ## heavy evidence, in parts
 
 verify-structure: bootstrap ## slow structure checks
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture structure_slow
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
+
+verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture effects_slow
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow

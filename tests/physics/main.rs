@@ -2,6 +2,7 @@
 
 mod bodies;
 mod contact;
+mod effects;
 mod film_flight;
 mod film_flow_factor;
 mod film_plane;

@@ -303,7 +303,8 @@ fn the_command_line_wins_and_both_values_are_recorded() {
     assert_eq!(study.points.len(), 1);
     assert_eq!(study.points[0].sign, Sign::Minus);
     assert_eq!(study.name, "from the command line");
-    assert!(!study.needs_head());
+    let plan = study.plan();
+    assert_eq!(plan.needs, opshock_solver::scene::plan::Needs::Structure);
     let rpm = &study.overrides[0];
     assert_eq!(
         (

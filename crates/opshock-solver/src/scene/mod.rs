@@ -1,6 +1,7 @@
 //! A scene: everything one simulation needs, in SI, as plain data.
 
 pub mod accuracy;
+pub mod plan;
 mod refine;
 
 use crate::air_bearing::{FilmResolution, FlowModel};

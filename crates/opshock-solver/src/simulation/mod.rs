@@ -1,7 +1,7 @@
 //! One simulation: structure, then head; criterion, outcome, histories, energy book.
 //!
 //! ```text
-//! scene -> Model::build -> simulate(amplitude) -> structure run -> head run -> Outcome
+//! scene, plan -> Model::assemble -> simulate(amplitude) -> structure run -> head run -> Outcome
 //! ```
 //!
 //! The film's force on the disk is neglected beside the disk's inertia (the paper's section 3), so

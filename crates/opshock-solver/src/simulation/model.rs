@@ -8,6 +8,7 @@ use crate::air_bearing::steady::{Flight, SteadyError, fly};
 use crate::air_bearing::{Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::scene::Scene;
+use crate::scene::plan::{Decision, Mode, Needs, Output, Plan, Touch};
 use crate::structure::{SliderPlace, StructureError, StructureModel, StructureParameters};
 
 /// Why a scene cannot be built.
@@ -27,13 +28,24 @@ pub enum BuildError {
     Head(#[from] HeadError),
 }
 
-/// Which half of the drive a question needs.
+/// Which half of the drive a question needs: short for the plan of one output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// Disk and ramp alone: displacements and contact forces.
     Structure,
     /// Disk, ramp and head: clearance and verdict.
     Full,
+}
+
+impl Scope {
+    /// The plan it stands for.
+    pub fn plan(self) -> Plan {
+        let output = match self {
+            Scope::Structure => Output::DiskDisplacement,
+            Scope::Full => Output::CriticalShock,
+        };
+        Plan::new(&[output], Mode::Auto)
+    }
 }
 
 /// Film and steady flight of one slider.
@@ -83,19 +95,29 @@ pub struct Model {
     pub(super) structure: StructureModel,
     pub(super) head: Option<HeadModel>,
     bearing: Option<Bearing>,
+    plan: Plan,
     /// Tells whether scratch was made for this model; clones are the same model.
     pub(super) identity: Arc<()>,
 }
 
 impl Model {
-    /// Builds what `scope` needs of `scene`.
-    ///
-    /// A `donor`, built from another scene, gives its film and steady flight when they would be
-    /// the same; building is deterministic, so the numbers do not depend on it.
+    /// Builds what `scope` needs of `scene`; see [`Model::assemble`].
     ///
     /// # Errors
     /// [`BuildError`] names the part and the quantity.
     pub fn build(scene: &Scene, scope: Scope, donor: Option<&Model>) -> Result<Self, BuildError> {
+        Self::assemble(scene, &scope.plan(), donor)
+    }
+
+    /// Builds what `plan` asks of `scene`, and reads nothing else of it.
+    ///
+    /// A `donor`, built from another scene, gives its film and steady flight when they would be
+    /// the same and the plan shares them; building is deterministic, so the numbers do not depend
+    /// on it.
+    ///
+    /// # Errors
+    /// [`BuildError`] names the part and the quantity.
+    pub fn assemble(scene: &Scene, plan: &Plan, donor: Option<&Model>) -> Result<Self, BuildError> {
         let structure = StructureModel::build(&StructureParameters {
             disk: &scene.disk,
             disk_resolution: &scene.disk_resolution,
@@ -108,36 +130,47 @@ impl Model {
             pulse: &scene.pulse,
             window: scene.window,
             resolution: &scene.structure_resolution,
-        })?;
-        let (head, bearing) = match scope {
-            Scope::Structure => (None, None),
-            Scope::Full => {
-                let bearing = match donor {
-                    Some(Model {
-                        scene: other,
-                        bearing: Some(bearing),
-                        ..
-                    }) if Bearing::is_shared(scene, other) => bearing.clone(),
-                    _ => Bearing::build(scene)?,
-                };
-                let head = HeadModel::build(
-                    &scene.suspension,
-                    &scene.slider,
-                    Arc::clone(&bearing.film),
-                    Arc::clone(&bearing.flight),
-                    &scene.head_resolution,
-                    scene.fail_below_m,
-                )?;
-                (Some(head), Some(bearing))
-            }
+        })?
+        .with_wake(plan.wake);
+        let donor = donor.filter(|_| plan.shares_flight);
+        let bearing = (plan.needs >= Needs::Flight)
+            .then(|| bearing(scene, donor))
+            .transpose()?;
+        let head = match &bearing {
+            Some(bearing) if plan.needs >= Needs::Head => Some(HeadModel::build(
+                &scene.suspension,
+                &scene.slider,
+                Arc::clone(&bearing.film),
+                Arc::clone(&bearing.flight),
+                &scene.head_resolution,
+                scene.fail_below_m,
+            )?),
+            _ => None,
         };
         Ok(Self {
             scene: scene.clone(),
             structure,
             head,
             bearing,
+            plan: plan.clone(),
             identity: Arc::new(()),
         })
+    }
+
+    /// The plan it was built by.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The plan's rules R1 to R10 with the numbers of this model, for a shock of signed amplitude
+    /// or, with `None`, for any.
+    pub fn decisions(&self, amplitude_m_per_s2: Option<f64>) -> Vec<Decision> {
+        let threshold = |positive| self.structure.touch_amplitude_m_per_s2(positive);
+        let touch = Touch {
+            amplitude_m_per_s2,
+            threshold_m_per_s2: [threshold(true), threshold(false)],
+        };
+        self.plan.decisions(&self.scene, &touch)
     }
 
     /// The scene it was built from.
@@ -158,5 +191,17 @@ impl Model {
     /// Film and steady flight, when they were built.
     pub fn bearing(&self) -> Option<&Bearing> {
         self.bearing.as_ref()
+    }
+}
+
+/// Film and steady flight of `scene`: the donor's when they are the same.
+fn bearing(scene: &Scene, donor: Option<&Model>) -> Result<Bearing, BuildError> {
+    match donor {
+        Some(Model {
+            scene: other,
+            bearing: Some(bearing),
+            ..
+        }) if Bearing::is_shared(scene, other) => Ok(bearing.clone()),
+        _ => Bearing::build(scene),
     }
 }

@@ -146,7 +146,7 @@ fn without_structure(error: &StructureError) -> Outcome {
 }
 
 /// Names of the effects in the model.
-fn effects(model: &Model) -> Vec<&'static str> {
+pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     let mut names = vec![
         "disk.bending",
         "disk.spin_stiffening",
@@ -161,6 +161,9 @@ fn effects(model: &Model) -> Vec<&'static str> {
         RampModel::Deformable { .. } => {
             names.extend(["ramp.contact", "ramp.arms", "disk.travelling_waves"]);
         }
+    }
+    if model.bearing().is_some() && model.head.is_none() {
+        names.push("head.steady_flight");
     }
     if model.head.is_some() {
         names.extend(["head.film", "head.slider", "head.suspension", "head.dimple"]);

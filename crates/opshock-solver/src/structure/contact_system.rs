@@ -111,10 +111,6 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
-    pub fn awake(&self) -> bool {
-        self.awake
-    }
-
     pub fn decayed(&self) -> bool {
         self.decayed
     }

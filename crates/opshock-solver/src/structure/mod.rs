@@ -15,7 +15,7 @@ mod reference;
 pub use history::StructuralHistory;
 pub use model::{
     SliderPlace, StructureError, StructureModel, StructureParameters, StructureRun,
-    StructureWarning, Workspace,
+    StructureWarning, Wake, Workspace,
 };
 pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{

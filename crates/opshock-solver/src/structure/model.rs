@@ -123,6 +123,20 @@ pub enum StructureWarning {
 #[derive(Clone)]
 pub struct StructureModel {
     pub(super) shared: Arc<Shared>,
+    wake: Wake,
+}
+
+/// When the contact-driven state (every harmonic, arms included) starts to be marched.
+///
+/// Until the first touch it is exactly zero, so both give the same motion and the same contacts;
+/// the energy book sums the same energies in another order and agrees to rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wake {
+    /// At the first touch: before it a run only scales the unit response.
+    #[default]
+    AtTouch,
+    /// From the onset of the pulse, touch or not, ramp or not.
+    AtOnset,
 }
 
 /// One arm in the bank of oscillators.
@@ -292,7 +306,29 @@ impl StructureModel {
                 ripple_loss,
                 warnings,
             }),
+            wake: Wake::default(),
         })
+    }
+
+    /// The same model with another start of the contact-driven state.
+    #[must_use]
+    pub fn with_wake(self, wake: Wake) -> Self {
+        Self { wake, ..self }
+    }
+
+    /// When the contact-driven state starts to be marched.
+    pub fn wake(&self) -> Wake {
+        self.wake
+    }
+
+    /// Number of modes that move before any contact: the disk's axisymmetric ones and the arms'.
+    pub fn n_free_modes(&self) -> usize {
+        self.shared.forced_index.len()
+    }
+
+    /// Number of modes of both arms.
+    pub fn n_arm_modes(&self) -> usize {
+        self.shared.arms.iter().map(|arm| arm.modes.len()).sum()
     }
 
     /// Number of modes carried: disk (with static corrections) and arms.
@@ -320,19 +356,22 @@ impl StructureModel {
         let mut system = ContactSystem::new(shared, amplitude_m_per_s2, state);
         let mut memory = ContactMemory::default();
         system.record_node();
-        for k in 0..shared.n_steps {
-            if system.awake() || shared.may_touch(amplitude_m_per_s2, k) {
-                system.begin_step();
-                let report = complementarity::advance(
-                    &mut system,
-                    shared.free.step_s,
-                    &shared.law,
-                    &mut memory,
-                );
-                system.end_step(report);
-            } else {
-                system.sleep_step();
+        let first_awake = match self.wake {
+            Wake::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
+            Wake::AtOnset => 0,
+        };
+        for _ in 0..first_awake {
+            system.sleep_step();
+            system.record_node();
+            if system.decayed() {
+                return system.finish();
             }
+        }
+        for _ in first_awake..shared.n_steps {
+            system.begin_step();
+            let step_s = shared.free.step_s;
+            let report = complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
+            system.end_step(report);
             system.record_node();
             if system.decayed() {
                 break;
@@ -387,6 +426,16 @@ impl Shared {
             value_m: self.clearance_m[side] + amplitude * unit.value_m,
             rate_m_per_s: amplitude * unit.rate_m_per_s,
         }
+    }
+
+    /// First step in which free motion closes a gap; the number of steps when none does.
+    fn first_touching_step(&self, amplitude: f64) -> usize {
+        if self.n_contacts == 0 {
+            return self.n_steps;
+        }
+        (0..self.n_steps)
+            .find(|&k| self.may_touch(amplitude, k))
+            .unwrap_or(self.n_steps)
     }
 
     /// True when free motion from node `k` closes a gap before node `k + 1`, or a gap is closed.

@@ -6,6 +6,7 @@ mod completions;
 mod console;
 mod doctor;
 mod exit;
+mod explain;
 mod export;
 mod failure;
 mod modes;
@@ -19,6 +20,7 @@ mod steady;
 mod stored;
 mod study_file;
 mod sweep;
+mod thresholds;
 
 pub use exit::Exit;
 
@@ -124,6 +126,7 @@ enum Command {
     Run(run::RunArgs),
     Modes(modes::ModesArgs),
     Steady(steady::SteadyArgs),
+    Explain(explain::ExplainArgs),
     Sweep(sweep::SweepArgs),
     Report(report::ReportArgs),
     Status(status::StatusArgs),
@@ -165,6 +168,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Run(arguments) => run::run(arguments, &cli.global, console),
         Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
         Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
+        Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),

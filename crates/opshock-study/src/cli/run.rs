@@ -15,9 +15,7 @@ use clap::Args;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::shock::PulseShape;
-use opshock_solver::simulation::{
-    History, Model, Outcome, Request, Scope, Verdict, Workspace, simulate,
-};
+use opshock_solver::simulation::{History, Model, Outcome, Request, Verdict, Workspace, simulate};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -89,14 +87,9 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     })
 }
 
-/// Runs the shock; the structure alone when the study asks for nothing of the head.
+/// Runs the shock by the study's plan.
 fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
-    let scope = if study.needs_head() {
-        Scope::Full
-    } else {
-        Scope::Structure
-    };
-    let model = Model::build(&shot.point.scene, scope, None)
+    let model = Model::assemble(&shot.point.scene, &study.plan(), None)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let request = Request {
         amplitude_m_per_s2: shot.amplitude_m_per_s2,

@@ -1,15 +1,17 @@
-//! `opshock sweep`: the critical shock of every point; run again, it resumes.
+//! `opshock sweep`: the critical shock of every point; run again, it resumes. A study that asks for
+//! touch thresholds alone gets those, without a search.
 
 use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::report::exit_of;
-use super::{stored, study_file};
+use super::{stored, study_file, thresholds};
 use crate::report::table;
 use crate::sweep::{Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
+use opshock_solver::scene::plan::Output;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -35,6 +37,9 @@ enum Only {
 pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
     let study = study_file::read(&arguments.study, global, console)?;
     study_file::refuse_unaccepted(&study, global)?;
+    if !study.asks_for(Output::CriticalShock) {
+        return thresholds::run(&study, console);
+    }
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;

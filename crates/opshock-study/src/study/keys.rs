@@ -32,17 +32,25 @@ pub const FLOWS: &[&str] = &["fukui_kaneko", "continuum", "slip_1", "slip_2"];
 /// Coupling schemes.
 pub const COUPLINGS: &[&str] = &["monolithic", "fixed_point", "aitken", "anderson"];
 /// Outputs that disk and ramp alone give.
-pub const STRUCTURE_OUTPUTS: &[&str] = &["disk_displacement", "ramp_displacement", "contact_force"];
+pub const STRUCTURE_OUTPUTS: &[&str] = &[
+    "disk_displacement",
+    "ramp_displacement",
+    "contact_force",
+    "touch_threshold",
+];
 /// Every output.
 pub const OUTPUTS: &[&str] = &[
     "critical_shock",
     "min_clearance",
     "slider_attitude",
+    "pitch",
+    "steady_attitude",
     "bearing_force",
     "dimple_force",
     "disk_displacement",
     "ramp_displacement",
     "contact_force",
+    "touch_threshold",
 ];
 /// Effects that can be left out by hand.
 pub const LEAVE_OUT: &[&str] = &["air_bearing"];

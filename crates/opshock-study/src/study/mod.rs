@@ -51,6 +51,7 @@ pub use set_arg::{SetArg, SetSyntaxError};
 pub use words::{Certify, Effects, KeepHistories, Ramp, Sign, coupling_word, rung_word};
 
 use included::Location;
+use opshock_solver::scene::plan::{Mode, Output, Plan};
 use read::Reader;
 use settings::{Settings, View};
 use source::{Origin, Source};
@@ -246,11 +247,32 @@ impl Study {
             .collect()
     }
 
-    /// Whether some output needs film, slider and suspension.
-    pub fn needs_head(&self) -> bool {
-        self.outputs
+    /// Whether `output` is asked for.
+    pub fn asks_for(&self, output: Output) -> bool {
+        self.outputs.iter().any(|word| word == output.as_str())
+    }
+
+    /// What is simulated for the outputs asked for.
+    ///
+    /// # Panics
+    /// When an output is left out by hand or has no meaning; the study's checks refuse both.
+    pub fn plan(&self) -> Plan {
+        let outputs: Vec<Output> = self
+            .outputs
             .iter()
-            .any(|output| validity::needs_head(output))
+            .map(|word| Output::from_word(word).expect("the table of keys names outputs"))
+            .collect();
+        let mode = match self.effects {
+            Effects::Auto => Mode::Auto,
+            Effects::Full => Mode::Full,
+        };
+        let plan = Plan::new(&outputs, mode);
+        if self.leave_out.iter().any(|effect| effect == "air_bearing") {
+            plan.without_head()
+                .unwrap_or_else(|output| panic!("{} needs what is left out", output.as_str()))
+        } else {
+            plan
+        }
     }
 
     /// Positions in [`Study::points`] in the order of tables: further axes, ramps, signs, widths

@@ -8,9 +8,10 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
+use opshock_solver::scene::plan::Plan;
 use opshock_solver::simulation::{
-    Bearing, BuildError, Cause, Model, Outcome, Request, Scope, Verdict as SolverVerdict,
-    Workspace, simulate,
+    Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
+    simulate,
 };
 
 use super::simulator::{Onset, Simulator};
@@ -32,7 +33,7 @@ pub struct Physics {
     slots: Vec<Slot>,
     /// Slot and sign factor of every point.
     points: Vec<(usize, f64)>,
-    scope: Scope,
+    plan: Plan,
     donors: Mutex<Vec<Arc<Model>>>,
     workspaces: Mutex<Vec<Workspace>>,
 }
@@ -40,11 +41,6 @@ pub struct Physics {
 impl Physics {
     /// The points of a study, in the order of its tables like [`super::SweepInput::of`].
     pub fn of(study: &Study) -> Self {
-        let scope = if study.needs_head() {
-            Scope::Full
-        } else {
-            Scope::Structure
-        };
         let points = study.table_order().into_iter().map(|place| {
             let point = &study.points[place];
             let factor = match point.sign {
@@ -53,11 +49,11 @@ impl Physics {
             };
             (&point.scene, factor)
         });
-        Self::new(points, scope)
+        Self::new(points, study.plan())
     }
 
     /// Points given as scene and sign factor (1 or -1).
-    pub fn new<'a>(points: impl IntoIterator<Item = (&'a Scene, f64)>, scope: Scope) -> Self {
+    pub fn new<'a>(points: impl IntoIterator<Item = (&'a Scene, f64)>, plan: Plan) -> Self {
         let mut slots: Vec<Slot> = Vec::new();
         let points = points
             .into_iter()
@@ -77,7 +73,7 @@ impl Physics {
         Self {
             slots,
             points,
-            scope,
+            plan,
             donors: Mutex::new(Vec::new()),
             workspaces: Mutex::new(Vec::new()),
         }
@@ -100,7 +96,7 @@ impl Physics {
                 .find(|model| Bearing::is_shared(scene, model.scene()))
                 .cloned()
         };
-        let model = Arc::new(Model::build(scene, self.scope, donor.as_deref())?);
+        let model = Arc::new(Model::assemble(scene, &self.plan, donor.as_deref())?);
         if donor.is_none() {
             lock(&self.donors).push(Arc::clone(&model));
         }

@@ -45,32 +45,34 @@ impl Check<'_, '_> {
             let fault = self.fault("E159", &["outputs"], format!("asks for {twice} twice"));
             fault.allowed = "each output once".to_string();
         }
-        let Some(head) = outputs.iter().find(|output| needs_head(output)) else {
+        if !self.sound(&["solver.leave_out", "solver.effects"]) {
             return;
-        };
-        if self.sound(&["solver.leave_out", "solver.effects"])
-            && self
-                .view
-                .words("solver.leave_out")
-                .iter()
-                .any(|effect| effect == "air_bearing")
-        {
+        }
+        let left_out = self.view.words("solver.leave_out");
+        let left_out = left_out.iter().any(|effect| effect == "air_bearing");
+        let asks = outputs.iter().find(|output| needs_head(output));
+        if let (Some(output), true) = (asks, left_out) {
             let fault = self.fault(
                 "E158",
                 &["solver.leave_out"],
-                format!("{head} needs air_bearing, which is left out"),
+                format!("{output} needs air_bearing, which is left out"),
             );
             fault.allowed = format!(
                 "[], or outputs of disk and ramp alone: {}",
                 keys::STRUCTURE_OUTPUTS.join(", ")
             );
-            fault.hint = format!("remove {head} from outputs, or do not leave air_bearing out");
+            fault.hint = format!("remove {output} from outputs, or do not leave air_bearing out");
         }
-        if self.sound(&["disk.rpm"]) && self.view.number("disk.rpm") == 0.0 {
+        let full = self.view.word("solver.effects") == "full" && !left_out;
+        let asker = asks.map_or("effects = \"full\"", String::as_str);
+        if (asks.is_some() || full)
+            && self.sound(&["disk.rpm"])
+            && self.view.number("disk.rpm") == 0.0
+        {
             let fault = self.fault(
                 "E133",
                 &["disk.rpm"],
-                format!("{head} needs the air bearing, which needs a spinning disk"),
+                format!("{asker} needs the air bearing, which needs a spinning disk"),
             );
             fault.allowed = "> 0 rev/min".to_string();
             fault.hint = format!("or ask only for {}", keys::STRUCTURE_OUTPUTS.join(", "));

@@ -1,0 +1,432 @@
+//! Which effects a question needs: outputs and scene to a plan, each decision with its rule.
+//!
+//! ```text
+//! outputs, mode -> Plan::new -> Model::assemble(scene, plan) -> simulate
+//! ```
+//!
+//! A plan is decided before anything is built; what it leaves out is not built, and no time loop
+//! asks for it. The rules:
+//!
+//! | rule | what | condition |
+//! |---|---|---|
+//! | R1 | disk and ramp without film, slider and suspension | only outputs of disk and ramp |
+//! | R2 | harmonics n ≥ 1 asleep | axial shock, axisymmetric disk: only n = 0 is driven |
+//! | R3 | harmonics n ≥ 1 wake at the first touch, at rest | as R2 |
+//! | R4 | no ramp contact is run | closing of disk against the freely shaking ramp < clearance |
+//! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
+//! | R6 | the head ends at touch | a verdict is wanted |
+//! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only, the sign of a contact costs little beside the head |
+//! | R8 | pressure fields only at asked times | none asked |
+//! | R9 | one steady flight for equal sliders, gases, speeds and preloads | contents equal |
+//! | R10 | nothing approximate without its name | always |
+//!
+//! R1 rests on the film's force on the disk being neglected beside the disk's inertia.
+
+use super::Scene;
+use crate::quantity::STANDARD_GRAVITY_M_PER_S2;
+use crate::ramp::RampModel;
+use crate::structure::Wake;
+
+/// What can be asked of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Output {
+    /// Amplitude at which the head-disk interface fails.
+    CriticalShock,
+    /// Smallest clearance.
+    MinClearance,
+    /// Height, pitch and roll of the slider in time.
+    SliderAttitude,
+    /// Pitch of the slider in time.
+    Pitch,
+    /// Force of the film in time.
+    BearingForce,
+    /// Force of the dimple in time.
+    DimpleForce,
+    /// Flying attitude before the shock.
+    SteadyAttitude,
+    /// Amplitude at which the disk first touches the ramp.
+    TouchThreshold,
+    /// Displacement of the disk.
+    DiskDisplacement,
+    /// Displacement of the ramp's arms.
+    RampDisplacement,
+    /// Force and impulse between disk and ramp.
+    ContactForce,
+}
+
+impl Output {
+    /// Every output.
+    pub const ALL: [Output; 11] = [
+        Output::CriticalShock,
+        Output::MinClearance,
+        Output::SliderAttitude,
+        Output::Pitch,
+        Output::BearingForce,
+        Output::DimpleForce,
+        Output::SteadyAttitude,
+        Output::TouchThreshold,
+        Output::DiskDisplacement,
+        Output::RampDisplacement,
+        Output::ContactForce,
+    ];
+
+    /// Its name in a study.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Output::CriticalShock => "critical_shock",
+            Output::MinClearance => "min_clearance",
+            Output::SliderAttitude => "slider_attitude",
+            Output::Pitch => "pitch",
+            Output::BearingForce => "bearing_force",
+            Output::DimpleForce => "dimple_force",
+            Output::SteadyAttitude => "steady_attitude",
+            Output::TouchThreshold => "touch_threshold",
+            Output::DiskDisplacement => "disk_displacement",
+            Output::RampDisplacement => "ramp_displacement",
+            Output::ContactForce => "contact_force",
+        }
+    }
+
+    /// The output of a name.
+    pub fn from_word(word: &str) -> Option<Output> {
+        Output::ALL
+            .into_iter()
+            .find(|output| output.as_str() == word)
+    }
+
+    /// What it takes beyond disk and ramp.
+    pub const fn needs(self) -> Needs {
+        match self {
+            Output::CriticalShock
+            | Output::MinClearance
+            | Output::SliderAttitude
+            | Output::Pitch
+            | Output::BearingForce
+            | Output::DimpleForce => Needs::Head,
+            Output::SteadyAttitude => Needs::Flight,
+            Output::TouchThreshold
+            | Output::DiskDisplacement
+            | Output::RampDisplacement
+            | Output::ContactForce => Needs::Structure,
+        }
+    }
+}
+
+/// How much of the drive is built; each holds the ones before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Needs {
+    /// Disk and ramp.
+    Structure,
+    /// Also the film and its steady flight.
+    Flight,
+    /// Also slider, suspension and the film in time.
+    Head,
+}
+
+/// Whether effects that cannot change an output are left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Only what the outputs need.
+    #[default]
+    Auto,
+    /// Everything the scene has, marched from the onset, nothing shared.
+    Full,
+}
+
+/// What is built and run for some outputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Mode.
+    pub mode: Mode,
+    /// Outputs asked for.
+    pub outputs: Vec<Output>,
+    /// How much of the drive is built.
+    pub needs: Needs,
+    /// When the contact-driven state starts to be marched.
+    pub wake: Wake,
+    /// Whether film and steady flight of another model may be taken over.
+    pub shares_flight: bool,
+}
+
+/// One rule as it stands for a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// `R1` to `R10`.
+    pub rule: &'static str,
+    /// What the rule does.
+    pub what: &'static str,
+    /// Whether it is applied.
+    pub applied: bool,
+    /// The condition, in words.
+    pub condition: &'static str,
+    /// The condition's number or finding, in words; empty when it has none.
+    pub value: String,
+}
+
+/// Whether an effect is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Built and marched.
+    On,
+    /// Built, at rest until the first touch.
+    Asleep,
+    /// Not built.
+    Off,
+}
+
+/// One effect of a scene under a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effect {
+    /// Name, as results carry it.
+    pub name: &'static str,
+    /// State.
+    pub state: State,
+    /// Rule that put it to sleep or left it out; `None` when it is on or the scene has none.
+    pub rule: Option<&'static str>,
+}
+
+/// What is known of a scene once disk and ramp are built.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Touch {
+    /// Amplitude of the shock in question, signed, m/s²; `None` when it is open.
+    pub amplitude_m_per_s2: Option<f64>,
+    /// Smallest touching amplitude for positive and for negative shocks, m/s²; `None` when nothing
+    /// closes a gap in the window.
+    pub threshold_m_per_s2: [Option<f64>; 2],
+}
+
+impl Plan {
+    /// The plan for `outputs`.
+    pub fn new(outputs: &[Output], mode: Mode) -> Self {
+        let asked = outputs.iter().map(|output| output.needs()).max();
+        match mode {
+            Mode::Auto => Self {
+                mode,
+                outputs: outputs.to_vec(),
+                needs: asked.unwrap_or(Needs::Structure),
+                wake: Wake::AtTouch,
+                shares_flight: true,
+            },
+            Mode::Full => Self {
+                mode,
+                outputs: outputs.to_vec(),
+                needs: Needs::Head,
+                wake: Wake::AtOnset,
+                shares_flight: false,
+            },
+        }
+    }
+
+    /// The plan without film, slider and suspension, whatever the mode.
+    ///
+    /// # Errors
+    /// The first output that needs them.
+    pub fn without_head(self) -> Result<Self, Output> {
+        let asks = |output: &&Output| output.needs() > Needs::Structure;
+        match self.outputs.iter().find(asks) {
+            Some(output) => Err(*output),
+            None => Ok(Self {
+                needs: Needs::Structure,
+                ..self
+            }),
+        }
+    }
+
+    /// Every effect of `scene` with its state at the start of a run.
+    pub fn effects(&self, scene: &Scene, touch: &Touch) -> Vec<Effect> {
+        let effect = |name, state, rule| Effect { name, state, rule };
+        let on = |name| effect(name, State::On, None);
+        let sleeps = |name, rule| match self.wake {
+            Wake::AtOnset => on(name),
+            Wake::AtTouch => effect(name, State::Asleep, Some(rule)),
+        };
+        let needs = |name, least| {
+            if self.needs >= least {
+                on(name)
+            } else {
+                effect(name, State::Off, Some("R1"))
+            }
+        };
+        let mut list = vec![
+            on("disk.bending"),
+            sleeps("disk.travelling_waves", "R2"),
+            match (&scene.ramp.model, self.wake) {
+                (RampModel::None, _) => effect("ramp.contact", State::Off, None),
+                (_, Wake::AtTouch) if touch.stays_clear() == Some(true) => {
+                    effect("ramp.contact", State::Off, Some("R4"))
+                }
+                _ => sleeps("ramp.contact", "R3"),
+            },
+            match scene.ramp.model {
+                RampModel::Deformable { .. } => on("ramp.arms"),
+                _ => effect("ramp.arms", State::Off, None),
+            },
+            needs("head.steady_flight", Needs::Flight),
+        ];
+        for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
+            list.push(needs(name, Needs::Head));
+        }
+        list
+    }
+
+    /// R1 to R10 for `scene`, in order.
+    pub fn decisions(&self, scene: &Scene, touch: &Touch) -> Vec<Decision> {
+        let auto = self.mode == Mode::Auto;
+        let has_ramp = scene.ramp.model != RampModel::None;
+        let decision = |rule, what, applied, condition, value| Decision {
+            rule,
+            what,
+            applied,
+            condition,
+            value,
+        };
+        let deepest = self.outputs.iter().max_by_key(|output| output.needs());
+        vec![
+            decision(
+                "R1",
+                "disk and ramp without film, slider and suspension",
+                self.needs < Needs::Head,
+                "no output needs the moving head; the film's force on the disk is neglected",
+                deepest.map_or_else(String::new, |output| {
+                    let part = match output.needs() {
+                        Needs::Structure => "disk and ramp",
+                        Needs::Flight => "the steady flight",
+                        Needs::Head => "the head",
+                    };
+                    format!("{} needs {part}", output.as_str())
+                }),
+            ),
+            decision(
+                "R2",
+                "harmonics n >= 1 of the disk asleep until the first touch",
+                self.wake == Wake::AtTouch,
+                "axial shock, axisymmetric disk, no tilt or run-out: only n = 0 is driven",
+                "participation of n >= 1 is 0".to_owned(),
+            ),
+            decision(
+                "R3",
+                "harmonics n >= 1 wake at the first touch, at rest",
+                self.wake == Wake::AtTouch && has_ramp,
+                "as R2, and a ramp to touch",
+                if has_ramp {
+                    "state at the first touch is 0".to_owned()
+                } else {
+                    "no ramp".to_owned()
+                },
+            ),
+            decision(
+                "R4",
+                "no ramp contact is run",
+                auto && (!has_ramp || touch.stays_clear() == Some(true)),
+                "closing of the disk against the freely shaking ramp stays below the clearance",
+                touch.words(has_ramp),
+            ),
+            decision(
+                "R5",
+                "one unit response serves every amplitude and both signs",
+                auto,
+                "linear before contact",
+                "motion before contact = amplitude x unit response".to_owned(),
+            ),
+            decision(
+                "R6",
+                "the head's run ends at touch",
+                self.needs == Needs::Head,
+                "a verdict is wanted; disk and ramp run the whole window",
+                if self.needs == Needs::Head {
+                    format!("fails below {:e} nm", 1e9 * scene.fail_below_m)
+                } else {
+                    "no head".to_owned()
+                },
+            ),
+            decision(
+                "R7",
+                "-A is taken as the mirror of +A for disk and ramp",
+                auto && !has_ramp,
+                "equal clearances and equal arms; contact is run for each sign all the same",
+                mirror_words(scene),
+            ),
+            decision(
+                "R8",
+                "pressure fields are kept only at asked times",
+                auto,
+                "fields asked for",
+                "none asked".to_owned(),
+            ),
+            decision(
+                "R9",
+                "film and steady flight shared by models that agree in them",
+                self.shares_flight && self.needs > Needs::Structure,
+                "slider, gas, flow model, film cells, speed and gram load equal",
+                if self.needs > Needs::Structure {
+                    "compared value by value".to_owned()
+                } else {
+                    "no film".to_owned()
+                },
+            ),
+            decision(
+                "R10",
+                "nothing approximate without its name",
+                true,
+                "linearised film, early verdicts and such only by name",
+                "none named".to_owned(),
+            ),
+        ]
+    }
+}
+
+impl Touch {
+    /// Whether the shock stays below the touching amplitude; `None` when the amplitude is open.
+    pub fn stays_clear(&self) -> Option<bool> {
+        let amplitude = self.amplitude_m_per_s2?;
+        let [plus, minus] = self.threshold_m_per_s2;
+        let threshold = if amplitude >= 0.0 { plus } else { minus };
+        Some(threshold.is_none_or(|limit| amplitude.abs() < limit))
+    }
+
+    fn words(&self, has_ramp: bool) -> String {
+        if !has_ramp {
+            return "no ramp".to_owned();
+        }
+        let g = |a: f64| a / STANDARD_GRAVITY_M_PER_S2;
+        let limit =
+            |side: Option<f64>| side.map_or("never".to_owned(), |a| format!("{:.4} G", g(a)));
+        let [plus, minus] = self.threshold_m_per_s2;
+        let onset = format!("first touch at +{} / -{}", limit(plus), limit(minus));
+        match self.amplitude_m_per_s2 {
+            Some(a) => format!("{:.4} G; {onset}", g(a)),
+            None => format!("{onset}; below it nothing touches"),
+        }
+    }
+}
+
+/// Whether turning the drive over leaves disk and ramp as they are.
+pub fn is_mirrored(scene: &Scene) -> bool {
+    let arms = match &scene.ramp.model {
+        RampModel::None => return true,
+        RampModel::Rigid => true,
+        RampModel::Deformable { top, bottom } => top == bottom,
+    };
+    arms && scene.ramp.clearance_top_m == scene.ramp.clearance_bottom_m
+}
+
+fn mirror_words(scene: &Scene) -> String {
+    let clearances = format!(
+        "{}: clearances {} / {} um",
+        if is_mirrored(scene) {
+            "mirrored"
+        } else {
+            "not mirrored"
+        },
+        1e6 * scene.ramp.clearance_top_m,
+        1e6 * scene.ramp.clearance_bottom_m
+    );
+    match &scene.ramp.model {
+        RampModel::None => "no ramp".to_owned(),
+        RampModel::Rigid => clearances,
+        RampModel::Deformable { top, bottom } if top == bottom => {
+            format!("{clearances}, arms equal")
+        }
+        RampModel::Deformable { .. } => format!("{clearances}, arms differ"),
+    }
+}
