@@ -13,7 +13,7 @@ bootstrap: ## install what the machine lacks (apt; --verify adds outside checks)
 	@scripts/bootstrap
 
 build: bootstrap ## build the optimised program
-	cargo build --release --locked
+	cargo build --release --locked -p opshock-study
 
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
 	$(OPSHOCK) sweep studies/fig13/study.toml --store results/fig13/fig13.opshock -j $(JOBS)

@@ -1,7 +1,7 @@
 //! Suspension: hinge, load beam with flanges, flexure mass, dimple, gimbal.
 //!
-//! [`beam`] turns the geometry into bending and torsion finite elements of a clamped strip of
-//! varying section ([`section`]); [`reduction`] condenses them to the motion of the dimple plus a
+//! `beam` turns the geometry into bending and torsion finite elements of a clamped strip of
+//! varying section (`section`); `reduction` condenses them to the motion of the dimple plus a
 //! few dimple-pinned modes (Craig and Bampton 1968). The result is what a head integrates:
 //!
 //! ```text
