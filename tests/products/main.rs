@@ -2,6 +2,7 @@
 
 mod bad_inputs;
 mod cli;
+mod cli_explain;
 mod cli_run;
 mod cli_studies;
 mod identity;

@@ -49,6 +49,7 @@ fn failing() -> Outcome {
         }),
         energy: EnergyBook::default(),
         complementarity: Complementarity::default(),
+        rules: vec!["R2", "R10"],
         effects: vec!["disk", "ramp.rigid", "head"],
         warnings: vec![Warning {
             code: "contact_modes",
@@ -94,6 +95,7 @@ fn json_has_the_documented_keys() {
             "energy",
             "min_clearance_m",
             "place",
+            "rules",
             "steady",
             "t_fail_s",
             "t_min_clearance_s",

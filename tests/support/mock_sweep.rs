@@ -238,6 +238,7 @@ impl Simulator for MockSimulator<'_> {
             dimple: None,
             energy: Default::default(),
             complementarity: Default::default(),
+            rules: vec!["R2", "R10"],
             effects: vec!["disk.bending"],
             warnings: Vec::new(),
             cost: Default::default(),

@@ -269,6 +269,20 @@ impl Plan {
         list
     }
 
+    /// Rules that a run of `scene` applied, in order; `touched` tells whether disk and ramp met.
+    pub fn applied(&self, scene: &Scene, touched: bool) -> Vec<&'static str> {
+        // Any amplitude beside a touch below or above it says what the run found.
+        let touch = Touch {
+            amplitude_m_per_s2: Some(1.0),
+            threshold_m_per_s2: [touched.then_some(0.0); 2],
+        };
+        self.decisions(scene, &touch)
+            .into_iter()
+            .filter(|decision| decision.applied)
+            .map(|decision| decision.rule)
+            .collect()
+    }
+
     /// R1 to R10 for `scene`, in order.
     pub fn decisions(&self, scene: &Scene, touch: &Touch) -> Vec<Decision> {
         let auto = self.mode == Mode::Auto;

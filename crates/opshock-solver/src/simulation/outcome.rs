@@ -64,6 +64,8 @@ pub struct Outcome {
     pub complementarity: Complementarity,
     /// Names of the effects that were simulated.
     pub effects: Vec<&'static str>,
+    /// Rules of [`crate::scene::plan`] that were applied.
+    pub rules: Vec<&'static str>,
     /// Things a user should know, as stable codes with a sentence.
     pub warnings: Vec<Warning>,
     /// Cost.

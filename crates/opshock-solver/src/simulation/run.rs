@@ -90,6 +90,7 @@ fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome 
         pitch_rad: bearing.flight.attitude.pitch_rad,
         roll_rad: bearing.flight.attitude.roll_rad,
     });
+    let touched = run.first_touch_s.is_some();
     let history = run.columns.map(|structure| History {
         structure,
         head: head
@@ -111,6 +112,7 @@ fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome 
         energy: run.energy,
         complementarity: run.complementarity,
         effects: effects(model),
+        rules: model.plan().applied(&model.scene, touched),
         warnings,
         cost,
         history,
@@ -139,6 +141,7 @@ fn without_structure(error: &StructureError) -> Outcome {
         energy: EnergyBook::default(),
         complementarity: Default::default(),
         effects: Vec::new(),
+        rules: Vec::new(),
         warnings: Vec::new(),
         cost: Cost::default(),
         history: None,

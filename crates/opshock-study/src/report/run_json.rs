@@ -25,6 +25,8 @@ pub struct RunJson {
     pub energy: EnergyJson,
     pub complementarity: ComplementarityJson,
     pub effects: Vec<&'static str>,
+    /// Rules by which other effects were left out or shared.
+    pub rules: Vec<&'static str>,
     pub warnings: Vec<WarningJson>,
     pub cost: CostJson,
 }
@@ -221,6 +223,7 @@ impl RunJson {
             energy: energy(&outcome.energy),
             complementarity: complementarity(&outcome.complementarity),
             effects: outcome.effects.clone(),
+            rules: outcome.rules.clone(),
             warnings: outcome.warnings.iter().map(warning).collect(),
             cost: CostJson {
                 steps: cost.steps,

@@ -99,6 +99,7 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
         ),
     );
     line("effects", run.effects.join(", "));
+    line("rules", run.rules.join(", "));
     let cost = run.cost;
     line(
         "cost",

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::plan::Plan;
+use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
     Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
     simulate,
@@ -185,6 +185,8 @@ impl Simulator for Physics {
         match self.model(point) {
             Err(_) => Onset::Unknown,
             Ok(model) if model.scene().ramp.model == RampModel::None => Onset::NoRamp,
+            // In full nothing is taken from the answers without ramp.
+            Ok(_) if self.plan.mode == Mode::Full => Onset::Unknown,
             Ok(model) => match model.structure().touch_amplitude_m_per_s2(sign > 0.0) {
                 Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
                 None => Onset::Unknown,

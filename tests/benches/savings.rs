@@ -1,0 +1,116 @@
+//! What leaving out saves: each question as planned against `effects = "full"`, in one run.
+//!
+//! The drive of Fig. 13 at the study's accuracy, 0.5 ms, 5 ms window. A pair is timed in turn, five
+//! times, and the medians compared: once with building the model (one question asked), once
+//! without (each further shock on the same model). Both answers are compared too.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use opshock_solver::quantity::m_per_s2_from_g;
+use opshock_solver::scene::Scene;
+use opshock_solver::scene::plan::{Mode, Output, Plan};
+use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
+use opshock_tests::scenes;
+
+const ROUNDS: usize = 5;
+
+fn request(amplitude_g: f64) -> Request {
+    Request {
+        amplitude_m_per_s2: m_per_s2_from_g(amplitude_g),
+        stop_at_failure: true,
+        record: false,
+    }
+}
+
+/// Building, then the second of two shocks (the first warms the workspace), s.
+fn times(scene: &Scene, plan: &Plan, amplitude_g: f64) -> ([f64; 2], Outcome) {
+    let start = Instant::now();
+    let model = Model::assemble(scene, plan, None).expect("the scene builds");
+    let built = start.elapsed().as_secs_f64();
+    let mut workspace = Workspace::default();
+    black_box(simulate(&model, &request(amplitude_g), &mut workspace));
+    let start = Instant::now();
+    let outcome = black_box(simulate(&model, &request(amplitude_g), &mut workspace));
+    ([built, start.elapsed().as_secs_f64()], outcome)
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn compare(question: &str, ramp: &str, output: Output, amplitude_g: f64) {
+    let scene = scenes::scene("fig13", ramp, 0.5, &[]);
+    let plans = [Mode::Auto, Mode::Full].map(|mode| Plan::new(&[output], mode));
+    let mut all: [[Vec<f64>; 2]; 2] = Default::default();
+    let mut disks = Vec::new();
+    for _ in 0..ROUNDS {
+        for (plan, kept) in plans.iter().zip(&mut all) {
+            let ([built, shock], outcome) = times(&scene, plan, amplitude_g);
+            kept[0].push(built + shock);
+            kept[1].push(shock);
+            disks.push((outcome.disk, outcome.top, outcome.bottom));
+        }
+    }
+    assert!(disks.iter().all(|other| *other == disks[0]), "{question}");
+    let [[auto_once, auto_more], [full_once, full_more]] = all.map(|side| side.map(median));
+    println!(
+        "| {question} | {:.1} ms | {:.1} ms | {:.1} | {:.2} ms | {:.1} ms | {:.1} |",
+        1e3 * auto_once,
+        1e3 * full_once,
+        full_once / auto_once,
+        1e3 * auto_more,
+        1e3 * full_more,
+        full_more / auto_more
+    );
+}
+
+fn main() {
+    println!(
+        "| question | one shock, planned | full | ratio | further shock, planned | full | ratio |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    compare(
+        "disk motion without ramp, 190 G",
+        "none",
+        Output::DiskDisplacement,
+        190.0,
+    );
+    compare(
+        "rigid ramp below touch, 190 G",
+        "rigid",
+        Output::RampDisplacement,
+        190.0,
+    );
+    compare(
+        "deformable ramp below touch, 170 G",
+        "deformable",
+        Output::RampDisplacement,
+        170.0,
+    );
+    compare(
+        "contact history, rigid, 400 G",
+        "rigid",
+        Output::ContactForce,
+        400.0,
+    );
+    compare(
+        "contact history, deformable, 400 G",
+        "deformable",
+        Output::ContactForce,
+        400.0,
+    );
+    compare(
+        "critical-shock probe without ramp, 190 G",
+        "none",
+        Output::CriticalShock,
+        190.0,
+    );
+    compare(
+        "critical-shock probe, deformable, 190 G",
+        "deformable",
+        Output::CriticalShock,
+        190.0,
+    );
+}
