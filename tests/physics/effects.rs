@@ -337,3 +337,57 @@ fn effects_every_rule_is_decided() {
         Err(Output::Pitch)
     );
 }
+
+/// Every declared dependency carries its output: with the next smaller part of the drive it is
+/// missing, and with the declared part it is there.
+#[test]
+fn effects_every_declared_dependency_is_needed() {
+    let scene = coarse(scenes::scene("fig13", "none", 0.5, &[]));
+    let answers = |needs: Needs| {
+        let plan = Plan {
+            needs,
+            ..Plan::new(&[Output::CriticalShock], Mode::Auto)
+        };
+        run(&scene, &plan, 20.0, None).1
+    };
+    let found = |output: Output, outcome: &Outcome| {
+        let head = outcome.history.as_ref().map(|history| &history.head);
+        let recorded = |column: fn(&opshock_solver::simulation::HeadColumns) -> &Vec<f64>| {
+            head.is_some_and(|head| !column(head).is_empty())
+        };
+        match output {
+            Output::CriticalShock | Output::MinClearance => outcome.min_clearance_m.is_some(),
+            Output::SliderAttitude => recorded(|head| &head.slider_z_m),
+            Output::Pitch => recorded(|head| &head.slider_pitch_rad),
+            Output::BearingForce => recorded(|head| &head.bearing_force_n),
+            Output::DimpleForce => outcome.dimple.is_some(),
+            Output::SteadyAttitude => outcome.steady.is_some(),
+            Output::TouchThreshold
+            | Output::DiskDisplacement
+            | Output::RampDisplacement
+            | Output::ContactForce => outcome.disk.slider_max_m > 0.0,
+        }
+    };
+    let parts = [Needs::Structure, Needs::Flight, Needs::Head];
+    let outcomes = parts.map(answers);
+    for output in Output::ALL {
+        for (part, outcome) in parts.iter().zip(&outcomes) {
+            let enough = *part >= output.needs();
+            assert_eq!(found(output, outcome), enough, "{output:?} {part:?}");
+        }
+    }
+}
+
+/// Without a ramp its clearances and its restitution are never read.
+#[test]
+fn effects_numbers_of_an_absent_ramp_change_nothing() {
+    let plan = Plan::new(&[Output::DiskDisplacement], Mode::Auto);
+    let scene = coarse(scenes::scene("fig13", "none", 0.5, &[]));
+    let mut other = scene.clone();
+    other.ramp.clearance_top_m = 0.0;
+    other.ramp.clearance_bottom_m = 1e-9;
+    other.ramp.restitution = 1.0;
+    let (_, a) = run(&scene, &plan, 500.0, None);
+    let (_, b) = run(&other, &plan, 500.0, None);
+    assert_eq!(a, b);
+}
