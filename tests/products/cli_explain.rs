@@ -145,3 +145,43 @@ fn a_steady_attitude_needs_no_moving_head() {
     let rules = json["rules"].as_array().unwrap();
     assert!(rules.contains(&Value::from("R1")) && rules.contains(&Value::from("R4")));
 }
+
+#[test]
+fn a_sweep_in_full_gives_the_planned_critical_shocks() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep = |effects: &str| {
+        let store = format!("{effects}.opshock");
+        let effects = format!("solver.effects={effects}");
+        let mut arguments = vec!["--json", "--store", &store];
+        for set in [
+            effects.as_str(),
+            "ramp.models=[\"none\", \"rigid\"]",
+            "pulse.signs=[\"+\"]",
+            "pulse.widths_ms=[0.5]",
+            "pulse.window_ms=1",
+            "search.tolerance_pct=20",
+            "search.certify=off",
+            "solver.film_cells=200",
+            "solver.disk_cut_khz=10",
+        ] {
+            arguments.extend(["--set", set]);
+        }
+        let done = program(folder.path(), "sweep", &arguments);
+        assert!([0, 4].contains(&done.code), "{}", done.stderr);
+        done.json()["points"].clone()
+    };
+    let (planned, full) = (sweep("auto"), sweep("full"));
+    for (a, b) in planned
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(full.as_array().unwrap())
+    {
+        for key in ["ramp", "a_crit_g", "a_fail_g", "status"] {
+            assert_eq!(a[key], b[key], "{key}\n{planned:#}\n{full:#}");
+        }
+    }
+    // The rigid ramp takes nothing from the answers without ramp.
+    assert!(full[1]["runs"].as_u64() >= planned[1]["runs"].as_u64());
+    assert!(full[1]["onset_g"].is_null() && planned[1]["onset_g"].is_number());
+}
