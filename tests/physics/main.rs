@@ -2,6 +2,7 @@
 
 mod bodies;
 mod contact;
+mod contact_method;
 mod effects;
 mod film_flight;
 mod film_flow_factor;

@@ -44,6 +44,14 @@ fn the_structure_does_not_depend_on_the_head() {
 }
 
 #[test]
+fn the_contact_method_is_part_of_the_structure() {
+    let scene = scene("");
+    let other = scene.with_other_contact();
+    assert_ne!(structure_key(&scene, 1), structure_key(&other, 1));
+    assert_ne!(CellId::new(&scene, true), CellId::new(&other, true));
+}
+
+#[test]
 fn sign_and_version_are_part_of_the_identity() {
     let scene = scene("");
     assert_ne!(CellId::new(&scene, true), CellId::new(&scene, false));

@@ -5,7 +5,7 @@ use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
 use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::structure::{
-    SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
+    ContactMethod, SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
 };
 
 /// A structure with everything a model is built from, to be varied by tests.
@@ -60,6 +60,13 @@ impl Structure {
     pub fn with_step(&self, step_s: f64) -> Self {
         let mut other = self.clone();
         other.resolution.step_s = step_s;
+        other
+    }
+
+    /// The same with Moreau-Jean contact.
+    pub fn with_moreau_jean(&self) -> Self {
+        let mut other = self.clone();
+        other.resolution.contact = ContactMethod::MoreauJean;
         other
     }
 
@@ -177,7 +184,10 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
         },
         pulse: half_sine(width_s),
         window: Window::Fixed { length_s: 5e-3 },
-        resolution: StructureResolution { step_s: 0.5e-6 },
+        resolution: StructureResolution {
+            step_s: 0.5e-6,
+            contact: ContactMethod::ExactFlow,
+        },
     }
 }
 

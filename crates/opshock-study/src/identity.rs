@@ -12,7 +12,7 @@ use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
-use opshock_solver::structure::StructureResolution;
+use opshock_solver::structure::{ContactMethod, StructureResolution};
 use opshock_solver::suspension::{
     Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
 };
@@ -157,8 +157,13 @@ impl Digester {
         self.numbers(&[*cut_hz]);
         self.integer(*n_elements as u64);
         self.flag(*static_correction);
-        let StructureResolution { step_s } = structure_resolution;
+        let StructureResolution { step_s, contact } = structure_resolution;
         self.numbers(&[*step_s]);
+        match contact {
+            // Nothing: what was stored before there was a choice keeps its name.
+            ContactMethod::ExactFlow => {}
+            ContactMethod::MoreauJean => self.text("moreau_jean"),
+        }
     }
 
     fn head(&mut self, scene: &Scene) {

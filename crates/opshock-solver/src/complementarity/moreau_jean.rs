@@ -1,7 +1,7 @@
 //! Reference method: Moreau-Jean time stepping with θ = ½ on linear modes.
 //!
-//! Kept beside the production scheme as an independent check: it shares neither its flow nor its
-//! impulses, and both tend to the same motion as the step goes to 0.
+//! The other method beside the production scheme: it shares neither its flow nor its impulses, and
+//! both tend to the same motion as the step goes to 0.
 //!
 //! ```text
 //! q₁ = q₀ + Δt (r₀ + r₁)/2
@@ -38,6 +38,8 @@ pub struct MoreauJean {
     pub amplitude: Vec<Complex<f64>>,
     /// Velocities r.
     pub velocity: Vec<Complex<f64>>,
+    /// Velocities of the step without contact.
+    free: Vec<Complex<f64>>,
 }
 
 impl MoreauJean {
@@ -62,6 +64,7 @@ impl MoreauJean {
             restitution,
             step_s,
             amplitude: zero.clone(),
+            free: zero.clone(),
             velocity: zero,
         }
     }
@@ -83,17 +86,11 @@ impl MoreauJean {
         let inertia = |m: &LinearMode| {
             Complex::from(1.0) + m.damping_per_s * (0.5 * h) + m.stiffness_per_s2 * (0.25 * h * h)
         };
-        let free: Vec<Complex<f64>> = self
-            .modes
-            .iter()
-            .enumerate()
-            .map(|(j, m)| {
-                let (q, r) = (self.amplitude[j], self.velocity[j]);
-                let pull =
-                    m.stiffness_per_s2 * (q + r * (0.5 * h)) + m.damping_per_s * r - force[j];
-                r - pull * h / inertia(m)
-            })
-            .collect();
+        for (j, (free, m)) in self.free.iter_mut().zip(&self.modes).enumerate() {
+            let (q, r) = (self.amplitude[j], self.velocity[j]);
+            let pull = m.stiffness_per_s2 * (q + r * (0.5 * h)) + m.damping_per_s * r - force[j];
+            *free = r - pull * h / inertia(m);
+        }
 
         let mut p = [0.0; 2];
         if closed[0] || closed[1] {
@@ -105,14 +102,14 @@ impl MoreauJean {
                 }
             }
             let target = std::array::from_fn(|i| {
-                let after = self.shapes.get(i).map_or(0.0, |s| read(s, &free));
+                let after = self.shapes.get(i).map_or(0.0, |s| read(s, &self.free));
                 after + self.restitution * before[i]
             });
             p = lcp::solve(w, target, closed).unwrap_or([0.0; 2]);
         }
         for (j, m) in self.modes.iter().enumerate() {
             let kick: f64 = (0..n).map(|i| self.shapes[i][j] * p[i]).sum();
-            let after = free[j] + inertia(m).inv() * kick;
+            let after = self.free[j] + inertia(m).inv() * kick;
             self.amplitude[j] += (self.velocity[j] + after) * (0.5 * h);
             self.velocity[j] = after;
         }

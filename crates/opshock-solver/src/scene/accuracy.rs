@@ -6,7 +6,7 @@
 use super::{Coupling, HeadResolution};
 use crate::air_bearing::FilmResolution;
 use crate::disk::DiskResolution;
-use crate::structure::StructureResolution;
+use crate::structure::{ContactMethod, StructureResolution};
 
 /// A named accuracy of the critical shock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,7 +46,10 @@ pub fn resolutions(rung: Rung) -> Resolutions {
             n_elements: 40,
             static_correction: true,
         },
-        structure: StructureResolution { step_s },
+        structure: StructureResolution {
+            step_s,
+            contact: ContactMethod::ExactFlow,
+        },
         film: FilmResolution {
             cells,
             floor_m: 0.3e-9,

@@ -12,7 +12,7 @@ use crate::ramp::RampParameters;
 use crate::shock::Pulse;
 use crate::slider::SliderParameters;
 use crate::structure::StructureResolution;
-pub use crate::structure::Window;
+pub use crate::structure::{ContactMethod, Window};
 use crate::suspension::SuspensionParameters;
 
 /// Everything one simulation needs but the amplitude.

@@ -1,6 +1,6 @@
-//! The same scene on other steps, another coupling or another window: what retries and checks run.
+//! The same scene on other steps, another coupling, contact method or window: what retries and checks run.
 
-use super::{Coupling, Scene, Window};
+use super::{ContactMethod, Coupling, Scene, Window};
 
 impl Scene {
     /// Every time step divided by `divisor` (> 1): the structure's grid directly, the head through
@@ -22,6 +22,18 @@ impl Scene {
         other.head_resolution.coupling = match self.head_resolution.coupling {
             Coupling::Monolithic => Coupling::Anderson,
             _ => Coupling::Monolithic,
+        };
+        other
+    }
+
+    /// The other contact method of disk and ramp.
+    #[must_use]
+    pub fn with_other_contact(&self) -> Scene {
+        let mut other = self.clone();
+        let contact = &mut other.structure_resolution.contact;
+        *contact = match contact {
+            ContactMethod::ExactFlow => ContactMethod::MoreauJean,
+            ContactMethod::MoreauJean => ContactMethod::ExactFlow,
         };
         other
     }

@@ -9,6 +9,7 @@ use super::energy::{Energies, Ledger};
 use super::free_motion::{ForcedState, Sample};
 use super::history::{Break, StructuralHistory};
 use super::model::{Shared, StructureError, StructureRun, StructureWarning};
+use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
@@ -16,7 +17,7 @@ use crate::modal::bank::dot;
 use crate::modal::{BankFlow, ModalState};
 
 /// Impacts closer than this share an event of the head's integration, s.
-const EVENT_SPACING_S: f64 = 2e-6;
+pub(super) const EVENT_SPACING_S: f64 = 2e-6;
 
 /// All that changes in a run; kept in the workspace so that runs reuse its memory.
 #[derive(Default)]
@@ -237,35 +238,27 @@ impl<'a> ContactSystem<'a> {
         }
         self.state.history.pose.push(pose);
         self.state.history.rate.push(rate);
-        let e = &mut self.extremes;
-        e.slider_max_m = e.slider_max_m.max(pose.displacement_m);
-        e.slider_min_m = e.slider_min_m.min(pose.displacement_m);
-        e.ramp_max_m = e.ramp_max_m.max(ramp);
-        e.ramp_min_m = e.ramp_min_m.min(ramp);
-        e.rim_max_m = e.rim_max_m.max(rim.abs());
+        let time_s = self.k as f64 * shared.free.step_s;
+        let node = Node {
+            time_s,
+            shock_m_per_s2: a * shared.pulse.value(time_s),
+            pose,
+            ramp_m: ramp,
+            rim_m: rim,
+            arms_m: arms,
+            energies: self.energies,
+        };
+        self.extremes.include(&node);
         let material = self.energies.material();
         let ledger = &mut self.ledger;
         ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
         ledger.peak_material = ledger.peak_material.max(material);
         if let Window::UntilDecayed { share, .. } = shared.window {
-            let time_s = self.k as f64 * shared.free.step_s;
             self.decayed =
                 time_s >= shared.free.pulse_end_s && material <= share * self.ledger.peak_material;
         }
         if self.state.record {
-            let time_s = self.k as f64 * shared.free.step_s;
-            let c = &mut self.state.columns;
-            c.time_s.push(time_s);
-            c.shock_m_per_s2.push(a * shared.pulse.value(time_s));
-            c.disk_slider_m.push(pose.displacement_m);
-            c.disk_ramp_m.push(ramp);
-            c.disk_rim_m.push(rim);
-            c.disk_pitch_rad.push(pose.pitch_rad);
-            c.disk_roll_rad.push(pose.roll_rad);
-            c.ramp_top_m.push(arms[0]);
-            c.ramp_bottom_m.push(arms[1]);
-            c.energy_j.push(material);
-            c.energy_h_j.push(self.energies.fixed_frame);
+            self.state.columns.push(&node);
         }
     }
 

@@ -9,8 +9,9 @@ mod free_motion;
 mod history;
 mod model;
 mod modes;
+mod moreau_jean_run;
+mod node;
 mod record;
-mod reference;
 
 pub use history::StructuralHistory;
 pub use model::{
@@ -21,7 +22,18 @@ pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
 };
-pub use reference::ReferenceRun;
+
+/// How disk and ramp are brought into contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactMethod {
+    /// Exact flow between impacts, impacts located in time, aimed impulses in lasting contact.
+    #[default]
+    ExactFlow,
+    /// Implicit midpoint steps with the constraint on velocities
+    /// ([`crate::complementarity::moreau_jean`]): shares nothing with the other but the modes. An
+    /// impact takes a whole step, so at equal steps it is less accurate.
+    MoreauJean,
+}
 
 /// Numerical resolution of the structure.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +41,8 @@ pub struct StructureResolution {
     /// Step of the grid on which motion is stored and contact is resolved, s. Divided into equal
     /// parts when the fastest mode of the disk needs it.
     pub step_s: f64,
+    /// Contact method.
+    pub contact: ContactMethod,
 }
 
 /// How long a simulation lasts after the onset.

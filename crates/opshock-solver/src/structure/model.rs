@@ -6,7 +6,7 @@ use super::energy::EnergyWeights;
 use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
 use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
-use super::{StructureResolution, Window};
+use super::{ContactMethod, StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution};
 use crate::modal::{BankFlow, Oscillator, Readout};
@@ -149,6 +149,7 @@ pub(super) struct Arm {
 pub(super) struct Shared {
     pub free: FreeMotion,
     pub n_steps: usize,
+    pub method: ContactMethod,
     pub window: Window,
     pub pulse: Pulse,
     /// 0 without a ramp, else 2.
@@ -279,6 +280,7 @@ impl StructureModel {
             shared: Arc::new(Shared {
                 free,
                 n_steps,
+                method: resolution.contact,
                 window,
                 pulse: pulse.clone(),
                 n_contacts: if ramp.model == RampModel::None { 0 } else { 2 },
@@ -350,6 +352,9 @@ impl StructureModel {
         let shared = &*self.shared;
         if !amplitude_m_per_s2.is_finite() {
             return Err(StructureError::NotFinite { time_s: 0.0 });
+        }
+        if shared.method == ContactMethod::MoreauJean {
+            return self.run_moreau_jean(amplitude_m_per_s2, record);
         }
         let state = workspace.state.get_or_insert_with(RunState::default);
         state.prepare(shared, record);

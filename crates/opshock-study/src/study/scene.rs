@@ -74,6 +74,7 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
         },
         structure: StructureResolution {
             step_s: number("solver.structure_step_us", base.structure.step_s),
+            contact: base.structure.contact,
         },
         film: FilmResolution {
             cells: count("solver.film_cells", base.film.cells),

@@ -128,7 +128,7 @@ impl Physics {
             Retry::HalfStep => self.build(&longer(&slot.scene.with_finer_steps(2.0))),
             Retry::QuarterStep => self.build(&longer(&slot.scene.with_finer_steps(4.0))),
             Retry::OtherCoupling => self.build(&longer(&slot.scene.with_other_coupling())),
-            Retry::OtherContact => self.build(&longer(&slot.scene.with_finer_steps(8.0))),
+            Retry::OtherContact => self.build(&longer(&slot.scene.with_other_contact())),
         }
     }
 

@@ -1,0 +1,300 @@
+//! The same structure under the other contact method.
+//!
+//! One state for shock and contact together, implicit midpoint instead of exact flow, velocity
+//! constraint instead of aimed impulses ([`crate::complementarity::moreau_jean`]). The energy book
+//! is that of the midpoint steps, for which it closes but for rounding: with the means q̄, r̄ of a
+//! step and the impulses P on gaps with rates ġ₀, ġ₁ before and after it,
+//!
+//! ```text
+//! H₁ − H₀ = Σ f Δq − Δt Σ (Re d |r̄|² + Re(i Im k r̄* q̄)) + Σ P (ġ₀ + ġ₁)/2
+//! ```
+//!
+//! An impact takes one step, so the motion has no breaks; the step in which a contact begins is an
+//! event for the head.
+
+use super::Window;
+use super::contact_log::ContactLog;
+use super::contact_system::EVENT_SPACING_S;
+use super::energy::Ledger;
+use super::history::StructuralHistory;
+use super::model::{Shared, StructureError, StructureModel, StructureRun};
+use super::node::Node;
+use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use crate::complementarity::moreau_jean::{LinearMode, MoreauJean};
+use crate::disk::DiskPose;
+use crate::modal::bank::dot;
+use crate::modal::{ModalState, Oscillator};
+use nalgebra::Complex;
+
+/// A run on its way.
+struct March<'a> {
+    shared: &'a Shared,
+    amplitude: f64,
+    system: MoreauJean,
+    /// Modal force of the shock at the middle of the step.
+    force: Vec<f64>,
+    now: ModalState,
+    before: ModalState,
+    history: StructuralHistory,
+    columns: Option<StructureColumns>,
+    extremes: DiskExtremes,
+    logs: [ContactLog; 2],
+    complementarity: Complementarity,
+    ledger: Ledger,
+    last: Node,
+    last_impulse_s: f64,
+}
+
+impl StructureModel {
+    /// Runs the model's modes with Moreau-Jean steps of the model's length.
+    pub(super) fn run_moreau_jean(
+        &self,
+        amplitude: f64,
+        record: bool,
+    ) -> Result<StructureRun, StructureError> {
+        let shared = &*self.shared;
+        let mut march = March::new(shared, amplitude, record);
+        march.record_node(0);
+        for k in 0..shared.n_steps {
+            march.step(k);
+            march.record_node(k + 1);
+            if !march.last.energies.fixed_frame.is_finite() {
+                let time_s = march.last.time_s;
+                return Err(StructureError::NotFinite { time_s });
+            }
+            if march.decayed() {
+                break;
+            }
+        }
+        Ok(march.finish())
+    }
+}
+
+impl<'a> March<'a> {
+    fn new(shared: &'a Shared, amplitude: f64, record: bool) -> Self {
+        let n = shared.oscillators.len();
+        let n_nodes = shared.n_steps + 1;
+        Self {
+            shared,
+            amplitude,
+            system: system(shared),
+            force: vec![0.0; n],
+            now: ModalState::at_rest(n),
+            before: ModalState::at_rest(n),
+            history: StructuralHistory {
+                step_s: shared.free.step_s,
+                pose: Vec::with_capacity(n_nodes),
+                rate: Vec::with_capacity(n_nodes),
+                breaks: Vec::new(),
+                events_s: vec![0.0],
+            },
+            columns: record.then(StructureColumns::default),
+            extremes: DiskExtremes::default(),
+            logs: Default::default(),
+            complementarity: Complementarity::default(),
+            ledger: Ledger::default(),
+            last: Node::default(),
+            last_impulse_s: f64::NEG_INFINITY,
+        }
+    }
+
+    /// From node `k` to the next.
+    fn step(&mut self, k: usize) {
+        let shared = self.shared;
+        let h = shared.free.step_s;
+        let middle = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
+        for (&i, gain) in shared
+            .forced_index
+            .iter()
+            .zip(&shared.free.modes.participation)
+        {
+            self.force[i] = gain * middle;
+        }
+        self.before.copy_from(&self.now);
+        let impulse = self.system.step(&self.force);
+        let states = self.system.amplitude.iter().zip(&self.system.velocity);
+        for (j, (q, r)) in states.enumerate() {
+            (self.now.q_re[j], self.now.q_im[j]) = (q.re, q.im);
+            (self.now.r_re[j], self.now.r_im[j]) = (r.re, r.im);
+        }
+        self.book_step(k, impulse);
+    }
+
+    /// Energies exchanged in the step just taken from node `k`, and its impulses.
+    fn book_step(&mut self, k: usize, impulse: [f64; 2]) {
+        let shared = self.shared;
+        let h = shared.free.step_s;
+        let (a, b) = (&self.before, &self.now);
+        for (j, o) in shared.oscillators.iter().enumerate() {
+            let mean = |x: &[f64], y: &[f64]| 0.5 * (x[j] + y[j]);
+            let (q_re, q_im) = (mean(&a.q_re, &b.q_re), mean(&a.q_im, &b.q_im));
+            let (r_re, r_im) = (mean(&a.r_re, &b.r_re), mean(&a.r_im, &b.r_im));
+            let mode = linear(o);
+            self.ledger.work += self.force[j] * (b.q_re[j] - a.q_re[j]);
+            self.ledger.damping += h
+                * (mode.damping_per_s.re * (r_re * r_re + r_im * r_im)
+                    + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im));
+        }
+        if impulse == [0.0; 2] {
+            return;
+        }
+        let start_s = k as f64 * h;
+        let on_disk = impulse[1] - impulse[0];
+        let w_theta =
+            -0.5 * (dot(&shared.contact_turn, &a.q_im) + dot(&shared.contact_turn, &b.q_im));
+        self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+        for (side, &p) in impulse.iter().enumerate() {
+            let record = &mut self.complementarity;
+            record.min_multiplier_n_s = record.min_multiplier_n_s.min(p);
+            if p == 0.0 {
+                continue;
+            }
+            let rates = gap_rate(shared, side, a) + gap_rate(shared, side, b);
+            self.ledger.impact -= 0.5 * p * rates;
+            let product = (p * self.system.gap_m(side)).abs();
+            record.max_product_n_s_m = record.max_product_n_s_m.max(product);
+            self.logs[side].push(start_s + 0.5 * h, p);
+        }
+        if start_s - self.last_impulse_s > EVENT_SPACING_S {
+            self.history.events_s.push(start_s);
+        }
+        self.last_impulse_s = start_s;
+    }
+
+    /// Books node `k`, which the state has reached.
+    fn record_node(&mut self, k: usize) {
+        let (shared, s) = (self.shared, &self.now);
+        let n = shared.n_disk;
+        let [w, p, r] = &shared.slider;
+        let read = |re: &[f64], im: &[f64]| DiskPose {
+            displacement_m: w.read(&re[..n], &im[..n]),
+            pitch_rad: p.read(&re[..n], &im[..n]),
+            roll_rad: r.read(&re[..n], &im[..n]),
+        };
+        let time_s = k as f64 * shared.free.step_s;
+        let node = Node {
+            time_s,
+            shock_m_per_s2: self.amplitude * shared.pulse.value(time_s),
+            pose: read(&s.q_re, &s.q_im),
+            ramp_m: dot(&shared.contact, &s.q_re),
+            rim_m: dot(&shared.rim, &s.q_re),
+            arms_m: std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re)),
+            energies: shared.weights.energies(s),
+        };
+        self.history.pose.push(node.pose);
+        self.history.rate.push(read(&s.r_re, &s.r_im));
+        self.extremes.include(&node);
+        for side in 0..shared.n_contacts {
+            let largest = &mut self.complementarity.max_penetration_m;
+            *largest = largest.max(-self.system.gap_m(side));
+        }
+        let ledger = &mut self.ledger;
+        ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(node.energies.fixed_frame);
+        ledger.peak_material = ledger.peak_material.max(node.energies.material());
+        if let Some(columns) = &mut self.columns {
+            columns.push(&node);
+        }
+        self.last = node;
+    }
+
+    fn decayed(&self) -> bool {
+        match self.shared.window {
+            Window::Fixed { .. } => false,
+            Window::UntilDecayed { share, .. } => {
+                self.last.time_s >= self.shared.free.pulse_end_s
+                    && self.last.energies.material() <= share * self.ledger.peak_material
+            }
+        }
+    }
+
+    /// Closes the books.
+    fn finish(self) -> StructureRun {
+        let shared = self.shared;
+        let step_s = shared.free.step_s;
+        let end_s = self.last.time_s;
+        let (ledger, energies) = (self.ledger, self.last.energies);
+        let peak = ledger.peak_fixed_frame;
+        let residual = energies.fixed_frame - (ledger.work - ledger.damping - ledger.impact);
+        let energy = EnergyBook {
+            kinetic_j: energies.kinetic,
+            elastic_j: energies.elastic,
+            h_end_j: energies.fixed_frame,
+            h_peak_j: peak,
+            shock_work_j: ledger.work,
+            damping_loss_j: ledger.damping,
+            impact_loss_j: ledger.impact,
+            algorithmic_j: 0.0,
+            spindle_work_j: ledger.spindle,
+            closure: if peak > 0.0 {
+                residual.abs() / peak
+            } else {
+                0.0
+            },
+        };
+        let mut warnings = shared.warnings.clone();
+        warnings.extend(StructureRun::penetration_warning(
+            self.complementarity.max_penetration_m,
+        ));
+        let [top, bottom] = self.logs.each_ref().map(|log| log.summary(step_s));
+        let mut history = self.history;
+        let kinks = shared.free.kinks_s().filter(|&t| t <= end_s);
+        history.events_s.extend(kinks);
+        history.events_s.sort_by(f64::total_cmp);
+        history.events_s.dedup();
+        let columns = self.columns.map(|mut columns| {
+            let n = columns.time_s.len();
+            columns.contact_top_n = self.logs[0].running_mean(step_s, n);
+            columns.contact_bottom_n = self.logs[1].running_mean(step_s, n);
+            columns
+        });
+        let first_touch_s = [top.first_touch_s, bottom.first_touch_s]
+            .into_iter()
+            .flatten()
+            .min_by(f64::total_cmp);
+        StructureRun {
+            steps: history.pose.len() as u64 - 1,
+            history,
+            columns,
+            disk: self.extremes,
+            top,
+            bottom,
+            energy,
+            complementarity: self.complementarity,
+            first_touch_s,
+            end_s,
+            warnings,
+        }
+    }
+}
+
+/// One mode in the frame that stands in space.
+fn linear(o: &Oscillator) -> LinearMode {
+    let (gamma, turn) = (o.half_damping_per_s, o.turn_rad_per_s);
+    LinearMode {
+        stiffness_per_s2: Complex::new(o.fixed_frame_stiffness(), 2.0 * gamma * turn),
+        damping_per_s: Complex::new(2.0 * gamma + o.fixed_damping_per_s, 2.0 * turn),
+    }
+}
+
+/// The model's modes and gaps: top g = g₀ + x − w, bottom g = g₀ − x + w.
+fn system(shared: &Shared) -> MoreauJean {
+    let row = |side: usize, sign: f64| -> Vec<f64> {
+        let pairs = shared.arm_shape[side].iter().zip(&shared.contact);
+        pairs.map(|(arm, disk)| sign * (arm - disk)).collect()
+    };
+    MoreauJean::new(
+        shared.oscillators.iter().map(linear).collect(),
+        [row(0, 1.0), row(1, -1.0)]
+            .into_iter()
+            .take(shared.n_contacts)
+            .collect(),
+        shared.clearance_m[..shared.n_contacts].to_vec(),
+        shared.law.restitution,
+        shared.free.step_s,
+    )
+}
+
+fn gap_rate(shared: &Shared, side: usize, state: &ModalState) -> f64 {
+    let closing = dot(&shared.arm_shape[side], &state.r_re) - dot(&shared.contact, &state.r_re);
+    if side == 0 { closing } else { -closing }
+}

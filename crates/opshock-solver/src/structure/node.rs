@@ -1,0 +1,49 @@
+//! What is booked at every node of the grid, whichever method moved the structure there.
+
+use super::energy::Energies;
+use super::record::{DiskExtremes, StructureColumns};
+use crate::disk::DiskPose;
+
+/// The structure at one node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Node {
+    pub time_s: f64,
+    pub shock_m_per_s2: f64,
+    /// Disk under the slider.
+    pub pose: DiskPose,
+    /// Disk at the ramp point, m.
+    pub ramp_m: f64,
+    /// Disk at the rim, m.
+    pub rim_m: f64,
+    /// Contact points of both arms, m.
+    pub arms_m: [f64; 2],
+    pub energies: Energies,
+}
+
+impl DiskExtremes {
+    pub(super) fn include(&mut self, node: &Node) {
+        let w = node.pose.displacement_m;
+        self.slider_max_m = self.slider_max_m.max(w);
+        self.slider_min_m = self.slider_min_m.min(w);
+        self.ramp_max_m = self.ramp_max_m.max(node.ramp_m);
+        self.ramp_min_m = self.ramp_min_m.min(node.ramp_m);
+        self.rim_max_m = self.rim_max_m.max(node.rim_m.abs());
+    }
+}
+
+impl StructureColumns {
+    /// A row but for the running means of the forces, which need all impulses.
+    pub(super) fn push(&mut self, node: &Node) {
+        self.time_s.push(node.time_s);
+        self.shock_m_per_s2.push(node.shock_m_per_s2);
+        self.disk_slider_m.push(node.pose.displacement_m);
+        self.disk_ramp_m.push(node.ramp_m);
+        self.disk_rim_m.push(node.rim_m);
+        self.disk_pitch_rad.push(node.pose.pitch_rad);
+        self.disk_roll_rad.push(node.pose.roll_rad);
+        self.ramp_top_m.push(node.arms_m[0]);
+        self.ramp_bottom_m.push(node.arms_m[1]);
+        self.energy_j.push(node.energies.material());
+        self.energy_h_j.push(node.energies.fixed_frame);
+    }
+}
