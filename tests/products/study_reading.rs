@@ -666,3 +666,32 @@ fn the_points_of_a_large_study_all_differ() {
     ids.dedup();
     assert_eq!(ids.len(), 20_000);
 }
+
+/// TOML takes `.1` and `1.` for no numbers; the hint names the digit that is missing.
+#[test]
+fn a_number_without_a_digit_beside_its_point_is_told_so() {
+    let text = Study::example("point");
+    for (value, hint) in [
+        (
+            ".1",
+            "write thickness_mm = 0.1: TOML needs a digit before the point",
+        ),
+        (
+            "-.5e1",
+            "write thickness_mm = -0.5e1: TOML needs a digit before the point",
+        ),
+        (
+            "1.",
+            "write thickness_mm = 1.0: TOML needs a digit after the point",
+        ),
+        (
+            "0.5mm",
+            "write thickness_mm = 0.5: without quotes, the unit is in the key's name",
+        ),
+        ("thin", "for example thickness_mm = "),
+    ] {
+        let set = format!("disk.thickness_mm={value}").parse().unwrap();
+        let told = Study::from_text(&text, &[set]).unwrap_err().to_string();
+        assert!(told.contains("E113") && told.contains(hint), "{told}");
+    }
+}

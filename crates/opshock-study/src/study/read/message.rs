@@ -30,18 +30,34 @@ impl Reader {
                     .chars()
                     .take_while(|letter| letter.is_ascii_digit() || "+-.eE".contains(*letter))
                     .collect();
-                if number.parse::<f64>().is_ok() {
+                if number.parse::<f64>().is_err() {
+                    fault.hint(format!("for example {} = {}", key.name(), key.example()))
+                } else if let Some((written, place)) = with_digits_beside_the_point(&number) {
+                    fault.hint(format!(
+                        "write {} = {written}: TOML needs a digit {place} the point",
+                        key.name()
+                    ))
+                } else {
                     fault.hint(format!(
                         "write {} = {number}: without quotes, the unit is in the key's name",
                         key.name()
                     ))
-                } else {
-                    fault.hint(format!("for example {} = {}", key.name(), key.example()))
                 }
             }
             _ => fault.hint(format!("for example {} = {}", key.name(), key.example())),
         }
     }
+}
+
+/// A number that TOML does not take for one, as `.1` and `1.`, with the digit it lacks, and on
+/// which side of the point that is; `None` when none is lacking.
+fn with_digits_beside_the_point(number: &str) -> Option<(String, &'static str)> {
+    let (whole, rest) = number.split_once('.')?;
+    if !whole.ends_with(|letter: char| letter.is_ascii_digit()) {
+        return Some((format!("{whole}0.{rest}"), "before"));
+    }
+    (!rest.starts_with(|letter: char| letter.is_ascii_digit()))
+        .then(|| (format!("{whole}.0{rest}"), "after"))
 }
 
 pub(super) fn not_a_word(
