@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-structure verify-durability clean-results
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-durability
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -41,10 +41,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-structure verify-film verify-effects verify-durability ## heavy evidence, in parts
-
-verify-structure: bootstrap ## slow structure checks
-	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture structure_slow
+verify: verify-film verify-effects verify-durability ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow

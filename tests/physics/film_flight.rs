@@ -200,10 +200,7 @@ fn bad_first_attitudes_reach_the_same_flight() {
     }
 }
 
-/// The thin-margin surface (centre step 205 µm wide, centre pad 125 µm, 0.948 gf at r 22.215 mm):
-/// 3.64 nm converged, 3.83 at 2000 cells, 3.72 at 4000.
-#[test]
-fn thin_margin_slider_flies_at_three_point_seven_nanometres() {
+fn thin_margin_slider() -> SliderParameters {
     let mut slider = default_slider();
     slider.radius_m = 22.215e-3;
     for (rail, width) in [(6, 205e-6), (7, 125e-6)] {
@@ -212,11 +209,42 @@ fn thin_margin_slider_flies_at_three_point_seven_nanometres() {
         };
         *y_m = [350e-6 - 0.5 * width, 350e-6 + 0.5 * width];
     }
+    slider
+}
+
+/// The thin-margin surface (centre step 205 µm wide, centre pad 125 µm, 0.948 gf at r 22.215 mm):
+/// 3.64 nm converged, 3.83 at 2000 cells, 3.72 at 4000.
+#[test]
+fn thin_margin_slider_flies_at_three_point_seven_nanometres() {
+    let slider = thin_margin_slider();
     for (cells, clearance_nm) in [(2000, 3.83), (4000, 3.72)] {
         let flight = fly(&film(&slider, cells), [0.948 * GRAM_FORCE_N, 0.0, 0.0]).unwrap();
         let found = flight.min_clearance_m * 1e9;
         assert!((found - clearance_nm).abs() < 0.02, "{cells}: {found}");
     }
+}
+
+/// Both surfaces at 16000 cells, one more halving of the error: 9.15 ± 0.05 nm and 113.0 µrad as the
+/// reference converges to, and 3.64 nm as our own sequence of grids does.
+#[test]
+#[ignore = "slow: about 30 s"]
+fn film_slow_both_surfaces_converge() {
+    let flight = fly(&film(&default_slider(), 16000), [LOAD_N, 0.0, 0.0]).unwrap();
+    let (found, pitch) = (
+        flight.min_clearance_m * 1e9,
+        flight.attitude.pitch_rad * 1e6,
+    );
+    println!("drive-2.5in: {found:.4} nm, {pitch:.3} urad");
+    assert!((found - 9.15).abs() < 0.05, "{found}");
+    assert!((pitch - 113.0).abs() < 0.2, "{pitch}");
+    let flight = fly(
+        &film(&thin_margin_slider(), 16000),
+        [0.948 * GRAM_FORCE_N, 0.0, 0.0],
+    )
+    .unwrap();
+    let found = flight.min_clearance_m * 1e9;
+    println!("fig13: {found:.4} nm");
+    assert!((found - 3.64).abs() < 0.03, "{found}");
 }
 
 /// The layout serves any surface: a slanted, skewed one with a tapered leading edge comes within
