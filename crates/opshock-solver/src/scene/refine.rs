@@ -4,12 +4,14 @@ use super::{ContactMethod, Coupling, Scene, Window};
 
 impl Scene {
     /// Every time step divided by `divisor` (> 1): the structure's grid directly, the head through
-    /// its tolerance (local error of a second-order step, so its cube) and its approach bound.
+    /// its tolerance (local error of a second-order step, so its cube) and its approach bound. The
+    /// coupling tolerance goes along: left behind, its error would be taken for that of the step.
     #[must_use]
     pub fn with_finer_steps(&self, divisor: f64) -> Scene {
         let mut finer = self.clone();
         finer.structure_resolution.step_s /= divisor;
         finer.head_resolution.tolerance /= divisor.powi(3);
+        finer.head_resolution.coupling_tolerance /= divisor.powi(3);
         finer.head_resolution.approach_share /= divisor;
         finer
     }
