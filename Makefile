@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-durability
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-fuzz
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -51,3 +51,6 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
+
+verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse or journal (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

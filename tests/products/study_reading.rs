@@ -234,6 +234,17 @@ fn the_digest_does_not_see_order_spelling_and_comments() {
             .collect::<Vec<_>>()
     };
     assert_eq!(ids(&one), ids(&other));
+
+    // Axes in either order, in the file or on the command line, are one study.
+    let (rpm, gap) = ("disk.rpm=[5400, 7200]", "ramp.clearance_um=[60, 80]");
+    let one = read(SHORT, &[rpm, gap]).unwrap();
+    let other = read(SHORT, &[gap, rpm]).unwrap();
+    let again = read(&one.resolved_toml(), &[]).unwrap();
+    for other in [other, again] {
+        assert_eq!(one.digest, other.digest);
+        assert_eq!(one.axes, other.axes);
+        assert_eq!(ids(&one), ids(&other));
+    }
 }
 
 #[test]
@@ -362,11 +373,11 @@ fn axes_of_words_and_spaced_numbers_expand() {
     assert_eq!(
         columns,
         [
-            "model",
-            "rpm",
             "window_ms",
+            "rpm",
+            "ramp.radius_mm",
             "slider.radius_mm",
-            "ramp.radius_mm"
+            "model"
         ]
     );
     assert_eq!(study.points.len(), 2 * 3 * 2 * 2 * 2 * 5 * 2);

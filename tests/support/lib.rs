@@ -6,6 +6,7 @@ pub mod hdf5_dump;
 pub mod heads;
 pub mod mock_sweep;
 pub mod scenes;
+pub mod seeded;
 pub mod structures;
 pub mod suspensions;
 

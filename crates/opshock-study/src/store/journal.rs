@@ -76,18 +76,25 @@ pub fn read(path: &Path) -> Result<Option<JournalContent>, StoreError> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(source) => return Err(unreadable(path, source)),
     };
-    let content = match header_at_start(&bytes) {
-        Some((format, ..)) if format > JOURNAL_FORMAT => {
-            return Err(StoreError::Newer {
-                path: path.to_owned(),
-                found: format,
-                known: JOURNAL_FORMAT,
-            });
-        }
-        Some((_, header, start)) => records(header, &bytes, start),
-        None => records(None, &bytes, 0),
-    };
-    Ok(Some(content))
+    parse(path, &bytes).map(Some)
+}
+
+/// Reads the bytes of a journal; `path` is only named in the error. A damaged header costs no
+/// record.
+///
+/// # Errors
+///
+/// [`StoreError::Newer`].
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<JournalContent, StoreError> {
+    match header_at_start(bytes) {
+        Some((format, ..)) if format > JOURNAL_FORMAT => Err(StoreError::Newer {
+            path: path.to_owned(),
+            found: format,
+            known: JOURNAL_FORMAT,
+        }),
+        Some((_, header, start)) => Ok(records(header, bytes, start)),
+        None => Ok(records(None, bytes, 0)),
+    }
 }
 
 /// Format, header and its end; `None` unless the checksum holds.

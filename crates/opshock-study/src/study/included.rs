@@ -103,6 +103,22 @@ pub fn surface_base(reader: &mut Reader, location: &Location) {
                         reader.spoil(PREFIX, fault);
                     } else {
                         reader.table(&node, PREFIX, PREFIX);
+                        // Written out without rails the study would get the default surface's.
+                        let rails = "slider.surface.rail";
+                        if node.get("rail").is_none() && !reader.settings.has(rails) {
+                            let fault = StudyError::at(
+                                "E112",
+                                &place,
+                                rails,
+                                format!("the surface file {} has no rail", source.name),
+                            )
+                            .value(file)
+                            .allowed("at least one [[rail]]")
+                            .hint(
+                                "a plane slider is one rail over the whole slider, recess_um = 0",
+                            );
+                            reader.spoil(PREFIX, fault);
+                        }
                     }
                 }
             }

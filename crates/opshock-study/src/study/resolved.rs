@@ -64,16 +64,11 @@ pub fn text(settings: &Settings) -> String {
     out
 }
 
-/// Digest of a study: of its resolved text, and of the order of its further axes, which is the
-/// order of its points.
+/// Digest of a study: of its resolved text.
 pub fn digest(settings: &Settings) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(b"opshock study 1\n");
     hasher.update(text(settings).as_bytes());
-    for path in settings.axes() {
-        hasher.update(path.as_bytes());
-        hasher.update(b"\n");
-    }
     *hasher.finalize().as_bytes()
 }
 

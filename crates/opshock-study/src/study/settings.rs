@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::keys::{self, KEYS};
 use super::source::{Origin, Place};
 use super::unit;
 
@@ -118,16 +119,20 @@ impl Settings {
             .map(|(path, setting)| (path.as_str(), setting))
     }
 
-    /// Paths of the axes beside widths, ramp models and signs, in file order; those of the
-    /// command line last.
+    /// Paths of the axes beside widths, ramp models and signs, in the order of the table of keys:
+    /// the order in which they were written is not part of a study.
     pub fn axes(&self) -> Vec<&str> {
-        let mut axes: Vec<(&str, &Place)> = self
+        let mut axes: Vec<&str> = self
             .iter()
             .filter(|(_, setting)| setting.is_axis)
-            .map(|(path, setting)| (path, &setting.key_place))
+            .map(|(path, _)| path)
             .collect();
-        axes.sort_by_key(|(path, place)| (place.origin, place.span.start, *path));
-        axes.into_iter().map(|(path, _)| path).collect()
+        let rank = |path: &str| {
+            let pattern = keys::pattern(path);
+            KEYS.iter().position(|key| key.path == pattern)
+        };
+        axes.sort_by_key(|path| (rank(path), *path));
+        axes
     }
 }
 

@@ -1,0 +1,73 @@
+//! Runs seeds one after the other, tells a hang from a slow reader, and watches the memory.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use opshock_tests::seeded::OnPanic;
+
+/// No file of these sizes takes a reader a second; ten mean that it does not end.
+const HANG: Duration = Duration::from_secs(10);
+
+/// A reader holds a few copies of its file; corpus, libraries and test harness take the rest.
+const MOST_MEMORY_KB: u64 = 1 << 20;
+
+/// Calls `execute` with every seed. Progress goes to standard output every `tell_every` seeds.
+///
+/// # Panics
+/// When memory grew beyond the bound. A hang ends the process, naming the seed.
+pub fn run(name: &str, seeds: Range<u64>, tell_every: u64, mut execute: impl FnMut(u64) -> bool) {
+    let (now, ended) = (AtomicU64::new(seeds.start), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let (mut last, mut since) = (u64::MAX, Instant::now());
+            while !ended.load(Ordering::Relaxed) {
+                std::thread::sleep(Duration::from_millis(20));
+                let seed = now.load(Ordering::Relaxed);
+                if seed != last {
+                    (last, since) = (seed, Instant::now());
+                } else if since.elapsed() > HANG {
+                    eprintln!("{name}: seed {seed} does not end");
+                    std::process::abort();
+                }
+            }
+        });
+        let _end = EndOnDrop(&ended);
+        let start = Instant::now();
+        let mut accepted = 0_u64;
+        for seed in seeds.clone() {
+            now.store(seed, Ordering::Relaxed);
+            let _named = OnPanic(seed);
+            accepted += u64::from(execute(seed));
+            let done = seed + 1 - seeds.start;
+            if done.is_multiple_of(tell_every) || seed + 1 == seeds.end {
+                println!(
+                    "{name}: {done} executions from seed {}, {accepted} files accepted, {:.0} a \
+                     second, {} MB at most",
+                    seeds.start,
+                    done as f64 / start.elapsed().as_secs_f64(),
+                    peak_memory_kb() / 1024
+                );
+            }
+        }
+        assert!(peak_memory_kb() < MOST_MEMORY_KB, "{} kB", peak_memory_kb());
+    });
+}
+
+struct EndOnDrop<'a>(&'a AtomicBool);
+
+impl Drop for EndOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Largest resident memory of this process so far; 0 where the system does not say.
+fn peak_memory_kb() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))
+        .and_then(|rest| rest.trim().trim_end_matches("kB").trim().parse().ok())
+        .unwrap_or(0)
+}
