@@ -38,6 +38,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
                     },
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),
+                    bar: None,
                 });
             }
         }

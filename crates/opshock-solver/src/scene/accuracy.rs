@@ -19,6 +19,17 @@ pub enum Rung {
     TenthPercent,
 }
 
+impl Rung {
+    /// The accuracy as a share of the critical shock.
+    pub fn share(self) -> f64 {
+        match self {
+            Rung::FivePercent => 0.05,
+            Rung::OnePercent => 0.01,
+            Rung::TenthPercent => 0.001,
+        }
+    }
+}
+
 /// The resolutions of every stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolutions {

@@ -1,6 +1,7 @@
 //! A scene: everything one simulation needs, in SI, as plain data.
 
 pub mod accuracy;
+pub mod knob;
 pub mod plan;
 mod refine;
 

@@ -56,6 +56,8 @@ fn header(results: &Results) -> Vec<String> {
         "steps",
         "film_solves",
         "structure_steps",
+        "film_unknowns",
+        "levels",
     ];
     before
         .chain(results.summary.axes.iter().cloned())
@@ -102,6 +104,8 @@ fn row(results: &Results, run: &RunRow) -> Option<Vec<Value>> {
         json!(answer.cost.steps),
         json!(answer.cost.film_solves),
         json!(answer.cost.structure_steps),
+        json!(answer.cost.film_unknowns),
+        json!(run.levels.label()),
     ]);
     Some(row)
 }

@@ -1,6 +1,6 @@
 //! Critical shocks as a table: terminal, Markdown, CSV.
 
-use crate::store::summary::{PointSummary, Status, Summary};
+use crate::store::summary::{ERROR_PARTS, PointSummary, Status, Summary};
 
 /// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,
 /// runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
@@ -91,6 +91,7 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
          bar of `A_crit`; first touch: amplitude at which the disk first reaches the ramp. \
          `> A`: no failure up to A; `< A`: failure already at A.\n",
     );
+    text.push_str(&parts_table(summary));
     if !provenance.is_empty() {
         text.push_str(&format!("\n{provenance}\n"));
     }
@@ -137,6 +138,90 @@ pub fn terminal(summary: &Summary) -> String {
         totals.open,
         totals.runs
     ));
+    if let Some(share) = bars_cost(summary) {
+        text.push_str(&format!("error bars: {share}\n"));
+    }
+    text
+}
+
+/// Runs and work of the error bars beside those of the search; `None` without any.
+fn bars_cost(summary: &Summary) -> Option<String> {
+    let totals = &summary.totals;
+    let search = totals.film_work - totals.bar_film_work;
+    (totals.bar_runs > 0 && search > 0).then(|| {
+        format!(
+            "{} of the {} runs, {:.0} % on top of the search's film work (solves x cells)",
+            totals.bar_runs,
+            totals.runs,
+            100.0 * totals.bar_film_work as f64 / search as f64
+        )
+    })
+}
+
+/// The parts of every error bar as per cent of `A_crit`; `x3` marks the wide factor.
+fn parts_table(summary: &Summary) -> String {
+    let names: Vec<&str> = ERROR_PARTS
+        .into_iter()
+        .filter(|name| {
+            let has = |point: &PointSummary| point.err_parts.iter().any(|(known, _)| known == name);
+            summary.points.iter().any(has)
+        })
+        .collect();
+    if names.len() < 2 {
+        return String::new();
+    }
+    let mut text = String::from("\n## What the error bars are made of\n\n");
+    let axes: String = summary
+        .axes
+        .iter()
+        .map(|axis| format!(" {axis} |"))
+        .collect();
+    let heads: String = names.iter().map(|name| format!(" {name} (%) |")).collect();
+    text.push_str(&format!(
+        "| ramp | pulse (ms) | sign |{axes} half bar (%) |{heads}\n"
+    ));
+    text.push_str("| --- | ---: | --- |");
+    text.push_str(&" --- |".repeat(summary.axes.len()));
+    text.push_str(&" ---: |".repeat(1 + names.len()));
+    text.push('\n');
+    for point in &summary.points {
+        let Some(a_crit_g) = point.a_crit_g else {
+            continue;
+        };
+        let per_cent = |value_g: f64| format!("{:.2}", 100.0 * value_g / a_crit_g);
+        let axes: String = point
+            .axes
+            .iter()
+            .map(|value| format!(" {value} |"))
+            .collect();
+        let half = match (point.err_low_g, point.err_high_g) {
+            (Some(low), Some(high)) => per_cent(0.5 * (low + high)),
+            _ => String::new(),
+        };
+        text.push_str(&format!(
+            "| {} | {} | {} |{axes} {half} |",
+            point.ramp,
+            point.pulse_ms,
+            point.sign.as_str()
+        ));
+        for name in &names {
+            let part = point.err_parts.iter().find(|(known, _)| known == name);
+            let cell = part.map_or(String::new(), |(_, part)| {
+                let wide = if part.factor > 2.0 { " x3" } else { "" };
+                format!("{}{wide}", per_cent(part.high_g))
+            });
+            text.push_str(&format!(" {cell} |"));
+        }
+        text.push('\n');
+    }
+    text.push_str(
+        "\nParts add up; each but the search bracket goes both ways. `x3`: the knob showed no \
+         formal order and its part carries the wide factor.",
+    );
+    if let Some(cost) = bars_cost(summary) {
+        text.push_str(&format!(" Cost: {cost}."));
+    }
+    text.push('\n');
     text
 }
 

@@ -68,6 +68,14 @@ impl Lattice {
         })
     }
 
+    /// The lattice with `times` nodes for each of this one: node i there is node i `times` here.
+    #[must_use]
+    pub fn finer(&self, times: i32) -> Lattice {
+        Lattice {
+            nodes_per_octave: self.nodes_per_octave.saturating_mul(times),
+        }
+    }
+
     /// Amplitude of a node, G.
     pub fn amplitude_g(&self, index: i32) -> f64 {
         let octave = index.div_euclid(self.nodes_per_octave);

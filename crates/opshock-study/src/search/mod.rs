@@ -8,6 +8,7 @@
 //! its verdict: the same verdicts give the same probes and the same answer, whoever computed the
 //! verdicts, in which order and on how many threads.
 
+pub mod bar;
 pub mod campaign;
 mod certify;
 pub mod evidence;
@@ -24,6 +25,7 @@ pub mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use bar::{Bar, BarInput};
 pub use campaign::{Campaign, Touch};
 pub use findings::Findings;
 pub use lattice::{Lattice, LatticeError, NodeRange};

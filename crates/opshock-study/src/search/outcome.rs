@@ -74,10 +74,16 @@ pub enum Flag {
     NoTouch,
     /// The amplitude of first touch is not known, so nothing is taken from the no-ramp answer.
     OnsetUnknown,
+    /// A part of the error bar does not show its knob's formal order and carries the wide factor.
+    BarWide,
+    /// A part of the error bar could not be estimated and is not in it.
+    BarPartial,
+    /// Half the error bar is more than the accuracy asked for.
+    BarExceeds,
 }
 
 impl Flag {
-    const ALL: [Flag; 12] = [
+    const ALL: [Flag; 15] = [
         Flag::NonMonotone,
         Flag::Window,
         Flag::WindowUndecided,
@@ -90,6 +96,9 @@ impl Flag {
         Flag::NotBuilt,
         Flag::NoTouch,
         Flag::OnsetUnknown,
+        Flag::BarWide,
+        Flag::BarPartial,
+        Flag::BarExceeds,
     ];
 
     /// Word in products.
@@ -107,6 +116,9 @@ impl Flag {
             Flag::NotBuilt => "not_built",
             Flag::NoTouch => "no_touch",
             Flag::OnsetUnknown => "onset_unknown",
+            Flag::BarWide => "bar_wide",
+            Flag::BarPartial => "bar_partial",
+            Flag::BarExceeds => "bar_exceeds",
         }
     }
 

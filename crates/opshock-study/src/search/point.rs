@@ -103,9 +103,9 @@ impl PointSearch {
         let (node, window_factor, purpose) = self.next_node()?;
         Some(Asked {
             probe: Probe {
-                index: node,
                 window_factor,
                 retry: self.retry,
+                ..Probe::at(node)
             },
             purpose,
         })

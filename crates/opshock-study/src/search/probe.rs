@@ -3,6 +3,7 @@
 //! The verdict has three values and is never the sign of a stored number: a clearance that is not
 //! a number decides nothing.
 
+use opshock_solver::scene::knob::Levels;
 use serde::Serialize;
 
 /// Which way the disk moves first.
@@ -105,8 +106,12 @@ impl Retry {
 /// One simulation asked for: a node of the amplitude lattice and how to run it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Probe {
-    /// Node of the lattice.
+    /// Node of the lattice, of the bar's lattice when `is_fine`.
     pub index: i32,
+    /// The run belongs to an error bar, whose lattice is [`super::bar::SUBNODES`] times as fine.
+    pub is_fine: bool,
+    /// Knobs turned away from the study's resolution.
+    pub levels: Levels,
     /// Multiple of the study's window simulated: 1, or 2 for the window check.
     pub window_factor: u8,
     /// How the run is made.
@@ -118,6 +123,8 @@ impl Probe {
     pub fn at(index: i32) -> Probe {
         Probe {
             index,
+            is_fine: false,
+            levels: Levels::NONE,
             window_factor: 1,
             retry: Retry::None,
         }
@@ -137,6 +144,8 @@ pub enum Purpose {
     FollowUp,
     /// The highest survivor in a doubled window.
     Window,
+    /// What a knob changes, for the error bar.
+    ErrorBar,
 }
 
 impl Purpose {
@@ -148,6 +157,7 @@ impl Purpose {
             Purpose::Scan => "scan",
             Purpose::FollowUp => "follow_up",
             Purpose::Window => "window",
+            Purpose::ErrorBar => "error_bar",
         }
     }
 
@@ -159,6 +169,7 @@ impl Purpose {
             Purpose::Scan,
             Purpose::FollowUp,
             Purpose::Window,
+            Purpose::ErrorBar,
         ]
         .into_iter()
         .find(|purpose| purpose.as_str() == text)

@@ -3,6 +3,8 @@
 //! Little-endian; lengths before text; a number that does not exist is a zero byte, one that
 //! exists a one byte and its eight bytes, so that every double comes back with the same bits.
 
+use opshock_solver::scene::knob::Levels;
+
 use crate::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
 
 /// Digest of everything that decides a point's answers but the amplitude.
@@ -13,6 +15,19 @@ impl PointDigest {
     /// Sixty-four hexadecimal digits.
     pub fn hex(&self) -> String {
         self.0.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// The same point with its knobs turned.
+    #[must_use]
+    pub fn turned(&self, levels: Levels) -> PointDigest {
+        if levels.is_none() {
+            return *self;
+        }
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(b"opshock turned knobs 1");
+        hasher.update(&self.0);
+        hasher.update(levels.label().as_bytes());
+        PointDigest(*hasher.finalize().as_bytes())
     }
 
     /// Reads sixty-four hexadecimal digits.

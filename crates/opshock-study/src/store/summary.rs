@@ -10,7 +10,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 pub use crate::search::{Flag, Status};
-use crate::search::{ProbeResult, RunCost, Sign, Verdict};
+use crate::search::{ProbeResult, Purpose, RunCost, Sign, Verdict};
 
 /// Value of a further axis of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,6 +31,17 @@ impl std::fmt::Display for AxisValue {
     }
 }
 
+/// Names of the parts of error bars, in the order in which they are listed.
+pub const ERROR_PARTS: [&str; 7] = [
+    "search",
+    "film_grid",
+    "disk_modes",
+    "suspension_modes",
+    "structure_step",
+    "head_tolerance",
+    "coupling_tolerance",
+];
+
 /// One source of a row's error bar, G.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorPart {
@@ -38,6 +49,8 @@ pub struct ErrorPart {
     pub low_g: f64,
     /// Above the reported value, G.
     pub high_g: f64,
+    /// Factor of safety in both: 1 for a bound, 1.25 where the formal order was observed, else 3.
+    pub factor: f64,
 }
 
 /// Critical shock of one point.
@@ -99,15 +112,23 @@ pub struct Totals {
     pub runs: u64,
     /// Of these without verdict.
     pub undecided_runs: u64,
-    /// Work of these runs.
+    /// Of these for the error bars.
+    pub bar_runs: u64,
+    /// Work of all runs.
     pub cost: RunCost,
+    /// Work of those for the error bars.
+    pub bar_cost: RunCost,
+    /// Film solves times film unknowns, summed over all runs.
+    pub film_work: u64,
+    /// The same over the runs for the error bars.
+    pub bar_film_work: u64,
 }
 
 impl Totals {
     /// Counts of these rows and of the simulations of their sequences.
     pub fn of<'a>(
         points: &[PointSummary],
-        runs: impl IntoIterator<Item = &'a ProbeResult>,
+        runs: impl IntoIterator<Item = (Purpose, &'a ProbeResult)>,
     ) -> Totals {
         let mut totals = Totals {
             points: points.len() as u64,
@@ -122,7 +143,14 @@ impl Totals {
                 Status::Open => &mut totals.open,
             } += 1;
         }
-        for run in runs {
+        for (purpose, run) in runs {
+            let work = run.cost.film_solves * run.cost.film_unknowns;
+            totals.film_work += work;
+            if purpose == Purpose::ErrorBar {
+                totals.bar_runs += 1;
+                totals.bar_cost.add(&run.cost);
+                totals.bar_film_work += work;
+            }
             totals.runs += 1;
             totals.undecided_runs += u64::from(matches!(run.verdict, Verdict::Undecided { .. }));
             totals.cost.add(&run.cost);

@@ -172,6 +172,7 @@ pub static KEYS: &[Key] = &[
     Key::or("search.tolerance_pct", Number(closed(1e-6, 50.0)), "1.0", "Width of the final bracket.").usual(0.01, 20.0).code("E156"),
     Key::or("search.certify", Word(&["staggered", "off", "full"]), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
     Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156"),
+    Key::or("search.error_bars", Flag, "true", "Adds to each critical shock what the resolution contributes to its error."),
     // solver
     Key::or("solver.accuracy", Word(RUNGS), "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157"),
     Key::or("solver.effects", Word(&["auto", "full"]), "\"auto\"", "auto simulates only what the outputs need."),

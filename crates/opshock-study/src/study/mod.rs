@@ -109,6 +109,8 @@ pub struct SearchSettings {
     pub certify: Certify,
     /// Largest untested gap below the lowest failure, per cent.
     pub max_gap_pct: f64,
+    /// Whether what the resolution contributes is estimated.
+    pub error_bars: bool,
 }
 
 /// Settings of the store.
@@ -204,6 +206,7 @@ impl Study {
                 tolerance_pct: view.number("search.tolerance_pct"),
                 certify: Certify::from_word(view.word("search.certify")),
                 max_gap_pct: view.number("search.max_gap_pct"),
+                error_bars: view.maybe_flag("search.error_bars").unwrap_or(true),
             },
             output: OutputSettings {
                 keep_histories: match view.word("output.keep_histories") {

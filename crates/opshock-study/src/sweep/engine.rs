@@ -294,8 +294,7 @@ impl<'a> Run<'a> {
         pool.in_place_scope(|scope| {
             loop {
                 let stopped = self.stopped();
-                while in_flight < threads && stopped.is_none() && !self.ledger.campaign().is_done()
-                {
+                while in_flight < threads && stopped.is_none() && !self.ledger.is_done() {
                     let Some(job) = self.ledger.next_job(self.options.speculate) else {
                         break;
                     };
@@ -304,7 +303,7 @@ impl<'a> Run<'a> {
                         Job::Onset { point } => (point, 0.0, self.input.points[point].digest),
                         Job::Run { point, asked, key } => (
                             point,
-                            self.ledger.amplitude_m_per_s2(point, asked.probe.index),
+                            self.ledger.amplitude_m_per_s2(point, asked.probe),
                             key.point,
                         ),
                     };
@@ -385,7 +384,6 @@ impl<'a> Run<'a> {
 
     /// Tells what the searches were told.
     fn report(&mut self, told: &[Told], computed: Option<(RunKey, f64)>) {
-        let lattice = self.input.settings.lattice;
         for &Told { point, asked, key } in told {
             if self.ledger.first_of(point, asked) {
                 self.tell(Event::PointStarted { point });
@@ -393,7 +391,7 @@ impl<'a> Run<'a> {
             let verdict = self.ledger.runs()[&key].result.verdict.as_str();
             self.tell(Event::ProbeDone {
                 point,
-                amplitude_g: lattice.amplitude_g(asked.probe.index),
+                amplitude_g: self.ledger.amplitude_g(asked.probe),
                 verdict,
                 purpose: asked.purpose.as_str(),
                 retry: asked.probe.retry.label(),
@@ -419,7 +417,7 @@ impl<'a> Run<'a> {
             }
         }
         for point in 0..self.is_reported.len() {
-            if !self.is_reported[point] && self.ledger.campaign().is_final(point) {
+            if !self.is_reported[point] && self.ledger.is_final(point) {
                 self.is_reported[point] = true;
                 let summary = self.ledger.row(point);
                 self.tell(Event::PointDone { point, summary });

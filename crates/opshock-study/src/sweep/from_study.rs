@@ -5,7 +5,7 @@ use std::time::Duration;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::{Scene, Window};
 
-use super::input::{SweepInput, SweepPoint};
+use super::input::{BarPlan, SweepInput, SweepPoint};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::{Certify, Coordinates, LatticeError, RampClass, SearchSettings, Sign};
@@ -46,7 +46,7 @@ impl SweepInput {
             points: study
                 .table_order()
                 .into_iter()
-                .map(|place| sweep_point(&study.points[place]))
+                .map(|place| sweep_point(&study.points[place], search.error_bars))
                 .collect(),
             settings,
             start_s: study.start_s,
@@ -56,7 +56,7 @@ impl SweepInput {
     }
 }
 
-fn sweep_point(point: &Point) -> SweepPoint {
+fn sweep_point(point: &Point, error_bars: bool) -> SweepPoint {
     let sign = match point.sign {
         study::Sign::Plus => Sign::Plus,
         study::Sign::Minus => Sign::Minus,
@@ -79,6 +79,22 @@ fn sweep_point(point: &Point) -> SweepPoint {
         },
         axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
         digest: digest(&point.scene, sign),
+        bar: error_bars.then(|| bar_plan(point)),
+    }
+}
+
+/// Films below this many cells resolve no rail and say nothing about finer ones.
+const COARSEST_FILM: usize = 60;
+
+fn bar_plan(point: &Point) -> BarPlan {
+    let cells = point.scene.film_resolution.cells;
+    BarPlan {
+        knobs: point.scene.knobs(),
+        film_halvings: (0..=3_i8)
+            .rev()
+            .find(|&halvings| cells >> halvings >= COARSEST_FILM)
+            .unwrap_or(0),
+        accuracy: point.accuracy.share(),
     }
 }
 

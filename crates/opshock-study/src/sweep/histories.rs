@@ -39,7 +39,7 @@ pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>, folder: &Path) -> 
                 wanted.push(Wanted {
                     point,
                     probe,
-                    amplitude_m_per_s2: ledger.amplitude_m_per_s2(point, probe.index),
+                    amplitude_m_per_s2: ledger.amplitude_m_per_s2(point, probe),
                     amplitude_g,
                     path,
                 });

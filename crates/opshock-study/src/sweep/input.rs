@@ -2,10 +2,23 @@
 
 use std::time::Duration;
 
+use opshock_solver::scene::knob::Knob;
+
 use super::progress::PointLabel;
 use crate::search::{Coordinates, SearchSettings};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
 use crate::study::KeepHistories;
+
+/// What an error bar is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BarPlan {
+    /// Knobs that can change the answer.
+    pub knobs: Vec<Knob>,
+    /// Times the film's cells may be halved.
+    pub film_halvings: i8,
+    /// Accuracy asked for, a share.
+    pub accuracy: f64,
+}
 
 /// A point of the study.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +29,8 @@ pub struct SweepPoint {
     pub axes: Vec<AxisValue>,
     /// Digest of the scene, the sign and the physics versions.
     pub digest: PointDigest,
+    /// How its error bar is made; `None`: the search bracket alone.
+    pub bar: Option<BarPlan>,
 }
 
 /// A study as the sweep sees it.

@@ -7,8 +7,11 @@ use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 
 use super::input::SweepInput;
 use super::rows;
+use crate::search::evidence::NodeVerdict;
 use crate::search::lookahead::{self, Lookup};
-use crate::search::{Asked, Campaign, PointSearch, Probe, Touch};
+use crate::search::{
+    Asked, Campaign, Flag, PointSearch, Probe, ProbeResult, Purpose, Status, Touch, Verdict, bar,
+};
 use crate::store::summary::{PointSummary, Summary, Totals};
 use crate::store::{
     Loaded, PointDigest, PointKeep, Results, RunKey, RunRecord, RunRow, Session, StoredTouch,
@@ -56,6 +59,14 @@ pub(super) struct Ledger<'a> {
     sharing: HashMap<PointDigest, Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     urgency: Vec<usize>,
+    /// Error bars as far as they have got, by place; `None` before the point's search is final.
+    bars: Vec<Option<Bars>>,
+}
+
+/// Error bar of a point as far as it has got.
+struct Bars {
+    log: Vec<bar::Ask>,
+    progress: bar::Progress,
 }
 
 impl<'a> Ledger<'a> {
@@ -77,6 +88,7 @@ impl<'a> Ledger<'a> {
             onsets_in_flight: HashSet::new(),
             sharing,
             urgency,
+            bars: input.points.iter().map(|_| None).collect(),
         }
     }
 
@@ -116,8 +128,11 @@ impl<'a> Ledger<'a> {
         let key = record.key;
         self.in_flight.remove(&key);
         self.runs.entry(key).or_insert(record);
-        let asking = self.sharing[&key.point].clone();
-        self.absorb(asking)
+        match self.sharing.get(&key.point) {
+            Some(asking) => self.absorb(asking.clone()),
+            // Knobs were turned: an error bar's run.
+            None => self.draw_bars(),
+        }
     }
 
     /// Lets points ask as long as their answers are known, and the points that start by it.
@@ -135,13 +150,132 @@ impl<'a> Ledger<'a> {
                 places.extend(self.campaign.take_changed());
             }
         }
+        told.extend(self.draw_bars());
         told
+    }
+
+    /// Takes every error bar as far as the runs known allow; says which runs were used first now.
+    fn draw_bars(&mut self) -> Vec<Told> {
+        let mut told = Vec::new();
+        for point in 0..self.input.points.len() {
+            let is_done = |bars: &Bars| matches!(bars.progress, bar::Progress::Done(_));
+            if self.bars[point].as_ref().is_some_and(is_done) {
+                continue;
+            }
+            let Some(input) = self.bar_input(point) else {
+                continue;
+            };
+            let lookup = |ask: bar::Ask| {
+                let record = self.runs.get(&self.key(point, bar_probe(ask)))?;
+                Some(seen(&record.result))
+            };
+            let (log, progress) = bar::bar(&input, &lookup);
+            let known = self.bars[point].as_ref().map_or(0, |bars| bars.log.len());
+            told.extend(log[known..].iter().map(|&ask| Told {
+                point,
+                asked: bar_asked(ask),
+                key: self.key(point, bar_probe(ask)),
+            }));
+            self.bars[point] = Some(Bars { log, progress });
+        }
+        told
+    }
+
+    /// What the bar of a point starts from; `None` while its search is not final and for answers
+    /// that have no bracket of their own.
+    fn bar_input(&self, point: usize) -> Option<bar::BarInput> {
+        let plan = self.input.points[point].bar.as_ref()?;
+        if !self.campaign.is_final(point) {
+            return None;
+        }
+        let findings = self.campaign.findings(point);
+        if findings.status != Status::Ok || findings.flags.contains(&Flag::NoTouch) {
+            return None;
+        }
+        let (survivor, failure) = (findings.survivor?, findings.failure?);
+        let mut survivors = Vec::new();
+        let mut t_fail_s = None;
+        for asked in self.campaign.search(point)?.log() {
+            if asked.probe.window_factor != 1 {
+                continue;
+            }
+            let index = asked.probe.index * bar::SUBNODES;
+            let result = &self.runs[&self.key(point, asked.probe)].result;
+            match &result.verdict {
+                Verdict::Fails {
+                    t_fail_s: time_s, ..
+                } if asked.probe.index == failure => {
+                    t_fail_s = Some(*time_s);
+                }
+                Verdict::Survives => {
+                    if let (Some(h_min_m), Some(t_min_s)) = (result.h_min_m, result.t_min_s) {
+                        survivors.push(bar::Known {
+                            index,
+                            h_min_m,
+                            t_min_s,
+                        });
+                    }
+                }
+                Verdict::Fails { .. } | Verdict::Undecided { .. } => {}
+            }
+        }
+        Some(bar::BarInput {
+            lattice: self.input.settings.lattice.finer(bar::SUBNODES),
+            survivor: survivor * bar::SUBNODES,
+            failure: failure * bar::SUBNODES,
+            t_fail_s,
+            survivors,
+            knobs: plan.knobs.clone(),
+            film_halvings: plan.film_halvings,
+            accuracy: plan.accuracy,
+        })
+    }
+
+    /// The point whose bar stands for that of `point`: the same without ramp where the answer is
+    /// taken from there.
+    fn bar_owner(&self, point: usize) -> usize {
+        let is_taken = self.campaign.findings(point).flags.contains(&Flag::NoTouch);
+        let companion = self.campaign.order().relations[point].companion;
+        companion.filter(|_| is_taken).unwrap_or(point)
+    }
+
+    /// A point has its final answer and its error bar.
+    pub(super) fn is_final(&self, point: usize) -> bool {
+        if !self.campaign.is_final(point) {
+            return false;
+        }
+        let is_wanted = |owner: usize| self.bar_input(owner).is_some();
+        let owner = self.bar_owner(point);
+        match &self.bars[owner] {
+            Some(bars) => matches!(bars.progress, bar::Progress::Done(_)),
+            None => !is_wanted(owner),
+        }
+    }
+
+    /// All points have.
+    pub(super) fn is_done(&self) -> bool {
+        (0..self.input.points.len()).all(|point| self.is_final(point))
+    }
+
+    fn bar_job(&self) -> Option<Job> {
+        self.urgency.iter().find_map(|&point| {
+            let bar::Progress::Wants(ask) = self.bars[point].as_ref()?.progress else {
+                return None;
+            };
+            let key = self.key(point, bar_probe(ask));
+            (!self.in_flight.contains(&key)).then_some(Job::Run {
+                point,
+                asked: bar_asked(ask),
+                key,
+            })
+        })
     }
 
     /// The best free job: what a search asks now, else what it will probably ask.
     pub(super) fn next_job(&mut self, speculate: bool) -> Option<Job> {
         let job = self
             .asked_job()
+            .or_else(|| self.bar_job())
             .or_else(|| speculate.then(|| self.likely_job()).flatten())?;
         match job {
             Job::Onset { point } => {
@@ -223,17 +357,28 @@ impl<'a> Ledger<'a> {
     /// Identity of a probe's simulation.
     pub(super) fn key(&self, point: usize, probe: Probe) -> RunKey {
         RunKey {
-            point: self.input.points[point].digest,
-            amplitude_bits: self.amplitude_m_per_s2(point, probe.index).to_bits(),
+            point: self.input.points[point].digest.turned(probe.levels),
+            amplitude_bits: self.amplitude_m_per_s2(point, probe).to_bits(),
             window_factor: probe.window_factor,
             retry: probe.retry.level(),
         }
     }
 
-    /// Signed amplitude of a node.
-    pub(super) fn amplitude_m_per_s2(&self, point: usize, node: i32) -> f64 {
+    /// Amplitude of a probe without its sign, G.
+    pub(super) fn amplitude_g(&self, probe: Probe) -> f64 {
+        let lattice = self.input.settings.lattice;
+        let lattice = if probe.is_fine {
+            lattice.finer(bar::SUBNODES)
+        } else {
+            lattice
+        };
+        lattice.amplitude_g(probe.index)
+    }
+
+    /// Signed amplitude of a probe.
+    pub(super) fn amplitude_m_per_s2(&self, point: usize, probe: Probe) -> f64 {
         let sign = self.input.points[point].coordinates.sign.factor();
-        sign * m_per_s2_from_g(self.input.settings.lattice.amplitude_g(node))
+        sign * m_per_s2_from_g(self.amplitude_g(probe))
     }
 
     /// The probe is the first of its point.
@@ -248,9 +393,25 @@ impl<'a> Ledger<'a> {
             Some(Touch::At { onset_g }) => Some(onset_g),
             Some(Touch::NoRamp | Touch::Unknown) | None => None,
         };
+        let mut findings = self.campaign.findings(point);
+        if !self.is_final(point) {
+            findings.status = Status::Open;
+        }
+        let owner = self.bar_owner(point);
+        let bar = match &self.bars[owner] {
+            Some(Bars {
+                log,
+                progress: bar::Progress::Done(bar),
+            }) => {
+                let runs = if owner == point { log.len() } else { 0 };
+                Some((bar, runs as u64))
+            }
+            _ => None,
+        };
         rows::row(
             &self.input.points[point],
-            &self.campaign.findings(point),
+            &findings,
+            bar,
             onset_g,
             &self.input.settings.lattice,
         )
@@ -258,14 +419,16 @@ impl<'a> Ledger<'a> {
 
     /// Table, runs and what is kept beside them.
     pub(super) fn results(&self, session: &Session) -> Results {
-        let lattice = &self.input.settings.lattice;
         let mut used = HashSet::new();
         let mut runs = Vec::new();
         for (point, _) in self.input.points.iter().enumerate() {
             let Some(search) = self.campaign.search(point) else {
                 continue;
             };
-            for (sequence, asked) in search.log().iter().enumerate() {
+            let bar = self.bars[point].iter().flat_map(|bars| &bars.log);
+            let asked = search.log().iter().copied();
+            let asked = asked.chain(bar.map(|&ask| bar_asked(ask)));
+            for (sequence, asked) in asked.enumerate() {
                 let key = self.key(point, asked.probe);
                 used.insert(key);
                 runs.push(RunRow {
@@ -273,7 +436,8 @@ impl<'a> Ledger<'a> {
                     sequence,
                     purpose: asked.purpose,
                     index: asked.probe.index,
-                    amplitude_g: lattice.amplitude_g(asked.probe.index),
+                    levels: asked.probe.levels,
+                    amplitude_g: self.amplitude_g(asked.probe),
                     run: self.runs[&key].clone(),
                 });
             }
@@ -288,7 +452,7 @@ impl<'a> Ledger<'a> {
         let rows: Vec<PointSummary> = (0..self.input.points.len())
             .map(|point| self.row(point))
             .collect();
-        let totals = Totals::of(&rows, runs.iter().map(RunRow::result));
+        let totals = Totals::of(&rows, runs.iter().map(RunRow::counted));
         Results {
             summary: Summary {
                 study: self.input.texts.name.clone(),
@@ -297,7 +461,7 @@ impl<'a> Ledger<'a> {
                 points: rows,
                 totals,
             },
-            nodes_per_octave: lattice.nodes_per_octave,
+            nodes_per_octave: self.input.settings.lattice.nodes_per_octave,
             start_s: self.input.start_s,
             points: self
                 .input
@@ -313,6 +477,35 @@ impl<'a> Ledger<'a> {
             session: session.clone(),
             written_unix_s: machine::unix_now_s(),
         }
+    }
+}
+
+/// A run of an error bar as a probe.
+fn bar_probe(ask: bar::Ask) -> Probe {
+    Probe {
+        is_fine: true,
+        levels: ask.levels,
+        ..Probe::at(ask.index)
+    }
+}
+
+fn bar_asked(ask: bar::Ask) -> Asked {
+    Asked {
+        probe: bar_probe(ask),
+        purpose: Purpose::ErrorBar,
+    }
+}
+
+/// A run as an error bar sees it.
+fn seen(result: &ProbeResult) -> bar::Seen {
+    bar::Seen {
+        verdict: match result.verdict {
+            Verdict::Survives => NodeVerdict::Survives,
+            Verdict::Fails { .. } => NodeVerdict::Fails,
+            Verdict::Undecided { .. } => NodeVerdict::Undecided,
+        },
+        h_min_m: result.h_min_m,
+        t_min_s: result.t_min_s,
     }
 }
 

@@ -21,7 +21,7 @@ pub mod stop;
 mod writer;
 
 pub use engine::{Ending, SweepEnd, SweepOptions, replay, stored, sweep};
-pub use input::{SweepInput, SweepPoint};
+pub use input::{BarPlan, SweepInput, SweepPoint};
 pub use physics::Physics;
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use simulator::{Onset, Simulator};

@@ -4,10 +4,12 @@
 //! flight where those are the same. Models are made when first asked for. None of this reaches
 //! the numbers: building is deterministic and a model never changes.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
+use opshock_solver::scene::knob::Levels;
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
     Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
@@ -28,12 +30,24 @@ struct Slot {
     longer: Mutex<Option<Arc<Model>>>,
 }
 
+/// Models with turned knobs that are kept, the oldest first. An error bar asks for nine or so, each
+/// several times and some by both signs; kept for all scenes they would fill the memory.
+const TURNED: usize = 24;
+
+/// A model with turned knobs.
+struct Turned {
+    slot: usize,
+    levels: Levels,
+    model: Arc<Model>,
+}
+
 /// Runs the physics for the points of a study.
 pub struct Physics {
     slots: Vec<Slot>,
     /// Slot and sign factor of every point.
     points: Vec<(usize, f64)>,
     plan: Plan,
+    turned: Mutex<VecDeque<Turned>>,
     donors: Mutex<Vec<Arc<Model>>>,
     workspaces: Mutex<Vec<Workspace>>,
 }
@@ -74,6 +88,7 @@ impl Physics {
             slots,
             points,
             plan,
+            turned: Mutex::new(VecDeque::new()),
             donors: Mutex::new(Vec::new()),
             workspaces: Mutex::new(Vec::new()),
         }
@@ -103,8 +118,32 @@ impl Physics {
         Ok(model)
     }
 
+    /// A scene with turned knobs; error bars make no retries and keep the study's window.
+    fn turned_model(&self, slot: usize, levels: Levels) -> Built {
+        let is_it = |turned: &Turned| turned.slot == slot && turned.levels == levels;
+        if let Some(turned) = lock(&self.turned).iter().find(|turned| is_it(turned)) {
+            return Ok(Arc::clone(&turned.model));
+        }
+        let model = self.build(&self.slots[slot].scene.at_levels(levels))?;
+        let mut kept = lock(&self.turned);
+        if !kept.iter().any(is_it) {
+            if kept.len() == TURNED {
+                kept.pop_front();
+            }
+            kept.push_back(Turned {
+                slot,
+                levels,
+                model: Arc::clone(&model),
+            });
+        }
+        Ok(model)
+    }
+
     /// The model a probe runs on.
     fn model_for(&self, point: usize, probe: Probe) -> Built {
+        if !probe.levels.is_none() {
+            return self.turned_model(self.points[point].0, probe.levels);
+        }
         if probe.retry == Retry::None && probe.window_factor == 1 {
             return self.model(point);
         }

@@ -1,7 +1,7 @@
 //! Rows of the table from what the searches found.
 
 use super::input::SweepPoint;
-use crate::search::{Findings, Lattice, Status};
+use crate::search::{Bar, Findings, Lattice, Status};
 use crate::store::summary::{ErrorPart, PointSummary};
 
 /// Row of a point.
@@ -11,6 +11,7 @@ use crate::store::summary::{ErrorPart, PointSummary};
 pub(super) fn row(
     point: &SweepPoint,
     findings: &Findings,
+    bar: Option<(&Bar, u64)>,
     onset_g: Option<f64>,
     lattice: &Lattice,
 ) -> PointSummary {
@@ -19,13 +20,17 @@ pub(super) fn row(
         findings.survivor.map(amplitude),
         findings.failure.map(amplitude),
     );
-    let bracket = match (findings.status, a_crit_g, a_fail_g) {
-        (Status::Ok, Some(a_crit_g), Some(a_fail_g)) => Some(ErrorPart {
-            low_g: 0.0,
-            high_g: a_fail_g - a_crit_g,
-        }),
-        _ => None,
+    let err_parts = match (findings.status, a_crit_g, a_fail_g) {
+        (Status::Ok, Some(a_crit_g), Some(a_fail_g)) => {
+            parts(bar.map(|bar| bar.0), a_crit_g, a_fail_g)
+        }
+        _ => Vec::new(),
     };
+    let sum = |of: fn(&ErrorPart) -> f64| {
+        (!err_parts.is_empty()).then(|| err_parts.iter().map(|(_, part)| of(part)).sum())
+    };
+    let mut flags = findings.flags.clone();
+    flags.extend(bar.iter().flat_map(|(bar, _)| &bar.flags));
     PointSummary {
         ramp: point.coordinates.ramp.clone(),
         pulse_ms: point.coordinates.pulse_ms,
@@ -33,16 +38,13 @@ pub(super) fn row(
         axes: point.axes.clone(),
         a_crit_g,
         a_fail_g,
-        err_low_g: bracket.as_ref().map(|part| part.low_g),
-        err_high_g: bracket.as_ref().map(|part| part.high_g),
-        err_parts: bracket
-            .into_iter()
-            .map(|part| ("bracket".to_owned(), part))
-            .collect(),
+        err_low_g: sum(|part| part.low_g),
+        err_high_g: sum(|part| part.high_g),
+        err_parts,
         onset_g,
-        runs: findings.runs,
+        runs: findings.runs + bar.map_or(0, |(_, runs)| runs),
         status: findings.status,
-        flags: findings.flags.iter().copied().collect(),
+        flags: flags.into_iter().collect(),
         brackets_g: findings
             .brackets
             .iter()
@@ -54,4 +56,25 @@ pub(super) fn row(
             100.0 * (octaves.exp2() - 1.0)
         }),
     }
+}
+
+/// The bracket to its last digit, and what the resolution adds as shares of the answer.
+fn parts(bar: Option<&Bar>, a_crit_g: f64, a_fail_g: f64) -> Vec<(String, ErrorPart)> {
+    let search = ErrorPart {
+        low_g: 0.0,
+        high_g: a_fail_g - a_crit_g,
+        factor: 1.0,
+    };
+    let others = bar.into_iter().flat_map(|bar| &bar.parts);
+    let others = others.filter(|part| part.name != "search").map(|part| {
+        let part_g = ErrorPart {
+            low_g: part.low * a_crit_g,
+            high_g: part.high * a_crit_g,
+            factor: part.factor,
+        };
+        (part.name.to_owned(), part_g)
+    });
+    std::iter::once(("search".to_owned(), search))
+        .chain(others)
+        .collect()
 }

@@ -202,6 +202,11 @@ fn sentence(flag: Flag) -> &'static str {
         Flag::NotBuilt => "a scene could not be built",
         Flag::NoTouch => "the disk does not reach the ramp",
         Flag::OnsetUnknown => "the amplitude of first touch is not known",
+        Flag::BarWide => {
+            "a part of the error bar shows no formal order and carries the wide factor"
+        }
+        Flag::BarPartial => "a part of the error bar could not be estimated",
+        Flag::BarExceeds => "half the error bar is more than the accuracy asked for",
     }
 }
 

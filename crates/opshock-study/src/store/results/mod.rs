@@ -4,7 +4,7 @@
 //! |-------|------|
 //! | `/` attributes | `format` (`opshock results`), `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`, `axes`, `nodes_per_octave`, `reference_g`, `start_s`, `content_blake3` |
 //! | `/points/*` | a row per point in the study's order: the columns of the table, the further axes under `/points/axes/NAME`, `point_digest`, `onset`, `onset_m_per_s2` |
-//! | `/runs/*` | every simulation of the canonical sequences, by point and then by sequence: `point`, `sequence`, `purpose`, `index`, `amplitude_g`, `amplitude_m_per_s2` (signed), `window_factor`, `retry`, `verdict`, `cause`, `message`, `t_fail_s`, `x_m`, `y_m`, `h_min_m`, `t_min_s`, and the work; `t_fail_after_onset_s` and `t_min_after_onset_s` are the same times to the last bit |
+//! | `/runs/*` | every simulation of the canonical sequences, by point and then by sequence: `point`, `sequence`, `purpose`, `index` (on a lattice sixteen times as fine for `error_bar`), `levels` (knobs turned from the study's resolution), `amplitude_g`, `amplitude_m_per_s2` (signed), `window_factor`, `retry`, `verdict`, `cause`, `message`, `t_fail_s`, `x_m`, `y_m`, `h_min_m`, `t_min_s`, and the work; `t_fail_after_onset_s` and `t_min_after_onset_s` are the same times to the last bit |
 //! | `/machine` | host, threads, times; `/machine/runs` wall time of each run; `/machine/outside` simulations that no sequence asked for (computed ahead, or of an earlier form of the study) |
 //!
 //! Every dataset has `units`. Missing numbers are NaN. Times are on the study's axis, where the
@@ -19,12 +19,14 @@ mod write;
 pub use read::read;
 pub use write::write;
 
+use opshock_solver::scene::knob::Levels;
+
 use super::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
 use super::summary::Summary;
 use crate::search::{ProbeResult, Purpose};
 
 /// Number of the format of `results.h5`; raised when an older reader would go wrong.
-pub const RESULTS_FORMAT: u32 = 1;
+pub const RESULTS_FORMAT: u32 = 2;
 
 /// A simulation of the canonical sequence of a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +37,10 @@ pub struct RunRow {
     pub sequence: usize,
     /// Why it was asked.
     pub purpose: Purpose,
-    /// Node of the lattice.
+    /// Node of the lattice, of that of the error bars for theirs.
     pub index: i32,
+    /// Knobs turned.
+    pub levels: Levels,
     /// Amplitude without sign, G.
     pub amplitude_g: f64,
     /// The simulation.
@@ -47,6 +51,11 @@ impl RunRow {
     /// What the simulation answered.
     pub fn result(&self) -> &ProbeResult {
         &self.run.result
+    }
+
+    /// What totals count.
+    pub fn counted(&self) -> (Purpose, &ProbeResult) {
+        (self.purpose, &self.run.result)
     }
 }
 

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use hdf5::{File, Group};
 
+use opshock_solver::scene::knob::Levels;
+
 use super::columns::{get, get_number, get_text, get_texts};
 use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
 use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
@@ -12,7 +14,7 @@ use crate::store::hdf5_file;
 use crate::store::record::{
     COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
 };
-use crate::store::summary::{AxisValue, ErrorPart, PointSummary, Summary, Totals};
+use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary, Totals};
 
 /// Reads results; `None` when the file is missing.
 ///
@@ -48,7 +50,8 @@ pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
         });
     }
     let (results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
-    if results.content_digest() != digest {
+    // Digests of the first format cover a table without the parts of the error bars.
+    if found > 1 && results.content_digest() != digest {
         return Err(damaged("its content does not match its digest".into()));
     }
     Ok(Some(results))
@@ -87,23 +90,26 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
 
     let group = root.group("runs")?;
     let place: Vec<u64> = get(&group, "point")?;
+    let levels = levels(&group)?;
+    same_length(place.len(), levels.len())?;
     let of_row: Vec<PointDigest> = place
         .iter()
-        .map(|&place| {
+        .zip(&levels)
+        .map(|(&place, &levels)| {
             let point = points.get(place as usize);
             point
-                .map(|point| point.digest)
+                .map(|point| point.digest.turned(levels))
                 .ok_or_else(|| unknown("point", &place.to_string()))
         })
         .collect::<hdf5::Result<_>>()?;
     let records = records(&group, &machine.group("runs")?, &of_row)?;
-    let runs = run_rows(&group, &place, records)?;
+    let runs = run_rows(&group, &place, &levels, records)?;
 
     let group = machine.group("outside")?;
     let of_run = digests(&group)?;
     let outside = self::records(&group, &group, &of_run)?;
 
-    let totals = Totals::of(&rows, runs.iter().map(RunRow::result));
+    let totals = Totals::of(&rows, runs.iter().map(RunRow::counted));
     let results = Results {
         summary: Summary {
             study: get_text(&root, "study")?,
@@ -167,8 +173,6 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         "a_fail_g",
         "err_low_g",
         "err_high_g",
-        "err_bracket_low_g",
-        "err_bracket_high_g",
         "onset_g",
         "certified_from_g",
         "largest_gap_pct",
@@ -177,6 +181,7 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .iter()
         .map(|name| get(group, name))
         .collect::<hdf5::Result<_>>()?;
+    let parts = error_parts(group)?;
     let columns = axes
         .iter()
         .map(|name| axis(&group.group("axes")?, name))
@@ -193,15 +198,25 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .into_iter()
         .chain(numbers.iter().map(Vec::len))
         .chain(columns.iter().map(Vec::len))
+        .chain(
+            parts
+                .iter()
+                .flat_map(|(_, columns)| columns.iter().map(Vec::len)),
+        )
     {
         same_length(n, length)?;
     }
     (0..n)
         .map(|i| {
             let number = |column: usize| Some(numbers[column][i]).filter(|value| !value.is_nan());
-            let bracket = number(5)
-                .zip(number(6))
-                .map(|(low_g, high_g)| ("bracket".to_owned(), ErrorPart { low_g, high_g }));
+            let part = |(name, [low, high, factor]): &PartColumns| {
+                let part = ErrorPart {
+                    low_g: low[i],
+                    high_g: high[i],
+                    factor: factor[i],
+                };
+                (!part.low_g.is_nan()).then(|| ((*name).to_owned(), part))
+            };
             Ok(PointSummary {
                 ramp: ramp[i].clone(),
                 pulse_ms: numbers[0][i],
@@ -211,8 +226,8 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 a_fail_g: number(2),
                 err_low_g: number(3),
                 err_high_g: number(4),
-                err_parts: bracket.into_iter().collect(),
-                onset_g: number(7),
+                err_parts: parts.iter().filter_map(part).collect(),
+                onset_g: number(5),
                 runs: runs[i],
                 status: Status::parse(&status[i]).ok_or_else(|| unknown("status", &status[i]))?,
                 flags: flags[i]
@@ -220,9 +235,27 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                     .map(|word| Flag::parse(word).ok_or_else(|| unknown("flag", word)))
                     .collect::<hdf5::Result<_>>()?,
                 brackets_g: exact_pairs(&brackets[i])?,
-                certified_from_g: number(8),
-                largest_gap_pct: number(9),
+                certified_from_g: number(6),
+                largest_gap_pct: number(7),
             })
+        })
+        .collect()
+}
+
+/// Name of a part of the error bars; its low, high and factor, row by row.
+type PartColumns = (&'static str, [Vec<f64>; 3]);
+
+/// Low, high and factor of every part of the error bars; older files have none.
+fn error_parts(group: &Group) -> hdf5::Result<Vec<PartColumns>> {
+    ERROR_PARTS
+        .into_iter()
+        .filter(|name| group.link_exists(&format!("err_{name}_low_g")))
+        .map(|name| {
+            let column = |what: &str| get(group, &format!("err_{name}_{what}"));
+            Ok((
+                name,
+                [column("low_g")?, column("high_g")?, column("factor")?],
+            ))
         })
         .collect()
 }
@@ -326,7 +359,24 @@ fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result
     points.iter().enumerate().map(record).collect()
 }
 
-fn run_rows(group: &Group, place: &[u64], records: Vec<RunRecord>) -> hdf5::Result<Vec<RunRow>> {
+/// Knobs turned, row by row; files older than the error bars have turned none.
+fn levels(group: &Group) -> hdf5::Result<Vec<Levels>> {
+    if !group.link_exists("levels") {
+        let rows: Vec<u64> = get(group, "point")?;
+        return Ok(vec![Levels::NONE; rows.len()]);
+    }
+    get_texts(group, "levels")?
+        .iter()
+        .map(|text| Levels::parse(text).ok_or_else(|| unknown("levels", text)))
+        .collect()
+}
+
+fn run_rows(
+    group: &Group,
+    place: &[u64],
+    levels: &[Levels],
+    records: Vec<RunRecord>,
+) -> hdf5::Result<Vec<RunRow>> {
     let sequence: Vec<u64> = get(group, "sequence")?;
     let index: Vec<i32> = get(group, "index")?;
     let amplitude_g: Vec<f64> = get(group, "amplitude_g")?;
@@ -345,6 +395,7 @@ fn run_rows(group: &Group, place: &[u64], records: Vec<RunRecord>) -> hdf5::Resu
             sequence: sequence[i] as usize,
             purpose: Purpose::parse(&purpose[i]).ok_or_else(|| unknown("purpose", &purpose[i]))?,
             index: index[i],
+            levels: levels[i],
             amplitude_g: amplitude_g[i],
             run,
         })

@@ -12,7 +12,7 @@ use crate::store::aside;
 use crate::store::error::StoreError;
 use crate::store::hdf5_file;
 use crate::store::record::{COST_NAMES, RunRecord, StoredTouch, cost_counts};
-use crate::store::summary::{AxisValue, ErrorPart, PointSummary, Summary};
+use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary};
 
 /// Replaces `path` by these results: written aside, closed, synced, renamed.
 ///
@@ -84,13 +84,7 @@ fn machine(group: &Group, results: &Results, records: &[&RunRecord]) -> hdf5::Re
 
 fn point_columns(summary: &Summary) -> Vec<Column> {
     let rows = &summary.points;
-    let part = |bound: fn(&ErrorPart) -> f64| {
-        move |row: &PointSummary| {
-            let bracket = row.err_parts.iter().find(|(name, _)| name == "bracket")?;
-            Some(bound(&bracket.1))
-        }
-    };
-    vec![
+    let mut columns = vec![
         texts("ramp", rows, |row| row.ramp.clone()),
         numbers("pulse_ms", "ms", rows, |row| Some(row.pulse_ms)),
         texts("sign", rows, |row| row.sign.as_str().to_owned()),
@@ -98,8 +92,6 @@ fn point_columns(summary: &Summary) -> Vec<Column> {
         numbers("a_fail_g", "G", rows, |row| row.a_fail_g),
         numbers("err_low_g", "G", rows, |row| row.err_low_g),
         numbers("err_high_g", "G", rows, |row| row.err_high_g),
-        numbers("err_bracket_low_g", "G", rows, part(|part| part.low_g)),
-        numbers("err_bracket_high_g", "G", rows, part(|part| part.high_g)),
         numbers("onset_g", "G", rows, |row| row.onset_g),
         counts("runs", rows, |row| row.runs),
         texts("status", rows, |row| row.status.as_str().to_owned()),
@@ -112,7 +104,36 @@ fn point_columns(summary: &Summary) -> Vec<Column> {
         }),
         numbers("certified_from_g", "G", rows, |row| row.certified_from_g),
         numbers("largest_gap_pct", "%", rows, |row| row.largest_gap_pct),
-    ]
+    ];
+    for name in ERROR_PARTS {
+        let part = |bound: fn(&ErrorPart) -> f64| {
+            move |row: &PointSummary| {
+                let part = row.err_parts.iter().find(|(known, _)| known == name)?;
+                Some(bound(&part.1))
+            }
+        };
+        columns.extend([
+            numbers(
+                &format!("err_{name}_low_g"),
+                "G",
+                rows,
+                part(|part| part.low_g),
+            ),
+            numbers(
+                &format!("err_{name}_high_g"),
+                "G",
+                rows,
+                part(|part| part.high_g),
+            ),
+            numbers(
+                &format!("err_{name}_factor"),
+                "1",
+                rows,
+                part(|part| part.factor),
+            ),
+        ]);
+    }
+    columns
 }
 
 fn keep_columns(results: &Results) -> Vec<Column> {
@@ -171,6 +192,7 @@ fn row_columns(rows: &[RunRow]) -> Vec<Column> {
             units: "1",
             values: Values::Nodes(rows.iter().map(|row| row.index).collect()),
         },
+        texts("levels", rows, |row| row.levels.label()),
         numbers("amplitude_g", "G", rows, |row| Some(row.amplitude_g)),
     ]
 }

@@ -1,0 +1,180 @@
+//! The knobs that trade time for accuracy, each in steps finer and coarser than a scene has it.
+//!
+//! A [`Levels`] says how many steps each knob is turned: 0 is the scene as given, positive is
+//! finer. One step divides the knob's error by its [`Knob::formal_ratio`] where nothing but the
+//! formal order counts:
+//!
+//! | knob | one step finer | error falls by | because |
+//! |---|---|---|---|
+//! | `film_grid` | twice the cells | 2 | second order in the spacing |
+//! | `disk_modes` | twice the cut frequency | 2 | what a point contact excites falls with 1/f |
+//! | `suspension_modes` | twice the modes | 4 | clamped beam, f ~ n² |
+//! | `structure_step` | half the step | 2 | contact begins and ends on steps |
+//! | `head_tolerance` | an eighth of the tolerance | 4 | local error of a second-order step |
+//! | `coupling_tolerance` | an eighth of the tolerance | 8 | the residual itself |
+//!
+//! The modes of a ramp's arm are given by the study, not cut by the program: they are the model,
+//! so no knob turns them.
+
+use super::Scene;
+use crate::ramp::RampModel;
+
+/// Something that trades time for accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Knob {
+    /// Cells of the film.
+    FilmGrid,
+    /// Modes of the disk: cut frequency, harmonics and radial elements together.
+    DiskModes,
+    /// Modes of the suspension.
+    SuspensionModes,
+    /// Step on which disk and ramp are stored and contact is resolved.
+    StructureStep,
+    /// Local error per step of the head, with its approach bound.
+    HeadTolerance,
+    /// Residual of the coupled solve.
+    CouplingTolerance,
+}
+
+impl Knob {
+    /// Every knob.
+    pub const ALL: [Knob; 6] = [
+        Knob::FilmGrid,
+        Knob::DiskModes,
+        Knob::SuspensionModes,
+        Knob::StructureStep,
+        Knob::HeadTolerance,
+        Knob::CouplingTolerance,
+    ];
+
+    /// Word in products.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Knob::FilmGrid => "film_grid",
+            Knob::DiskModes => "disk_modes",
+            Knob::SuspensionModes => "suspension_modes",
+            Knob::StructureStep => "structure_step",
+            Knob::HeadTolerance => "head_tolerance",
+            Knob::CouplingTolerance => "coupling_tolerance",
+        }
+    }
+
+    /// The knob of a word.
+    pub fn from_word(word: &str) -> Option<Knob> {
+        Knob::ALL.into_iter().find(|knob| knob.as_str() == word)
+    }
+
+    /// Factor by which one step finer divides the knob's error at its formal order.
+    pub const fn formal_ratio(self) -> f64 {
+        match self {
+            Knob::FilmGrid | Knob::DiskModes | Knob::StructureStep => 2.0,
+            Knob::SuspensionModes | Knob::HeadTolerance => 4.0,
+            Knob::CouplingTolerance => 8.0,
+        }
+    }
+
+    fn place(self) -> usize {
+        self as usize
+    }
+}
+
+/// Steps by which each knob is turned; positive is finer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Levels([i8; Knob::ALL.len()]);
+
+impl Levels {
+    /// The scene as it is.
+    pub const NONE: Levels = Levels([0; Knob::ALL.len()]);
+
+    /// These levels with one knob turned by `steps` more.
+    #[must_use]
+    pub fn turned(mut self, knob: Knob, steps: i8) -> Levels {
+        self.0[knob.place()] += steps;
+        self
+    }
+
+    /// Level of a knob.
+    pub fn of(self, knob: Knob) -> i8 {
+        self.0[knob.place()]
+    }
+
+    /// No knob is turned.
+    pub fn is_none(self) -> bool {
+        self == Levels::NONE
+    }
+
+    /// `film_grid-2 disk_modes+1`; empty when no knob is turned.
+    pub fn label(self) -> String {
+        let turned = Knob::ALL.into_iter().filter(|&knob| self.of(knob) != 0);
+        turned
+            .map(|knob| format!("{}{:+}", knob.as_str(), self.of(knob)))
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    /// Reads a label back.
+    pub fn parse(label: &str) -> Option<Levels> {
+        let mut levels = Levels::NONE;
+        for word in label.split_whitespace() {
+            let sign = word.find(['+', '-'])?;
+            let (name, steps) = word.split_at(sign);
+            levels.0[Knob::from_word(name)?.place()] = steps.parse().ok()?;
+        }
+        Some(levels)
+    }
+}
+
+impl Scene {
+    /// The knobs that can change this scene's answer: without a ramp nothing excites what the
+    /// disk's modes and the structure's step resolve.
+    pub fn knobs(&self) -> Vec<Knob> {
+        let has_ramp = self.ramp.model != RampModel::None;
+        Knob::ALL
+            .into_iter()
+            .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))
+            .collect()
+    }
+
+    /// The same scene with its knobs turned; see the module's table.
+    #[must_use]
+    pub fn at_levels(&self, levels: Levels) -> Scene {
+        let mut scene = self.clone();
+        let power = |base: f64, knob: Knob| base.powi(i32::from(levels.of(knob)));
+        let scaled = |count: usize, factor: f64, least: usize| {
+            ((count as f64 * factor).round() as usize).max(least)
+        };
+        let film = power(2.0, Knob::FilmGrid);
+        scene.film_resolution.cells = scaled(self.film_resolution.cells, film, 16);
+        let disk = power(2.0, Knob::DiskModes);
+        scene.disk_resolution.cut_hz *= disk;
+        // Frequencies of a plate grow with the square of its wave numbers.
+        let waves = disk.sqrt();
+        scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
+        scene.disk_resolution.n_elements = scaled(self.disk_resolution.n_elements, waves, 2);
+        let modes = power(2.0, Knob::SuspensionModes);
+        scene.head_resolution.suspension_modes =
+            scaled(self.head_resolution.suspension_modes, modes, 1);
+        scene.structure_resolution.step_s /= power(2.0, Knob::StructureStep);
+        scene.head_resolution.tolerance /= power(8.0, Knob::HeadTolerance);
+        scene.head_resolution.approach_share /= power(2.0, Knob::HeadTolerance);
+        scene.head_resolution.coupling_tolerance /= power(8.0, Knob::CouplingTolerance);
+        scene
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_read_back_and_leave_out_what_is_not_turned() {
+        let levels = Levels::NONE
+            .turned(Knob::FilmGrid, -2)
+            .turned(Knob::StructureStep, 1);
+        assert_eq!(levels.label(), "film_grid-2 structure_step+1");
+        assert_eq!(Levels::parse(&levels.label()), Some(levels));
+        assert_eq!(Levels::parse(""), Some(Levels::NONE));
+        assert_eq!(Levels::parse("film_grid"), None);
+        assert_eq!(Levels::parse("film_grid-x"), None);
+    }
+}

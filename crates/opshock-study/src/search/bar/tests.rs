@@ -1,0 +1,207 @@
+//! Bars against answers that are known.
+
+use super::*;
+
+/// A law of failure: critical amplitude, G, and clearance at its event, for any setting of knobs.
+struct Law {
+    /// Critical amplitude with every knob infinitely fine, G.
+    exact_g: f64,
+    /// Error of each knob at level 0, as a share.
+    errors: [f64; 6],
+    /// Ratio by which a step finer divides each.
+    ratios: [f64; 6],
+    /// Clearance lost per relative growth of the amplitude, m; `None`: survival ends abruptly.
+    slope_m: Option<f64>,
+}
+
+impl Law {
+    fn critical_g(&self, levels: Levels) -> f64 {
+        let errors = Knob::ALL.iter().zip(self.errors.iter().zip(&self.ratios));
+        let sum: f64 = errors
+            .map(|(&knob, (error, ratio))| error * ratio.powi(-i32::from(levels.of(knob))))
+            .sum();
+        self.exact_g * (1.0 + sum)
+    }
+
+    fn see(&self, lattice: Lattice, ask: Ask) -> Seen {
+        let amplitude_g = lattice.amplitude_g(ask.index);
+        let critical_g = self.critical_g(ask.levels);
+        let survives = amplitude_g < critical_g;
+        Seen {
+            verdict: match survives {
+                true => NodeVerdict::Survives,
+                false => NodeVerdict::Fails,
+            },
+            h_min_m: Some(match (survives, self.slope_m) {
+                (false, _) => 0.0,
+                (true, Some(slope_m)) => slope_m * (critical_g / amplitude_g - 1.0),
+                (true, None) => 2e-9,
+            }),
+            t_min_s: Some(match self.slope_m {
+                Some(_) => 1e-3,
+                None => 2e-3,
+            }),
+        }
+    }
+
+    /// The bar of this law on a lattice of one per cent, and the runs it took.
+    fn bar(&self) -> (Bar, f64, usize) {
+        let search = Lattice::for_tolerance(0.01).expect("lattice");
+        let lattice = search.finer(SUBNODES);
+        let survivor = search.at_or_below(self.critical_g(Levels::NONE) * (1.0 - 1e-12));
+        let known = |node: i32| {
+            let index = node * SUBNODES;
+            let seen = self.see(
+                lattice,
+                Ask {
+                    levels: Levels::NONE,
+                    index,
+                },
+            );
+            Known {
+                index,
+                h_min_m: seen.h_min_m.expect("a clearance"),
+                t_min_s: seen.t_min_s.expect("a time"),
+            }
+        };
+        let input = BarInput {
+            lattice,
+            survivor: survivor * SUBNODES,
+            failure: (survivor + 1) * SUBNODES,
+            t_fail_s: Some(1e-3),
+            survivors: [4, 2, 0].map(|below| known(survivor - below)).to_vec(),
+            knobs: Knob::ALL.to_vec(),
+            film_halvings: 3,
+            accuracy: 0.01,
+        };
+        let (log, progress) = bar(&input, &|ask| Some(self.see(lattice, ask)));
+        let Progress::Done(bar) = progress else {
+            panic!("{progress:?}")
+        };
+        (bar, search.amplitude_g(survivor), log.len())
+    }
+
+    fn formal(errors: [f64; 6], slope_m: Option<f64>) -> Law {
+        Law {
+            exact_g: 300.0,
+            errors,
+            ratios: Knob::ALL.map(Knob::formal_ratio),
+            slope_m,
+        }
+    }
+}
+
+fn part(bar: &Bar, name: &str) -> Part {
+    *bar.parts
+        .iter()
+        .find(|part| part.name == name)
+        .unwrap_or_else(|| panic!("no {name} in {bar:?}"))
+}
+
+#[test]
+fn a_knob_of_formal_order_gives_its_error_times_the_narrow_factor() {
+    // Film 2 %, modes -1 %, by margin: the laws are linear in 1/A, not in A, hence 5 %.
+    let law = Law::formal([0.02, -0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let (bar, _, _) = law.bar();
+    let film = part(&bar, "film_grid");
+    assert_eq!(film.factor, 1.25);
+    assert!((film.high / (1.25 * 0.02) - 1.0).abs() < 0.05, "{film:?}");
+    let modes = part(&bar, "disk_modes");
+    assert_eq!(modes.factor, 1.25);
+    assert!((modes.high / (1.25 * 0.01) - 1.0).abs() < 0.10, "{modes:?}");
+    assert!(!bar.flags.contains(&Flag::BarPartial));
+    assert!(bar.flags.contains(&Flag::BarExceeds));
+}
+
+#[test]
+fn an_abrupt_end_of_survival_is_read_from_verdicts() {
+    let law = Law::formal([0.02, -0.01, 0.0, 0.0, 0.0, 0.0], None);
+    let (bar, _, _) = law.bar();
+    // Brackets of 1/16 % and of a quarter of a distance leave a third of the parts open.
+    let film = part(&bar, "film_grid");
+    assert!(
+        (0.8..1.4).contains(&(film.high / (1.25 * 0.02))),
+        "{film:?}"
+    );
+    let modes = part(&bar, "disk_modes");
+    assert!(modes.high >= 0.01, "{modes:?}");
+    let still = part(&bar, "coupling_tolerance");
+    assert_eq!(still.factor, 1.0);
+    assert!(still.high < 1.0e-3, "{still:?}");
+}
+
+#[test]
+fn disorder_is_marked_and_carries_the_wide_factor() {
+    // The second step finer moves the answer as far as the first.
+    let mut law = Law::formal([0.0, 0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    law.ratios[Knob::DiskModes as usize] = 1.02;
+    let (bar, _, _) = law.bar();
+    assert_eq!(part(&bar, "disk_modes").factor, 3.0);
+    law.errors[Knob::DiskModes as usize] = 0.5;
+    let (bar, _, _) = law.bar();
+    assert!(bar.flags.contains(&Flag::BarWide));
+}
+
+#[test]
+fn what_cannot_be_read_is_said() {
+    let law = Law::formal([0.0; 6], Some(1e-7));
+    let search = Lattice::for_tolerance(0.01).expect("lattice");
+    let input = BarInput {
+        lattice: search.finer(SUBNODES),
+        survivor: 8000,
+        failure: 8000 + SUBNODES,
+        t_fail_s: None,
+        survivors: Vec::new(),
+        knobs: Knob::ALL.to_vec(),
+        film_halvings: 3,
+        accuracy: 0.01,
+    };
+    let undecided = Seen {
+        verdict: NodeVerdict::Undecided,
+        h_min_m: None,
+        t_min_s: None,
+    };
+    let (_, progress) = bar(&input, &|_| Some(undecided));
+    let Progress::Done(bar) = progress else {
+        panic!("{progress:?}")
+    };
+    assert!(bar.flags.contains(&Flag::BarPartial));
+    assert_eq!(bar.parts.len(), 1);
+    assert!(law.bar().0.half_length() < 0.01);
+}
+
+#[test]
+fn a_bar_asks_the_same_runs_whether_it_knows_many_or_few() {
+    let law = Law::formal([0.01, 0.004, 0.002, 0.0, -0.003, 0.0], None);
+    let lattice = Lattice::for_tolerance(0.01)
+        .expect("lattice")
+        .finer(SUBNODES);
+    let node = |amplitude_g: f64| {
+        Lattice::for_tolerance(0.01)
+            .expect("lattice")
+            .at_or_below(amplitude_g)
+    };
+    let survivor = node(law.critical_g(Levels::NONE)) * SUBNODES;
+    let input = BarInput {
+        lattice,
+        survivor,
+        failure: survivor + SUBNODES,
+        t_fail_s: None,
+        survivors: Vec::new(),
+        knobs: Knob::ALL.to_vec(),
+        film_halvings: 3,
+        accuracy: 0.01,
+    };
+    let (whole, _) = bar(&input, &|ask| Some(law.see(lattice, ask)));
+    let mut known: Vec<Ask> = Vec::new();
+    loop {
+        let lookup = |ask: Ask| known.contains(&ask).then(|| law.see(lattice, ask));
+        let (log, progress) = bar(&input, &lookup);
+        assert_eq!(log, known);
+        match progress {
+            Progress::Wants(ask) => known.push(ask),
+            Progress::Done(_) => break,
+        }
+    }
+    assert_eq!(known, whole);
+}
