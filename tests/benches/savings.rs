@@ -3,6 +3,9 @@
 //! The drive of Fig. 13 at the study's accuracy, 0.5 ms, 5 ms window. A pair is timed in turn, five
 //! times, and the medians compared: once with building the model (one question asked), once
 //! without (each further shock on the same model). Both answers are compared too.
+//!
+//! Then whole searches on one thread, once each: critical shocks of three ramps and both signs
+//! against the same in full, and 20 slider designs in one study against 20 studies.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -11,6 +14,7 @@ use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
+use opshock_study::sweep::{Physics, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::scenes;
 
 const ROUNDS: usize = 5;
@@ -102,15 +106,78 @@ fn main() {
         400.0,
     );
     compare(
-        "critical-shock probe without ramp, 190 G",
-        "none",
-        Output::CriticalShock,
-        190.0,
-    );
-    compare(
         "critical-shock probe, deformable, 190 G",
         "deformable",
         Output::CriticalShock,
         190.0,
+    );
+    println!();
+    search();
+    designs();
+}
+
+/// Sweeps Fig. 13 at 0.5 ms with some keys set, on one thread, into a store of its own.
+fn swept(sets: &[(&str, &str)]) -> SweepEnd {
+    let mut all = vec![
+        ("pulse.widths_ms", "[0.5]"),
+        ("search.tolerance_pct", "5"),
+        ("output.keep_histories", "\"none\""),
+    ];
+    all.extend_from_slice(sets);
+    let study = scenes::study("fig13", &all);
+    let input = SweepInput::of(&study).expect("points");
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = folder.path().join("s.opshock");
+    let options = SweepOptions {
+        speculate: false,
+        ..SweepOptions::with_threads(1)
+    };
+    sweep(&input, &Physics::of(&study), &store, &options, &Silent).expect("a sweep")
+}
+
+/// Critical amplitudes in the order of the table, g.
+fn answers(end: &SweepEnd) -> Vec<Option<f64>> {
+    let points = &end.summary.points;
+    points.iter().map(|point| point.a_crit_g).collect()
+}
+
+/// Every probe of the full search builds and runs disk, ramp and head by itself.
+fn search() {
+    let auto = swept(&[]);
+    let full = swept(&[("solver.effects", "\"full\"")]);
+    assert_eq!(answers(&auto), answers(&full));
+    println!(
+        "critical-shock search, 3 ramps x 2 signs, 0.5 ms, 5 %: {} runs {:.1} s, in full {} runs \
+         {:.1} s, ratio {:.2}",
+        auto.computed_runs,
+        auto.wall_s,
+        full.computed_runs,
+        full.wall_s,
+        full.wall_s / auto.wall_s
+    );
+}
+
+/// One study of all designs shares the structure; a study for each does not.
+fn designs() {
+    let one = [("ramp.models", "[\"rigid\"]"), ("pulse.signs", "[\"+\"]")];
+    let crown = |text: &str| {
+        let mut sets = one.to_vec();
+        sets.push(("slider.surface.crown_nm", text));
+        swept(&sets)
+    };
+    let all: Vec<String> = (0..20).map(|i| format!("{}", 10 + i)).collect();
+    let together = crown(&format!("[{}]", all.join(", ")));
+    let (mut alone_s, mut alone_runs) = (0.0, 0);
+    for design in &all {
+        let end = crown(design);
+        alone_s += end.wall_s;
+        alone_runs += end.computed_runs;
+    }
+    println!(
+        "20 slider designs on one drive, rigid, 0.5 ms, 5 %: together {} runs {:.1} s, one by one \
+         {alone_runs} runs {alone_s:.1} s, ratio {:.2}",
+        together.computed_runs,
+        together.wall_s,
+        alone_s / together.wall_s
     );
 }

@@ -1,6 +1,6 @@
 //! Disk-ramp contact: event-driven reference trajectories, energy, signs, two methods.
 
-use opshock_solver::disk::DiskMotion;
+use opshock_solver::disk::{DiskMotion, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{RampError, RampModel};
 use opshock_solver::structure::{
@@ -418,7 +418,7 @@ fn hard_b9_starts_touching_and_starts_overlapping() {
     assert!(touching.history.pose_rate(0.0).displacement_m.abs() < 1e-12);
     assert_sound(&touching, "touching");
     structure.ramp.clearance_top_m = -1e-6;
-    let refused = StructureModel::build(&structure.parameters())
+    let refused = StructureModel::build(&structure.parameters(), Harmonics::All)
         .err()
         .unwrap();
     assert_eq!(

@@ -12,7 +12,7 @@ use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::PulseShape;
-use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
+use opshock_solver::simulation::{Model, Outcome, Request, Warning, Workspace, simulate};
 use opshock_tests::scenes;
 
 fn run(scene: &Scene, plan: &Plan, amplitude_g: f64, donor: Option<&Model>) -> (Model, Outcome) {
@@ -32,7 +32,16 @@ fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
     assert_eq!(lean.top, full.top, "{what}");
     assert_eq!(lean.bottom, full.bottom, "{what}");
     assert_eq!(lean.complementarity, full.complementarity, "{what}");
-    assert_eq!(lean.warnings, full.warnings, "{what}");
+    // What warns of harmonics n >= 1 goes with them.
+    let of_waves = ["harmonics_bounded", "physical_instability"];
+    let left = |outcome: &Outcome| -> Vec<Warning> {
+        let drops = |w: &&Warning| {
+            !lean.effects.contains(&"disk.travelling_waves") && of_waves.contains(&w.code)
+        };
+        let kept = outcome.warnings.iter().filter(|w| !drops(w));
+        kept.cloned().collect()
+    };
+    assert_eq!(lean.warnings, left(full), "{what}");
     assert_eq!(
         lean.cost.structure_steps, full.cost.structure_steps,
         "{what}"
@@ -321,8 +330,8 @@ fn effects_every_rule_is_decided() {
         decisions.iter().map(|d| d.applied).collect()
     };
     let (t, f) = (true, false);
-    assert_eq!(applied(0.999 * limit), [t, t, t, t, t, f, f, t, f, t]);
-    assert_eq!(applied(1.001 * limit), [t, t, t, f, t, f, f, t, f, t]);
+    assert_eq!(applied(0.999 * limit), [t, t, t, t, t, f, f, t, t, t]);
+    assert_eq!(applied(1.001 * limit), [t, t, t, f, t, f, f, t, t, t]);
     let full = Plan::new(&[Output::ContactForce], Mode::Full);
     let touch = opshock_solver::scene::plan::Touch::default();
     let decisions = full.decisions(&scene, &touch);

@@ -1,7 +1,7 @@
 //! Annular plate and spinning disk against closed forms and independent determinants.
 
 use opshock_solver::disk::{
-    DiskBasis, DiskDamping, DiskParameters, DiskResolution, MembraneStress,
+    DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics, MembraneStress,
 };
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::ramp::{RampModel, RampParameters};
@@ -49,7 +49,14 @@ fn hard_a11_annular_plate_frequencies_are_those_of_the_bessel_determinant() {
     let mut largest = 0.0_f64;
     for row in data["rows"].as_array().unwrap() {
         let plate = unit_plate(number(&row["nu"]), number(&row["ri_over_ro"]));
-        let basis = DiskBasis::build(&plate, &resolution(80, 400.0 / TAU), &[], None).unwrap();
+        let basis = DiskBasis::build(
+            &plate,
+            &resolution(80, 400.0 / TAU),
+            &[],
+            None,
+            Harmonics::All,
+        )
+        .unwrap();
         let n = row["n"].as_u64().unwrap() as usize;
         for (circles, exact) in row["lambda2_m0_m1_m2"]
             .as_array()
@@ -72,8 +79,14 @@ fn plate_frequencies_converge_with_order_four() {
         let n = row["n"].as_u64().unwrap() as usize;
         let exact = number(&row["lambda2_m0_m1_m2"][1]);
         let error = |n_elements: usize| {
-            let basis =
-                DiskBasis::build(&plate, &resolution(n_elements, 400.0 / TAU), &[], None).unwrap();
+            let basis = DiskBasis::build(
+                &plate,
+                &resolution(n_elements, 400.0 / TAU),
+                &[],
+                None,
+                Harmonics::All,
+            )
+            .unwrap();
             (lambda_squared(&basis, n, 1) / exact).powi(2) - 1.0
         };
         let (coarse, fine) = (error(24), error(48));
@@ -89,8 +102,14 @@ fn hard_a12_extreme_radii_stay_definite_and_monotone() {
         let plate = unit_plate(0.3, inner);
         for n in 0..=6 {
             let frequency = |n_elements| {
-                let basis =
-                    DiskBasis::build(&plate, &resolution(n_elements, 1e6), &[], None).unwrap();
+                let basis = DiskBasis::build(
+                    &plate,
+                    &resolution(n_elements, 1e6),
+                    &[],
+                    None,
+                    Harmonics::All,
+                )
+                .unwrap();
                 lambda_squared(&basis, n, 0)
             };
             let values = [8, 16, 32].map(frequency);
@@ -162,7 +181,8 @@ fn critical_speed_rpm(n: usize) -> Option<f64> {
             spin_rad_per_s: rad_per_s_from_rpm(rpm),
             ..reference_disk()
         };
-        let basis = DiskBasis::build(&disk, &resolution(24, 40e3), &[], None).unwrap();
+        let basis =
+            DiskBasis::build(&disk, &resolution(24, 40e3), &[], None, Harmonics::All).unwrap();
         lambda_squared(&basis, n, 0) - n as f64 * disk.spin_rad_per_s
     };
     let (mut low, mut high) = (0.0, 2e5);
@@ -206,7 +226,7 @@ fn the_drive_disk_has_its_documented_frequencies() {
         spin_rad_per_s: 0.0,
         ..drive_disk()
     };
-    let basis = DiskBasis::build(&disk, &resolution(24, 20e3), &[], None).unwrap();
+    let basis = DiskBasis::build(&disk, &resolution(24, 20e3), &[], None, Harmonics::All).unwrap();
     for (n, circles, hz) in [
         (0, 0, 1037.0),
         (1, 0, 1024.0),

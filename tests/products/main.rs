@@ -16,4 +16,5 @@ mod store_kill;
 mod study_reading;
 mod study_shipped;
 mod sweep_repeatability;
+mod sweep_sharing;
 mod sweep_trouble;

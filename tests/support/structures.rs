@@ -1,6 +1,6 @@
 //! Named structures: disks, ramps and pulses of the reference sets.
 
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
 use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
 use opshock_solver::shock::{Pulse, PulseShape};
@@ -33,7 +33,7 @@ impl Structure {
     /// # Panics
     /// When the structure is refused.
     pub fn build(&self) -> StructureModel {
-        StructureModel::build(&self.parameters()).expect("structure")
+        StructureModel::build(&self.parameters(), Harmonics::All).expect("structure")
     }
 
     /// The parameters by reference.

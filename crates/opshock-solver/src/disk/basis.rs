@@ -74,7 +74,16 @@ pub struct DiskMode {
     pub shape: Vec<(f64, f64)>,
 }
 
-/// Modes of all harmonics, n rising, frequency rising within n.
+/// Which harmonics a basis holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Harmonics {
+    /// n = 0: all that moves without a load that depends on the angle.
+    Symmetric,
+    /// Every harmonic below the cut.
+    All,
+}
+
+/// Modes, n rising, frequency rising within n.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiskBasis {
     /// Modes.
@@ -85,7 +94,8 @@ pub struct DiskBasis {
 
 impl DiskBasis {
     /// Basis with shapes sampled at `radii_m`; `correction_at` is the index into `radii_m` of the
-    /// point whose static compliance is made exact, if any.
+    /// point whose static compliance is made exact, if any. A symmetric basis holds the n = 0 modes
+    /// of the whole one.
     ///
     /// # Errors
     /// Parameters out of range, a radius off the disk, or a failed eigenvalue problem.
@@ -94,6 +104,7 @@ impl DiskBasis {
         resolution: &DiskResolution,
         radii_m: &[f64],
         correction_at: Option<usize>,
+        harmonics: Harmonics,
     ) -> Result<Self, DiskError> {
         validate(disk, resolution)?;
         let mesh = RadialMesh::new(disk, resolution.n_elements);
@@ -106,21 +117,25 @@ impl DiskBasis {
         // a row above the cut end the list.
         let mut n_above_cut = 0;
         for n in 0.. {
+            if n > 0 && harmonics == Harmonics::Symmetric {
+                break;
+            }
             let failed = |source| DiskError::Modes {
                 nodal_diameters: n,
                 source,
             };
             let m = harmonic::assemble(disk, &stress, &mesh, n);
-            let pairs =
-                dense::lowest_modes(&m.stiffness, &m.mass, mesh.n_unknowns()).map_err(failed)?;
-            let n_below = pairs.values.iter().take_while(|v| v.sqrt() < cut).count();
-            let n_keep = if n == 0 {
-                let wide = SYMMETRIC_CUT_FACTOR * cut;
-                let n_wide = pairs.values.iter().take_while(|v| v.sqrt() < wide).count();
-                n_wide.max(MIN_SYMMETRIC_MODES).min(pairs.values.len())
-            } else {
-                n_below
+            let mut n_below = 0;
+            let n_keep = |squares: &[f64]| {
+                let below = |limit| squares.iter().take_while(|v| v.sqrt() < limit).count();
+                n_below = below(cut);
+                match n {
+                    0 => below(SYMMETRIC_CUT_FACTOR * cut).max(MIN_SYMMETRIC_MODES),
+                    _ => n_below,
+                }
             };
+            let pairs = dense::lowest_modes(&m.stiffness, &m.mass, n_keep).map_err(failed)?;
+            let n_keep = pairs.values.len();
             n_above_cut = if n_below == 0 { n_above_cut + 1 } else { 0 };
             if n >= 2 && n_above_cut >= 2 {
                 break;

@@ -5,7 +5,7 @@ pub mod basis;
 pub mod harmonic;
 pub mod membrane;
 
-pub use basis::{DiskBasis, DiskError, DiskMode};
+pub use basis::{DiskBasis, DiskError, DiskMode, Harmonics};
 pub use membrane::MembraneStress;
 
 /// How the disk loses energy.

@@ -95,9 +95,13 @@ impl SquareMatrix {
     pub fn cholesky(&self) -> Result<CholeskyFactor, DenseError> {
         let n = self.n;
         let mut l = Self::zeros(n);
+        let mut first = Vec::with_capacity(n);
         for i in 0..n {
-            for j in 0..=i {
-                let sum = self.get(i, j) - dot(&l.row(i)[..j], &l.row(j)[..j]);
+            let start = (0..i).find(|&j| self.get(i, j) != 0.0).unwrap_or(i);
+            first.push(start);
+            for (j, &first_of_j) in first.iter().enumerate().skip(start) {
+                let from = start.max(first_of_j);
+                let sum = self.get(i, j) - dot(&l.row(i)[from..j], &l.row(j)[from..j]);
                 if i == j {
                     // A pivot that is not a number is refused too.
                     if sum.is_nan() || sum <= 0.0 {
@@ -112,7 +116,7 @@ impl SquareMatrix {
                 }
             }
         }
-        Ok(CholeskyFactor { lower: l })
+        Ok(CholeskyFactor { lower: l, first })
     }
 
     /// Eigenvalues in rising order, orthonormal vectors.
@@ -136,27 +140,34 @@ impl SquareMatrix {
 }
 
 /// Lower triangular factor of a positive definite matrix.
+///
+/// Left of a row's first entry the factor is zero as the matrix is (its profile), so that a banded
+/// matrix costs what its band costs.
 #[derive(Clone, Debug)]
 pub struct CholeskyFactor {
     lower: SquareMatrix,
+    /// Column of the first entry of every row.
+    first: Vec<usize>,
 }
 
 impl CholeskyFactor {
     /// x := L⁻¹ x.
     pub fn solve_lower(&self, x: &mut [f64]) {
-        for i in 0..self.lower.n {
-            let row = self.lower.row(i);
-            x[i] = (x[i] - dot(&row[..i], &x[..i])) / row[i];
+        // Nothing moves above the first entry of x.
+        let start = x.iter().position(|&v| v != 0.0).unwrap_or(x.len());
+        for i in start..self.lower.n {
+            let (row, from) = (self.lower.row(i), self.first[i]);
+            x[i] = (x[i] - dot(&row[from..i], &x[from..i])) / row[i];
         }
     }
 
     /// x := L⁻ᵀ x.
     pub fn solve_upper(&self, x: &mut [f64]) {
         for i in (0..self.lower.n).rev() {
-            let row = self.lower.row(i);
+            let (row, from) = (self.lower.row(i), self.first[i]);
             x[i] /= row[i];
             let xi = x[i];
-            for (xj, lij) in x[..i].iter_mut().zip(&row[..i]) {
+            for (xj, lij) in x[from..i].iter_mut().zip(&row[from..i]) {
                 *xj -= lij * xi;
             }
         }
@@ -196,29 +207,27 @@ impl CholeskyFactor {
     }
 }
 
-/// The `n_keep` lowest pairs of K x = ω² M x for positive definite K; accurate at the low end.
+/// The lowest pairs of K x = ω² M x for positive definite K, accurate at the low end; `n_keep`
+/// is told every ω² in rising order and says how many pairs are wanted.
 ///
 /// # Errors
 /// K not positive definite, or no convergence.
 pub fn lowest_modes(
     stiffness: &SquareMatrix,
     mass: &SquareMatrix,
-    n_keep: usize,
+    n_keep: impl FnOnce(&[f64]) -> usize,
 ) -> Result<EigenPairs, DenseError> {
     let factor = stiffness.cholesky()?;
     let pairs = factor.congruence(mass).symmetric_eigen()?;
-    let mut values = Vec::new();
-    let mut vectors = Vec::new();
-    for (mu, mut x) in pairs.values.into_iter().zip(pairs.vectors).rev() {
-        // A mass matrix with massless directions ends the finite spectrum.
-        if values.len() == n_keep || mu <= 0.0 {
-            break;
-        }
-        factor.solve_upper(&mut x);
+    // A mass matrix with massless directions ends the finite spectrum.
+    let finite = pairs.values.iter().rev().take_while(|&&mu| mu > 0.0);
+    let mut values: Vec<f64> = finite.map(|mu| mu.recip()).collect();
+    values.truncate(n_keep(&values));
+    let mut vectors: Vec<Vec<f64>> = pairs.vectors.into_iter().rev().take(values.len()).collect();
+    for (x, mu) in vectors.iter_mut().zip(pairs.values.iter().rev()) {
+        factor.solve_upper(x);
         let scale = mu.sqrt().recip();
         x.iter_mut().for_each(|c| *c *= scale);
-        values.push(mu.recip());
-        vectors.push(x);
     }
     Ok(EigenPairs { values, vectors })
 }
@@ -264,7 +273,7 @@ mod tests {
     fn both_reductions_give_the_modes_of_a_chain_of_masses() {
         let n = 40;
         let (k, m) = chain(n);
-        let low = lowest_modes(&k, &m, 5).unwrap();
+        let low = lowest_modes(&k, &m, |_| 5).unwrap();
         let all = modes_of_free_body(&k, &m).unwrap();
         assert_eq!(low.values.len(), 5);
         for j in 0..5 {
@@ -282,7 +291,7 @@ mod tests {
         let (mut k, m) = chain(4);
         k.add(2, 2, -3.0);
         assert!(matches!(
-            lowest_modes(&k, &m, 2),
+            lowest_modes(&k, &m, |_| 2),
             Err(DenseError::NotPositiveDefinite { pivot: 2, .. })
         ));
     }

@@ -10,19 +10,20 @@
 //! | rule | what | condition |
 //! |---|---|---|
 //! | R1 | disk and ramp without film, slider and suspension | only outputs of disk and ramp |
-//! | R2 | harmonics n ≥ 1 asleep | axial shock, axisymmetric disk: only n = 0 is driven |
+//! | R2 | harmonics n ≥ 1 asleep; without a ramp not built | axial shock, axisymmetric disk: only n = 0 is driven |
 //! | R3 | harmonics n ≥ 1 wake at the first touch, at rest | as R2 |
 //! | R4 | no ramp contact is run | closing of disk against the freely shaking ramp < clearance |
 //! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
 //! | R6 | the head ends at touch | a verdict is wanted |
 //! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only, the sign of a contact costs little beside the head |
 //! | R8 | pressure fields only at asked times | none asked |
-//! | R9 | one steady flight for equal sliders, gases, speeds and preloads | contents equal |
+//! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
 //! R1 rests on the film's force on the disk being neglected beside the disk's inertia.
 
 use super::Scene;
+use crate::disk::Harmonics;
 use crate::quantity::STANDARD_GRAVITY_M_PER_S2;
 use crate::ramp::RampModel;
 use crate::structure::Wake;
@@ -144,8 +145,9 @@ pub struct Plan {
     pub needs: Needs,
     /// When the contact-driven state starts to be marched.
     pub wake: Wake,
-    /// Whether film and steady flight of another model may be taken over.
-    pub shares_flight: bool,
+    /// Whether structure, film and steady flight of another model may be taken over, and a model
+    /// kept for further shocks.
+    pub shares_parts: bool,
 }
 
 /// One rule as it stands for a scene.
@@ -205,14 +207,14 @@ impl Plan {
                 outputs: outputs.to_vec(),
                 needs: asked.unwrap_or(Needs::Structure),
                 wake: Wake::AtTouch,
-                shares_flight: true,
+                shares_parts: true,
             },
             Mode::Full => Self {
                 mode,
                 outputs: outputs.to_vec(),
                 needs: Needs::Head,
                 wake: Wake::AtOnset,
-                shares_flight: false,
+                shares_parts: false,
             },
         }
     }
@@ -229,6 +231,14 @@ impl Plan {
                 needs: Needs::Structure,
                 ..self
             }),
+        }
+    }
+
+    /// Harmonics of the disk that are built: without a ramp nothing can wake n >= 1.
+    pub fn harmonics(&self, scene: &Scene) -> Harmonics {
+        match (self.wake, &scene.ramp.model) {
+            (Wake::AtTouch, RampModel::None) => Harmonics::Symmetric,
+            _ => Harmonics::All,
         }
     }
 
@@ -249,7 +259,10 @@ impl Plan {
         };
         let mut list = vec![
             on("disk.bending"),
-            sleeps("disk.travelling_waves", "R2"),
+            match self.harmonics(scene) {
+                Harmonics::Symmetric => effect("disk.travelling_waves", State::Off, Some("R2")),
+                Harmonics::All => sleeps("disk.travelling_waves", "R2"),
+            },
             match (&scene.ramp.model, self.wake) {
                 (RampModel::None, _) => effect("ramp.contact", State::Off, None),
                 (_, Wake::AtTouch) if touch.stays_clear() == Some(true) => {
@@ -312,7 +325,7 @@ impl Plan {
             ),
             decision(
                 "R2",
-                "harmonics n >= 1 of the disk asleep until the first touch",
+                "harmonics n >= 1 of the disk asleep until the first touch, not built without a ramp",
                 self.wake == Wake::AtTouch,
                 "axial shock, axisymmetric disk, no tilt or run-out: only n = 0 is driven",
                 "participation of n >= 1 is 0".to_owned(),
@@ -369,13 +382,13 @@ impl Plan {
             ),
             decision(
                 "R9",
-                "film and steady flight shared by models that agree in them",
-                self.shares_flight && self.needs > Needs::Structure,
-                "slider, gas, flow model, film cells, speed and gram load equal",
+                "structure, or film and steady flight, shared by scenes that agree in them",
+                self.shares_parts,
+                "disk, ramp, pulse and the slider's place equal; or slider, gas, speed and gram load",
                 if self.needs > Needs::Structure {
                     "compared value by value".to_owned()
                 } else {
-                    "no film".to_owned()
+                    "compared value by value; no film".to_owned()
                 },
             ),
             decision(

@@ -13,4 +13,4 @@ mod run;
 
 pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;
-pub use run::{Request, Workspace, simulate};
+pub use run::{Request, Workspace, run_structure, simulate, simulate_head};

@@ -111,31 +111,29 @@ impl Model {
 
     /// Builds what `plan` asks of `scene`, and reads nothing else of it.
     ///
-    /// A `donor`, built from another scene, gives its film and steady flight when they would be
-    /// the same and the plan shares them; building is deterministic, so the numbers do not depend
-    /// on it.
+    /// Models of other scenes give the structure, or film and steady flight, when they would be
+    /// the same and the plan shares them: the first of `donors` that has the part. Building is
+    /// deterministic, so the numbers do not depend on it.
     ///
     /// # Errors
     /// [`BuildError`] names the part and the quantity.
-    pub fn assemble(scene: &Scene, plan: &Plan, donor: Option<&Model>) -> Result<Self, BuildError> {
-        let structure = StructureModel::build(&StructureParameters {
-            disk: &scene.disk,
-            disk_resolution: &scene.disk_resolution,
-            ramp: &scene.ramp,
-            slider: SliderPlace {
-                radius_m: scene.slider.radius_m,
-                angle_rad: scene.slider.angle_rad,
-                skew_rad: scene.slider.skew_rad,
-            },
-            pulse: &scene.pulse,
-            window: scene.window,
-            resolution: &scene.structure_resolution,
-        })?
-        .with_wake(plan.wake);
-        let donor = donor.filter(|_| plan.shares_flight);
-        let bearing = (plan.needs >= Needs::Flight)
-            .then(|| bearing(scene, donor))
-            .transpose()?;
+    pub fn assemble<'a>(
+        scene: &Scene,
+        plan: &Plan,
+        donors: impl IntoIterator<Item = &'a Model>,
+    ) -> Result<Self, BuildError> {
+        let donors: Vec<&Model> = match plan.shares_parts {
+            true => donors.into_iter().collect(),
+            false => Vec::new(),
+        };
+        let structure = match donors.iter().find(|other| other.has_structure(scene, plan)) {
+            Some(other) => other.structure.clone(),
+            None => build_structure(scene, plan)?,
+        };
+        let bearing = match plan.needs >= Needs::Flight {
+            true => Some(bearing(scene, &donors)?),
+            false => None,
+        };
         let head = match &bearing {
             Some(bearing) if plan.needs >= Needs::Head => Some(HeadModel::build(
                 &scene.suspension,
@@ -155,6 +153,20 @@ impl Model {
             plan: plan.clone(),
             identity: Arc::new(()),
         })
+    }
+
+    /// Whether `scene` under `plan` has the same disk, ramp, pulse and window, and the slider at
+    /// the same place: the same structural history at every amplitude.
+    pub fn has_structure(&self, scene: &Scene, plan: &Plan) -> bool {
+        let own = &self.scene;
+        own.disk == scene.disk
+            && own.disk_resolution == scene.disk_resolution
+            && own.ramp == scene.ramp
+            && own.pulse == scene.pulse
+            && own.window == scene.window
+            && own.structure_resolution == scene.structure_resolution
+            && slider_place(own) == slider_place(scene)
+            && self.plan.wake == plan.wake
     }
 
     /// The plan it was built by.
@@ -194,14 +206,37 @@ impl Model {
     }
 }
 
-/// Film and steady flight of `scene`: the donor's when they are the same.
-fn bearing(scene: &Scene, donor: Option<&Model>) -> Result<Bearing, BuildError> {
-    match donor {
-        Some(Model {
-            scene: other,
-            bearing: Some(bearing),
-            ..
-        }) if Bearing::is_shared(scene, other) => Ok(bearing.clone()),
-        _ => Bearing::build(scene),
+/// Disk and ramp of `scene` as `plan` needs them.
+fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, StructureError> {
+    let parameters = StructureParameters {
+        disk: &scene.disk,
+        disk_resolution: &scene.disk_resolution,
+        ramp: &scene.ramp,
+        slider: slider_place(scene),
+        pulse: &scene.pulse,
+        window: scene.window,
+        resolution: &scene.structure_resolution,
+    };
+    let structure = StructureModel::build(&parameters, plan.harmonics(scene))?;
+    Ok(structure.with_wake(plan.wake))
+}
+
+fn slider_place(scene: &Scene) -> SliderPlace {
+    SliderPlace {
+        radius_m: scene.slider.radius_m,
+        angle_rad: scene.slider.angle_rad,
+        skew_rad: scene.slider.skew_rad,
+    }
+}
+
+/// Film and steady flight of `scene`: a donor's when they are the same.
+fn bearing(scene: &Scene, donors: &[&Model]) -> Result<Bearing, BuildError> {
+    let shared = donors
+        .iter()
+        .filter(|other| Bearing::is_shared(scene, &other.scene))
+        .find_map(|other| other.bearing.clone());
+    match shared {
+        Some(bearing) => Ok(bearing),
+        None => Bearing::build(scene),
     }
 }

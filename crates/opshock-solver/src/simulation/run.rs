@@ -33,40 +33,62 @@ pub struct Workspace {
 /// Never fails: what prevents an answer is [`Verdict::Undecided`] with its cause. A model without
 /// a head has no clearance, and its verdict only says that the structure ran to the end.
 pub fn simulate(model: &Model, request: &Request, workspace: &mut Workspace) -> Outcome {
-    let structure = model.structure.run(
+    let structure = run_structure(model, request, workspace);
+    simulate_head(model, request, structure.as_ref(), workspace)
+}
+
+/// The structural half of [`simulate`]: the same for every model whose
+/// [`Model::has_structure`] agrees.
+///
+/// # Errors
+/// [`StructureError::NotFinite`].
+pub fn run_structure(
+    model: &Model,
+    request: &Request,
+    workspace: &mut Workspace,
+) -> Result<StructureRun, StructureError> {
+    model.structure.run(
         request.amplitude_m_per_s2,
         request.record,
         &mut workspace.structure,
-    );
-    match structure {
-        Ok(run) => {
-            let head = model.head.as_ref().map(|head| {
-                let mut scratch = match workspace.head.take() {
-                    Some((owner, scratch)) if Arc::ptr_eq(&owner, &model.identity) => scratch,
-                    _ => HeadWorkspace::new(head),
-                };
-                let load = ShockLoad {
-                    pulse: &model.scene.pulse,
-                    amplitude_m_per_s2: request.amplitude_m_per_s2,
-                };
-                let result = head.run(
-                    &run.history,
-                    &load,
-                    run.end_s,
-                    request.stop_at_failure,
-                    request.record,
-                    &mut scratch,
-                );
-                workspace.head = Some((Arc::clone(&model.identity), scratch));
-                result
-            });
-            assemble(model, run, head)
-        }
-        Err(error) => without_structure(&error),
-    }
+    )
 }
 
-fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome {
+/// The other half: the head under a structural run of the same request.
+pub fn simulate_head(
+    model: &Model,
+    request: &Request,
+    structure: Result<&StructureRun, &StructureError>,
+    workspace: &mut Workspace,
+) -> Outcome {
+    let run = match structure {
+        Ok(run) => run,
+        Err(error) => return without_structure(error),
+    };
+    let head = model.head.as_ref().map(|head| {
+        let mut scratch = match workspace.head.take() {
+            Some((owner, scratch)) if Arc::ptr_eq(&owner, &model.identity) => scratch,
+            _ => HeadWorkspace::new(head),
+        };
+        let load = ShockLoad {
+            pulse: &model.scene.pulse,
+            amplitude_m_per_s2: request.amplitude_m_per_s2,
+        };
+        let result = head.run(
+            &run.history,
+            &load,
+            run.end_s,
+            request.stop_at_failure,
+            request.record,
+            &mut scratch,
+        );
+        workspace.head = Some((Arc::clone(&model.identity), scratch));
+        result
+    });
+    assemble(model, run, head)
+}
+
+fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome {
     let warnings = run.warnings.iter().map(describe).collect();
     let mut cost = Cost {
         structure_steps: run.steps,
@@ -91,7 +113,7 @@ fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome 
         roll_rad: bearing.flight.attitude.roll_rad,
     });
     let touched = run.first_touch_s.is_some();
-    let history = run.columns.map(|structure| History {
+    let history = run.columns.clone().map(|structure| History {
         structure,
         head: head
             .as_ref()
@@ -106,8 +128,8 @@ fn assemble(model: &Model, run: StructureRun, head: Option<HeadRun>) -> Outcome 
         t_min_clearance_s: head.as_ref().map(|h| h.t_min_clearance_s),
         steady,
         disk: run.disk,
-        top: run.top,
-        bottom: run.bottom,
+        top: run.top.clone(),
+        bottom: run.bottom.clone(),
         dimple: head.as_ref().map(|h| h.dimple),
         energy: run.energy,
         complementarity: run.complementarity,

@@ -8,7 +8,9 @@ use super::history::StructuralHistory;
 use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
 use super::{ContactMethod, StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
-use crate::disk::{self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution};
+use crate::disk::{
+    self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution, Harmonics,
+};
 use crate::modal::{BankFlow, Oscillator, Readout};
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
 use crate::shock::{Pulse, PulseError};
@@ -23,7 +25,8 @@ const MAX_IMPACTS_PER_STEP: u32 = 8;
 /// Penetration above which a run warns, m.
 const PENETRATION_WARNING_M: f64 = 1e-7;
 /// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
-/// cannot be aimed (see [`crate::complementarity`]).
+/// cannot be aimed (see [`crate::complementarity`]). A static correction of n >= 1 faster than that
+/// is slowed at constant compliance, so that the grid is the same whether n >= 1 is built or not.
 const FASTEST_DISK_ANGLE: f64 = 3.0;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
@@ -220,10 +223,16 @@ pub struct StructureRun {
 impl StructureModel {
     /// Builds the modal basis, the unit response and the tables of one step.
     ///
+    /// Without a ramp nothing ever drives the harmonics n >= 1: [`Harmonics::Symmetric`] then
+    /// gives the same motion for less.
+    ///
     /// # Errors
     /// A parameter out of range, a place off the disk, an overlap before the shock, a failed
     /// eigenvalue problem.
-    pub fn build(parameters: &StructureParameters<'_>) -> Result<Self, StructureError> {
+    pub fn build(
+        parameters: &StructureParameters<'_>,
+        harmonics: Harmonics,
+    ) -> Result<Self, StructureError> {
         let StructureParameters {
             disk,
             disk_resolution,
@@ -239,19 +248,11 @@ impl StructureModel {
         disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
         let stretches = pulse.stretches()?;
         let radii = [ramp.radius_m, slider.radius_m, disk.outer_radius_m];
-        let basis = DiskBasis::build(disk, disk_resolution, &radii, Some(0))?;
+        let mut basis = DiskBasis::build(disk, disk_resolution, &radii, Some(0), harmonics)?;
+        let step_s = divided_step_s(&basis, disk_resolution, resolution.step_s);
+        slow_corrections(&mut basis, step_s);
 
         let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
-        // The same for every ramp, so that all share one grid.
-        let fastest = basis
-            .modes
-            .iter()
-            .map(|m| m.omega_rad_per_s)
-            .fold(0.0, f64::max);
-        let n_parts = (fastest * resolution.step_s / FASTEST_DISK_ANGLE)
-            .ceil()
-            .max(1.0);
-        let step_s = resolution.step_s / n_parts;
         let n_steps = count_steps(window, step_s)?;
         let arms: [&[ArmMode]; 2] = match &ramp.model {
             RampModel::None | RampModel::Rigid => [&[], &[]],
@@ -321,6 +322,11 @@ impl StructureModel {
     /// When the contact-driven state starts to be marched.
     pub fn wake(&self) -> Wake {
         self.wake
+    }
+
+    /// Steps of the grid over the whole window.
+    pub fn n_steps(&self) -> usize {
+        self.shared.n_steps
     }
 
     /// Number of modes that move before any contact: the disk's axisymmetric ones and the arms'.
@@ -518,6 +524,33 @@ fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
         });
     }
     Ok(n as usize)
+}
+
+/// The step divided for the modes: those of n = 0, which every basis holds, and the cut, below
+/// which the modes of other harmonics lie. So all ramps share one grid.
+fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -> f64 {
+    let symmetric = basis.modes.iter().filter(|mode| mode.nodal_diameters == 0);
+    let fastest = symmetric
+        .map(|mode| mode.omega_rad_per_s)
+        .fold(std::f64::consts::TAU * resolution.cut_hz, f64::max);
+    let n_parts = (fastest * step_s / FASTEST_DISK_ANGLE).ceil().max(1.0);
+    step_s / n_parts
+}
+
+/// Slows static corrections too fast for the step; φ/ω and so the compliance stay.
+fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
+    let limit = FASTEST_DISK_ANGLE / step_s;
+    for mode in &mut basis.modes {
+        let is_correction = mode.nodal_diameters > 0 && mode.nodal_circles.is_none();
+        if is_correction && mode.omega_rad_per_s > limit {
+            let share = limit / mode.omega_rad_per_s;
+            mode.omega_rad_per_s = limit;
+            for (value, slope) in &mut mode.shape {
+                *value *= share;
+                *slope *= share;
+            }
+        }
+    }
 }
 
 /// Modes that grow: air held in space above a critical speed.

@@ -1,7 +1,7 @@
 //! Tables of natural frequencies for people.
 
 use super::StructureError;
-use crate::disk::{DiskBasis, DiskParameters, DiskResolution};
+use crate::disk::{DiskBasis, DiskParameters, DiskResolution, Harmonics};
 use crate::ramp::{RampModel, RampParameters};
 use std::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ pub fn modes(
     ramp: &RampParameters,
 ) -> Result<StructureModes, StructureError> {
     ramp.validate()?;
-    let basis = DiskBasis::build(disk, resolution, &[], None)?;
+    let basis = DiskBasis::build(disk, resolution, &[], None, Harmonics::All)?;
     let turn_hz = disk.spin_rad_per_s.abs() / TAU;
     let mut rows: Vec<DiskModeRow> = basis
         .modes

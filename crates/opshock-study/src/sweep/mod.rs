@@ -16,6 +16,7 @@ mod ledger;
 pub mod physics;
 pub mod progress;
 mod rows;
+mod shelf;
 pub mod simulator;
 pub mod stop;
 mod writer;

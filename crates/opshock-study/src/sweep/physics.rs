@@ -1,8 +1,10 @@
 //! The simulator of a sweep that runs the physics.
 //!
-//! Points with the same scene (the two signs) share one model; models share film and steady
-//! flight where those are the same. Models are made when first asked for. None of this reaches
-//! the numbers: building is deterministic and a model never changes.
+//! Points with the same scene (the two signs) share one model; models share structure, or film and
+//! steady flight, where those are the same, and points that differ in the head alone share
+//! structural histories. Models are made when first asked for. None of this reaches the numbers:
+//! building is deterministic and a model never changes. With `effects = "full"` nothing is shared:
+//! every simulation builds its own model.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -13,10 +15,13 @@ use opshock_solver::scene::knob::Levels;
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
     Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
-    simulate,
+    run_structure, simulate, simulate_head,
 };
 
+use super::shelf::Shelf;
 use super::simulator::{Onset, Simulator};
+use crate::identity;
+use crate::provenance::PHYSICS_STRUCTURE;
 use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
 use crate::study::{Sign, Study};
 
@@ -28,6 +33,8 @@ struct Slot {
     plain: OnceLock<Built>,
     /// The doubled window, kept while both signs may ask for it.
     longer: Mutex<Option<Arc<Model>>>,
+    /// Whether another scene has the same disk, ramp, pulse and slider's place.
+    shares_structure: bool,
 }
 
 /// Models with turned knobs that are kept, the oldest first. An error bar asks for nine or so, each
@@ -49,6 +56,7 @@ pub struct Physics {
     plan: Plan,
     turned: Mutex<VecDeque<Turned>>,
     donors: Mutex<Vec<Arc<Model>>>,
+    shelf: Shelf,
     workspaces: Mutex<Vec<Workspace>>,
 }
 
@@ -78,41 +86,56 @@ impl Physics {
                         scene: scene.clone(),
                         plain: OnceLock::new(),
                         longer: Mutex::new(None),
+                        shares_structure: false,
                     });
                     slots.len() - 1
                 });
                 (slot, sign)
             })
             .collect();
+        let keys: Vec<_> = slots
+            .iter()
+            .map(|slot| structure_key(&slot.scene))
+            .collect();
+        for (slot, key) in slots.iter_mut().zip(&keys) {
+            slot.shares_structure = keys.iter().filter(|other| *other == key).count() > 1;
+        }
         Self {
             slots,
             points,
             plan,
             turned: Mutex::new(VecDeque::new()),
             donors: Mutex::new(Vec::new()),
+            shelf: Shelf::default(),
             workspaces: Mutex::new(Vec::new()),
         }
     }
 
     /// The model of a point's own scene.
-    ///
-    /// # Errors
-    /// Why the scene cannot be built.
-    pub fn model(&self, point: usize) -> Result<Arc<Model>, BuildError> {
+    fn model(&self, point: usize) -> Built {
         let slot = &self.slots[self.points[point].0];
+        if !self.plan.shares_parts {
+            return self.build(&slot.scene);
+        }
         slot.plain.get_or_init(|| self.build(&slot.scene)).clone()
     }
 
     fn build(&self, scene: &Scene) -> Built {
-        let donor = {
-            let donors = lock(&self.donors);
-            donors
-                .iter()
-                .find(|model| Bearing::is_shared(scene, model.scene()))
-                .cloned()
+        let has_structure = |model: &Arc<Model>| model.has_structure(scene, &self.plan);
+        let has_film = |model: &Arc<Model>| Bearing::is_shared(scene, model.scene());
+        let donors: Vec<Arc<Model>> = match self.plan.shares_parts {
+            true => {
+                let all = lock(&self.donors);
+                let structure = all.iter().find(|model| has_structure(model));
+                let film = all.iter().find(|model| has_film(model));
+                structure.into_iter().chain(film).cloned().collect()
+            }
+            false => Vec::new(),
         };
-        let model = Arc::new(Model::assemble(scene, &self.plan, donor.as_deref())?);
-        if donor.is_none() {
+        let given = donors.iter().map(|donor| &**donor);
+        let model = Arc::new(Model::assemble(scene, &self.plan, given)?);
+        let is_new = !(donors.iter().any(has_structure) && donors.iter().any(has_film));
+        if self.plan.shares_parts && is_new {
             lock(&self.donors).push(Arc::clone(&model));
         }
         Ok(model)
@@ -156,6 +179,7 @@ impl Physics {
             }
         };
         match probe.retry {
+            Retry::None if !self.plan.shares_parts => self.build(&longer(&slot.scene)),
             Retry::None => {
                 if let Some(model) = lock(&slot.longer).clone() {
                     return Ok(model);
@@ -171,12 +195,30 @@ impl Physics {
         }
     }
 
-    fn run(&self, model: &Model, request: &Request) -> Outcome {
+    fn run(&self, point: usize, model: &Model, request: &Request) -> Outcome {
         let mut workspace = lock(&self.workspaces).pop().unwrap_or_default();
-        let outcome = simulate(model, request, &mut workspace);
+        let slot = &self.slots[self.points[point].0];
+        let outcome = if self.plan.shares_parts && slot.shares_structure && !request.record {
+            let key = (
+                structure_key(model.scene()),
+                request.amplitude_m_per_s2.to_bits(),
+            );
+            let nodes = model.structure().n_steps() + 1;
+            let run = || run_structure(model, request, &mut workspace);
+            let shared = self.shelf.get_or_run(key, nodes, run);
+            let structure = shared.wait().as_ref();
+            simulate_head(model, request, structure, &mut workspace)
+        } else {
+            simulate(model, request, &mut workspace)
+        };
         lock(&self.workspaces).push(workspace);
         outcome
     }
+}
+
+/// Content of everything the structure's motion depends on.
+fn structure_key(scene: &Scene) -> [u8; 16] {
+    identity::structure_key(scene, PHYSICS_STRUCTURE)
 }
 
 /// A poisoned lock only means that another probe panicked; what it guards is whole at all times.
@@ -204,7 +246,7 @@ impl Simulator for Physics {
                     stop_at_failure: true,
                     record: false,
                 };
-                probe_result(&self.run(&model, &request))
+                probe_result(&self.run(point, &model, &request))
             }
         }
     }
@@ -216,20 +258,24 @@ impl Simulator for Physics {
             stop_at_failure: true,
             record: true,
         };
-        Some(self.run(&model, &request))
+        Some(self.run(point, &model, &request))
     }
 
     fn onset(&self, point: usize) -> Onset {
-        let (_, sign) = self.points[point];
-        match self.model(point) {
-            Err(_) => Onset::Unknown,
-            Ok(model) if model.scene().ramp.model == RampModel::None => Onset::NoRamp,
-            // In full nothing is taken from the answers without ramp.
-            Ok(_) if self.plan.mode == Mode::Full => Onset::Unknown,
-            Ok(model) => match model.structure().touch_amplitude_m_per_s2(sign > 0.0) {
-                Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
-                None => Onset::Unknown,
-            },
+        let (slot, sign) = self.points[point];
+        if self.slots[slot].scene.ramp.model == RampModel::None {
+            return Onset::NoRamp;
+        }
+        // In full nothing is taken from the answers without ramp.
+        if self.plan.mode == Mode::Full {
+            return Onset::Unknown;
+        }
+        let Ok(model) = self.model(point) else {
+            return Onset::Unknown;
+        };
+        match model.structure().touch_amplitude_m_per_s2(sign > 0.0) {
+            Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
+            None => Onset::Unknown,
         }
     }
 }
