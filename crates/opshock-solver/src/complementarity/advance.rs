@@ -112,7 +112,8 @@ fn advance_part(
             begin_at_node(system, left, n, law, memory, &mut report);
         }
         let crossing = if pass < max_passes {
-            first_crossing(system, left, n, law, pass > 0 && law.restitution > 0.0)
+            let bounced = report.impacts > 0 && law.restitution > 0.0;
+            first_crossing(system, left, n, law, bounced)
         } else {
             report.accumulated = true;
             None
@@ -144,10 +145,13 @@ fn begin_at_node(
 ) {
     let now = system.gaps();
     let closed: [bool; 2] = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
-    let arrives = (0..n).any(|i| closed[i] && !memory.lasting[i] && now[i].rate_m_per_s < 0.0);
-    for (lasting, closed) in memory.lasting.iter_mut().zip(closed) {
-        *lasting &= closed;
+    for i in 0..n {
+        // Collisions are located where the gap is zero. One that is below came here in contact; to
+        // bounce it at every node with e < 1/2 would let it sink.
+        let below = now[i].value_m < -law.gap_tolerance_m;
+        memory.lasting[i] = closed[i] && (memory.lasting[i] || below);
     }
+    let arrives = (0..n).any(|i| closed[i] && !memory.lasting[i] && now[i].rate_m_per_s < 0.0);
     if arrives {
         // The collision falls on the node itself.
         report.impacts += 1;
@@ -208,27 +212,40 @@ fn aimed_impulse(
     }
     let predicted = [ahead[0].value_m, ahead[1].value_m];
     let aim = lcp::solve(system.compliance_ahead(), predicted, closed).unwrap_or(stop);
+    let bounded = std::array::from_fn(|i| {
+        if stop[i] == 0.0 {
+            return 0.0;
+        }
+        let largest = 2.0 * stop[i] / (1.0 - 2.0 * refund[i][i] / w[i][i]);
+        aim[i].clamp(stop[i], largest)
+    });
     if !(closed[0] && closed[1]) {
-        return std::array::from_fn(|i| {
-            if stop[i] == 0.0 {
-                return 0.0;
-            }
-            let largest = 2.0 * stop[i] / (1.0 - 2.0 * refund[i][i] / w[i][i]);
-            aim[i].clamp(stop[i], largest)
-        });
+        return bounded;
     }
-    let after = product(w, aim);
-    let enough = (0..2).all(|i| stop[i] == 0.0 || rate[i] + after[i] >= 0.0);
-    let p = if enough { aim } else { stop };
-    let work = p[0] * rate[0] + p[1] * rate[1];
-    let (wp, rp) = (product(w, p), product(refund, p));
-    let quadratic = p[0] * (0.5 * wp[0] - rp[0]) + p[1] * (0.5 * wp[1] - rp[1]);
-    if work + quadratic <= 0.0 {
-        p
+    // Two contacts: each bounded by itself, then both as far from stopping dead towards that as
+    // their energy together allows. Less than stopping would let the contacts sink.
+    let beyond = [bounded[0] - stop[0], bounded[1] - stop[1]];
+    let at = |share: f64| [stop[0] + share * beyond[0], stop[1] + share * beyond[1]];
+    let energy = |p: [f64; 2]| {
+        let (wp, rp) = (product(w, p), product(refund, p));
+        (0..2)
+            .map(|i| p[i] * (rate[i] + 0.5 * wp[i] - rp[i]))
+            .sum::<f64>()
+    };
+    // A quadratic in the share through its values at 0, 1/2 and 1, negative at 0.
+    let (e0, e1, e2) = (energy(at(0.0)), energy(at(0.5)), energy(at(1.0)));
+    if e2 <= 0.0 {
+        return at(1.0);
+    }
+    let a = 2.0 * (e0 - 2.0 * e1 + e2);
+    let b = e2 - e0 - a;
+    let root = (b * b - 4.0 * a * e0).max(0.0).sqrt();
+    let share = -2.0 * e0 / (b + root);
+    at(if share.is_finite() {
+        share.clamp(0.0, 1.0)
     } else {
-        let scale = (-work / quadratic).max(0.0);
-        [scale * p[0], scale * p[1]]
-    }
+        0.0
+    })
 }
 
 fn product(m: [[f64; 2]; 2], p: [f64; 2]) -> [f64; 2] {

@@ -79,7 +79,6 @@ pub struct HeadModel {
     pub(super) film_n_per_m: f64,
     /// Time in which a velocity error becomes a gap error: 1/ω of the slider on its film, s.
     pub(super) velocity_to_gap_s: f64,
-    pub(super) film_mass: f64,
 }
 
 impl HeadModel {
@@ -139,12 +138,6 @@ impl HeadModel {
             arms: [1.0, 0.5 * slider.length_m, 0.5 * slider.width_m],
             film_n_per_m,
             velocity_to_gap_s: (mass / film_n_per_m).sqrt(),
-            film_mass: film
-                .capacity()
-                .iter()
-                .zip(&flight.psi)
-                .map(|(c, p)| c * p)
-                .sum(),
             film,
             flight,
         })

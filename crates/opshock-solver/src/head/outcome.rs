@@ -101,7 +101,8 @@ pub struct HeadCost {
     pub max_residual: f64,
     /// Smallest film pressure, Pa.
     pub min_pressure_pa: f64,
-    /// Largest net mass that a stage failed to account for, relative to the film's mass.
+    /// Largest net mass that a stage failed to account for, relative to the film's mass then. Says
+    /// little where the film is tens of micrometres thick and renews itself many times a step.
     pub mass_balance_error: f64,
 }
 

@@ -118,9 +118,7 @@ impl Stages<'_> {
                 *psi -= factor * delta;
             }
             if factor == 1.0 && size <= tolerance {
-                let imbalance = (spurious * instant.d_s / self.model.film_mass).abs() * size;
-                let counters = &mut self.scratch.counters;
-                counters.mass_balance_error = counters.mass_balance_error.max(imbalance);
+                self.note_imbalance(spurious * instant.d_s * size, psi);
                 let force = self.model.film.force(psi, &attitude);
                 return Ok(std::array::from_fn(|f| {
                     force[f] - self.model.steady_force[f]

@@ -240,6 +240,15 @@ impl Stages<'_> {
         std::array::from_fn(|f| force[f] - self.model.steady_force[f])
     }
 
+    /// Notes what is left of the film's mass balance, relative to the mass that is there: a slider
+    /// far from the disk holds many times the mass of steady flight.
+    pub fn note_imbalance(&mut self, spurious: f64, psi: &[f64]) {
+        let capacity = self.model.film.capacity();
+        let mass: f64 = capacity.iter().zip(psi).map(|(c, psi)| c * psi).sum();
+        let worst = &mut self.scratch.counters.mass_balance_error;
+        *worst = worst.max((spurious / mass).abs());
+    }
+
     /// S + film's condensed stiffness into the scratch's small matrix.
     fn assemble_small(&mut self, d_s: f64, closed: bool, with_film: bool) {
         let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
@@ -350,10 +359,9 @@ impl Stages<'_> {
                 for ((v, x), known) in v.iter_mut().zip(&*x).zip(x_known) {
                     *v = (x - known) / instant.d_s;
                 }
+                self.note_imbalance(spurious * instant.d_s * contraction, psi);
                 let counters = &mut self.scratch.counters;
                 counters.max_residual = counters.max_residual.max(estimate);
-                let imbalance = (spurious * instant.d_s / self.model.film_mass).abs() * contraction;
-                counters.mass_balance_error = counters.mass_balance_error.max(imbalance);
                 return Ok(());
             }
             if previous.is_finite() && contraction > SLOW {

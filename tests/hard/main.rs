@@ -1,0 +1,4 @@
+//! Hard cases and random scenes: what must hold of any scene, and of the ones that break solvers.
+
+mod random_heads;
+mod random_structures;

@@ -1,0 +1,183 @@
+//! Random shocks on small films: positive pressure, mass, residuals, and the mirror in roll.
+
+use std::sync::Arc;
+
+use opshock_solver::air_bearing::steady::{Flight, fly};
+use opshock_solver::air_bearing::{Film, FilmResolution, FlowModel};
+use opshock_solver::disk::{DiskMotion, DiskPose};
+use opshock_solver::head::{HeadModel, HeadRun, HeadWorkspace, ShockLoad, Verdict};
+use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2 as G, rad_per_s_from_rpm};
+use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_tests::heads::{SingleModeDisk, default_resolution, default_slider, standard_gas};
+use opshock_tests::seeded::{OnPanic, Seeded, seeds};
+use opshock_tests::suspensions::default_suspension;
+
+/// A disk's motion with its roll turned round.
+struct OtherSide<'a>(&'a SingleModeDisk);
+
+fn turned(pose: DiskPose) -> DiskPose {
+    DiskPose {
+        roll_rad: -pose.roll_rad,
+        ..pose
+    }
+}
+
+impl DiskMotion for OtherSide<'_> {
+    fn pose(&self, time_s: f64) -> DiskPose {
+        turned(self.0.pose(time_s))
+    }
+    fn pose_rate(&self, time_s: f64) -> DiskPose {
+        turned(self.0.pose_rate(time_s))
+    }
+    fn events_s(&self) -> &[f64] {
+        self.0.events_s()
+    }
+}
+
+/// A head of some 100 to 200 cells, light or heavy, fast or slow; `None` when it does not fly.
+fn random_head(seeded: &mut Seeded) -> Option<HeadModel> {
+    let mut suspension = default_suspension();
+    suspension.gram_load_n *= seeded.log_between(0.6, 1.6);
+    suspension.dimple.stiffness_n_per_m *= seeded.log_between(0.3, 3.0);
+    suspension.gimbal.roll_n_m_per_rad *= seeded.log_between(0.3, 3.0);
+    let mut slider = default_slider();
+    slider.density_kg_per_m3 *= seeded.log_between(0.3, 3.0);
+    slider.surface.crown_m *= seeded.between(0.0, 2.0);
+    slider.surface.camber_m *= seeded.between(0.0, 2.0);
+    slider.surface.base_recess_m *= seeded.between(0.7, 1.5);
+    let model = *seeded.one_of(&[
+        FlowModel::FukuiKaneko,
+        FlowModel::FukuiKaneko,
+        FlowModel::Slip2,
+        FlowModel::Slip1,
+    ]);
+    let film = Film::build(
+        &slider,
+        &standard_gas(),
+        model,
+        rad_per_s_from_rpm(seeded.between(3600.0, 10_000.0)),
+        &FilmResolution {
+            cells: 100 + seeded.below(100),
+            floor_m: 0.3e-9,
+        },
+    )
+    .expect("film");
+    let flight: Flight = fly(&film, [suspension.gram_load_n, 0.0, 0.0]).ok()?;
+    let mut resolution = default_resolution();
+    resolution.tolerance = 0.02;
+    resolution.coupling_tolerance = 2e-3;
+    let (film, flight) = (Arc::new(film), Arc::new(flight));
+    Some(HeadModel::build(&suspension, &slider, film, flight, &resolution, 0.0).expect("head"))
+}
+
+fn judge(run: &HeadRun) {
+    assert!(
+        !matches!(run.verdict, Verdict::Undecided { .. }),
+        "{:?}",
+        run.verdict
+    );
+    assert!(run.cost.min_pressure_pa > 0.0, "{:?}", run.cost);
+    assert!(run.cost.max_residual <= 2e-3, "{:?}", run.cost);
+    assert!(
+        run.dimple.min_force_n >= 0.0 && run.dimple.open_s >= 0.0,
+        "{:?}",
+        run.dimple
+    );
+    let columns = run.columns.as_ref().expect("recorded");
+    for column in [
+        &columns.slider_z_m,
+        &columns.slider_pitch_rad,
+        &columns.bearing_force_n,
+        &columns.dimple_force_n,
+    ] {
+        assert!(column.iter().all(|v| v.is_finite()));
+    }
+    let rise = columns.slider_z_m.iter().copied().fold(0.0, f64::max);
+    // Further away a step renews the whole film, and what is left of its mass says nothing.
+    if rise < 2e-6 {
+        assert!(run.cost.mass_balance_error < 1e-2, "{:?}", run.cost);
+    }
+    let least = columns
+        .min_clearance_m
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    assert!(
+        run.min_clearance_m <= least + 1e-18,
+        "between steps nothing is missed"
+    );
+    if run.verdict == Verdict::Survives {
+        assert!(run.min_clearance_m > 0.0);
+    }
+}
+
+/// Verdict of one scene: flies, fails.
+fn one(seed: u64) -> Option<bool> {
+    let _named = OnPanic(seed);
+    let mut seeded = Seeded::new(seed);
+    let model = random_head(&mut seeded)?;
+    let width_s = seeded.log_between(1e-4, 1e-3);
+    let sign = if seeded.once_in(2) { 1.0 } else { -1.0 };
+    let amplitude_m_per_s2 = sign * seeded.log_between(20.0, 4000.0) * G;
+    let pulse = Pulse {
+        shape: PulseShape::HalfSine,
+        width_s,
+    };
+    let load = ShockLoad {
+        pulse: &pulse,
+        amplitude_m_per_s2,
+    };
+    let disk = SingleModeDisk::new(amplitude_m_per_s2, width_s);
+    let window_s = seeded.between(2e-4, 1e-3);
+    let mut workspace = HeadWorkspace::new(&model);
+    let run = model.run(&disk, &load, window_s, true, true, &mut workspace);
+    judge(&run);
+    if seed.is_multiple_of(5) {
+        let other = model.run(
+            &OtherSide(&disk),
+            &load,
+            window_s,
+            true,
+            true,
+            &mut workspace,
+        );
+        judge(&other);
+        let change = (other.min_clearance_m - run.min_clearance_m).abs();
+        assert!(
+            change <= 1e-6 * model.steady_clearance_m(),
+            "other side: {change:e}"
+        );
+        assert_eq!(
+            matches!(run.verdict, Verdict::Fails { .. }),
+            matches!(other.verdict, Verdict::Fails { .. })
+        );
+    }
+    Some(matches!(run.verdict, Verdict::Fails { .. }))
+}
+
+#[test]
+fn random_heads_keep_mass_pressure_and_symmetry() {
+    let verdicts: Vec<bool> = (0..12).filter_map(one).collect();
+    assert!(verdicts.len() >= 9, "{} of 12 fly", verdicts.len());
+    assert!(verdicts.contains(&true) && verdicts.contains(&false));
+}
+
+#[test]
+#[ignore = "slow: 2000 scenes, some 10 minutes"]
+fn scenes_slow_heads() {
+    let range = seeds(0..2_000);
+    let (mut flown, mut failed) = (0, 0);
+    for seed in range.clone() {
+        if let Some(fails) = one(seed) {
+            flown += 1;
+            failed += u64::from(fails);
+        }
+        let done = seed + 1 - range.start;
+        if done.is_multiple_of(100) || seed + 1 == range.end {
+            println!(
+                "heads: {done} scenes from seed {} hold, {flown} fly, {failed} touch",
+                range.start
+            );
+        }
+    }
+}
