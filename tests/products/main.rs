@@ -15,6 +15,7 @@ mod store_damage;
 mod store_kill;
 mod study_reading;
 mod study_shipped;
+mod sweep_audit;
 mod sweep_repeatability;
 mod sweep_sharing;
 mod sweep_trouble;

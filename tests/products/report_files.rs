@@ -179,6 +179,7 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
         runs: &runs,
         program: "opshock 1 (abc)",
         resolved_study: Some("name = \"<b>\"\n"),
+        audit: None,
     });
     assert_nested(&page, &["meta", "br"]);
     assert!(page.contains("default-src 'none'"));
@@ -203,6 +204,7 @@ fn a_report_is_the_same_bytes_twice() {
         runs: &runs,
         program: "opshock 1 (abc)",
         resolved_study: None,
+        audit: None,
     };
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
@@ -235,6 +237,7 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
             runs: &[],
             program: "",
             resolved_study: None,
+            audit: None,
         };
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);

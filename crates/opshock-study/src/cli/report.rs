@@ -7,9 +7,10 @@ use super::failure::Failure;
 use super::stored;
 use crate::provenance;
 use crate::report::{ReportSource, table, write_report};
-use crate::store::{Status, Summary};
+use crate::store::{Audit, Status, Summary};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Show the critical shocks of a store; write table, figure and HTML page
@@ -33,6 +34,15 @@ enum TableFormat {
     Json,
 }
 
+/// The table as JSON, with the audit when there was one.
+#[derive(Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    summary: &'a Summary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    audit: Option<&'a Audit>,
+}
+
 /// Runs the command.
 pub fn run(
     arguments: &ReportArgs,
@@ -42,13 +52,14 @@ pub fn run(
     let folder = stored::folder(&arguments.source, global)?;
     let stored = stored::read(&folder, console)?;
     let program = provenance::program();
+    let source = ReportSource {
+        summary: &stored.summary,
+        runs: &stored.runs,
+        program: &program,
+        resolved_study: stored.resolved_study.as_deref(),
+        audit: stored.audit.as_ref(),
+    };
     if let Some(out) = &arguments.out {
-        let source = ReportSource {
-            summary: &stored.summary,
-            runs: &stored.runs,
-            program: &program,
-            resolved_study: stored.resolved_study.as_deref(),
-        };
         let mut written = write_report(out, &source).context("cannot write the report")?;
         let copy = out.join("results.h5");
         std::fs::copy(folder.join("results.h5"), &copy)
@@ -66,10 +77,12 @@ pub fn run(
         None => console.result(&table::terminal(&stored.summary))?,
         Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,
         Some(TableFormat::Md) => {
-            let provenance = format!("{program}, study {}", stored.summary.digest);
-            console.result(&table::markdown(&stored.summary, &provenance))?;
+            console.result(&table::markdown(&stored.summary, &source.provenance()))?;
         }
-        Some(TableFormat::Json) => console.result_json(&stored.summary)?,
+        Some(TableFormat::Json) => console.result_json(&Told {
+            summary: &stored.summary,
+            audit: stored.audit.as_ref(),
+        })?,
     }
     Ok(exit_of(&stored.summary))
 }

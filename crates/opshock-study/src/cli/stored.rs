@@ -5,7 +5,7 @@ use super::console::Console;
 use super::failure::{Failure, Fault};
 use crate::report::RunDot;
 use crate::store::folder::session;
-use crate::store::{self, Loaded, Results, StoreError, Summary};
+use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
 use crate::study::Study;
 use crate::sweep::{SweepInput, replay};
 use std::path::{Path, PathBuf};
@@ -53,6 +53,8 @@ pub struct Stored {
     pub runs: Vec<RunDot>,
     /// The study with every default.
     pub resolved_study: Option<String>,
+    /// The last audit.
+    pub audit: Option<Audit>,
 }
 
 /// Reads everything finished in a store, and tells what is wrong with it.
@@ -75,6 +77,7 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
         })
         .collect();
     Ok(Stored {
+        audit: Audit::of_store(folder, &results.summary.digest),
         summary: results.summary,
         runs,
         resolved_study: resolved_study(folder),

@@ -8,7 +8,10 @@ use super::failure::Failure;
 use super::report::exit_of;
 use super::{stored, study_file, thresholds};
 use crate::report::table;
-use crate::sweep::{Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep};
+use crate::store::{Audit, Summary};
+use crate::sweep::{
+    Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, audit, sweep,
+};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use opshock_solver::scene::plan::Output;
@@ -26,6 +29,10 @@ pub struct SweepArgs {
     /// Save and end after this time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     budget_s: Option<Duration>,
+    /// Run this share of the finished simulations again with all effects, as 2%; any difference is
+    /// exit code 7
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    audit: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -67,7 +74,16 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         console.result(&table::terminal(&summary))?;
     }
     match end.ending {
-        Ending::Complete => Ok(exit_of(&summary)),
+        Ending::Complete => match arguments.audit {
+            Some(share) => {
+                let full = Physics::in_full(&study);
+                let results = stored::results(&folder, console)?;
+                let audit = audit(&input, &results, &full, share, global.threads());
+                audit.keep(&folder)?;
+                Ok(audited(&audit, &summary, console))
+            }
+            None => Ok(exit_of(&summary)),
+        },
         Ending::Stopped { signal } => {
             console.tell(&resume(&arguments.study, &folder, global));
             let number = signal.and_then(|signal| u8::try_from(signal).ok());
@@ -77,6 +93,19 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             console.tell(&resume(&arguments.study, &folder, global));
             Ok(Exit::Budget)
         }
+    }
+}
+
+/// Tells what an audit showed.
+fn audited(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
+    console.tell(&audit.sentence());
+    for difference in &audit.differences {
+        console.tell(&difference.to_string());
+    }
+    if audit.differences.is_empty() {
+        exit_of(summary)
+    } else {
+        Exit::Difference
     }
 }
 
@@ -107,6 +136,19 @@ fn quoted(word: &str) -> String {
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
+}
+
+/// A share as `2%` or `0.02`.
+fn share(text: &str) -> Result<f64, String> {
+    let (digits, unit) = match text.strip_suffix('%') {
+        Some(digits) => (digits, 0.01),
+        None => (text, 1.0),
+    };
+    let value = digits.trim().parse::<f64>().ok().map(|value| value * unit);
+    let allowed = "must be a share above 0 %, at most 100 %, as 2%";
+    value
+        .filter(|value| *value > 0.0 && *value <= 1.0)
+        .ok_or_else(|| allowed.to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

@@ -33,12 +33,11 @@ pub fn write_report(folder: &Path, source: &ReportSource<'_>) -> Result<Vec<Path
         source,
     };
     std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
-    let provenance = format!("{}, study {}", source.program, source.summary.digest);
     let figure = critical_shock_figure(source.summary, source.program);
     let files = [
         (
             "table.md",
-            table::markdown(source.summary, &provenance).into_bytes(),
+            table::markdown(source.summary, &source.provenance()).into_bytes(),
         ),
         ("table.csv", table::csv(source.summary).into_bytes()),
         ("fig13.svg", figure.svg().into_bytes()),

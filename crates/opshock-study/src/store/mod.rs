@@ -6,6 +6,7 @@
 //! a changed study finds what is still valid.
 
 mod aside;
+pub mod audit;
 pub mod error;
 pub mod folder;
 pub mod hdf5_file;
@@ -17,6 +18,7 @@ pub mod record;
 pub mod results;
 pub mod summary;
 
+pub use audit::{Audit, Difference};
 pub use error::StoreError;
 pub use folder::{Loaded, Store, StudyTexts, load};
 pub use record::{PointDigest, Record, RunKey, RunMachine, RunRecord, StoredTouch, TouchRecord};

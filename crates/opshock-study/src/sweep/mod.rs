@@ -6,6 +6,7 @@
 //! table to the bit: the table is a function of the probes that the searches ask, and their verdicts
 //! of the scenes.
 
+mod audit;
 mod engine;
 pub mod estimate;
 mod from_study;
@@ -21,6 +22,7 @@ pub mod simulator;
 pub mod stop;
 mod writer;
 
+pub use audit::audit;
 pub use engine::{Ending, SweepEnd, SweepOptions, replay, stored, sweep};
 pub use input::{BarPlan, SweepInput, SweepPoint};
 pub use physics::Physics;

@@ -6,7 +6,7 @@
 //! building is deterministic and a model never changes. With `effects = "full"` nothing is shared:
 //! every simulation builds its own model.
 
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
@@ -33,8 +33,6 @@ struct Slot {
     plain: OnceLock<Built>,
     /// The doubled window, kept while both signs may ask for it.
     longer: Mutex<Option<Arc<Model>>>,
-    /// Whether another scene has the same disk, ramp, pulse and slider's place.
-    shares_structure: bool,
 }
 
 /// Models with turned knobs that are kept, the oldest first. An error bar asks for nine or so, each
@@ -57,12 +55,23 @@ pub struct Physics {
     turned: Mutex<VecDeque<Turned>>,
     donors: Mutex<Vec<Arc<Model>>>,
     shelf: Shelf,
+    /// Structures that several scenes of the study have.
+    shared_structures: HashSet<[u8; 16]>,
     workspaces: Mutex<Vec<Workspace>>,
 }
 
 impl Physics {
     /// The points of a study, in the order of its tables like [`super::SweepInput::of`].
     pub fn of(study: &Study) -> Self {
+        Self::planned(study, study.plan())
+    }
+
+    /// The same points with every effect, nothing shared.
+    pub fn in_full(study: &Study) -> Self {
+        Self::planned(study, Plan::new(&study.plan().outputs, Mode::Full))
+    }
+
+    fn planned(study: &Study, plan: Plan) -> Self {
         let points = study.table_order().into_iter().map(|place| {
             let point = &study.points[place];
             let factor = match point.sign {
@@ -71,7 +80,7 @@ impl Physics {
             };
             (&point.scene, factor)
         });
-        Self::new(points, study.plan())
+        Self::new(points, plan)
     }
 
     /// Points given as scene and sign factor (1 or -1).
@@ -86,20 +95,15 @@ impl Physics {
                         scene: scene.clone(),
                         plain: OnceLock::new(),
                         longer: Mutex::new(None),
-                        shares_structure: false,
                     });
                     slots.len() - 1
                 });
                 (slot, sign)
             })
             .collect();
-        let keys: Vec<_> = slots
-            .iter()
-            .map(|slot| structure_key(&slot.scene))
-            .collect();
-        for (slot, key) in slots.iter_mut().zip(&keys) {
-            slot.shares_structure = keys.iter().filter(|other| *other == key).count() > 1;
-        }
+        let mut seen = HashSet::new();
+        let keys = slots.iter().map(|slot| structure_key(&slot.scene));
+        let shared_structures = keys.filter(|key| !seen.insert(*key)).collect();
         Self {
             slots,
             points,
@@ -107,6 +111,7 @@ impl Physics {
             turned: Mutex::new(VecDeque::new()),
             donors: Mutex::new(Vec::new()),
             shelf: Shelf::default(),
+            shared_structures,
             workspaces: Mutex::new(Vec::new()),
         }
     }
@@ -134,7 +139,10 @@ impl Physics {
         };
         let given = donors.iter().map(|donor| &**donor);
         let model = Arc::new(Model::assemble(scene, &self.plan, given)?);
-        let is_new = !(donors.iter().any(has_structure) && donors.iter().any(has_film));
+        // Kept for others: a new film, or a structure that other points have too.
+        let gives_structure = self.shared_structures.contains(&structure_key(scene));
+        let is_new =
+            !donors.iter().any(has_film) || gives_structure && !donors.iter().any(has_structure);
         if self.plan.shares_parts && is_new {
             lock(&self.donors).push(Arc::clone(&model));
         }
@@ -195,14 +203,12 @@ impl Physics {
         }
     }
 
-    fn run(&self, point: usize, model: &Model, request: &Request) -> Outcome {
+    fn run(&self, model: &Model, request: &Request) -> Outcome {
         let mut workspace = lock(&self.workspaces).pop().unwrap_or_default();
-        let slot = &self.slots[self.points[point].0];
-        let outcome = if self.plan.shares_parts && slot.shares_structure && !request.record {
-            let key = (
-                structure_key(model.scene()),
-                request.amplitude_m_per_s2.to_bits(),
-            );
+        let structure = structure_key(model.scene());
+        let is_shared = self.plan.shares_parts && self.shared_structures.contains(&structure);
+        let outcome = if is_shared && !request.record {
+            let key = (structure, request.amplitude_m_per_s2.to_bits());
             let nodes = model.structure().n_steps() + 1;
             let run = || run_structure(model, request, &mut workspace);
             let shared = self.shelf.get_or_run(key, nodes, run);
@@ -246,7 +252,7 @@ impl Simulator for Physics {
                     stop_at_failure: true,
                     record: false,
                 };
-                probe_result(&self.run(point, &model, &request))
+                probe_result(&self.run(&model, &request))
             }
         }
     }
@@ -258,7 +264,7 @@ impl Simulator for Physics {
             stop_at_failure: true,
             record: true,
         };
-        Some(self.run(point, &model, &request))
+        Some(self.run(&model, &request))
     }
 
     fn onset(&self, point: usize) -> Onset {

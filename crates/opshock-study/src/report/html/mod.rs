@@ -4,6 +4,7 @@
 use super::critical_shock::critical_shock_figure;
 use super::outcome_map::{RunDot, outcome_map};
 use super::table;
+use crate::store::Audit;
 use crate::store::summary::{Flag, PointSummary, Status, Summary};
 use std::fmt::Write as _;
 
@@ -18,6 +19,18 @@ pub struct ReportSource<'a> {
     pub program: &'a str,
     /// The study with every default written out, when the store has it.
     pub resolved_study: Option<&'a str>,
+    /// The last audit of the store.
+    pub audit: Option<&'a Audit>,
+}
+
+impl ReportSource<'_> {
+    /// The line under a table: program, study, audit.
+    pub fn provenance(&self) -> String {
+        let audit = self
+            .audit
+            .map_or(String::new(), |audit| format!("; {}", audit.sentence()));
+        format!("{}, study {}{audit}", self.program, self.summary.digest)
+    }
 }
 
 /// The page.
@@ -219,6 +232,11 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("program", source.program);
     entry("study", &summary.study);
     entry("digest", &summary.digest);
+    if let Some(audit) = source.audit {
+        let mut told = vec![audit.sentence()];
+        told.extend(audit.differences.iter().map(ToString::to_string));
+        entry("audit", &told.join("; "));
+    }
     let cost = &summary.totals.cost;
     entry(
         "work",

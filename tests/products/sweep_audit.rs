@@ -1,0 +1,101 @@
+//! `opshock sweep --audit`: finished simulations against the same ones in full.
+
+use std::path::Path;
+
+use super::cli::{Done, study};
+use opshock_study::store::folder::session;
+use opshock_study::store::{Record, Store, StudyTexts, load};
+
+const SMALL: &[&str] = &[
+    "pulse.widths_ms=[0.5]",
+    "pulse.signs=[\"+\"]",
+    "ramp.models=[\"none\", \"rigid\"]",
+    "pulse.window_ms=0.8",
+    "search.tolerance_pct=20",
+    "solver.accuracy=\"5%\"",
+    "solver.film_cells=100",
+    "solver.disk_cut_khz=10",
+    "output.keep_histories=\"none\"",
+];
+
+fn sweep(folder: &Path, store: &str, audit: &str) -> Done {
+    let path = study("fig13");
+    let mut words = vec!["sweep", path.to_str().unwrap(), "--store", store];
+    words.extend(["-j2", "--progress", "none", "--audit", audit]);
+    for key in SMALL {
+        words.extend(["--set", key]);
+    }
+    Done::of(folder, &words)
+}
+
+#[test]
+fn an_audit_finds_every_altered_number_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("folder");
+    let clean = sweep(folder.path(), "clean", "100%");
+    assert!([0, 4].contains(&clean.code), "{}", clean.stderr);
+    assert!(clean.stderr.contains("with all effects, no difference"));
+    let report = |store: &str| Done::of(folder.path(), &["report", store, "--format", "json"]);
+    let audit = report("clean").json()["audit"].clone();
+    let runs = audit["runs"].as_u64().unwrap();
+    assert!(runs > 5 && audit["of_runs"] == runs);
+    let page = Done::of(folder.path(), &["report", "clean", "--format", "md"]).stdout;
+    assert!(
+        page.contains(&format!("audit: {runs} of {runs} simulations")),
+        "{page}"
+    );
+
+    // The same store with the smallest clearance of one surviving run a bit larger.
+    let (loaded, _) = load(&folder.path().join("clean")).expect("loads");
+    let texts = |name: &str| std::fs::read_to_string(folder.path().join("clean").join(name));
+    let texts = StudyTexts {
+        name: report("clean").json()["study"].as_str().unwrap().to_owned(),
+        given: texts("study.toml").unwrap(),
+        resolved: texts("study.resolved.toml").unwrap(),
+    };
+    let mut runs: Vec<_> = loaded.runs.into_values().collect();
+    runs.sort_by_key(|run| run.key);
+    let survivor = runs.iter_mut().find(|run| {
+        run.key.window_factor == 1 && run.result.h_min_m.is_some_and(|height| height > 0.0)
+    });
+    let height = survivor.unwrap().result.h_min_m.as_mut().unwrap();
+    let (true_m, false_m) = (*height, height.next_up());
+    *height = false_m;
+    let other = folder.path().join("altered");
+    let (mut store, _) = Store::open(&other, &texts, &session(1)).expect("opens");
+    let records: Vec<Record> = runs.into_iter().map(Record::Run).collect();
+    store.append(&records).expect("appends");
+    drop(store);
+    let found = sweep(folder.path(), "altered", "1.0");
+    assert_eq!(found.code, 7, "{}", found.stderr);
+    let named = format!("h_min_m is {false_m:e} as stored and {true_m:e} in full");
+    assert!(found.stderr.contains(&named), "{}", found.stderr);
+    assert_eq!(found.stderr.matches("as stored").count(), 1);
+    let kept = report("altered").json()["audit"]["differences"].clone();
+    assert_eq!(kept.as_array().unwrap().len(), 1);
+    assert_eq!(kept[0]["quantity"], "h_min_m");
+}
+
+#[test]
+fn a_sample_is_a_share_and_a_wrong_share_is_refused() {
+    let folder = tempfile::tempdir().expect("folder");
+    for wrong in ["0", "0%", "101%", "two", "nan"] {
+        let refused = sweep(folder.path(), "s", wrong);
+        assert_eq!(refused.code, 2, "{wrong}");
+        assert!(
+            refused.stderr.contains("share above 0 %"),
+            "{}",
+            refused.stderr
+        );
+    }
+    let done = sweep(folder.path(), "s", "20%");
+    assert!([0, 4].contains(&done.code), "{}", done.stderr);
+    let audit =
+        Done::of(folder.path(), &["report", "s", "--format", "json"]).json()["audit"].clone();
+    let of_runs = audit["of_runs"].as_f64().unwrap();
+    assert_eq!(audit["runs"].as_f64().unwrap(), (0.2 * of_runs).ceil());
+    // The sample is seeded: again, and with one thread, the same file.
+    let file = || std::fs::read(folder.path().join("s/audit.json")).unwrap();
+    let first = file();
+    sweep(folder.path(), "s", "0.2");
+    assert_eq!(first, file());
+}
