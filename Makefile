@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-fuzz
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -41,7 +41,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-hard verify-scenes ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -51,6 +51,12 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
+
+verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
+	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
+
+verify-scenes: bootstrap ## 14000 random scenes (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow
 
 verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse or journal (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)
