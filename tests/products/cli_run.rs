@@ -135,6 +135,13 @@ fn a_study_of_the_disk_alone_runs_without_a_head() {
         "h.h5",
     ];
     let json = run(folder.path(), &set).json();
+    let text: Vec<&str> = set.into_iter().filter(|word| *word != "--json").collect();
+    let text = run(folder.path(), &text).stdout;
+    assert!(text.contains("no verdict: head not simulated"), "{text}");
+    assert!(!text.contains("survives"), "{text}");
+    for pointer in ["/verdict", "/cause"] {
+        assert!(json.pointer(pointer).unwrap().is_null(), "{pointer}");
+    }
     for pointer in ["/min_clearance_m", "/steady", "/dimple"] {
         assert!(json.pointer(pointer).unwrap().is_null(), "{pointer}");
     }

@@ -171,7 +171,7 @@ fn what_does_not_exist_is_null_and_never_a_verdict() {
     assert_eq!(run["verdict"], "undecided");
     assert_eq!(
         run["cause"],
-        "the limit of 500 steps was reached at 1.500000 ms"
+        "the limit of 500 steps was reached 1000.000 us after the onset"
     );
     for pointer in [
         "/t_fail_s",

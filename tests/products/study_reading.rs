@@ -553,6 +553,46 @@ fn rungs_set_the_resolutions_and_single_keys_override_them() {
 }
 
 #[test]
+fn the_coupling_tolerance_follows_a_head_tolerance_set_alone() {
+    let tolerances = |sets: &[&str]| -> Vec<[f64; 2]> {
+        let study = read(SHORT, sets).unwrap();
+        // The resolved study stands for the same points.
+        let again = read(&study.resolved_toml(), &[]).unwrap();
+        let scenes = |study: &Study| -> Vec<_> {
+            study
+                .points
+                .iter()
+                .map(|point| point.scene.clone())
+                .collect()
+        };
+        assert_eq!(scenes(&study), scenes(&again), "{sets:?}");
+        let mut pairs: Vec<[f64; 2]> = study
+            .points
+            .iter()
+            .map(|point| &point.scene.head_resolution)
+            .map(|head| [head.tolerance, head.coupling_tolerance])
+            .collect();
+        pairs.dedup();
+        pairs
+    };
+    let rung = tolerances(&["solver.accuracy=1%"]);
+    assert_eq!(rung, [[2e-2, 2e-4]]);
+    assert_eq!(
+        tolerances(&["solver.head_tolerance=1e-3"]),
+        [[1e-3, 0.01 * 1e-3]]
+    );
+    let both = [
+        "solver.head_tolerance=1e-3",
+        "solver.coupling_tolerance=1e-8",
+    ];
+    assert_eq!(tolerances(&both), [[1e-3, 1e-8]]);
+    let mut axis = tolerances(&["solver.head_tolerance=[1e-2, 1e-3]"]);
+    axis.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    axis.dedup();
+    assert_eq!(axis, [[1e-3, 0.01 * 1e-3], [1e-2, 0.01 * 1e-2]]);
+}
+
+#[test]
 fn the_schema_knows_every_key_and_no_other() {
     use opshock_study::study::keys::KEYS;
     let schema = opshock_study::study::schema::json_schema();

@@ -54,6 +54,33 @@ pub enum Cause {
     },
 }
 
+/// A sentence; times are after the onset of the pulse.
+impl std::fmt::Display for Cause {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let us = |time_s: &f64| 1e6 * time_s;
+        match self {
+            Cause::NotConverged { time_s, residual } => write!(
+                f,
+                "the coupled solve did not converge {:.3} us after the onset: scaled residual \
+                 {residual:.1e} at the smallest step",
+                us(time_s)
+            ),
+            Cause::StepLimit { time_s, max_steps } => write!(
+                f,
+                "the limit of {max_steps} steps was reached {:.3} us after the onset",
+                us(time_s)
+            ),
+            Cause::NotFinite { time_s, quantity } => {
+                write!(
+                    f,
+                    "{quantity} was not finite {:.3} us after the onset",
+                    us(time_s)
+                )
+            }
+        }
+    }
+}
+
 /// Dimple force over the simulated head.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DimpleRecord {

@@ -42,7 +42,7 @@ pub struct Cost {
 /// Everything one simulation answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Verdict.
+    /// Verdict on what was simulated; [`Outcome::answer`] asks for that on the interface.
     pub verdict: Verdict,
     /// Smallest clearance, m; `None` when the head was not simulated.
     pub min_clearance_m: Option<f64>,
@@ -72,6 +72,17 @@ pub struct Outcome {
     pub cost: Cost,
     /// Histories, when asked for.
     pub history: Option<History>,
+}
+
+impl Outcome {
+    /// The verdict; `None` when the head was not simulated and disk and ramp ran to the end.
+    pub fn answer(&self) -> Option<&Verdict> {
+        let is_without_head = self.min_clearance_m.is_none();
+        match &self.verdict {
+            Verdict::Survives if is_without_head => None,
+            verdict => Some(verdict),
+        }
+    }
 }
 
 /// A warning of one run.

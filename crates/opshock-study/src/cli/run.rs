@@ -154,7 +154,7 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
         point: coordinates,
         amplitude_g: shot.amplitude_g,
         start_s: study.start_s,
-        verdict: verdict_word(&outcome.verdict).to_owned(),
+        verdict: outcome.answer().map_or("none", verdict_word).to_owned(),
         t_fail_s: t_fail_s(study, outcome),
         effects: outcome
             .effects

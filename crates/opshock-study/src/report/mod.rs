@@ -15,6 +15,6 @@ pub use critical_shock::critical_shock_figure;
 pub use files::{ReportError, write_report};
 pub use html::ReportSource;
 pub use outcome_map::{RunDot, outcome_map};
-pub use run_json::{RunJson, cause_text, verdict_word};
+pub use run_json::{RunJson, verdict_word};
 pub use run_plots::{NamedFigure, PlotError, RunCaption, run_figures, write_figures};
 pub use run_text::run_text;

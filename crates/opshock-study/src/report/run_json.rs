@@ -1,7 +1,7 @@
 //! What one simulation answered, for machines: the JSON of `opshock run --json`.
 
 use opshock_solver::simulation::{
-    ArmContact, Cause, Complementarity, EnergyBook, Outcome, Verdict, Warning,
+    ArmContact, Complementarity, EnergyBook, Outcome, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use serde::Serialize;
     reason = "the names are the documented JSON keys: docs/files.md"
 )]
 pub struct RunJson {
-    pub verdict: &'static str,
+    pub verdict: Option<&'static str>,
     pub cause: Option<String>,
     pub t_fail_s: Option<f64>,
     pub place: Option<PlaceJson>,
@@ -191,9 +191,9 @@ impl RunJson {
         let disk = &outcome.disk;
         let cost = &outcome.cost;
         Self {
-            verdict: verdict_word(&outcome.verdict),
+            verdict: outcome.answer().map(verdict_word),
             cause: match &outcome.verdict {
-                Verdict::Undecided { cause } => Some(cause_text(cause, start_s)),
+                Verdict::Undecided { cause } => Some(cause.to_string()),
                 Verdict::Survives | Verdict::Fails { .. } => None,
             },
             t_fail_s,
@@ -244,24 +244,6 @@ pub fn verdict_word(verdict: &Verdict) -> &'static str {
         Verdict::Survives => "survives",
         Verdict::Fails { .. } => "fails",
         Verdict::Undecided { .. } => "undecided",
-    }
-}
-
-/// One sentence on why a run has no verdict; times on the study's axis.
-pub fn cause_text(cause: &Cause, start_s: f64) -> String {
-    let ms = |time_s: &f64| 1e3 * (time_s + start_s);
-    match cause {
-        Cause::NotConverged { time_s, residual } => format!(
-            "the coupled solve did not converge at {:.6} ms: scaled residual {residual:.1e} at the smallest step",
-            ms(time_s)
-        ),
-        Cause::StepLimit { time_s, max_steps } => format!(
-            "the limit of {max_steps} steps was reached at {:.6} ms",
-            ms(time_s)
-        ),
-        Cause::NotFinite { time_s, quantity } => {
-            format!("{quantity} was not finite at {:.6} ms", ms(time_s))
-        }
     }
 }
 

@@ -128,7 +128,10 @@ fn verdict(run: &RunJson) -> String {
             1e6 * place.y_m
         ),
         (_, _, Some(cause)) => format!("undecided: {cause}"),
-        _ => run.verdict.to_owned(),
+        _ => run
+            .verdict
+            .unwrap_or("no verdict: head not simulated")
+            .to_owned(),
     }
 }
 

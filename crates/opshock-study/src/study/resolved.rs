@@ -90,10 +90,10 @@ fn value_at(settings: &Settings, path: &str) -> Option<String> {
         });
     }
     let key = keys::find(path)?;
-    let rung_is_axis = settings
-        .get("solver.accuracy")
-        .is_some_and(|setting| setting.is_axis);
-    (key.presence == Presence::Rung && !rung_is_axis)
+    let is_axis = |path| settings.get(path).is_some_and(|setting| setting.is_axis);
+    let follows_axis = is_axis("solver.accuracy")
+        || path == "solver.coupling_tolerance" && is_axis("solver.head_tolerance");
+    (key.presence == Presence::Rung && !follows_axis)
         .then(|| rung_value(settings, path))
         .flatten()
 }

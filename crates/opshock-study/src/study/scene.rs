@@ -49,6 +49,9 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     }
 }
 
+/// Coupling tolerance as a share of the head's, unless the study sets it.
+const COUPLING_SHARE: f64 = 0.01;
+
 /// Accuracy asked for at a point.
 pub fn rung(view: &View<'_>) -> Rung {
     words::rung(view.word("solver.accuracy"))
@@ -63,6 +66,12 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
             .map_or(base, |value| value as usize)
     };
     let number = |path: &str, base: f64| view.maybe_si(path).unwrap_or(base);
+    // What the solve leaves must stay small beside the error of a step.
+    let coupling_tolerance = view
+        .maybe_si("solver.head_tolerance")
+        .map_or(base.head.coupling_tolerance, |tolerance| {
+            COUPLING_SHARE * tolerance
+        });
     Resolutions {
         disk: DiskResolution {
             n_harmonics: count("solver.disk_harmonics", base.disk.n_harmonics),
@@ -91,7 +100,7 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
                 "monolithic" => Coupling::Monolithic,
                 _ => base.head.coupling,
             },
-            coupling_tolerance: number("solver.coupling_tolerance", base.head.coupling_tolerance),
+            coupling_tolerance: number("solver.coupling_tolerance", coupling_tolerance),
             max_steps: view
                 .maybe_integer("solver.max_steps")
                 .map_or(base.head.max_steps, |value| value as u64),

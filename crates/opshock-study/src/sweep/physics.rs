@@ -301,7 +301,7 @@ pub fn probe_result(outcome: &Outcome) -> ProbeResult {
                 Cause::StepLimit { .. } => UndecidedCause::StepLimit,
                 Cause::NotFinite { .. } => UndecidedCause::NotFinite,
             },
-            message: sentence(cause),
+            message: cause.to_string(),
         },
     };
     let cost = &outcome.cost;
@@ -317,20 +317,5 @@ pub fn probe_result(outcome: &Outcome) -> ProbeResult {
             structure_steps: cost.structure_steps,
             film_unknowns: cost.film_unknowns,
         },
-    }
-}
-
-fn sentence(cause: &Cause) -> String {
-    match cause {
-        Cause::NotConverged { time_s, residual } => format!(
-            "the coupled solve did not converge at {:.3} us (residual {residual:.1e})",
-            1e6 * time_s
-        ),
-        Cause::StepLimit { time_s, max_steps } => {
-            format!("{max_steps} steps reached {:.3} us only", 1e6 * time_s)
-        }
-        Cause::NotFinite { time_s, quantity } => {
-            format!("{quantity} is not finite at {:.3} us", 1e6 * time_s)
-        }
     }
 }
