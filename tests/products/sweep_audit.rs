@@ -44,6 +44,21 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         "{page}"
     );
 
+    // The plan stands with the results.
+    let results = hdf5::File::open(folder.path().join("clean/results.h5")).unwrap();
+    let plan = results.attr("plan").unwrap();
+    let plan = plan.read_scalar::<hdf5::types::VarLenUnicode>().unwrap();
+    let plan: serde_json::Value = serde_json::from_str(&plan).unwrap();
+    assert_eq!(plan["outputs"], serde_json::json!(["critical_shock"]));
+    let ramp = |ramp: &str| plan["ramps"][ramp].clone();
+    assert_eq!(ramp("none")["effects"]["disk.travelling_waves"], "off");
+    assert_eq!(ramp("rigid")["effects"]["ramp.contact"], "asleep");
+    let has_r4 = |rules: &str| {
+        let rules = ramp("rigid")[rules].clone();
+        rules.as_array().unwrap().iter().any(|rule| rule == "R4")
+    };
+    assert!(has_r4("rules_below_touch") && !has_r4("rules_above_touch"));
+
     // The same store with the smallest clearance of one surviving run a bit larger.
     let (loaded, _) = load(&folder.path().join("clean")).expect("loads");
     let texts = |name: &str| std::fs::read_to_string(folder.path().join("clean").join(name));

@@ -50,6 +50,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
             resolved: "name = \"mock\"\n".into(),
         },
         digest: "0123".into(),
+        plan: "{}".into(),
         axes: Vec::new(),
         points,
         settings: settings(Certify::Staggered),

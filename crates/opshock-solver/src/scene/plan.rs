@@ -134,6 +134,16 @@ pub enum Mode {
     Full,
 }
 
+impl Mode {
+    /// Its name in a study.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Mode::Auto => "auto",
+            Mode::Full => "full",
+        }
+    }
+}
+
 /// What is built and run for some outputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -174,6 +184,17 @@ pub enum State {
     Asleep,
     /// Not built.
     Off,
+}
+
+impl State {
+    /// `on`, `asleep` or `off`.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            State::On => "on",
+            State::Asleep => "asleep",
+            State::Off => "off",
+        }
+    }
 }
 
 /// One effect of a scene under a plan.

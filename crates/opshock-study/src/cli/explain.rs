@@ -13,7 +13,7 @@ use clap::Args;
 use opshock_solver::air_bearing::Film;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::plan::{Decision, Effect, Mode, Needs, Plan, State, Touch};
+use opshock_solver::scene::plan::{Decision, Effect, Mode, Needs, Plan, Touch};
 use opshock_solver::simulation::{Bearing, Model, Request, Workspace, simulate};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -184,21 +184,6 @@ fn explain(
     })
 }
 
-fn state_word(state: State) -> &'static str {
-    match state {
-        State::On => "on",
-        State::Asleep => "asleep",
-        State::Off => "off",
-    }
-}
-
-fn mode_word(plan: &Plan) -> &'static str {
-    match plan.mode {
-        Mode::Auto => "auto",
-        Mode::Full => "full",
-    }
-}
-
 fn rules_json(rules: &[Decision]) -> Vec<Value> {
     rules
         .iter()
@@ -221,7 +206,7 @@ fn as_json(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
             let effects: Vec<Value> = scene
                 .effects
                 .iter()
-                .map(|e| json!({"effect": e.name, "state": state_word(e.state), "rule": e.rule}))
+                .map(|e| json!({"effect": e.name, "state": e.state.as_str(), "rule": e.rule}))
                 .collect();
             let mut row = coordinates(&scene.point);
             row.insert("effects".into(), json!(effects));
@@ -248,7 +233,7 @@ fn as_json(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
     json!({
         "study": study.name,
         "digest": study.digest_hex(),
-        "mode": mode_word(plan),
+        "mode": plan.mode.as_str(),
         "outputs": study.outputs,
         "amplitude_g": amplitude_g,
         "rules": all.first().map(|first| rules_json(&first.rules)),
@@ -261,7 +246,7 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
         "{}: outputs {}, effects {}{}\n\n",
         study.name,
         study.outputs.join(", "),
-        mode_word(plan),
+        plan.mode.as_str(),
         amplitude_g.map_or(String::new(), |g| format!(", {g} G")),
     );
     let Some(first) = all.first() else {
@@ -277,8 +262,8 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
         let _ = write!(text, "{:width$}", scene.point.label());
         for effect in &scene.effects {
             let state = match effect.rule {
-                Some(rule) => format!("{} {rule}", state_word(effect.state)),
-                None => state_word(effect.state).to_owned(),
+                Some(rule) => format!("{} {rule}", effect.state.as_str()),
+                None => effect.state.as_str().to_owned(),
             };
             let _ = write!(text, "  {state:<wide$}", wide = effect.name.len());
         }

@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::plan::Touch;
 use opshock_solver::scene::{Scene, Window};
+use serde_json::json;
 
 use super::input::{BarPlan, SweepInput, SweepPoint};
 use crate::identity;
@@ -42,6 +44,7 @@ impl SweepInput {
                 resolved: study.resolved_toml(),
             },
             digest: study.digest_hex(),
+            plan: plan_json(study),
             axes: study.axes.iter().map(|axis| axis.column.clone()).collect(),
             points: study
                 .table_order()
@@ -54,6 +57,29 @@ impl SweepInput {
             checkpoint: Duration::from_secs_f64(study.output.checkpoint_s.clamp(0.1, 1e6)),
         })
     }
+}
+
+/// What the study's plan makes of each ramp: effects at the start of a run, rules applied below
+/// and above the first touch.
+fn plan_json(study: &Study) -> String {
+    let plan = study.plan();
+    let mut scenes = serde_json::Map::new();
+    for point in &study.points {
+        let scene = &point.scene;
+        let effects = plan.effects(scene, &Touch::default());
+        let effects = effects
+            .iter()
+            .map(|effect| (effect.name.to_owned(), json!(effect.state.as_str())))
+            .collect::<serde_json::Map<_, _>>();
+        let told = json!({
+            "effects": effects,
+            "rules_below_touch": plan.applied(scene, false),
+            "rules_above_touch": plan.applied(scene, true),
+        });
+        scenes.entry(point.ramp.as_str()).or_insert(told);
+    }
+    let outputs: Vec<&str> = plan.outputs.iter().map(|output| output.as_str()).collect();
+    json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes}).to_string()
 }
 
 fn sweep_point(point: &Point, error_bars: bool) -> SweepPoint {

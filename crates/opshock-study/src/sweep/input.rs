@@ -40,6 +40,8 @@ pub struct SweepInput {
     pub texts: StudyTexts,
     /// Digest of the study.
     pub digest: String,
+    /// Effects and rules of each ramp's scenes, as JSON; kept with the results.
+    pub plan: String,
     /// Names of the further axes.
     pub axes: Vec<String>,
     /// Points in the study's order.

@@ -463,6 +463,7 @@ impl<'a> Ledger<'a> {
             },
             nodes_per_octave: self.input.settings.lattice.nodes_per_octave,
             start_s: self.input.start_s,
+            plan: self.input.plan.clone(),
             points: self
                 .input
                 .points

@@ -120,6 +120,7 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
         },
         nodes_per_octave: get_number(&root, "nodes_per_octave")?,
         start_s: get_number(&root, "start_s")?,
+        plan: get_text(&root, "plan").unwrap_or_default(),
         points,
         runs,
         outside,

@@ -48,6 +48,7 @@ fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
     put_number(&root, "nodes_per_octave", results.nodes_per_octave)?;
     put_number(&root, "reference_g", REFERENCE_G)?;
     put_number(&root, "start_s", results.start_s)?;
+    put_text(&root, "plan", &results.plan)?;
     put_text(&root, "content_blake3", &results.content_digest())?;
 
     let points = root.create_group("points")?;
