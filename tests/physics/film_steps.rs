@@ -126,7 +126,7 @@ fn suction_keeps_pressure_positive_and_mass_closed() {
         assert!(pressure.iter().all(|p| *p > 0.0));
     }
     // 10 µm away nothing but the ambient pressure is left to pull.
-    assert!(film.force(&psi, &attitude)[0] > -AMBIENT_PA * LENGTH_M * LENGTH_M);
+    assert!(film.force(&psi, &attitude, &mut scratch)[0] > -AMBIENT_PA * LENGTH_M * LENGTH_M);
 }
 
 /// Uniform approach to a height far below any molecule.

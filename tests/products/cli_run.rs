@@ -276,8 +276,8 @@ fn an_interrupted_sweep_saves_and_ends_with_the_code_of_the_signal() {
     lines.next().unwrap().unwrap();
     let pid = child.id().to_string();
     assert!(
-        std::process::Command::new("kill")
-            .args(["-TERM", &pid])
+        std::process::Command::new("sh")
+            .args(["-c", &format!("kill -TERM {pid}")])
             .status()
             .unwrap()
             .success()

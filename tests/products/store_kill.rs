@@ -44,8 +44,9 @@ fn start(folder: &Path) -> Child {
 }
 
 fn send(child: &Child, signal: &str) {
-    let status = Command::new("kill")
-        .args([signal, &child.id().to_string()])
+    // The shell's own `kill`: the program of that name is not on every machine.
+    let status = Command::new("sh")
+        .args(["-c", &format!("kill {signal} {}", child.id())])
         .status()
         .expect("kill");
     assert!(status.success());

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 /// Module of the solver, its floor.
 const SOLVER: &[(&str, u8)] = &[
     ("quantity", 0),
+    ("elementary", 0),
+    ("lanes", 0),
     ("gas", 0),
     ("linalg", 0),
     ("grid", 0),

@@ -65,8 +65,9 @@ impl PlaneSlider {
         let mut held = self.hold(x, &uniform(5, self.width));
         let n = x.len() - 1;
         let mut forces = vec![0.0; held.film.n_cells()];
+        let scratch = &mut held.film.scratch();
         held.film
-            .cell_forces(&held.psi, &self.attitude(), &mut forces);
+            .cell_forces(&held.psi, &self.attitude(), &mut forces, scratch);
         let row = |i: usize| forces[held.film.cell_index(i, 2)];
         let total: f64 = (0..n).map(row).sum();
         let moment: f64 = (0..n).map(|i| row(i) * 0.5 * (x[i] + x[i + 1])).sum();

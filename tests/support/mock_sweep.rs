@@ -107,6 +107,9 @@ pub struct MockSimulator<'a> {
     /// What is wrong with which point.
     pub poison: Vec<(Coordinates, Poison)>,
     calls: AtomicU64,
+    /// Runs going on now, and runs that began or ended beside another one.
+    running: AtomicU64,
+    accompanied: AtomicU64,
 }
 
 impl<'a> MockSimulator<'a> {
@@ -118,12 +121,19 @@ impl<'a> MockSimulator<'a> {
             records: false,
             poison: Vec::new(),
             calls: AtomicU64::new(0),
+            running: AtomicU64::new(0),
+            accompanied: AtomicU64::new(0),
         }
     }
 
     /// Simulations made.
     pub fn calls(&self) -> u64 {
         self.calls.load(Ordering::SeqCst)
+    }
+
+    /// Simulations beside which another one was running when they began or ended.
+    pub fn accompanied(&self) -> u64 {
+        self.accompanied.load(Ordering::SeqCst)
     }
 }
 
@@ -159,7 +169,12 @@ pub fn onset_g(at: &Coordinates) -> Option<f64> {
 impl Simulator for MockSimulator<'_> {
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
         self.calls.fetch_add(1, Ordering::SeqCst);
+        let beside_at_start = self.running.fetch_add(1, Ordering::SeqCst) > 0;
         std::thread::sleep(self.sleep * u32::from(probe.window_factor));
+        let beside_at_end = self.running.fetch_sub(1, Ordering::SeqCst) > 1;
+        if beside_at_start || beside_at_end {
+            self.accompanied.fetch_add(1, Ordering::SeqCst);
+        }
         let at = &self.input.points[point].coordinates;
         assert_eq!(amplitude_m_per_s2.signum(), at.sign.factor());
         let amplitude_g = amplitude_m_per_s2.abs() / STANDARD_GRAVITY_M_PER_S2;

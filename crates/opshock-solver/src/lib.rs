@@ -20,11 +20,13 @@
 pub mod air_bearing;
 pub mod complementarity;
 pub mod disk;
+pub mod elementary;
 pub mod fixed_point;
 pub mod gas;
 pub mod grid;
 pub mod head;
 pub mod integrator;
+pub mod lanes;
 pub mod linalg;
 pub mod modal;
 pub mod quantity;

@@ -1,179 +1,39 @@
-//! Flux balance of all cells and force on the slider, with their derivatives.
+//! Flux balance of all cells and force on the slider.
 //!
-//! One sweep over the faces yields, per face, the flux from cell to cell and the force of the two
-//! half cells beyond their centres' pressure. Everything public here is a choice of what to add up.
+//! Faces are taken a block at a time, direction by direction, the slider's edges last; each gives a
+//! flux from cell to cell and the loads of its half cells beyond their centres' pressure.
+
+#![expect(
+    clippy::needless_range_loop,
+    reason = "many columns are walked in step, which an index says plainest"
+)]
 
 use super::Attitude;
+use super::faces::{BLOCK, Block, Interior, Places, block};
 use super::film::Film;
-use super::flux::{HalfCell, Partials};
-use super::mesh::{Cell, Place, Side};
-use crate::linalg::banded::BandMatrix;
+use super::flux::is_steep;
+use super::state::{FilmScratch, Picked, SideBlock, block_mut};
+use crate::lanes::{Kernel, widest};
 
-/// Scratch of the flux balance, one per thread.
-#[derive(Clone, Debug)]
-pub struct FilmScratch {
-    /// Height, its derivative by the true height, G and dG/dψ of every cell.
-    columns: Vec<Column>,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Column {
-    pub(super) h: f64,
-    pub(super) h_slope: f64,
-    pub(super) g: f64,
-    pub(super) g_slope: f64,
-}
-
-/// Residual and derivatives of the flux balance at one state.
-#[derive(Clone, Debug)]
-pub struct FilmLinearisation {
-    /// R, as from [`Film::flux_residual`]; length n_cells.
-    pub residual: Vec<f64>,
-    /// dR/dψ.
-    pub by_psi: BandMatrix,
-    /// dR/d(h_c, pitch, roll); each of length n_cells.
-    pub by_attitude: [Vec<f64>; 3],
-    /// [F_z, M_pitch, M_roll], as from [`Film::force`].
-    pub force: [f64; 3],
-    /// Derivatives of each force by every cell's ψ; each of length n_cells.
-    pub force_by_psi: [Vec<f64>; 3],
-    /// Derivatives of each force by (h_c, pitch, roll) at constant ψ: `[force][q]`.
-    pub force_by_attitude: [[f64; 3]; 3],
-}
-
-/// Flux and load of one face with their derivatives.
-struct FaceDerivatives {
-    /// Cell the flux leaves, and cell it enters.
-    cells: [Option<usize>; 2],
-    /// Cells whose ψ the derivatives are by; may repeat.
-    sources: [usize; 4],
-    arms: [f64; 3],
-    flux: f64,
-    flux_by_psi: [f64; 4],
-    flux_by_attitude: [f64; 3],
-    load: f64,
-    load_by_psi: [f64; 4],
-    load_by_attitude: [f64; 3],
-}
-
-impl FaceDerivatives {
-    #[inline(always)]
-    fn add_force_gradients(&self, by_psi: &mut [Vec<f64>; 3], by_attitude: &mut [[f64; 3]; 3]) {
-        for (f, arm) in self.arms.into_iter().enumerate() {
-            for (cell, by) in self.sources.into_iter().zip(self.load_by_psi) {
-                by_psi[f][cell] += arm * by;
-            }
-            for (sum, by) in by_attitude[f].iter_mut().zip(self.load_by_attitude) {
-                *sum += arm * by;
-            }
-        }
-    }
-}
+/// Sums kept apart so that the order of additions does not depend on the width of a register.
+const SUMS: usize = 8;
 
 impl Film {
     /// Scratch for this film.
     pub fn scratch(&self) -> FilmScratch {
-        FilmScratch {
-            columns: vec![Column::default(); self.n_cells()],
-        }
+        FilmScratch::new(self)
     }
 
-    /// Zeroed linearisation of the right shape.
-    pub fn linearisation(&self) -> FilmLinearisation {
-        let n = self.n_cells();
-        FilmLinearisation {
-            residual: vec![0.0; n],
-            by_psi: BandMatrix::zeros(n, self.mesh.half_bandwidth()),
-            by_attitude: std::array::from_fn(|_| vec![0.0; n]),
-            force: [0.0; 3],
-            force_by_psi: std::array::from_fn(|_| vec![0.0; n]),
-            force_by_attitude: [[0.0; 3]; 3],
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn column(&self, cell: &Cell, psi: f64, attitude: &Attitude) -> Column {
-        let (h, h_slope) = self.cell_height(cell, attitude);
-        let (g, g_slope) = self.flow.conductance(psi);
-        Column {
-            h,
-            h_slope,
-            g,
-            g_slope,
-        }
-    }
-
-    fn fill_columns(&self, psi: &[f64], attitude: &Attitude, scratch: &mut FilmScratch) {
-        assert_eq!(psi.len(), self.n_cells());
-        assert_eq!(scratch.columns.len(), self.n_cells());
-        for ((column, &psi), cell) in scratch.columns.iter_mut().zip(psi).zip(&self.mesh.cells) {
-            *column = self.column(cell, psi, attitude);
-        }
-    }
-
-    /// Half cell of `side` and the floor's derivative at its face, whose true height without recess
-    /// is `base`.
-    #[inline(always)]
-    pub(super) fn half_cell(
-        &self,
-        side: &Side,
-        psi: &[f64],
-        column: &Column,
-        base: f64,
-    ) -> (HalfCell, f64) {
-        let (h_face, slope) = self.face_height(base + side.recess);
-        (
-            HalfCell {
-                psi: psi[side.cell],
-                psi_behind: psi[side.behind],
-                reach: side.reach,
-                g: column.g,
-                g_slope: column.g_slope,
-                h_centre: column.h,
-                h_face,
-                inverse_distance: side.inverse_distance,
-                wind: side.wind,
-            },
-            slope,
-        )
-    }
-
-    /// Net outward flux R of every cell: `capacity` dψ/dt + `out` = 0.
+    /// Net outward flux R of every cell, `capacity` dψ/dt + `out` = 0, and the force and moments
+    /// [F_z, M_pitch, M_roll] of the film on the slider, conjugate to (h_c, pitch, roll): N, N m,
+    /// N m. ψ must be positive.
     ///
-    /// ψ must be positive.
+    /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
+    /// layers at the pads' edges count although no cell resolves them.
     ///
     /// # Panics
     ///
-    /// When a slice has not n_cells entries.
-    pub fn flux_residual(
-        &self,
-        psi: &[f64],
-        attitude: &Attitude,
-        out: &mut [f64],
-        scratch: &mut FilmScratch,
-    ) {
-        assert_eq!(out.len(), self.n_cells());
-        self.fill_columns(psi, attitude, scratch);
-        out.fill(0.0);
-        self.sweep(
-            psi,
-            attitude,
-            |c| scratch.columns[c],
-            |cells, flux, _, _| {
-                for (cell, sign) in cells.into_iter().zip([1.0, -1.0]) {
-                    if let Some(cell) = cell {
-                        out[cell] += sign * flux;
-                    }
-                }
-            },
-        );
-    }
-
-    /// [`Film::flux_residual`] and [`Film::force`] in one pass over the faces.
-    ///
-    /// # Panics
-    ///
-    /// When a slice has not n_cells entries.
+    /// When a slice has not n_cells entries or `scratch` belongs to another film.
     pub fn flux_residual_and_force(
         &self,
         psi: &[f64],
@@ -182,332 +42,330 @@ impl Film {
         scratch: &mut FilmScratch,
     ) -> [f64; 3] {
         assert_eq!(out.len(), self.n_cells());
-        self.fill_columns(psi, attitude, scratch);
-        out.fill(0.0);
-        let mut force = self.centre_force(psi, attitude);
-        self.sweep(
+        widest(Balance {
+            film: self,
             psi,
             attitude,
-            |c| scratch.columns[c],
-            |cells, flux, loads, place| {
-                for (cell, sign) in cells.into_iter().zip([1.0, -1.0]) {
-                    if let Some(cell) = cell {
-                        out[cell] += sign * flux;
-                    }
-                }
-                for (f, arm) in force.iter_mut().zip(place.arms()) {
-                    *f += (loads[0] + loads[1]) * arm;
-                }
-            },
-        );
-        force
+            out,
+            cell_loads: None,
+            scratch,
+        })
     }
 
-    /// Force and moments [F_z, M_pitch, M_roll] of the film on the slider, conjugate to (h_c,
-    /// pitch, roll): N, N m, N m.
-    ///
-    /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
-    /// layers at the pads' edges count although no cell resolves them.
+    /// R alone, as from [`Film::flux_residual_and_force`].
     ///
     /// # Panics
     ///
-    /// When `psi` has not n_cells entries.
-    pub fn force(&self, psi: &[f64], attitude: &Attitude) -> [f64; 3] {
-        assert_eq!(psi.len(), self.n_cells());
-        let mut force = self.centre_force(psi, attitude);
-        let column = |c: usize| self.column(&self.mesh.cells[c], psi[c], attitude);
-        self.sweep(psi, attitude, column, |_, _, loads, place| {
-            for (f, arm) in force.iter_mut().zip(place.arms()) {
-                *f += (loads[0] + loads[1]) * arm;
-            }
-        });
-        force
-    }
-
-    /// Normal force on every cell, N, over the same profiles as [`Film::force`].
-    ///
-    /// # Panics
-    ///
-    /// When a slice has not n_cells entries.
-    pub fn cell_forces(&self, psi: &[f64], attitude: &Attitude, out: &mut [f64]) {
-        assert_eq!(psi.len(), self.n_cells());
-        assert_eq!(out.len(), self.n_cells());
-        for ((force, psi), cell) in out.iter_mut().zip(psi).zip(&self.mesh.cells) {
-            let p = psi / self.cell_height(cell, attitude).0;
-            *force = (p - self.ambient_pa) * cell.area;
-        }
-        let column = |c: usize| self.column(&self.mesh.cells[c], psi[c], attitude);
-        self.sweep(psi, attitude, column, |cells, _, loads, _| {
-            for (cell, load) in cells.into_iter().zip(loads) {
-                if let Some(cell) = cell {
-                    out[cell] += load;
-                }
-            }
-        });
-    }
-
-    /// Force of the pressures at the cells' centres, each over its whole cell.
-    fn centre_force(&self, psi: &[f64], attitude: &Attitude) -> [f64; 3] {
-        let mut force = [0.0; 3];
-        for (psi, cell) in psi.iter().zip(&self.mesh.cells) {
-            let p = psi / self.cell_height(cell, attitude).0;
-            let load = (p - self.ambient_pa) * cell.area;
-            for (f, arm) in force.iter_mut().zip(cell.place.arms()) {
-                *f += load * arm;
-            }
-        }
-        force
-    }
-
-    /// Hands every face's flux (out of the first cell, into the second) and the forces of its
-    /// half cells beyond their centre pressures to `take`.
-    #[inline(always)]
-    fn sweep(
+    /// As [`Film::flux_residual_and_force`].
+    pub fn flux_residual(
         &self,
         psi: &[f64],
         attitude: &Attitude,
-        column: impl Fn(usize) -> Column,
-        mut take: impl FnMut([Option<usize>; 2], f64, [f64; 2], &Place),
-    ) {
-        for face in &self.mesh.faces {
-            let base = face.place.height(attitude);
-            let half: [HalfCell; 2] = std::array::from_fn(|s| {
-                let side = &face.sides[s];
-                self.half_cell(side, psi, &column(side.cell), base).0
-            });
-            let (out, excess) = if face.sides[0].wind == 0.0 {
-                let [(a, b), (c, d)] = half.map(|h| h.still());
-                let p = (a + c) / (b + d);
-                (a - b * p, half.map(|h| h.still_excess(p)))
-            } else {
-                let [left, right] = [half[0].flux(), half[1].flux()];
-                let p = (left.alpha + right.alpha) / (left.beta + right.beta);
-                let excess = [
-                    half[0].mean_excess(&left, p),
-                    half[1].mean_excess(&right, p),
-                ];
-                (left.alpha - left.beta * p, excess)
-            };
-            let loads = [
-                face.sides[0].area * excess[0],
-                face.sides[1].area * excess[1],
-            ];
-            take(
-                face.sides.map(|side| Some(side.cell)),
-                face.length * out,
-                loads,
-                &face.place,
-            );
-        }
-        for face in &self.mesh.edge_faces {
-            let side = &face.side;
-            let base = face.place.height(attitude);
-            let half = self.half_cell(side, psi, &column(side.cell), base).0;
-            let (flux, p) = (half.flux(), self.ambient_pa);
-            take(
-                [Some(side.cell), None],
-                face.length * (flux.alpha - flux.beta * p),
-                [side.area * half.mean_excess(&flux, p), 0.0],
-                &face.place,
-            );
-        }
-    }
-
-    /// R and the force with all their derivatives.
-    ///
-    /// # Panics
-    ///
-    /// When `psi`, `out` or `scratch` belong to another film.
-    pub fn linearise(
-        &self,
-        psi: &[f64],
-        attitude: &Attitude,
-        out: &mut FilmLinearisation,
+        out: &mut [f64],
         scratch: &mut FilmScratch,
     ) {
-        assert_eq!(out.residual.len(), self.n_cells());
-        self.fill_columns(psi, attitude, scratch);
-        let columns = &scratch.columns;
-        out.residual.fill(0.0);
-        out.by_psi.clear();
-        out.by_attitude.iter_mut().for_each(|c| c.fill(0.0));
-        out.force = self.centre_force(psi, attitude);
-        self.centre_gradients(
-            psi,
-            attitude,
-            &mut out.force_by_psi,
-            &mut out.force_by_attitude,
-        );
-
-        let by_psi = &mut out.by_psi;
-        let (residual, by_attitude) = (&mut out.residual, &mut out.by_attitude);
-        let (force, force_by_psi) = (&mut out.force, &mut out.force_by_psi);
-        let force_by_attitude = &mut out.force_by_attitude;
-        self.sweep_derivatives(
-            psi,
-            attitude,
-            |c| columns[c],
-            |face| {
-                for (cell, sign) in face.cells.into_iter().zip([1.0, -1.0]) {
-                    let Some(cell) = cell else { continue };
-                    residual[cell] += sign * face.flux;
-                    for (k, by) in face.sources.into_iter().zip(face.flux_by_psi) {
-                        by_psi.add(cell, k, sign * by);
-                    }
-                    for (column, by) in by_attitude.iter_mut().zip(face.flux_by_attitude) {
-                        column[cell] += sign * by;
-                    }
-                }
-                for (f, arm) in force.iter_mut().zip(face.arms) {
-                    *f += arm * face.load;
-                }
-                face.add_force_gradients(force_by_psi, force_by_attitude);
-            },
-        );
+        self.flux_residual_and_force(psi, attitude, out, scratch);
     }
 
-    /// Gradients of [`Film::force`] alone: `by_psi[f][cell]` and `by_attitude[f][q]`, q at constant
-    /// ψ. [`Film::linearise`] yields them too, at little more than its own cost.
+    /// The force alone, as from [`Film::flux_residual_and_force`].
     ///
     /// # Panics
     ///
-    /// When a slice has not n_cells entries.
-    pub fn force_gradients(
+    /// As [`Film::flux_residual_and_force`].
+    pub fn force(&self, psi: &[f64], attitude: &Attitude, scratch: &mut FilmScratch) -> [f64; 3] {
+        let mut out = std::mem::take(&mut scratch.spare);
+        let force = self.flux_residual_and_force(psi, attitude, &mut out, scratch);
+        scratch.spare = out;
+        force
+    }
+
+    /// Normal force on every cell, N, over the same profiles as the whole force.
+    ///
+    /// # Panics
+    ///
+    /// When a slice has not n_cells entries or `scratch` belongs to another film.
+    pub fn cell_forces(
         &self,
         psi: &[f64],
         attitude: &Attitude,
-        by_psi: &mut [Vec<f64>; 3],
-        by_attitude: &mut [[f64; 3]; 3],
+        out: &mut [f64],
+        scratch: &mut FilmScratch,
     ) {
-        assert_eq!(psi.len(), self.n_cells());
-        assert!(by_psi.iter().all(|row| row.len() == self.n_cells()));
-        self.centre_gradients(psi, attitude, by_psi, by_attitude);
-        let column = |c: usize| self.column(&self.mesh.cells[c], psi[c], attitude);
-        self.sweep_derivatives(psi, attitude, column, |face| {
-            face.add_force_gradients(by_psi, by_attitude);
+        assert_eq!(out.len(), self.n_cells());
+        let mut residual = std::mem::take(&mut scratch.spare);
+        widest(Balance {
+            film: self,
+            psi,
+            attitude,
+            out: &mut residual,
+            cell_loads: Some(out),
+            scratch,
         });
+        scratch.spare = residual;
     }
+}
 
-    /// Hands flux and load of every face with their derivatives to `take`.
+/// The balance as a kernel.
+struct Balance<'a> {
+    film: &'a Film,
+    psi: &'a [f64],
+    attitude: &'a Attitude,
+    out: &'a mut [f64],
+    cell_loads: Option<&'a mut [f64]>,
+    scratch: &'a mut FilmScratch,
+}
+
+impl Kernel for Balance<'_> {
+    type Output = [f64; 3];
+
     #[inline(always)]
-    fn sweep_derivatives(
-        &self,
-        psi: &[f64],
-        attitude: &Attitude,
-        column: impl Fn(usize) -> Column,
-        mut take: impl FnMut(&FaceDerivatives),
-    ) {
-        for face in &self.mesh.faces {
-            let base = face.place.height(attitude);
-            let columns = [column(face.sides[0].cell), column(face.sides[1].cell)];
-            let (a, a_slope) = self.half_cell(&face.sides[0], psi, &columns[0], base);
-            let (b, b_slope) = self.half_cell(&face.sides[1], psi, &columns[1], base);
-            let half = [a, b];
-            let flux = [a.flux(), b.flux()];
-            let inverse_total = 1.0 / (flux[0].beta + flux[1].beta);
-            let p = (flux[0].alpha + flux[1].alpha) / (flux[0].beta + flux[1].beta);
+    fn call(self) -> [f64; 3] {
+        let Self {
+            film,
+            psi,
+            attitude,
+            out,
+            mut cell_loads,
+            scratch,
+        } = self;
+        let columns = &film.columns;
+        scratch.fill(film, psi, attitude);
+        let mut moments = Moments::default();
+        let (front, n) = (columns.front, columns.n_cells);
 
-            // J = α_l − β_l p_f; with the face pressure eliminated a change of one side reaches J
-            // through the other side's share of β, and p_f through 1/(β_l + β_r).
-            let share = [
-                face.length * flux[1].beta * inverse_total,
-                -face.length * flux[0].beta * inverse_total,
-            ];
-            let partials: [_; 2] = std::array::from_fn(|s| half[s].partials(&flux[s], p));
-            let load_by_p = inverse_total
-                * (face.sides[0].area * partials[0].excess_by_p
-                    + face.sides[1].area * partials[1].excess_by_p);
-            let mut all = FaceDerivatives {
-                cells: face.sides.map(|side| Some(side.cell)),
-                sources: [0; 4],
-                arms: face.place.arms(),
-                flux: face.length * (flux[0].alpha - flux[0].beta * p),
-                flux_by_psi: [0.0; 4],
-                flux_by_attitude: [0.0; 3],
-                load: face.sides[0].area * half[0].mean_excess(&flux[0], p)
-                    + face.sides[1].area * half[1].mean_excess(&flux[1], p),
-                load_by_psi: [0.0; 4],
-                load_by_attitude: [0.0; 3],
-            };
-            for (s, face_slope) in [a_slope, b_slope].into_iter().enumerate() {
-                let (side, part) = (&face.sides[s], &partials[s]);
-                let load: Partials =
-                    std::array::from_fn(|v| side.area * part.excess[v] + load_by_p * part.flux[v]);
-                let by = part.flux.map(|by| share[s] * by);
-                all.sources[2 * s..2 * s + 2].copy_from_slice(&[side.cell, side.behind]);
-                all.flux_by_psi[2 * s..2 * s + 2].copy_from_slice(&by[..2]);
-                all.load_by_psi[2 * s..2 * s + 2].copy_from_slice(&load[..2]);
-                let slopes = [columns[s].h_slope, face_slope];
-                self.add_by_attitude(side, &all.arms, slopes, &by, &mut all.flux_by_attitude);
-                self.add_by_attitude(side, &all.arms, slopes, &load, &mut all.load_by_attitude);
+        for first in (0..columns.area.len()).step_by(BLOCK) {
+            let psi = block(&scratch.psi, front + first);
+            let inverse_h = block(&scratch.inverse_h, front + first);
+            let area = block(&columns.area, first);
+            let mut load = [0.0; BLOCK];
+            for k in 0..BLOCK {
+                load[k] = (psi[k] * inverse_h[k] - film.ambient_pa) * area[k];
             }
-            take(&all);
-        }
-
-        for face in &self.mesh.edge_faces {
-            let side = &face.side;
-            let column = column(side.cell);
-            let base = face.place.height(attitude);
-            let (half, face_slope) = self.half_cell(side, psi, &column, base);
-            let (flux, p) = (half.flux(), self.ambient_pa);
-            let partials = half.partials(&flux, p);
-            let by = partials.flux.map(|by| face.length * by);
-            let load = partials.excess.map(|by| side.area * by);
-            let mut all = FaceDerivatives {
-                cells: [Some(side.cell), None],
-                sources: [side.cell, side.behind, side.cell, side.cell],
-                arms: face.place.arms(),
-                flux: face.length * (flux.alpha - flux.beta * p),
-                flux_by_psi: [by[0], by[1], 0.0, 0.0],
-                flux_by_attitude: [0.0; 3],
-                load: side.area * half.mean_excess(&flux, p),
-                load_by_psi: [load[0], load[1], 0.0, 0.0],
-                load_by_attitude: [0.0; 3],
-            };
-            let slopes = [column.h_slope, face_slope];
-            self.add_by_attitude(side, &all.arms, slopes, &by, &mut all.flux_by_attitude);
-            self.add_by_attitude(side, &all.arms, slopes, &load, &mut all.load_by_attitude);
-            take(&all);
-        }
-    }
-
-    /// Adds derivatives by attitude that come through the heights at the cell's centre and at the
-    /// face, whose floors have the derivatives `slopes`.
-    #[inline(always)]
-    fn add_by_attitude(
-        &self,
-        side: &Side,
-        face_arms: &[f64; 3],
-        slopes: [f64; 2],
-        by: &Partials,
-        out: &mut [f64; 3],
-    ) {
-        let centre_arms = self.mesh.cells[side.cell].place.arms();
-        for q in 0..3 {
-            out[q] += by[2] * slopes[0] * centre_arms[q] + by[3] * slopes[1] * face_arms[q];
-        }
-    }
-
-    /// Gradients of [`Film::centre_force`].
-    fn centre_gradients(
-        &self,
-        psi: &[f64],
-        attitude: &Attitude,
-        by_psi: &mut [Vec<f64>; 3],
-        by_attitude: &mut [[f64; 3]; 3],
-    ) {
-        *by_attitude = [[0.0; 3]; 3];
-        for (k, (psi, cell)) in psi.iter().zip(&self.mesh.cells).enumerate() {
-            let (h, h_slope) = self.cell_height(cell, attitude);
-            let arms = cell.place.arms();
-            let per_psi = cell.area / h;
-            let per_height = -psi * cell.area * h_slope / (h * h);
-            for f in 0..3 {
-                by_psi[f][k] = per_psi * arms[f];
-                for q in 0..3 {
-                    by_attitude[f][q] += per_height * arms[f] * arms[q];
+            moments.add(&load, &columns.places, first);
+            if let Some(loads) = cell_loads.as_deref_mut() {
+                for (out, load) in loads.iter_mut().skip(first).zip(load) {
+                    *out = load;
                 }
             }
         }
+
+        for (d, faces) in columns.interior.iter().enumerate() {
+            let mut through = std::mem::take(&mut scratch.flux[d]);
+            for first in (0..faces.length.len()).step_by(BLOCK) {
+                let [up, down] = faces.sides(scratch, first);
+                let base = faces.places.heights(first, attitude);
+                let length = block(&faces.length, first);
+                let values = if faces.wind == 0.0 {
+                    still(film, &up, &down, &base, length)
+                } else if any_steep(film, &up, &down, &base, length) {
+                    windy::<true>(film, &up, &down, &base, length)
+                } else {
+                    windy::<false>(film, &up, &down, &base, length)
+                };
+                *block_mut(&mut through, front + first) = values.flux;
+                moments.add(&values.load(), &faces.places, first);
+                if let Some(loads) = cell_loads.as_deref_mut() {
+                    for k in 0..BLOCK {
+                        for (at, load) in [
+                            (faces.up + first + k, values.loads[0][k]),
+                            (faces.down + first + k, values.loads[1][k]),
+                        ] {
+                            // Places outside the film belong to faces of no length and no area.
+                            if let Some(sum) = loads.get_mut(at.wrapping_sub(front)) {
+                                *sum += load;
+                            }
+                        }
+                    }
+                }
+            }
+            scratch.flux[d] = through;
+        }
+        let [x, y] = &scratch.flux;
+        let (x_stride, y_stride) = (columns.interior[0].stride, columns.interior[1].stride);
+        let x_out = &x[front..front + n];
+        let x_in = &x[front - x_stride..front - x_stride + n];
+        let y_out = &y[front..front + n];
+        let y_in = &y[front - y_stride..front - y_stride + n];
+        let out = &mut out[..n];
+        for k in 0..n {
+            out[k] = (x_out[k] - x_in[k]) + (y_out[k] - y_in[k]);
+        }
+
+        for faces in &columns.edges {
+            for first in (0..faces.length.len()).step_by(BLOCK) {
+                let cells = &faces.cells[first..first + BLOCK];
+                let picked =
+                    Picked::new(scratch, cells, &faces.behind[first..first + BLOCK], front);
+                let side = picked.side(&faces.side, first, faces.wind);
+                let base = faces.places.heights(first, attitude);
+                let values = edge(film, &side, &base, block(&faces.length, first));
+                moments.add(&values.loads[0], &faces.places, first);
+                for (k, &cell) in cells.iter().enumerate() {
+                    out[cell] += values.flux[k];
+                }
+                if let Some(loads) = cell_loads.as_deref_mut() {
+                    for (k, &cell) in cells.iter().enumerate() {
+                        loads[cell] += values.loads[0][k];
+                    }
+                }
+            }
+        }
+        moments.total()
+    }
+}
+
+impl Interior {
+    /// Both sides of the faces from `first`.
+    #[inline(always)]
+    pub(super) fn sides<'a>(&'a self, state: &'a FilmScratch, first: usize) -> [SideBlock<'a>; 2] {
+        let (up, down) = (self.up + first, self.down + first);
+        [
+            SideBlock::between_cells(
+                state,
+                &self.up_side,
+                up,
+                self.behind + first,
+                first,
+                self.wind,
+            ),
+            SideBlock::between_cells(state, &self.down_side, down, down, first, -self.wind),
+        ]
+    }
+}
+
+/// Flux through the faces of a block and the loads of their half cells beyond the centres'
+/// pressure.
+struct FaceValues {
+    flux: Block,
+    loads: [Block; 2],
+}
+
+impl FaceValues {
+    #[inline(always)]
+    fn load(&self) -> Block {
+        let mut out = [0.0; BLOCK];
+        for k in 0..BLOCK {
+            out[k] = self.loads[0][k] + self.loads[1][k];
+        }
+        out
+    }
+}
+
+/// Whether a half cell of a face that exists is steep.
+#[inline(always)]
+pub(super) fn any_steep(
+    film: &Film,
+    up: &SideBlock<'_>,
+    down: &SideBlock<'_>,
+    base: &Block,
+    length: &Block,
+) -> bool {
+    let mut any = false;
+    for k in 0..BLOCK {
+        let u = is_steep(up.h[k], film.floored(base[k] + up.recess[k]).0);
+        let d = is_steep(down.h[k], film.floored(base[k] + down.recess[k]).0);
+        any |= (u | d) & (length[k] != 0.0);
+    }
+    any
+}
+
+#[inline(always)]
+fn windy<const STEEP: bool>(
+    film: &Film,
+    up: &SideBlock<'_>,
+    down: &SideBlock<'_>,
+    base: &Block,
+    length: &Block,
+) -> FaceValues {
+    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+    for k in 0..BLOCK {
+        let u = up.half(k, film.floored(base[k] + up.recess[k]).0);
+        let d = down.half(k, film.floored(base[k] + down.recess[k]).0);
+        let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
+        let p = (a.alpha + b.alpha) / (a.beta + b.beta);
+        flux[k] = length[k] * (a.alpha - a.beta * p);
+        loads[0][k] = up.area[k] * u.mean_excess::<true>(&a, p);
+        loads[1][k] = down.area[k] * d.mean_excess::<false>(&b, p);
+    }
+    FaceValues { flux, loads }
+}
+
+#[inline(always)]
+fn still(
+    film: &Film,
+    up: &SideBlock<'_>,
+    down: &SideBlock<'_>,
+    base: &Block,
+    length: &Block,
+) -> FaceValues {
+    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+    for k in 0..BLOCK {
+        let u = up.half(k, film.floored(base[k] + up.recess[k]).0);
+        let d = down.half(k, film.floored(base[k] + down.recess[k]).0);
+        let ((a, b), (c, e)) = (u.still(), d.still());
+        let p = (a + c) / (b + e);
+        flux[k] = length[k] * (a - b * p);
+        loads[0][k] = up.area[k] * u.still_excess(p);
+        loads[1][k] = down.area[k] * d.still_excess(p);
+    }
+    FaceValues { flux, loads }
+}
+
+/// Faces on the slider's edge, where the ambient pressure stands.
+#[inline(always)]
+fn edge(film: &Film, side: &SideBlock<'_>, base: &Block, length: &Block) -> FaceValues {
+    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+    let p = film.ambient_pa;
+    let mut put = |k: usize, (alpha, beta): (f64, f64), excess: f64| {
+        flux[k] = length[k] * (alpha - beta * p);
+        loads[0][k] = side.area[k] * excess;
+    };
+    for k in 0..BLOCK {
+        let half = side.half(k, film.floored(base[k] + side.recess[k]).0);
+        if side.wind == 0.0 {
+            put(k, half.still(), half.still_excess(p));
+        } else if side.wind > 0.0 {
+            let flux = half.flux::<true, true>();
+            put(
+                k,
+                (flux.alpha, flux.beta),
+                half.mean_excess::<true>(&flux, p),
+            );
+        } else {
+            let flux = half.flux::<false, true>();
+            put(
+                k,
+                (flux.alpha, flux.beta),
+                half.mean_excess::<false>(&flux, p),
+            );
+        }
+    }
+    FaceValues { flux, loads }
+}
+
+/// Sums of loads and of their moments.
+#[derive(Default)]
+pub(super) struct Moments {
+    sums: [[f64; SUMS]; 3],
+}
+
+impl Moments {
+    #[inline(always)]
+    pub(super) fn add(&mut self, load: &Block, places: &Places, first: usize) {
+        let (x, y) = (block(&places.x, first), block(&places.y, first));
+        for start in (0..BLOCK).step_by(SUMS) {
+            for k in 0..SUMS {
+                let at = start + k;
+                self.sums[0][k] += load[at];
+                self.sums[1][k] -= load[at] * x[at];
+                self.sums[2][k] += load[at] * y[at];
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn total(&self) -> [f64; 3] {
+        self.sums
+            .map(|s| ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7])))
     }
 }

@@ -7,11 +7,13 @@
 //! ψ = p h is the mass in a cell's column over R T, so the balance is conservative and squeeze
 //! enters through dψ/dt alone. Fluxes are those of [two half cells](super::flux) at every face, at
 //! the slider's edges with the ambient pressure on the face; the balance itself is in
-//! [`super::balance`], the choice of the grid in [`super::layout`].
+//! `balance`, the choice of the grid in [`super::layout`].
 
+use super::faces::Columns;
 use super::flow_factor::FlowFactor;
+use super::flux::HalfCell;
 use super::layout;
-use super::mesh::{Cell, Mesh};
+use super::mesh::{Cell, Mesh, Side};
 use super::steady::usual_attitude;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
@@ -53,6 +55,7 @@ pub enum FilmError {
 #[derive(Clone, Debug)]
 pub struct Film {
     pub(super) mesh: Mesh,
+    pub(super) columns: Columns,
     capacity: Vec<f64>,
     pub(super) flow: FlowFactor,
     floor: Floor,
@@ -158,6 +161,7 @@ impl Film {
         });
         let per_area = 12.0 * gas.viscosity_pa_s;
         Ok(Self {
+            columns: Columns::new(&mesh),
             capacity: mesh.cells.iter().map(|c| per_area * c.area).collect(),
             mesh,
             flow,
@@ -218,10 +222,28 @@ impl Film {
         self.floor.apply(cell.place.height(attitude) + cell.recess)
     }
 
-    /// Height the film sees at a face and its derivative by the true height.
-    #[inline]
-    pub(super) fn face_height(&self, true_height: f64) -> (f64, f64) {
-        self.floor.apply(true_height)
+    /// Height the film sees where the true height is `h`, and its derivative.
+    #[inline(always)]
+    pub(super) fn floored(&self, h: f64) -> (f64, f64) {
+        self.floor.apply(h)
+    }
+
+    /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face,
+    /// without recess.
+    pub(super) fn half_cell(&self, side: &Side, psi: &[f64], h_centre: f64, base: f64) -> HalfCell {
+        let (g, g_slope) = self.flow.conductance(psi[side.cell]);
+        HalfCell {
+            psi: psi[side.cell],
+            psi_behind: psi[side.behind],
+            reach: side.reach,
+            g,
+            g_slope,
+            h_centre,
+            inverse_h: 1.0 / h_centre,
+            h_face: self.floored(base + side.recess).0,
+            inverse_distance: side.inverse_distance,
+            wind: side.wind,
+        }
     }
 
     /// ψ of the undisturbed ambient pressure, Pa m.

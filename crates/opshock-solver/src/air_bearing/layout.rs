@@ -17,7 +17,6 @@
 //! its own result. (Goal-oriented error estimates: Becker and Rannacher 2001, Acta Numerica 10.)
 
 use super::Attitude;
-use super::balance::Column;
 use super::film::Film;
 use super::flux::HalfCell;
 use super::newton::Newton;
@@ -98,8 +97,11 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
 /// Error densities e_x of the strips between lines along x, and e_y: see the module.
 fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) -> [Vec<f64>; 2] {
     let [nx, ny] = [film.mesh.lines[0].n_cells(), film.mesh.lines[1].n_cells()];
-    let columns: Vec<Column> = (0..film.n_cells())
-        .map(|c| film.column(&film.mesh.cells[c], psi[c], attitude))
+    let heights: Vec<f64> = film
+        .mesh
+        .cells
+        .iter()
+        .map(|cell| film.cell_height(cell, attitude).0)
         .collect();
     // Sum over both faces of a direction of face minus centre, of pressure and of adjoint.
     let mut bends = vec![[[0.0; 2]; 2]; film.n_cells()];
@@ -108,31 +110,31 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
         let base = face.place.height(attitude);
         let half: [HalfCell; 2] = std::array::from_fn(|s| {
             let side = &face.sides[s];
-            film.half_cell(side, psi, &columns[side.cell], base).0
+            film.half_cell(side, psi, heights[side.cell], base)
         });
-        let [a, b] = [half[0].flux(), half[1].flux()];
-        let p = (a.alpha + b.alpha) / (a.beta + b.beta);
+        let [(a, b), (c, e)] = half.map(|half| half.coefficients());
+        let p = (a + c) / (b + e);
         let weight = half.map(|h| h.g * h.h_centre * h.h_face * h.inverse_distance);
         let [l, r] = face.sides.map(|side| side.cell);
         let z = (weight[0] * adjoint[l] + weight[1] * adjoint[r]) / (weight[0] + weight[1]);
         for cell in [l, r] {
-            bends[cell][d][0] += p - psi[cell] / columns[cell].h;
+            bends[cell][d][0] += p - psi[cell] / heights[cell];
             bends[cell][d][1] += z - adjoint[cell];
         }
     }
     // Edge faces come in the order of their direction: both ends of every row, of every column.
     for (k, face) in film.mesh.edge_faces.iter().enumerate() {
         let (d, cell) = (usize::from(k >= 2 * ny), face.side.cell);
-        bends[cell][d][0] += film.ambient_pa - psi[cell] / columns[cell].h;
+        bends[cell][d][0] += film.ambient_pa - psi[cell] / heights[cell];
         bends[cell][d][1] -= adjoint[cell];
     }
     let mut errors = [vec![0.0; nx], vec![0.0; ny]];
-    for (c, (bend, column)) in bends.iter().zip(&columns).enumerate() {
+    for (c, (bend, &h)) in bends.iter().zip(&heights).enumerate() {
         let at = [c % nx, c / nx];
         for d in 0..2 {
             let width = film.mesh.lines[d].width(at[d]);
             let across = film.mesh.lines[1 - d].width(at[1 - d]);
-            let kappa = column.g * column.h * column.h;
+            let kappa = film.flow.conductance(psi[c]).0 * h * h;
             let product = bend[d][0] * bend[d][1];
             errors[d][at[d]] += across * kappa * product.abs() * (2.0 / width).powi(4);
         }

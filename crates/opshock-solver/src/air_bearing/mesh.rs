@@ -38,12 +38,6 @@ impl Place {
             + attitude.roll_rad * self.y
             + self.form
     }
-
-    /// Derivatives of the height by attitude.
-    #[inline(always)]
-    pub(super) fn arms(&self) -> [f64; 3] {
-        [1.0, -self.x, self.y]
-    }
 }
 
 #[derive(Clone, Copy, Debug)]

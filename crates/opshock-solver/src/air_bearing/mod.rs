@@ -2,22 +2,26 @@
 
 mod balance;
 mod corner;
+mod faces;
 mod film;
 mod flow_factor;
 mod flux;
 pub mod impedance;
 mod layout;
+mod linearise;
 mod mesh;
 mod newton;
+mod state;
 pub mod steady;
 mod thickness;
 
 #[cfg(test)]
 mod tests;
 
-pub use balance::{FilmLinearisation, FilmScratch};
 pub use film::{Film, FilmError};
 pub use flow_factor::FlowFactor;
+pub use linearise::FilmLinearisation;
+pub use state::FilmScratch;
 
 /// Rarefaction model of the flow factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,8 +11,8 @@
 //! of a cell's ψ or of the clearance.
 
 use super::Attitude;
-use super::balance::{FilmLinearisation, FilmScratch};
 use super::film::Film;
+use super::{FilmLinearisation, FilmScratch};
 use crate::linalg::banded::{BandedError, BandedLu};
 use nalgebra::{Matrix3, Vector3};
 

@@ -106,7 +106,7 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, Stea
             attitude: *attitude,
         });
     }
-    let force = film.force(&psi, attitude);
+    let force = film.force(&psi, attitude, &mut film.scratch());
     Ok(HeldFilm {
         psi,
         force,
@@ -293,10 +293,15 @@ impl Search<'_> {
         self.newton.schur();
         let damping = self.newton.damping();
         let mut forces = vec![0.0; film.n_cells()];
-        film.cell_forces(&found.psi, &found.attitude, &mut forces);
+        film.cell_forces(
+            &found.psi,
+            &found.attitude,
+            &mut forces,
+            &mut film.scratch(),
+        );
         let mut pressure = vec![0.0; film.n_cells()];
         film.pressure(&found.psi, &found.attitude, &mut pressure);
-        let [force, m_pitch, m_roll] = film.force(&found.psi, &found.attitude);
+        let [force, m_pitch, m_roll] = film.force(&found.psi, &found.attitude, &mut film.scratch());
         let [l, w] = film.extent_m();
         Ok(Flight {
             attitude: found.attitude,

@@ -17,7 +17,7 @@ pub(super) struct Floor {
 
 impl Floor {
     /// f(h) and f′(h).
-    #[inline]
+    #[inline(always)]
     pub(super) fn apply(self, h: f64) -> (f64, f64) {
         let h0 = self.h0;
         if h >= 2.0 * h0 {

@@ -133,7 +133,7 @@ impl HeadModel {
             resolution: resolution.clone(),
             tableau: TR_BDF2,
             fail_below_m,
-            steady_force: film.force(&flight.psi, &flight.attitude),
+            steady_force: film.force(&flight.psi, &flight.attitude, &mut film.scratch()),
             steady_clearance_m,
             arms: [1.0, 0.5 * slider.length_m, 0.5 * slider.width_m],
             film_n_per_m,

@@ -119,7 +119,10 @@ impl Stages<'_> {
             }
             if factor == 1.0 && size <= tolerance {
                 self.note_imbalance(spurious * instant.d_s * size, psi);
-                let force = self.model.film.force(psi, &attitude);
+                let force = self
+                    .model
+                    .film
+                    .force(psi, &attitude, &mut self.scratch.film);
                 return Ok(std::array::from_fn(|f| {
                     force[f] - self.model.steady_force[f]
                 }));

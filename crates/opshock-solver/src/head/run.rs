@@ -157,7 +157,7 @@ impl<'a> Run<'a> {
         {
             *rate = -r / c;
         }
-        let film = model.film.force(psi, attitude);
+        let film = model.film.force(psi, attitude, &mut w.scratch.film);
         let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
         let (x, v) = w.y[n_cells..].split_at(n);
         let a = self.load.amplitude_m_per_s2 * just_after(self.load.pulse, 0.0);
@@ -442,9 +442,12 @@ impl<'a> Run<'a> {
         columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
         columns.slider_roll_rad.push(steady.roll_rad + x[2]);
         columns.min_clearance_m.push(self.clearance.value_m);
-        columns
-            .bearing_force_n
-            .push(self.model.film.force(&self.w.y[..n_cells], attitude)[0]);
+        let scratch = &mut self.w.scratch.film;
+        let force = self
+            .model
+            .film
+            .force(&self.w.y[..n_cells], attitude, scratch);
+        columns.bearing_force_n.push(force[0]);
         columns.dimple_force_n.push(self.dimple_force_n);
     }
 

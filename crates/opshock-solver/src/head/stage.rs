@@ -53,8 +53,6 @@ pub(super) struct StageScratch {
     factored_d_s: Option<f64>,
     /// Z, row by row.
     columns: Vec<[f64; 3]>,
-    force_by_psi: [Vec<f64>; 3],
-    force_by_attitude: [[f64; 3]; 3],
     /// F_ψ Z − F_q.
     film_matrix: [[f64; 3]; 3],
     pub residual: Vec<f64>,
@@ -91,8 +89,6 @@ impl StageScratch {
             linearisation,
             factored_d_s: None,
             columns: vec![[0.0; 3]; n_cells],
-            force_by_psi: std::array::from_fn(|_| vec![0.0; n_cells]),
-            force_by_attitude: [[0.0; 3]; 3],
             film_matrix: [[0.0; 3]; 3],
             residual: vec![0.0; n_cells],
             mechanical: vec![0.0; n],
@@ -121,7 +117,7 @@ impl StageScratch {
     pub fn solve_film(&mut self) -> [f64; 3] {
         self.lu.solve(&mut self.residual);
         self.counters.solves += 1;
-        std::array::from_fn(|f| dot(&self.force_by_psi[f], &self.residual))
+        std::array::from_fn(|f| dot(&self.linearisation.force_by_psi[f], &self.residual))
     }
 }
 
@@ -163,7 +159,6 @@ impl Stages<'_> {
     ) -> Result<(), StageFailure> {
         let (film, s) = (&self.model.film, &mut *self.scratch);
         film.linearise(psi, attitude, &mut s.linearisation, &mut s.film);
-        film.force_gradients(psi, attitude, &mut s.force_by_psi, &mut s.force_by_attitude);
         s.counters.linearisations += 1;
         self.factor(d_s)
     }
@@ -191,12 +186,12 @@ impl Stages<'_> {
         s.counters.solves += 3;
         for f in 0..3 {
             let mut sum = [0.0; 3];
-            for (g, z) in s.force_by_psi[f].iter().zip(&s.columns) {
+            for (g, z) in s.linearisation.force_by_psi[f].iter().zip(&s.columns) {
                 for (sum, z) in sum.iter_mut().zip(z) {
                     *sum += g * z;
                 }
             }
-            let by_attitude = s.force_by_attitude[f];
+            let by_attitude = s.linearisation.force_by_attitude[f];
             s.film_matrix[f] = std::array::from_fn(|q| sum[q] - by_attitude[q]);
         }
         s.factored_d_s = Some(d_s);

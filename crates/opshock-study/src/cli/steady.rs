@@ -186,9 +186,10 @@ const QUASI_STATIC_HZ: f64 = 1.0;
 fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
     let n = film.n_cells();
     let (mut forces, mut pressure) = (vec![0.0; n], vec![0.0; n]);
-    film.cell_forces(&psi, &attitude, &mut forces);
+    film.cell_forces(&psi, &attitude, &mut forces, &mut film.scratch());
     film.pressure(&psi, &attitude, &mut pressure);
-    let [force_n, pitch_moment_n_m, roll_moment_n_m] = film.force(&psi, &attitude);
+    let [force_n, pitch_moment_n_m, roll_moment_n_m] =
+        film.force(&psi, &attitude, &mut film.scratch());
     let [length_m, width_m] = film.extent_m();
     let json = SteadyJson {
         min_clearance_m: film.min_clearance(&attitude).value_m,

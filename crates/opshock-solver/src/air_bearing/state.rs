@@ -1,0 +1,193 @@
+//! State of a film as columns, padded so that every block of faces finds blocks of cells.
+
+use super::Attitude;
+use super::faces::{BLOCK, Block, Sides, block};
+use super::film::Film;
+use super::flux::HalfCell;
+
+/// Scratch of the flux balance, one per thread.
+#[derive(Clone, Debug)]
+pub struct FilmScratch {
+    /// ψ, height, its inverse, its derivative by the true height, G and dG/dψ of every cell.
+    pub(super) psi: Vec<f64>,
+    pub(super) h: Vec<f64>,
+    pub(super) inverse_h: Vec<f64>,
+    pub(super) h_slope: Vec<f64>,
+    pub(super) g: Vec<f64>,
+    pub(super) g_slope: Vec<f64>,
+    /// Flux through the faces of either direction towards rising cell numbers.
+    pub(super) flux: [Vec<f64>; 2],
+    /// Residual that nobody asked for.
+    pub(super) spare: Vec<f64>,
+}
+
+impl FilmScratch {
+    pub(super) fn new(film: &Film) -> Self {
+        let columns = &film.columns;
+        let ones = || vec![1.0; columns.padded];
+        Self {
+            psi: ones(),
+            h: ones(),
+            inverse_h: ones(),
+            h_slope: ones(),
+            g: ones(),
+            g_slope: ones(),
+            flux: [0, 1].map(|_| vec![0.0; columns.padded]),
+            spare: vec![0.0; columns.n_cells],
+        }
+    }
+
+    /// Takes over the state (ψ, attitude).
+    #[inline(always)]
+    pub(super) fn fill(&mut self, film: &Film, psi: &[f64], attitude: &Attitude) {
+        let columns = &film.columns;
+        assert_eq!(psi.len(), columns.n_cells);
+        assert_eq!(self.psi.len(), columns.padded);
+        let front = columns.front;
+        self.psi[front..front + psi.len()].copy_from_slice(psi);
+        for first in (0..columns.recess.len()).step_by(BLOCK) {
+            let height = columns.places.heights(first, attitude);
+            let recess = block(&columns.recess, first);
+            let at = front + first;
+            let h = block_mut(&mut self.h, at);
+            let inverse = block_mut(&mut self.inverse_h, at);
+            let slope = block_mut(&mut self.h_slope, at);
+            for k in 0..BLOCK {
+                (h[k], slope[k]) = film.floored(height[k] + recess[k]);
+                inverse[k] = 1.0 / h[k];
+            }
+        }
+        let g = &mut self.g[front..front + psi.len()];
+        let slopes = &mut self.g_slope[front..front + psi.len()];
+        for ((psi, g), slope) in psi.iter().zip(g).zip(slopes) {
+            (*g, *slope) = film.flow.conductance(*psi);
+        }
+    }
+}
+
+/// The block of `column` that starts at `first`, to be written.
+#[inline(always)]
+pub(super) fn block_mut(column: &mut [f64], first: usize) -> &mut Block {
+    (&mut column[first..first + BLOCK])
+        .try_into()
+        .expect("a slice of BLOCK entries")
+}
+
+/// One side of a block of faces: its cells' state and what is fixed about them.
+pub(super) struct SideBlock<'a> {
+    pub(super) psi: &'a Block,
+    pub(super) psi_behind: &'a Block,
+    pub(super) g: &'a Block,
+    pub(super) g_slope: &'a Block,
+    pub(super) h: &'a Block,
+    pub(super) inverse_h: &'a Block,
+    pub(super) h_slope: &'a Block,
+    pub(super) recess: &'a Block,
+    pub(super) reach: &'a Block,
+    pub(super) inverse_distance: &'a Block,
+    pub(super) area: &'a Block,
+    /// 6 μ U out of the cells.
+    pub(super) wind: f64,
+}
+
+impl<'a> SideBlock<'a> {
+    /// Cells from `at` and `behind` in the columns of states, faces from `first`.
+    #[inline(always)]
+    pub(super) fn between_cells(
+        state: &'a FilmScratch,
+        sides: &'a Sides,
+        at: usize,
+        behind: usize,
+        first: usize,
+        wind: f64,
+    ) -> Self {
+        Self {
+            psi: block(&state.psi, at),
+            psi_behind: block(&state.psi, behind),
+            g: block(&state.g, at),
+            g_slope: block(&state.g_slope, at),
+            h: block(&state.h, at),
+            inverse_h: block(&state.inverse_h, at),
+            h_slope: block(&state.h_slope, at),
+            recess: block(&sides.recess, first),
+            reach: block(&sides.reach, first),
+            inverse_distance: block(&sides.inverse_distance, first),
+            area: block(&sides.area, first),
+            wind,
+        }
+    }
+
+    /// Half cell k with the height `h_face` at the face.
+    #[inline(always)]
+    pub(super) fn half(&self, k: usize, h_face: f64) -> HalfCell {
+        HalfCell {
+            psi: self.psi[k],
+            psi_behind: self.psi_behind[k],
+            reach: self.reach[k],
+            g: self.g[k],
+            g_slope: self.g_slope[k],
+            h_centre: self.h[k],
+            inverse_h: self.inverse_h[k],
+            h_face,
+            inverse_distance: self.inverse_distance[k],
+            wind: self.wind,
+        }
+    }
+}
+
+/// State of cells picked one by one.
+pub(super) struct Picked {
+    psi: Block,
+    psi_behind: Block,
+    g: Block,
+    g_slope: Block,
+    h: Block,
+    inverse_h: Block,
+    h_slope: Block,
+}
+
+impl Picked {
+    /// The cells in `cells` with those behind them; `front` cells precede cell 0.
+    #[inline(always)]
+    pub(super) fn new(
+        state: &FilmScratch,
+        cells: &[usize],
+        behind: &[usize],
+        front: usize,
+    ) -> Self {
+        let pick = |column: &[f64], cells: &[usize]| {
+            let mut out = [0.0; BLOCK];
+            for (out, cell) in out.iter_mut().zip(cells) {
+                *out = column[front + cell];
+            }
+            out
+        };
+        Self {
+            psi: pick(&state.psi, cells),
+            psi_behind: pick(&state.psi, behind),
+            g: pick(&state.g, cells),
+            g_slope: pick(&state.g_slope, cells),
+            h: pick(&state.h, cells),
+            inverse_h: pick(&state.inverse_h, cells),
+            h_slope: pick(&state.h_slope, cells),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn side<'a>(&'a self, sides: &'a Sides, first: usize, wind: f64) -> SideBlock<'a> {
+        SideBlock {
+            psi: &self.psi,
+            psi_behind: &self.psi_behind,
+            g: &self.g,
+            g_slope: &self.g_slope,
+            h: &self.h,
+            inverse_h: &self.inverse_h,
+            h_slope: &self.h_slope,
+            recess: block(&sides.recess, first),
+            reach: block(&sides.reach, first),
+            inverse_distance: block(&sides.inverse_distance, first),
+            area: block(&sides.area, first),
+            wind,
+        }
+    }
+}
