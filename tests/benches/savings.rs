@@ -122,6 +122,7 @@ fn swept(sets: &[(&str, &str)]) -> SweepEnd {
         ("pulse.widths_ms", "[0.5]"),
         ("search.tolerance_pct", "5"),
         ("output.keep_histories", "\"none\""),
+        ("search.error_bars", "false"),
     ];
     all.extend_from_slice(sets);
     let study = scenes::study("fig13", &all);

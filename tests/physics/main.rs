@@ -4,6 +4,7 @@ mod bodies;
 mod contact;
 mod contact_method;
 mod effects;
+mod effects_mutants;
 mod film_flight;
 mod film_flow_factor;
 mod film_plane;

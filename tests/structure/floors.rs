@@ -11,6 +11,7 @@ const SOLVER: &[(&str, u8)] = &[
     ("gas", 0),
     ("linalg", 0),
     ("grid", 0),
+    ("mutant", 0),
     ("modal", 1),
     ("complementarity", 1),
     ("integrator", 1),

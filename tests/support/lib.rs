@@ -5,6 +5,7 @@ pub mod films;
 pub mod hdf5_dump;
 pub mod heads;
 pub mod mock_sweep;
+pub mod pairs;
 pub mod scenes;
 pub mod seeded;
 pub mod structures;

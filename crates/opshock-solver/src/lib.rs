@@ -29,6 +29,7 @@ pub mod integrator;
 pub mod lanes;
 pub mod linalg;
 pub mod modal;
+pub mod mutant;
 pub mod quantity;
 pub mod ramp;
 pub mod scene;

@@ -24,6 +24,7 @@
 
 use super::Scene;
 use crate::disk::Harmonics;
+use crate::mutant;
 use crate::quantity::STANDARD_GRAVITY_M_PER_S2;
 use crate::ramp::RampModel;
 use crate::structure::Wake;
@@ -221,7 +222,11 @@ pub struct Touch {
 impl Plan {
     /// The plan for `outputs`.
     pub fn new(outputs: &[Output], mode: Mode) -> Self {
-        let asked = outputs.iter().map(|output| output.needs()).max();
+        let declared = |output: &Output| match mutant::is_on(output.as_str()) {
+            true => Needs::Structure,
+            false => output.needs(),
+        };
+        let asked = outputs.iter().map(declared).max();
         match mode {
             Mode::Auto => Self {
                 mode,
@@ -259,6 +264,7 @@ impl Plan {
     pub fn harmonics(&self, scene: &Scene) -> Harmonics {
         match (self.wake, &scene.ramp.model) {
             (Wake::AtTouch, RampModel::None) => Harmonics::Symmetric,
+            (Wake::AtTouch, _) if mutant::is_on("R2 no ramp") => Harmonics::Symmetric,
             _ => Harmonics::All,
         }
     }

@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::air_bearing::steady::{Flight, SteadyError, fly};
 use crate::air_bearing::{Film, FilmError};
 use crate::head::{HeadError, HeadModel};
+use crate::mutant;
 use crate::scene::Scene;
 use crate::scene::plan::{Decision, Mode, Needs, Output, Plan, Touch};
 use crate::structure::{SliderPlace, StructureError, StructureModel, StructureParameters};
@@ -79,12 +80,17 @@ impl Bearing {
 
     /// Whether two scenes have the same film and the same steady flight.
     pub fn is_shared(a: &Scene, b: &Scene) -> bool {
-        a.slider == b.slider
-            && a.gas == b.gas
-            && a.flow == b.flow
-            && a.film_resolution == b.film_resolution
-            && a.disk.spin_rad_per_s == b.disk.spin_rad_per_s
-            && a.suspension.gram_load_n == b.suspension.gram_load_n
+        all_agree([
+            ("R9 slider", a.slider == b.slider),
+            ("R9 gas", a.gas == b.gas),
+            ("R9 flow model", a.flow == b.flow),
+            ("R9 film cells", a.film_resolution == b.film_resolution),
+            ("R9 speed", a.disk.spin_rad_per_s == b.disk.spin_rad_per_s),
+            (
+                "R9 gram load",
+                a.suspension.gram_load_n == b.suspension.gram_load_n,
+            ),
+        ])
     }
 }
 
@@ -159,14 +165,20 @@ impl Model {
     /// the same place: the same structural history at every amplitude.
     pub fn has_structure(&self, scene: &Scene, plan: &Plan) -> bool {
         let own = &self.scene;
-        own.disk == scene.disk
-            && own.disk_resolution == scene.disk_resolution
-            && own.ramp == scene.ramp
-            && own.pulse == scene.pulse
-            && own.window == scene.window
-            && own.structure_resolution == scene.structure_resolution
-            && slider_place(own) == slider_place(scene)
-            && self.plan.wake == plan.wake
+        let place = slider_place(own) == slider_place(scene);
+        let steps = own.structure_resolution == scene.structure_resolution;
+        all_agree([
+            ("R9 disk", own.disk == scene.disk),
+            (
+                "R9 disk modes",
+                own.disk_resolution == scene.disk_resolution,
+            ),
+            ("R9 ramp", own.ramp == scene.ramp),
+            ("R9 pulse", own.pulse == scene.pulse),
+            ("R9 window", own.window == scene.window),
+            ("R9 structure steps", steps),
+            ("R9 slider's place", place),
+        ]) && self.plan.wake == plan.wake
     }
 
     /// The plan it was built by.
@@ -204,6 +216,12 @@ impl Model {
     pub fn bearing(&self) -> Option<&Bearing> {
         self.bearing.as_ref()
     }
+}
+
+/// Whether every named condition of sharing holds.
+fn all_agree<const N: usize>(conditions: [(&str, bool); N]) -> bool {
+    let mut all = conditions.iter();
+    all.all(|(name, holds)| *holds || mutant::is_on(name))
 }
 
 /// Disk and ramp of `scene` as `plan` needs them.

@@ -12,6 +12,7 @@ use crate::disk::{
     self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution, Harmonics,
 };
 use crate::modal::{BankFlow, Oscillator, Readout};
+use crate::mutant;
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
 use crate::shock::{Pulse, PulseError};
 use std::ops::Range;
@@ -364,10 +365,15 @@ impl StructureModel {
         }
         let state = workspace.state.get_or_insert_with(RunState::default);
         state.prepare(shared, record);
+        let amplitude_m_per_s2 = match mutant::is_on("R5 sign") {
+            true => amplitude_m_per_s2.abs(),
+            false => amplitude_m_per_s2,
+        };
         let mut system = ContactSystem::new(shared, amplitude_m_per_s2, state);
         let mut memory = ContactMemory::default();
         system.record_node();
         let first_awake = match self.wake {
+            Wake::AtTouch if mutant::is_on("R3 first touch") => shared.n_steps,
             Wake::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
             Wake::AtOnset => 0,
         };
@@ -395,12 +401,17 @@ impl StructureModel {
     /// linearity from the unit response; `None` without a ramp or when nothing closes the gap.
     pub fn touch_amplitude_m_per_s2(&self, positive: bool) -> Option<f64> {
         let shared = &*self.shared;
-        let sign = if positive { 1.0 } else { -1.0 };
+        let is_plus = positive || mutant::is_on("R7 mirrored");
+        let sign = if is_plus { 1.0 } else { -1.0 };
         let mut lowest: Option<f64> = None;
         for side in 0..shared.n_contacts {
             // Closing of the gap per unit amplitude.
             let closing = |k: usize| {
-                let g = unit_gap(side, &shared.free.samples[k]);
+                let mut sample = shared.free.samples[k];
+                if mutant::is_on("R4 shaking ramp") {
+                    (sample.top, sample.bottom) = Default::default();
+                }
+                let g = unit_gap(side, &sample);
                 Gap {
                     value_m: -sign * g.value_m,
                     rate_m_per_s: -sign * g.rate_m_per_s,

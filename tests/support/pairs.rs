@@ -1,0 +1,335 @@
+//! One scene twice: as planned, and with everything built, marched from the onset and nothing
+//! shared. Verdict, extremes, contacts, histories and costs of what both have must be the same
+//! numbers. The one exception is the energy book of the structure: before the first touch one sums
+//! amplitude² × unit energies, the other energies of amplitude × unit states, so that it must agree
+//! to 1e-12 of the peak energy.
+
+use opshock_solver::disk::DiskDamping;
+use opshock_solver::mutant;
+use opshock_solver::quantity::m_per_s2_from_g;
+use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
+use opshock_solver::scene::{Scene, Window};
+use opshock_solver::shock::PulseShape;
+use opshock_solver::simulation::{
+    HeadColumns, Model, Outcome, Request, StructureColumns, Verdict, Warning, Workspace, simulate,
+};
+
+use crate::scenes;
+use crate::seeded::Seeded;
+
+/// Builds `scene` by `plan` and runs one shock, recording.
+///
+/// # Panics
+/// When the scene does not build.
+pub fn run(
+    scene: &Scene,
+    plan: &Plan,
+    amplitude_g: f64,
+    donor: Option<&Model>,
+) -> (Model, Outcome) {
+    run_to(scene, plan, amplitude_g, donor, true)
+}
+
+/// As [`run`]; with `stops` false the head goes on after a touch to the end of the window.
+fn run_to(
+    scene: &Scene,
+    plan: &Plan,
+    amplitude_g: f64,
+    donor: Option<&Model>,
+    stops: bool,
+) -> (Model, Outcome) {
+    let model = Model::assemble(scene, plan, donor).expect("the scene builds");
+    let request = Request {
+        amplitude_m_per_s2: m_per_s2_from_g(amplitude_g),
+        stop_at_failure: stops,
+        record: true,
+    };
+    let outcome = simulate(&model, &request, &mut Workspace::default());
+    (model, outcome)
+}
+
+/// Whether `outcome` answers `output`.
+pub fn is_answered(output: Output, outcome: &Outcome) -> bool {
+    let head = outcome.history.as_ref().map(|history| &history.head);
+    let recorded =
+        |column: fn(&HeadColumns) -> &Vec<f64>| head.is_some_and(|head| !column(head).is_empty());
+    match output {
+        Output::CriticalShock | Output::MinClearance => outcome.min_clearance_m.is_some(),
+        Output::SliderAttitude => recorded(|head| &head.slider_z_m),
+        Output::Pitch => recorded(|head| &head.slider_pitch_rad),
+        Output::BearingForce => recorded(|head| &head.bearing_force_n),
+        Output::DimpleForce => outcome.dimple.is_some(),
+        Output::SteadyAttitude => outcome.steady.is_some(),
+        Output::TouchThreshold
+        | Output::DiskDisplacement
+        | Output::RampDisplacement
+        | Output::ContactForce => outcome.disk.slider_max_m != outcome.disk.slider_min_m,
+    }
+}
+
+/// Everything `lean` has must be in `full`, number by number.
+///
+/// # Panics
+/// When it is not.
+pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
+    assert_eq!(lean.disk, full.disk, "{what}");
+    assert_eq!(lean.top, full.top, "{what}");
+    assert_eq!(lean.bottom, full.bottom, "{what}");
+    assert_eq!(lean.complementarity, full.complementarity, "{what}");
+    // What warns of harmonics n >= 1 goes with them.
+    let of_waves = ["harmonics_bounded", "physical_instability"];
+    let left = |outcome: &Outcome| -> Vec<Warning> {
+        let drops = |w: &&Warning| {
+            !lean.effects.contains(&"disk.travelling_waves") && of_waves.contains(&w.code)
+        };
+        let kept = outcome.warnings.iter().filter(|w| !drops(w));
+        kept.cloned().collect()
+    };
+    assert_eq!(lean.warnings, left(full), "{what}");
+    assert_eq!(
+        lean.cost.structure_steps, full.cost.structure_steps,
+        "{what}"
+    );
+    let (a, b) = (&lean.history, &full.history);
+    let (a, b) = (a.as_ref().expect(what), b.as_ref().expect(what));
+    let moved = |s: &StructureColumns| {
+        [
+            s.time_s.clone(),
+            s.disk_slider_m.clone(),
+            s.disk_ramp_m.clone(),
+            s.disk_rim_m.clone(),
+            s.disk_pitch_rad.clone(),
+            s.disk_roll_rad.clone(),
+            s.ramp_top_m.clone(),
+            s.ramp_bottom_m.clone(),
+            s.contact_top_n.clone(),
+            s.contact_bottom_n.clone(),
+        ]
+    };
+    assert!(moved(&a.structure) == moved(&b.structure), "{what}");
+    let book = |o: &Outcome| {
+        let e = &o.energy;
+        [
+            e.kinetic_j,
+            e.elastic_j,
+            e.h_end_j,
+            e.h_peak_j,
+            e.shock_work_j,
+            e.damping_loss_j,
+            e.impact_loss_j,
+            e.algorithmic_j,
+            e.spindle_work_j,
+        ]
+    };
+    let peak = full.energy.h_peak_j;
+    for (i, (x, y)) in book(lean).into_iter().zip(book(full)).enumerate() {
+        assert!((x - y).abs() <= 1e-12 * peak, "{what}: energy {i} {x} {y}");
+    }
+    if needs >= Needs::Flight {
+        assert_eq!(lean.steady, full.steady, "{what}");
+    }
+    if needs >= Needs::Head {
+        assert_eq!(lean.verdict, full.verdict, "{what}");
+        assert_eq!(lean.min_clearance_m, full.min_clearance_m, "{what}");
+        assert_eq!(lean.t_min_clearance_s, full.t_min_clearance_s, "{what}");
+        assert_eq!(lean.dimple, full.dimple, "{what}");
+        assert_eq!(lean.cost, full.cost, "{what}");
+        assert!(a.head == b.head, "{what}");
+    } else {
+        assert_eq!(lean.min_clearance_m, None, "{what}");
+    }
+}
+
+/// The scene on coarse grids, 0.8 ms of it.
+pub fn coarse(mut scene: Scene) -> Scene {
+    scene.window = Window::Fixed { length_s: 8e-4 };
+    scene.disk_resolution.cut_hz = 12e3;
+    scene.film_resolution.cells = 150;
+    scene.head_resolution.tolerance = 0.1;
+    scene
+}
+
+/// The scene that random ones come from.
+pub fn base() -> Scene {
+    let mut scene = coarse(scenes::scene("fig13", "rigid", 0.5, &[]));
+    scene.film_resolution.cells = 100;
+    scene
+}
+
+/// A scene like `base` with another disk, pulse, window, ramp and slider's place.
+pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
+    let mut scene = base.clone();
+    scene.disk.thickness_m *= seeded.between(0.7, 1.3);
+    scene.disk.spin_rad_per_s *= seeded.between(0.7, 1.5);
+    if seeded.once_in(2) {
+        scene.disk.damping = DiskDamping::ModalRatio(seeded.between(0.0, 0.02));
+    }
+    scene.disk.space_fixed_damping_per_s = *seeded.one_of(&[0.0, 0.0, 20.0]);
+    scene.disk_resolution.cut_hz = 8e3;
+    scene.disk_resolution.static_correction = seeded.once_in(2);
+    scene.structure_resolution.step_s = *seeded.one_of(&[1e-6, 2e-6, 1.7e-6]);
+    let shapes = [
+        PulseShape::HalfSine,
+        PulseShape::Haversine,
+        PulseShape::Square,
+    ];
+    scene.pulse.shape = seeded.one_of(&shapes).clone();
+    scene.pulse.width_s = seeded.between(2e-4, 1e-3);
+    scene.window = *seeded.one_of(&[
+        Window::Fixed { length_s: 1e-3 },
+        Window::Fixed { length_s: 1.5e-3 },
+        Window::UntilDecayed {
+            share: 0.5,
+            max_s: 1.5e-3,
+        },
+    ]);
+    let mut arm = || {
+        (0..1 + seeded.below(3))
+            .map(|_| ArmMode {
+                frequency_hz: seeded.between(500.0, 2e4),
+                mass_kg: seeded.between(1e-5, 1e-4),
+                participation: seeded.between(0.1, 1.0),
+                damping_ratio: seeded.between(0.0, 0.05),
+            })
+            .collect::<Vec<_>>()
+    };
+    let (top, bottom) = (arm(), arm());
+    let models = [
+        RampModel::None,
+        RampModel::Rigid,
+        RampModel::Deformable {
+            top: top.clone(),
+            bottom,
+        },
+        RampModel::Deformable {
+            top: top.clone(),
+            bottom: top,
+        },
+    ];
+    scene.ramp.model = seeded.one_of(&models).clone();
+    scene.ramp.clearance_top_m = *seeded.one_of(&[0.0, 2e-5, 1e-4]);
+    scene.ramp.clearance_bottom_m = *seeded.one_of(&[2e-5, 1e-4]);
+    scene.ramp.restitution = *seeded.one_of(&[0.0, 0.0, 0.3, 0.9]);
+    scene.slider.angle_rad = seeded.between(0.05, 6.0);
+    scene
+}
+
+/// How a random pair is made.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pair {
+    /// Outputs may need the head, and the head runs in full.
+    pub with_head: bool,
+    /// Asked for instead of random outputs.
+    pub output: Option<Output>,
+    /// Condition deleted in the planned run.
+    pub mutant: Option<&'static str>,
+    /// The full run's head goes on after a touch, which the planned run's does not.
+    pub whole_window: bool,
+}
+
+/// One random scene, random outputs, random shock.
+///
+/// # Panics
+/// When both runs differ, an asked output is missing, or the amplitude of first touch is not the
+/// border that the contact march itself finds.
+pub fn random_pair(base: &Scene, seed: u64, pair: Pair) {
+    let mut seeded = Seeded::new(seed);
+    let scene = random_scene(base, &mut seeded);
+    let allowed: Vec<Output> = Output::ALL
+        .into_iter()
+        .filter(|output| pair.with_head || output.needs() == Needs::Structure)
+        .collect();
+    let asked: Vec<Output> = (0..1 + seeded.below(3))
+        .map(|_| *seeded.one_of(&allowed))
+        .collect();
+    let asked = pair.output.map_or(asked, |output| vec![output]);
+    let amplitude_g = seeded.between(5.0, 500.0) * *seeded.one_of(&[1.0, -1.0]);
+    let what = format!("seed {seed}, {amplitude_g} G, {asked:?}");
+    compare(&scene, &asked, amplitude_g, None, pair, &what);
+}
+
+/// One scene as planned, with `donor`, against full.
+///
+/// # Panics
+/// As [`random_pair`].
+pub fn compare(
+    scene: &Scene,
+    asked: &[Output],
+    amplitude_g: f64,
+    donor: Option<&Model>,
+    pair: Pair,
+    what: &str,
+) {
+    let mut full = Plan::new(asked, Mode::Full);
+    if !pair.with_head {
+        full = full.without_head().expect("structural outputs");
+    }
+    let (full_model, mut all) = run_to(scene, &full, amplitude_g, None, !pair.whole_window);
+    let planned = || {
+        let plan = Plan::new(asked, Mode::Auto);
+        let (model, lean) = run(scene, &plan, amplitude_g, donor);
+        let limits = [true, false].map(|plus| model.structure().touch_amplitude_m_per_s2(plus));
+        (plan, lean, limits)
+    };
+    let (auto, lean, limits) = match pair.mutant {
+        Some(name) => mutant::with(name, planned),
+        None => planned(),
+    };
+    if pair.whole_window {
+        end_at_touch(&mut all, &lean);
+    }
+    assert_same(&lean, &all, auto.needs, what);
+    for output in asked {
+        assert!(is_answered(*output, &lean), "{what}: {output:?}");
+    }
+    for (positive, limit) in [true, false].into_iter().zip(limits) {
+        let structure = full_model.structure();
+        assert_eq!(
+            limit,
+            structure.touch_amplitude_m_per_s2(positive),
+            "{what}"
+        );
+        // The threshold must be the border that the contact march itself finds.
+        if positive == (amplitude_g > 0.0)
+            && let (Some(limit), Window::Fixed { .. }) = (limit, scene.window)
+        {
+            let touched = all.top.first_touch_s.or(all.bottom.first_touch_s).is_some();
+            let amplitude = m_per_s2_from_g(amplitude_g.abs());
+            if (amplitude / limit - 1.0).abs() > 1e-9 {
+                assert_eq!(touched, amplitude > limit, "{what}");
+            }
+        }
+    }
+}
+
+/// Takes from a run over the whole window what belongs to the time after its touch: the planned
+/// run ended there, and has one row more, at the touch itself.
+fn end_at_touch(all: &mut Outcome, lean: &Outcome) {
+    let Verdict::Fails { t_fail_s, .. } = all.verdict else {
+        return;
+    };
+    (all.min_clearance_m, all.t_min_clearance_s) = (lean.min_clearance_m, lean.t_min_clearance_s);
+    (all.dimple, all.cost) = (lean.dimple, lean.cost);
+    let (Some(all), Some(lean)) = (&mut all.history, &lean.history) else {
+        return;
+    };
+    let before = all.head.time_s.partition_point(|t| *t < t_fail_s);
+    let (all, lean) = (columns(&mut all.head), &lean.head);
+    for (all, lean) in all.into_iter().zip(columns(&mut lean.clone())) {
+        all.truncate(before);
+        all.extend(lean.get(before..).into_iter().flatten());
+    }
+}
+
+fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 7] {
+    [
+        &mut head.time_s,
+        &mut head.slider_z_m,
+        &mut head.slider_pitch_rad,
+        &mut head.slider_roll_rad,
+        &mut head.min_clearance_m,
+        &mut head.bearing_force_n,
+        &mut head.dimple_force_n,
+    ]
+}
