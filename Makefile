@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz verify-accuracy accuracy
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -18,6 +18,9 @@ build: bootstrap ## build the optimised program
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
 	$(OPSHOCK) sweep studies/fig13/study.toml --store results/fig13/fig13.opshock -j $(JOBS)
 	$(OPSHOCK) report results/fig13/fig13.opshock --out results/fig13
+
+accuracy: build ## what accuracy costs on Fig. 13: ladders, plots and table in results/accuracy/
+	$(OPSHOCK) accuracy studies/fig13/study.toml --at none:2:- --at deformable:2:- --out results/accuracy
 
 study: build ## run another study: make study NAME=drive-2.5in
 	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }
@@ -41,7 +44,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-hard verify-scenes ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-hard verify-scenes verify-accuracy ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -57,6 +60,9 @@ verify-hard: bootstrap ## hard cases that take longer, each with figure and boun
 
 verify-scenes: bootstrap ## 14000 random scenes (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow
+
+verify-accuracy: bootstrap ## do the error bars hold the truth? 300 known answers, 40 ten times finer
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture accuracy_slow
 
 verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse or journal (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

@@ -1,10 +1,12 @@
 //! Study files, search, store, report and command line.
 
+mod accuracy;
 mod bad_inputs;
 mod cli;
 mod cli_explain;
 mod cli_run;
 mod cli_studies;
+mod error_bars;
 mod identity;
 mod real_sweep;
 mod report_files;

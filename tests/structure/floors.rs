@@ -43,6 +43,7 @@ const STUDY: &[(&str, u8)] = &[
     ("search", 1),
     ("store", 2),
     ("sweep", 3),
+    ("accuracy", 3),
     ("report", 4),
     ("cli", 5),
 ];

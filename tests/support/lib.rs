@@ -4,6 +4,7 @@ pub mod bodies;
 pub mod films;
 pub mod hdf5_dump;
 pub mod heads;
+pub mod mock_bars;
 pub mod mock_sweep;
 pub mod pairs;
 pub mod scenes;

@@ -5,6 +5,7 @@
 //! only what was saved.
 #![forbid(unsafe_code)]
 
+pub mod accuracy;
 pub mod cli;
 pub mod identity;
 pub mod provenance;

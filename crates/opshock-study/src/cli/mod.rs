@@ -1,6 +1,7 @@
 //! Command line: a file per command. Results go to stdout, messages to stderr; see [`Exit`] for
 //! the exit codes.
 
+mod accuracy;
 mod check;
 mod completions;
 mod console;
@@ -129,6 +130,7 @@ enum Command {
     Explain(explain::ExplainArgs),
     Sweep(sweep::SweepArgs),
     Report(report::ReportArgs),
+    Accuracy(accuracy::AccuracyArgs),
     Status(status::StatusArgs),
     Export(export::ExportArgs),
     Doctor(doctor::DoctorArgs),
@@ -171,6 +173,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
+        Command::Accuracy(arguments) => accuracy::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),
         Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),

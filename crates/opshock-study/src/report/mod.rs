@@ -1,5 +1,6 @@
 //! Summary, tables and plots; never simulates.
 
+mod accuracy_files;
 pub mod chart;
 mod critical_shock;
 mod files;
@@ -11,6 +12,7 @@ mod run_text;
 pub mod runs_table;
 pub mod table;
 
+pub use accuracy_files::write_accuracy;
 pub use critical_shock::critical_shock_figure;
 pub use files::{ReportError, write_report};
 pub use html::ReportSource;

@@ -59,14 +59,27 @@ pub(super) struct Ledger<'a> {
     sharing: HashMap<PointDigest, Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     urgency: Vec<usize>,
-    /// Error bars as far as they have got, by place; `None` before the point's search is final.
-    bars: Vec<Option<Bars>>,
+    /// Error bars as far as they have got, by place.
+    bars: Vec<BarStage>,
 }
 
 /// Error bar of a point as far as it has got.
-struct Bars {
-    log: Vec<bar::Ask>,
-    progress: bar::Progress,
+enum BarStage {
+    /// The point's search is not final.
+    Waiting,
+    /// None is wanted, or there is no bracket.
+    Without,
+    /// The answer, and with it the bar, is that of the same point without ramp.
+    Taken {
+        /// That point.
+        companion: usize,
+    },
+    /// Begun.
+    Begun {
+        input: Box<bar::BarInput>,
+        log: Vec<bar::Ask>,
+        progress: bar::Progress,
+    },
 }
 
 impl<'a> Ledger<'a> {
@@ -88,7 +101,7 @@ impl<'a> Ledger<'a> {
             onsets_in_flight: HashSet::new(),
             sharing,
             urgency,
-            bars: input.points.iter().map(|_| None).collect(),
+            bars: input.points.iter().map(|_| BarStage::Waiting).collect(),
         }
     }
 
@@ -131,7 +144,7 @@ impl<'a> Ledger<'a> {
         match self.sharing.get(&key.point) {
             Some(asking) => self.absorb(asking.clone()),
             // Knobs were turned: an error bar's run.
-            None => self.draw_bars(),
+            None => self.draw_bars(Some(key)),
         }
     }
 
@@ -150,46 +163,78 @@ impl<'a> Ledger<'a> {
                 places.extend(self.campaign.take_changed());
             }
         }
-        told.extend(self.draw_bars());
+        told.extend(self.draw_bars(None));
         told
     }
 
-    /// Takes every error bar as far as the runs known allow; says which runs were used first now.
-    fn draw_bars(&mut self) -> Vec<Told> {
+    /// Takes error bars as far as the runs known allow: those that wait for the run `finished`, or
+    /// all, and those whose search has become final. Says which runs were used first now.
+    fn draw_bars(&mut self, finished: Option<RunKey>) -> Vec<Told> {
         let mut told = Vec::new();
         for point in 0..self.input.points.len() {
-            let is_done = |bars: &Bars| matches!(bars.progress, bar::Progress::Done(_));
-            if self.bars[point].as_ref().is_some_and(is_done) {
-                continue;
+            match &self.bars[point] {
+                BarStage::Waiting if self.campaign.is_final(point) => {
+                    self.bars[point] = self.first_stage(point);
+                }
+                BarStage::Begun {
+                    progress: bar::Progress::Wants(ask),
+                    ..
+                } => {
+                    let wanted = self.key(point, bar_probe(*ask));
+                    if finished.is_some_and(|key| key != wanted) {
+                        continue;
+                    }
+                }
+                _ => continue,
             }
-            let Some(input) = self.bar_input(point) else {
+            let BarStage::Begun { input, log, .. } = &self.bars[point] else {
                 continue;
             };
             let lookup = |ask: bar::Ask| {
                 let record = self.runs.get(&self.key(point, bar_probe(ask)))?;
                 Some(seen(&record.result))
             };
-            let (log, progress) = bar::bar(&input, &lookup);
-            let known = self.bars[point].as_ref().map_or(0, |bars| bars.log.len());
-            told.extend(log[known..].iter().map(|&ask| Told {
+            let (now, progress) = bar::bar(input, &lookup);
+            told.extend(now[log.len()..].iter().map(|&ask| Told {
                 point,
                 asked: bar_asked(ask),
                 key: self.key(point, bar_probe(ask)),
             }));
-            self.bars[point] = Some(Bars { log, progress });
+            if let BarStage::Begun {
+                log,
+                progress: before,
+                ..
+            } = &mut self.bars[point]
+            {
+                (*log, *before) = (now, progress);
+            }
         }
         told
     }
 
-    /// What the bar of a point starts from; `None` while its search is not final and for answers
-    /// that have no bracket of their own.
+    /// Stage of a bar when the point's search has become final.
+    fn first_stage(&self, point: usize) -> BarStage {
+        let companion = self.campaign.order().relations[point].companion;
+        let is_taken = self.campaign.findings(point).flags.contains(&Flag::NoTouch);
+        if let Some(companion) = companion.filter(|_| is_taken) {
+            return BarStage::Taken { companion };
+        }
+        match self.bar_input(point) {
+            None => BarStage::Without,
+            Some(input) => BarStage::Begun {
+                input: Box::new(input),
+                log: Vec::new(),
+                progress: bar::Progress::Done(bar::Bar::default()),
+            },
+        }
+    }
+
+    /// What the bar of a point with a final search starts from; `None` without a bracket of its
+    /// own.
     fn bar_input(&self, point: usize) -> Option<bar::BarInput> {
         let plan = self.input.points[point].bar.as_ref()?;
-        if !self.campaign.is_final(point) {
-            return None;
-        }
         let findings = self.campaign.findings(point);
-        if findings.status != Status::Ok || findings.flags.contains(&Flag::NoTouch) {
+        if findings.status != Status::Ok {
             return None;
         }
         let (survivor, failure) = (findings.survivor?, findings.failure?);
@@ -231,24 +276,13 @@ impl<'a> Ledger<'a> {
         })
     }
 
-    /// The point whose bar stands for that of `point`: the same without ramp where the answer is
-    /// taken from there.
-    fn bar_owner(&self, point: usize) -> usize {
-        let is_taken = self.campaign.findings(point).flags.contains(&Flag::NoTouch);
-        let companion = self.campaign.order().relations[point].companion;
-        companion.filter(|_| is_taken).unwrap_or(point)
-    }
-
     /// A point has its final answer and its error bar.
     pub(super) fn is_final(&self, point: usize) -> bool {
-        if !self.campaign.is_final(point) {
-            return false;
-        }
-        let is_wanted = |owner: usize| self.bar_input(owner).is_some();
-        let owner = self.bar_owner(point);
-        match &self.bars[owner] {
-            Some(bars) => matches!(bars.progress, bar::Progress::Done(_)),
-            None => !is_wanted(owner),
+        match &self.bars[point] {
+            BarStage::Waiting => false,
+            BarStage::Without => true,
+            BarStage::Taken { companion } => self.is_final(*companion),
+            BarStage::Begun { progress, .. } => matches!(progress, bar::Progress::Done(_)),
         }
     }
 
@@ -259,7 +293,11 @@ impl<'a> Ledger<'a> {
 
     fn bar_job(&self) -> Option<Job> {
         self.urgency.iter().find_map(|&point| {
-            let bar::Progress::Wants(ask) = self.bars[point].as_ref()?.progress else {
+            let BarStage::Begun {
+                progress: bar::Progress::Wants(ask),
+                ..
+            } = self.bars[point]
+            else {
                 return None;
             };
             let key = self.key(point, bar_probe(ask));
@@ -397,24 +435,26 @@ impl<'a> Ledger<'a> {
         if !self.is_final(point) {
             findings.status = Status::Open;
         }
-        let owner = self.bar_owner(point);
-        let bar = match &self.bars[owner] {
-            Some(Bars {
-                log,
-                progress: bar::Progress::Done(bar),
-            }) => {
-                let runs = if owner == point { log.len() } else { 0 };
-                Some((bar, runs as u64))
-            }
-            _ => None,
-        };
         rows::row(
             &self.input.points[point],
             &findings,
-            bar,
+            self.finished_bar(point),
             onset_g,
             &self.input.settings.lattice,
         )
+    }
+
+    /// Bar of a point, once it is finished, and the runs it took.
+    fn finished_bar(&self, point: usize) -> Option<(&bar::Bar, u64)> {
+        match &self.bars[point] {
+            BarStage::Taken { companion } => Some((self.finished_bar(*companion)?.0, 0)),
+            BarStage::Begun {
+                log,
+                progress: bar::Progress::Done(bar),
+                ..
+            } => Some((bar, log.len() as u64)),
+            _ => None,
+        }
     }
 
     /// Table, runs and what is kept beside them.
@@ -425,9 +465,12 @@ impl<'a> Ledger<'a> {
             let Some(search) = self.campaign.search(point) else {
                 continue;
             };
-            let bar = self.bars[point].iter().flat_map(|bars| &bars.log);
+            let bar: &[bar::Ask] = match &self.bars[point] {
+                BarStage::Begun { log, .. } => log,
+                _ => &[],
+            };
             let asked = search.log().iter().copied();
-            let asked = asked.chain(bar.map(|&ask| bar_asked(ask)));
+            let asked = asked.chain(bar.iter().map(|&ask| bar_asked(ask)));
             for (sequence, asked) in asked.enumerate() {
                 let key = self.key(point, asked.probe);
                 used.insert(key);

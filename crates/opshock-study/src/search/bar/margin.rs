@@ -13,7 +13,7 @@ use crate::search::evidence::NodeVerdict;
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.
 const EVENT_S: f64 = 1.0e-4;
 /// Largest distance of the two amplitudes behind a slope, as a share.
-const REACH: f64 = 0.06;
+const REACH: f64 = 0.12;
 
 /// What differences are read against.
 pub(super) struct Reference {

@@ -117,7 +117,11 @@ pub(super) fn knob(walk: &mut Walk<'_>, knob: Knob) -> Result<Option<Estimate>, 
     }
     let first = shift(walk, base, one);
     let estimate = judge::one_step(knob, first);
-    if estimate.share * estimate.factor <= judge::NEGLIGIBLE * walk.input.accuracy {
+    // Too little to matter, or so much that the bar exceeds what was asked by this part alone.
+    let accuracy = walk.input.accuracy;
+    if estimate.share * estimate.factor <= judge::NEGLIGIBLE * accuracy
+        || estimate.share * judge::NARROW > 2.0 * accuracy
+    {
         return Ok(Some(estimate));
     }
     let twice = once.turned(knob, judge::step(knob));

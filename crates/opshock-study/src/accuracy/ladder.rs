@@ -1,0 +1,224 @@
+//! Ladders: the settings that each knob takes, and the reference they are held against.
+
+use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::Scene;
+use opshock_solver::scene::accuracy::{Resolutions, Rung, resolutions};
+use opshock_solver::scene::knob::Knob;
+
+/// One rung of a ladder.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Ladder it belongs to.
+    pub ladder: &'static str,
+    /// Value of the knob, as the study's key has it.
+    pub value: String,
+    /// Fineness: the error falls with this number to the power of the knob's order.
+    pub fineness: f64,
+    /// The ladder's reference.
+    pub is_reference: bool,
+    /// Scene with the knob there.
+    pub scene: Scene,
+}
+
+/// Order with which a ladder's error falls with its fineness where no contact lies between.
+pub fn formal_order(ladder: &str) -> Option<f64> {
+    match ladder {
+        // Cells of a plane grid: second order in the spacing.
+        "film_cells" => Some(1.0),
+        "disk_cut_khz" | "structure_step_us" | "coupling_tolerance" => Some(1.0),
+        "suspension_modes" => Some(2.0),
+        "head_tolerance" => Some(2.0 / 3.0),
+        _ => None,
+    }
+}
+
+/// Quantity of a shock on which a ladder's observed order is read.
+pub fn order_quantity(ladder: &str) -> &'static str {
+    match ladder {
+        "film_cells" => "flying_height",
+        "disk_cut_khz" | "disk_harmonics" | "structure_step_us" | "ramp_modes" => "contact_impulse",
+        _ => "min_clearance",
+    }
+}
+
+/// Every knob's ladder for a scene, each with its reference ten times finer; then joint rungs.
+///
+/// All ladders but that of the film and the joint ones stand on a film of a quarter of the cells:
+/// what the other knobs change hardly depends on it, and the reference of each ladder has it too.
+pub fn ladders(scene: &Scene) -> Vec<Setting> {
+    let small =
+        scene.at_levels(opshock_solver::scene::knob::Levels::NONE.turned(Knob::FilmGrid, -2));
+    let has_ramp = small.ramp.model != RampModel::None;
+    let mut all = Vec::new();
+    if has_ramp {
+        let base = small.disk_resolution.clone();
+        for (factor, is_reference) in rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0) {
+            let mut at = small.clone();
+            at.disk_resolution.n_harmonics = count(base.n_harmonics, factor);
+            let value = at.disk_resolution.n_harmonics.to_string();
+            all.push(setting("disk_harmonics", value, factor, is_reference, at));
+        }
+        for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 2.0, 4.0], 16.0) {
+            let mut at = small.clone();
+            let waves = f64::max(1.0, factor).sqrt();
+            at.disk_resolution.cut_hz *= factor;
+            at.disk_resolution.n_harmonics = count(base.n_harmonics, waves);
+            at.disk_resolution.n_elements = count(base.n_elements, waves);
+            let value = (at.disk_resolution.cut_hz / 1e3).to_string();
+            all.push(setting("disk_cut_khz", value, factor, is_reference, at));
+        }
+        for (factor, is_reference) in rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0) {
+            let mut at = small.clone();
+            at.structure_resolution.step_s /= factor;
+            let value = format!("{:.4}", 1e6 * at.structure_resolution.step_s);
+            all.push(setting(
+                "structure_step_us",
+                value,
+                factor,
+                is_reference,
+                at,
+            ));
+        }
+    }
+    if let RampModel::Deformable { top, bottom } = &small.ramp.model {
+        // The arm's modes are the model itself: the reference is what the study gives.
+        for kept in 1..=top.len().max(bottom.len()) {
+            let mut at = small.clone();
+            at.ramp.model = RampModel::Deformable {
+                top: top.iter().take(kept).cloned().collect(),
+                bottom: bottom.iter().take(kept).cloned().collect(),
+            };
+            let is_reference = kept == top.len().max(bottom.len());
+            all.push(setting(
+                "ramp_modes",
+                kept.to_string(),
+                kept as f64,
+                is_reference,
+                at,
+            ));
+        }
+    }
+    let modes = small.head_resolution.suspension_modes;
+    for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 2.0, 4.0], 10.0) {
+        let mut at = small.clone();
+        at.head_resolution.suspension_modes = count(modes, factor);
+        let value = at.head_resolution.suspension_modes.to_string();
+        all.push(setting("suspension_modes", value, factor, is_reference, at));
+    }
+    for (factor, is_reference) in rungs([0.2, 0.5, 1.0, 2.0, 4.0], 100.0) {
+        let mut at = small.clone();
+        at.head_resolution.tolerance /= factor;
+        let value = at.head_resolution.tolerance.to_string();
+        all.push(setting("head_tolerance", value, factor, is_reference, at));
+    }
+    for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 4.0, 16.0], 100.0) {
+        let mut at = small.clone();
+        at.head_resolution.coupling_tolerance /= factor;
+        let value = format!("{:e}", at.head_resolution.coupling_tolerance);
+        all.push(setting(
+            "coupling_tolerance",
+            value,
+            factor,
+            is_reference,
+            at,
+        ));
+    }
+    for (factor, is_reference) in rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0) {
+        let mut at = scene.clone();
+        at.film_resolution.cells = count(scene.film_resolution.cells, factor);
+        let value = at.film_resolution.cells.to_string();
+        all.push(setting("film_cells", value, factor, is_reference, at));
+    }
+    all.extend(joint(scene));
+    all
+}
+
+/// The named rungs, one coarser and one between, against a scene finer than all of them.
+fn joint(scene: &Scene) -> Vec<Setting> {
+    let with = |resolutions: Resolutions| {
+        let mut at = scene.clone();
+        at.disk_resolution = resolutions.disk;
+        at.structure_resolution = resolutions.structure;
+        at.film_resolution = resolutions.film;
+        at.head_resolution = resolutions.head;
+        at
+    };
+    let at_cells = |rung: Rung, cells: usize| {
+        let mut at = with(resolutions(rung));
+        at.film_resolution.cells = cells;
+        at
+    };
+    let mut finest = with(resolutions(Rung::TenthPercent));
+    finest.film_resolution.cells = 4 * resolutions(Rung::OnePercent).film.cells;
+    let one = resolutions(Rung::OnePercent).film.cells;
+    let five = resolutions(Rung::FivePercent).film.cells;
+    vec![
+        setting(
+            "joint",
+            "5% with a quarter of the cells".into(),
+            0.5,
+            false,
+            at_cells(Rung::FivePercent, five / 4),
+        ),
+        setting(
+            "joint",
+            "5%".into(),
+            1.0,
+            false,
+            with(resolutions(Rung::FivePercent)),
+        ),
+        setting(
+            "joint",
+            "1% with half the cells".into(),
+            1.5,
+            false,
+            at_cells(Rung::OnePercent, one / 2),
+        ),
+        setting(
+            "joint",
+            "1%".into(),
+            2.0,
+            false,
+            with(resolutions(Rung::OnePercent)),
+        ),
+        setting(
+            "joint",
+            "1% with twice the cells".into(),
+            4.0,
+            false,
+            at_cells(Rung::OnePercent, 2 * one),
+        ),
+        setting(
+            "joint",
+            "0.1% with four times the cells of 1%".into(),
+            8.0,
+            true,
+            finest,
+        ),
+    ]
+}
+
+fn setting(
+    ladder: &'static str,
+    value: String,
+    fineness: f64,
+    is_reference: bool,
+    scene: Scene,
+) -> Setting {
+    Setting {
+        ladder,
+        value,
+        fineness,
+        is_reference,
+        scene,
+    }
+}
+
+fn rungs(factors: [f64; 5], reference: f64) -> impl Iterator<Item = (f64, bool)> {
+    let factors = factors.into_iter().map(|factor| (factor, false));
+    factors.chain([(reference, true)])
+}
+
+fn count(base: usize, factor: f64) -> usize {
+    ((base as f64 * factor).round() as usize).max(1)
+}

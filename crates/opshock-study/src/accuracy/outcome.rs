@@ -1,0 +1,240 @@
+//! From what was measured to errors, orders and the front.
+
+use serde::Serialize;
+
+use super::ladder::{Setting, formal_order, order_quantity};
+use super::measure::Measured;
+
+/// Names of the quantities whose errors are listed, in the order of [`RungRow::errors`].
+pub const QUANTITIES: [&str; 7] = [
+    "critical_shock",
+    "min_clearance",
+    "flying_height",
+    "contact_impulse",
+    "rim_displacement",
+    "slider_displacement",
+    "first_touch_time",
+];
+
+/// A rung with its errors and cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RungRow {
+    /// Ladder.
+    pub ladder: String,
+    /// Value of the knob.
+    pub value: String,
+    /// Fineness.
+    pub fineness: f64,
+    /// The reference of its ladder: its errors are how uncertain it is itself.
+    pub is_reference: bool,
+    /// Errors, as shares, by [`QUANTITIES`].
+    pub errors: [Option<f64>; QUANTITIES.len()],
+    /// Median and quartiles of the wall time of the probing shock, s.
+    pub wall_s: Option<[f64; 3]>,
+    /// No other setting of the front's ladders is both cheaper and better.
+    pub is_on_front: bool,
+    /// As measured.
+    pub measured: Measured,
+}
+
+/// Observed order of a ladder.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LadderOrder {
+    /// Ladder.
+    pub ladder: String,
+    /// Quantity it is read on.
+    pub quantity: String,
+    /// Order in the ladder's fineness, as the errors fall.
+    pub observed: Option<f64>,
+    /// Formal order.
+    pub formal: Option<f64>,
+}
+
+/// Ladders of one point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PointLadders {
+    /// `deformable 2 ms -`.
+    pub label: String,
+    /// Amplitude of the probing shock, G.
+    pub probe_g: f64,
+    /// Rungs.
+    pub rungs: Vec<RungRow>,
+    /// Orders.
+    pub orders: Vec<LadderOrder>,
+}
+
+/// Everything a report of it shows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// Name of the study.
+    pub study: String,
+    /// Its digest.
+    pub digest: String,
+    /// Program that measured.
+    pub program: String,
+    /// Points.
+    pub points: Vec<PointLadders>,
+}
+
+impl PointLadders {
+    /// Errors, orders and front of what was measured.
+    pub fn of(label: String, probe_g: f64, measured: &[(Setting, Measured)]) -> PointLadders {
+        let reference = |ladder: &str| {
+            let found = measured
+                .iter()
+                .find(|(s, _)| s.ladder == ladder && s.is_reference);
+            found.map(|(setting, measured)| (setting, measured))
+        };
+        let mut rungs: Vec<RungRow> = measured
+            .iter()
+            .map(|(setting, one)| RungRow {
+                ladder: setting.ladder.to_owned(),
+                value: setting.value.clone(),
+                fineness: setting.fineness,
+                is_reference: setting.is_reference,
+                errors: reference(setting.ladder)
+                    .map_or([None; QUANTITIES.len()], |(_, other)| errors(one, other)),
+                wall_s: quartiles(&one.wall_s),
+                is_on_front: false,
+                measured: one.clone(),
+            })
+            .collect();
+        // How far the reference itself may be off: the finest rung's error, fallen at formal order.
+        for place in 0..rungs.len() {
+            if !rungs[place].is_reference {
+                continue;
+            }
+            let (ladder, fineness) = (rungs[place].ladder.clone(), rungs[place].fineness);
+            let finest = rungs
+                .iter()
+                .filter(|rung| rung.ladder == ladder && !rung.is_reference)
+                .max_by(|a, b| a.fineness.total_cmp(&b.fineness));
+            if let Some(finest) = finest {
+                let order = formal_order(&ladder).unwrap_or(1.0);
+                let fall = (finest.fineness / fineness).powf(order);
+                rungs[place].errors = finest.errors.map(|error| error.map(|e| e * fall));
+            }
+        }
+        mark_front(&mut rungs);
+        let mut ladders: Vec<String> = rungs.iter().map(|rung| rung.ladder.clone()).collect();
+        ladders.dedup();
+        let orders = ladders.iter().map(|ladder| order(ladder, &rungs)).collect();
+        PointLadders {
+            label,
+            probe_g,
+            rungs,
+            orders,
+        }
+    }
+}
+
+fn errors(one: &Measured, reference: &Measured) -> [Option<f64>; QUANTITIES.len()] {
+    let share = |value: f64, of: f64, by: f64| {
+        let error = (value - of).abs() / by.abs();
+        error.is_finite().then_some(error)
+    };
+    let plain = |value: f64, of: f64| share(value, of, of);
+    [
+        one.critical_g
+            .zip(reference.critical_g)
+            .and_then(|(a, b)| plain(a, b)),
+        share(
+            one.min_clearance_m,
+            reference.min_clearance_m,
+            reference.flying_height_m,
+        ),
+        plain(one.flying_height_m, reference.flying_height_m),
+        plain(one.contact_impulse_n_s, reference.contact_impulse_n_s),
+        plain(one.rim_m, reference.rim_m),
+        plain(one.slider_m, reference.slider_m),
+        one.first_touch_s
+            .zip(reference.first_touch_s)
+            .and_then(|(a, b)| plain(a, b)),
+    ]
+}
+
+fn quartiles(times: &[f64]) -> Option<[f64; 3]> {
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = share * (sorted.len() as f64 - 1.0);
+        let (low, rest) = (place.floor() as usize, place.fract());
+        let high = (low + 1).min(sorted.len() - 1);
+        sorted[low] * (1.0 - rest) + sorted[high] * rest
+    };
+    (!sorted.is_empty()).then(|| [at(0.25), at(0.5), at(0.75)])
+}
+
+/// Front of the joint settings: error of the critical shock against work.
+fn mark_front(rungs: &mut [RungRow]) {
+    let joint: Vec<(usize, u64, f64)> = rungs
+        .iter()
+        .enumerate()
+        .filter(|(_, rung)| rung.ladder == "joint" && !rung.is_reference)
+        .filter_map(|(place, rung)| Some((place, rung.measured.work, rung.errors[0]?)))
+        .collect();
+    for &(place, work, error) in &joint {
+        rungs[place].is_on_front = !joint.iter().any(|&(_, other_work, other_error)| {
+            (other_work < work && other_error <= error)
+                || (other_work <= work && other_error < error)
+        });
+    }
+}
+
+/// Order over the rungs whose error is neither lost in the reference's nor in rounding.
+fn order(ladder: &str, rungs: &[RungRow]) -> LadderOrder {
+    let quantity = order_quantity(ladder);
+    let column = QUANTITIES
+        .iter()
+        .position(|name| *name == quantity)
+        .unwrap_or(0);
+    let of: Vec<&RungRow> = rungs.iter().filter(|rung| rung.ladder == ladder).collect();
+    let floor = of
+        .iter()
+        .find(|rung| rung.is_reference)
+        .and_then(|rung| rung.errors[column])
+        .unwrap_or(0.0);
+    let known: Vec<(f64, f64)> = of
+        .iter()
+        .filter(|rung| !rung.is_reference)
+        .filter_map(|rung| Some((rung.fineness.ln(), rung.errors[column]?)))
+        .filter(|&(_, error)| error > 3.0 * floor && error > 1e-12)
+        .map(|(fineness, error)| (fineness, error.ln()))
+        .collect();
+    LadderOrder {
+        ladder: ladder.to_owned(),
+        quantity: quantity.to_owned(),
+        observed: slope(&known).map(|slope| -slope),
+        formal: formal_order(ladder),
+    }
+}
+
+/// Least squares through at least three points.
+fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    if points.len() < 3 {
+        return None;
+    }
+    let n = points.len() as f64;
+    let (mx, my) = points.iter().fold((0.0, 0.0), |(x, y), point| {
+        (x + point.0 / n, y + point.1 / n)
+    });
+    let above: f64 = points.iter().map(|(x, y)| (x - mx) * (y - my)).sum();
+    let below: f64 = points.iter().map(|(x, _)| (x - mx).powi(2)).sum();
+    Some(above / below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_and_slopes_are_those_of_the_books() {
+        assert_eq!(quartiles(&[4.0, 1.0, 3.0, 2.0, 5.0]), Some([2.0, 3.0, 4.0]));
+        assert_eq!(quartiles(&[]), None);
+        let line: Vec<(f64, f64)> = (0..4)
+            .map(|i| (f64::from(i), 1.0 - 2.0 * f64::from(i)))
+            .collect();
+        assert_eq!(slope(&line), Some(-2.0));
+        assert_eq!(slope(&line[..2]), None);
+    }
+}

@@ -1,0 +1,226 @@
+//! What accuracy costs, as files: table (Markdown, CSV), JSON, work-precision plots.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
+use super::files::ReportError;
+use super::table::csv_line;
+use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
+
+/// Writes `accuracy.md`, `accuracy.csv`, `accuracy.json` and, per point, `accuracy-N.svg` and
+/// `.png` into `folder`; returns the written files.
+///
+/// # Errors
+///
+/// [`ReportError`] at the first file that cannot be made.
+pub fn write_accuracy(folder: &Path, accuracy: &Accuracy) -> Result<Vec<PathBuf>, ReportError> {
+    let io = |path: &Path, source| ReportError::Io {
+        path: path.display().to_string(),
+        source,
+    };
+    std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
+    let json = serde_json::to_string_pretty(accuracy).map_err(|error| ReportError::Io {
+        path: folder.display().to_string(),
+        source: error.into(),
+    })?;
+    let mut files: Vec<(String, Vec<u8>)> = vec![
+        ("accuracy.md".into(), markdown(accuracy).into_bytes()),
+        ("accuracy.csv".into(), csv(accuracy).into_bytes()),
+        ("accuracy.json".into(), json.into_bytes()),
+    ];
+    for (number, point) in accuracy.points.iter().enumerate() {
+        let figure = figure(point, &accuracy.program);
+        files.push((
+            format!("accuracy-{}.svg", number + 1),
+            figure.svg().into_bytes(),
+        ));
+        files.push((format!("accuracy-{}.png", number + 1), figure.png()?));
+    }
+    let mut written = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+/// Work-precision plots of a point: error of three quantities against wall time, a panel a ladder.
+pub fn figure(point: &PointLadders, program: &str) -> Figure {
+    let mut ladders: Vec<&str> = point
+        .rungs
+        .iter()
+        .map(|rung| rung.ladder.as_str())
+        .collect();
+    ladders.dedup();
+    let panels = ladders
+        .iter()
+        .map(|ladder| {
+            let of = |column: usize| -> Vec<Sample> {
+                let rungs = point.rungs.iter();
+                let rungs = rungs.filter(|rung| rung.ladder == *ladder && !rung.is_reference);
+                rungs.filter_map(|rung| sample(rung, column)).collect()
+            };
+            let marked = |name: &str, colour, marker, column| {
+                Series::marked(
+                    name,
+                    colour,
+                    Some(Dash::Solid),
+                    (marker, Fill::Full),
+                    of(column),
+                )
+            };
+            Panel {
+                title: (*ladder).to_owned(),
+                x: Axis::log("Time of one shock (s)"),
+                y: Axis::log("Relative error"),
+                series: vec![
+                    marked("critical shock", colour::BLACK, Marker::Circle, 0),
+                    marked("smallest clearance", colour::BLUE, Marker::Square, 1),
+                    marked("flying height", colour::GREEN, Marker::Diamond, 2),
+                    marked("contact impulse", colour::VERMILLION, Marker::Triangle, 3),
+                ],
+                rules: Vec::new(),
+                shaded: None,
+            }
+        })
+        .collect();
+    Figure {
+        title: format!("What accuracy costs: {}", point.label),
+        subtitle: format!("each knob alone, then all together   [{program}]"),
+        columns: 3,
+        panel_px: (360.0, 300.0),
+        panels,
+    }
+}
+
+fn sample(rung: &RungRow, column: usize) -> Option<Sample> {
+    let error = rung.errors[column].filter(|&error| error > 1e-9)?;
+    let [_, median_s, _] = rung.wall_s?;
+    Some(Sample {
+        x: median_s,
+        value: Value::Known {
+            y: error,
+            low: error,
+            high: error,
+        },
+        open: !rung.is_on_front && rung.ladder == "joint",
+        note: format!("{} = {}: {:.3} %", rung.ladder, rung.value, 100.0 * error),
+    })
+}
+
+fn csv(accuracy: &Accuracy) -> String {
+    let mut header: Vec<String> = ["point", "ladder", "value", "fineness", "is_reference"]
+        .map(String::from)
+        .to_vec();
+    header.extend(QUANTITIES.map(|name| format!("{name}_error")));
+    header.extend(
+        [
+            "critical_g",
+            "wall_q1_s",
+            "wall_median_s",
+            "wall_q3_s",
+            "build_s",
+            "film_work",
+            "structure_steps",
+            "on_front",
+            "failure",
+        ]
+        .map(String::from),
+    );
+    let mut text = csv_line(&header);
+    let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.6e}"));
+    for point in &accuracy.points {
+        for rung in &point.rungs {
+            let mut row = vec![
+                point.label.clone(),
+                rung.ladder.clone(),
+                rung.value.clone(),
+                rung.fineness.to_string(),
+                rung.is_reference.to_string(),
+            ];
+            row.extend(rung.errors.iter().map(|&error| number(error)));
+            let wall = rung.wall_s.map(|w| w.map(Some)).unwrap_or([None; 3]);
+            let measured = &rung.measured;
+            row.push(number(measured.critical_g));
+            row.extend(wall.map(number));
+            row.extend([
+                number(Some(measured.build_s)),
+                measured.work.to_string(),
+                measured.structure_steps.to_string(),
+                rung.is_on_front.to_string(),
+                measured.failure.clone().unwrap_or_default(),
+            ]);
+            text.push_str(&csv_line(&row));
+        }
+    }
+    text
+}
+
+/// The tables as Markdown.
+pub fn markdown(accuracy: &Accuracy) -> String {
+    let mut text = format!("# What accuracy costs: {}\n", accuracy.study);
+    for point in &accuracy.points {
+        let _ = write!(
+            text,
+            "\n## {}, probing shock {:.1} G\n\n| knob | value | critical shock (G) | its error (%) | clearance (%) | \
+             flying height (%) | impulse (%) | rim (%) | slider (%) | first touch (%) | time of a shock (s) | film work |\n\
+             | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+            point.label, point.probe_g
+        );
+        for rung in &point.rungs {
+            let measured = &rung.measured;
+            let name = match (rung.is_reference, rung.is_on_front) {
+                (true, _) => format!("{} (reference)", rung.value),
+                (false, true) => format!("**{}**", rung.value),
+                (false, false) => rung.value.clone(),
+            };
+            let errors: String = rung
+                .errors
+                .iter()
+                .map(|error| match error {
+                    Some(error) => format!(" {:.3} |", 100.0 * error),
+                    None => " |".into(),
+                })
+                .collect();
+            let wall = rung.wall_s.map_or(String::new(), |[q1, median, q3]| {
+                format!("{median:.3} ({q1:.3} to {q3:.3})")
+            });
+            let critical = match (&measured.failure, measured.critical_g) {
+                (Some(reason), _) => format!("failed: {reason}"),
+                (None, Some(critical_g)) => format!("{critical_g:.1}"),
+                (None, None) => String::new(),
+            };
+            let _ = writeln!(
+                text,
+                "| {} | {name} | {critical} |{errors} {wall} | {:.2e} |",
+                rung.ladder, measured.work as f64
+            );
+        }
+        text.push_str(
+            "\n| knob | order read on | observed | formal |\n| --- | --- | ---: | ---: |\n",
+        );
+        for order in &point.orders {
+            let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:.2}"));
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {} |",
+                order.ladder,
+                order.quantity,
+                number(order.observed),
+                number(order.formal)
+            );
+        }
+    }
+    let _ = write!(
+        text,
+        "\nErrors are against the ladder's reference; in the reference's own row they say how \
+         uncertain it is (the finest rung's error, fallen at the formal order). All ladders but \
+         `film_cells` and `joint` stand on a quarter of the film's cells. Bold: on the front of \
+         the joint settings. Orders are in the knob's own number (cells, modes, 1/step, 1/tolerance). \
+         Times are of this machine.\n\n{}, study {}\n",
+        accuracy.program, accuracy.digest
+    );
+    text
+}

@@ -1,0 +1,137 @@
+//! Error bars through a whole sweep: threads, interruption, coverage, cost.
+
+use std::path::Path;
+use std::time::Duration;
+
+use opshock_study::search::{Flag, Purpose};
+use opshock_study::store::results;
+use opshock_study::store::summary::PointSummary;
+use opshock_study::sweep::{Ending, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
+use opshock_tests::hdf5_dump::dump;
+use opshock_tests::mock_bars::{LawSimulator, laws_study};
+
+fn run(input: &SweepInput, laws: &LawSimulator, folder: &Path, threads: usize) -> SweepEnd {
+    let options = SweepOptions::with_threads(threads);
+    let end = sweep(input, laws, folder, &options, &Silent).expect("sweeps");
+    assert_eq!(end.ending, Ending::Complete);
+    end
+}
+
+fn table(end: &SweepEnd) -> String {
+    serde_json::to_string(&end.summary).expect("table")
+}
+
+/// Distance of the truth from the reported value and half the bar, both G; whether it is inside.
+fn covered(row: &PointSummary, exact_g: f64) -> (f64, f64, bool) {
+    let a_crit_g = row.a_crit_g.expect("bracketed");
+    let (low, high) = (
+        row.err_low_g.expect("a bar"),
+        row.err_high_g.expect("a bar"),
+    );
+    let inside = (a_crit_g - low..=a_crit_g + high).contains(&exact_g);
+    ((a_crit_g - exact_g).abs(), 0.5 * (low + high), inside)
+}
+
+/// Share of the truths inside their bars, and the median of half bar over true error.
+fn coverage(rows: &[PointSummary], exact_g: impl Iterator<Item = f64>) -> (f64, f64) {
+    let all: Vec<_> = rows
+        .iter()
+        .zip(exact_g)
+        .map(|(row, exact_g)| covered(row, exact_g))
+        .collect();
+    let inside = all.iter().filter(|one| one.2).count() as f64 / all.len() as f64;
+    let mut ratios: Vec<f64> = all.iter().map(|one| one.1 / one.0.max(1e-9)).collect();
+    ratios.sort_by(f64::total_cmp);
+    (inside, ratios[ratios.len() / 2])
+}
+
+#[test]
+fn bars_do_not_depend_on_threads_nor_on_interruption() {
+    let (input, laws) = (laws_study(12), LawSimulator::of(100, 12));
+    let folder = tempfile::tempdir().expect("folder");
+    let at = |name: &str| folder.path().join(name);
+    let reference = run(&input, &laws, &at("1"), 1);
+    let content = dump(&at("1").join("results.h5"), &["/machine"]);
+    assert!(reference.summary.totals.bar_runs > 50);
+    for threads in [2, 8] {
+        let name = threads.to_string();
+        let other = run(&input, &laws, &at(&name), threads);
+        assert_eq!(table(&other), table(&reference));
+        assert_eq!(dump(&at(&name).join("results.h5"), &["/machine"]), content);
+    }
+    // Stopped again and again, and then without its journal.
+    let mut options = SweepOptions::with_threads(2);
+    options.budget = Some(Duration::from_millis(1));
+    let mut sittings = 0;
+    loop {
+        let end = sweep(&input, &laws, &at("cut"), &options, &Silent).expect("sweeps");
+        sittings += 1;
+        if end.ending == Ending::Complete {
+            assert_eq!(table(&end), table(&reference));
+            break;
+        }
+        options.budget = options.budget.map(|budget| budget.mul_f64(1.3));
+    }
+    assert!(sittings > 1);
+    std::fs::remove_file(at("cut").join("journal")).expect("a journal");
+    let again = run(&input, &laws, &at("cut"), 2);
+    assert_eq!(again.computed_runs, 0);
+    assert_eq!(table(&again), table(&reference));
+}
+
+#[test]
+fn runs_of_bars_are_labelled_and_switched_off_by_the_plan() {
+    let (mut input, laws) = (laws_study(2), LawSimulator::of(3, 2));
+    let folder = tempfile::tempdir().expect("folder");
+    let with = run(&input, &laws, &folder.path().join("with"), 2);
+    let stored = results::read(&folder.path().join("with/results.h5"))
+        .expect("reads")
+        .expect("is there");
+    for row in &stored.runs {
+        let is_bar = row.purpose == Purpose::ErrorBar;
+        assert_eq!(is_bar, !row.levels.is_none(), "{row:?}");
+    }
+    assert_eq!(stored.summary, with.summary);
+    for point in &mut input.points {
+        point.bar = None;
+    }
+    let without = run(&input, &laws, &folder.path().join("without"), 2);
+    assert_eq!(without.summary.totals.bar_runs, 0);
+    for (with, without) in with.summary.points.iter().zip(&without.summary.points) {
+        assert_eq!(with.a_crit_g, without.a_crit_g);
+        assert_eq!(without.err_parts.len(), 1);
+        let sum: f64 = with.err_parts.iter().map(|(_, part)| part.high_g).sum();
+        assert_eq!(with.err_high_g, Some(sum));
+        assert!(with.err_high_g > without.err_high_g);
+    }
+}
+
+fn known_laws(first: u64, n: usize) -> (f64, f64) {
+    let (input, laws) = (laws_study(n), LawSimulator::of(first, n));
+    let folder = tempfile::tempdir().expect("folder");
+    let end = run(&input, &laws, folder.path(), 2);
+    for (row, law) in end.summary.points.iter().zip(&laws.0) {
+        let (error_g, half_g, inside) = covered(row, law.exact_g);
+        if !inside {
+            println!(
+                "{error_g:.3} G off, half bar {half_g:.3} G: {law:?} {:?}",
+                row.err_parts
+            );
+        }
+        assert!(!row.flags.contains(&Flag::BarPartial), "{row:?}");
+    }
+    coverage(&end.summary.points, laws.0.iter().map(|law| law.exact_g))
+}
+
+#[test]
+fn the_truth_lies_inside_the_bars_of_known_laws() {
+    let (inside, median) = known_laws(1, 60);
+    println!(
+        "60 laws: {:.1} % inside, median bar {median:.2} times the error",
+        100.0 * inside
+    );
+    assert!(inside >= 0.95, "{inside}");
+    assert!(median <= 10.0, "{median}");
+}
+
+mod verify;

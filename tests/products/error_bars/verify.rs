@@ -1,0 +1,401 @@
+//! `make verify-accuracy`: do the bars hold the truth? 300 answers that are known (laws, and disk
+//! and ramp alone) and 40 whole shocks against ten times finer ones. Every answer is a line of
+//! `results/accuracy/coverage.csv`; run again with the same program it goes on from there.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use opshock_solver::quantity::m_per_s2_from_g;
+use opshock_solver::scene::Scene;
+use opshock_solver::scene::knob::Knob;
+use opshock_solver::simulation::{
+    Model, Outcome, Request, Scope, Verdict as SolverVerdict, Workspace, simulate,
+};
+use opshock_study::provenance;
+use opshock_study::search::{Probe, ProbeResult, RunCost, Verdict};
+use opshock_study::store::summary::Status;
+use opshock_study::study::Study;
+use opshock_study::sweep::{BarPlan, Onset, Physics, Simulator, SweepInput};
+use opshock_tests::mock_bars::{LawSimulator, Random, laws_study};
+use opshock_tests::scenes::study;
+
+use super::run;
+
+const LAWS: usize = 260;
+const STRUCTURES: usize = 40;
+const WHOLE: usize = 40;
+
+/// One bar against the truth, G.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Covered {
+    a_crit_g: f64,
+    low_g: f64,
+    high_g: f64,
+    truth_g: f64,
+}
+
+impl Covered {
+    fn inside(&self) -> bool {
+        (self.a_crit_g - self.low_g..=self.a_crit_g + self.high_g).contains(&self.truth_g)
+    }
+
+    fn ratio(&self) -> f64 {
+        0.5 * (self.low_g + self.high_g) / (self.a_crit_g - self.truth_g).abs().max(1e-9)
+    }
+}
+
+/// What was measured, by kind and seed.
+struct Log {
+    path: PathBuf,
+    rows: BTreeMap<(String, u64), Covered>,
+}
+
+const HEADER: &str = "kind,seed,a_crit_g,err_low_g,err_high_g,truth_g,inside";
+
+impl Log {
+    /// What this program has measured so far.
+    fn open() -> Log {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/accuracy/coverage.csv");
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let mut rows = BTreeMap::new();
+        let mut lines = text.lines();
+        if lines.next() == Some(&provenance_line()) {
+            for line in lines.skip(1) {
+                let cells: Vec<&str> = line.split(',').collect();
+                let number = |place: usize| cells[place].parse().expect("a number");
+                let covered = Covered {
+                    a_crit_g: number(2),
+                    low_g: number(3),
+                    high_g: number(4),
+                    truth_g: number(5),
+                };
+                let seed = cells[1].parse().expect("a seed");
+                rows.insert((cells[0].to_owned(), seed), covered);
+            }
+        }
+        Log { path, rows }
+    }
+
+    fn has(&self, kind: &str, seed: u64) -> bool {
+        self.rows.contains_key(&(kind.to_owned(), seed))
+    }
+
+    fn put(&mut self, kind: &str, seed: u64, covered: Covered) {
+        self.rows.insert((kind.to_owned(), seed), covered);
+        let mut text = format!("{}\n{HEADER}\n", provenance_line());
+        for ((kind, seed), c) in &self.rows {
+            let _ = writeln!(
+                text,
+                "{kind},{seed},{:.4},{:.4},{:.4},{:.4},{}",
+                c.a_crit_g,
+                c.low_g,
+                c.high_g,
+                c.truth_g,
+                c.inside()
+            );
+        }
+        std::fs::create_dir_all(self.path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&self.path, text).expect("written");
+    }
+
+    /// Share inside and median ratio of some kinds, printed.
+    fn judge(&self, kinds: &[&str]) -> (f64, f64) {
+        let of: Vec<&Covered> = self
+            .rows
+            .iter()
+            .filter(|((kind, _), _)| kinds.contains(&kind.as_str()))
+            .map(|(_, covered)| covered)
+            .collect();
+        let inside = of.iter().filter(|one| one.inside()).count();
+        let mut ratios: Vec<f64> = of.iter().map(|one| one.ratio()).collect();
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        println!(
+            "{}: {inside} of {} inside ({:.1} %), median half bar {median:.1} times the error",
+            kinds.join(" and "),
+            of.len(),
+            100.0 * inside as f64 / of.len() as f64
+        );
+        (inside as f64 / of.len() as f64, median)
+    }
+}
+
+fn provenance_line() -> String {
+    format!("# {}", provenance::program())
+}
+
+/// Critical amplitude near `from_g` to a share of 0.1 %, by galloping and halving.
+fn truth_g(from_g: f64, fails: &mut dyn FnMut(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (None, None);
+    let (mut at, mut stride) = (from_g, 1.01_f64);
+    loop {
+        if fails(at) {
+            high = Some(at);
+        } else {
+            low = Some(at);
+        }
+        match (low, high) {
+            (Some(low), Some(high)) if high / low < 1.001 => return 0.5 * (low + high),
+            (Some(low), Some(high)) => at = (low * high).sqrt(),
+            (Some(low), None) => at = low * stride,
+            (None, Some(high)) => at = high / stride,
+            (None, None) => unreachable!("a verdict was told"),
+        }
+        stride *= stride;
+    }
+}
+
+/// The scene with every knob about ten times finer, the film's cells included.
+fn ten_times_finer(scene: &Scene) -> Scene {
+    let mut finer = scene.clone();
+    finer.disk_resolution.cut_hz *= 10.0;
+    let waves = |count: usize| (count as f64 * 10_f64.sqrt()).ceil() as usize;
+    finer.disk_resolution.n_harmonics = waves(scene.disk_resolution.n_harmonics);
+    finer.disk_resolution.n_elements = waves(scene.disk_resolution.n_elements);
+    finer.structure_resolution.step_s /= 10.0;
+    finer.film_resolution.cells *= 10;
+    finer.head_resolution.tolerance /= 100.0;
+    finer.head_resolution.approach_share /= 4.0;
+    finer.head_resolution.coupling_tolerance /= 100.0;
+    finer.head_resolution.suspension_modes *= 8;
+    finer
+}
+
+/// A small study of a seed: one point.
+fn small_study(kind: &str, seed: u64) -> Study {
+    let mut random = Random(seed ^ if kind == "whole" { 0x77 } else { 0x33 });
+    let ramps: &[&str] = match kind {
+        "whole" => &["none", "rigid", "deformable"],
+        _ => &["rigid", "deformable"],
+    };
+    let ramp = ramps[(random.unit() * ramps.len() as f64) as usize];
+    let sign = if random.unit() < 0.5 { "+" } else { "-" };
+    let pulse_ms = random.log_between(0.3, 1.2);
+    let sets = [
+        ("ramp.models", format!("[\"{ramp}\"]")),
+        ("pulse.signs", format!("[\"{sign}\"]")),
+        ("pulse.widths_ms", format!("[{pulse_ms:.3}]")),
+        ("pulse.window_ms", "2.0".to_owned()),
+        (
+            "ramp.clearance_um",
+            format!("{:.1}", random.between(60.0, 120.0)),
+        ),
+        ("disk.rpm", format!("{:.0}", random.between(4800.0, 7200.0))),
+        (
+            "suspension.gram_load_gf",
+            format!("{:.3}", random.between(0.9, 1.4)),
+        ),
+        ("search.certify", "\"off\"".to_owned()),
+        ("search.tolerance_pct", "2.0".to_owned()),
+        ("solver.accuracy", "\"5%\"".to_owned()),
+        ("solver.film_cells", "300".to_owned()),
+        ("output.keep_histories", "\"none\"".to_owned()),
+    ];
+    let sets: Vec<(&str, &str)> = sets.iter().map(|(k, v)| (*k, v.as_str())).collect();
+    study("fig13", &sets)
+}
+
+/// Disk and ramp alone: fails when the impulse of the contacts or the travel of the disk under the
+/// slider exceeds a limit.
+struct StructureSimulator {
+    scene: Scene,
+    sign: f64,
+    /// Limit of the impulse, N s, or of the travel, m.
+    limit: f64,
+    by_impulse: bool,
+}
+
+impl StructureSimulator {
+    fn load(&self, outcome: &Outcome) -> f64 {
+        if self.by_impulse {
+            outcome.top.impulse_n_s + outcome.bottom.impulse_n_s
+        } else {
+            outcome
+                .disk
+                .slider_max_m
+                .abs()
+                .max(outcome.disk.slider_min_m.abs())
+        }
+    }
+
+    fn lead(&self, scene: &Scene, amplitude_m_per_s2: f64) -> f64 {
+        let model = Model::build(scene, Scope::Structure, None).expect("builds");
+        let request = Request {
+            amplitude_m_per_s2,
+            stop_at_failure: true,
+            record: false,
+        };
+        let outcome = simulate(&model, &request, &mut Workspace::default());
+        self.limit / self.load(&outcome) - 1.0
+    }
+}
+
+impl Simulator for StructureSimulator {
+    fn simulate(&self, _: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
+        let lead = self.lead(&self.scene.at_levels(probe.levels), amplitude_m_per_s2);
+        ProbeResult {
+            verdict: if lead > 0.0 {
+                Verdict::Survives
+            } else {
+                Verdict::Fails {
+                    t_fail_s: 1e-3,
+                    x_m: 0.0,
+                    y_m: 0.0,
+                }
+            },
+            h_min_m: Some(1e-8 * lead.clamp(0.0, 1e3)),
+            t_min_s: Some(1e-3),
+            cost: RunCost::default(),
+        }
+    }
+
+    fn onset(&self, _: usize) -> Onset {
+        Onset::NoRamp
+    }
+}
+
+fn structure(seed: u64) -> Covered {
+    let study = small_study("structure", seed);
+    let scene = study.points[0].scene.clone();
+    let sign = study.points[0].sign.factor();
+    let mut simulator = StructureSimulator {
+        scene: scene.clone(),
+        sign,
+        limit: 1.0,
+        by_impulse: seed.is_multiple_of(2),
+    };
+    // The limit is what a shock above first touch brings.
+    let onset = Model::build(&scene, Scope::Structure, None)
+        .expect("builds")
+        .structure()
+        .touch_amplitude_m_per_s2(sign > 0.0)
+        .expect("touches");
+    simulator.limit = 1.0 / (1.0 + simulator.lead(&scene, sign * 1.3 * onset));
+    let mut input = SweepInput::of(&study).expect("input");
+    input.points[0].bar = Some(BarPlan {
+        knobs: vec![Knob::DiskModes, Knob::StructureStep],
+        film_halvings: 0,
+        accuracy: 0.05,
+    });
+    let row = swept(&input, &simulator);
+    let fine = ten_times_finer(&scene);
+    covered(&row, &mut |amplitude_g| {
+        simulator.lead(&fine, simulator.sign * m_per_s2_from_g(amplitude_g)) <= 0.0
+    })
+}
+
+fn whole(seed: u64) -> Covered {
+    let study = small_study("whole", seed);
+    let input = SweepInput::of(&study).expect("input");
+    let row = swept(&input, &Physics::of(&study));
+    let point = &study.points[0];
+    let model =
+        Model::build(&ten_times_finer(&point.scene), Scope::Full, None).expect("builds finer");
+    let mut workspace = Workspace::default();
+    covered(&row, &mut |amplitude_g| {
+        let request = Request {
+            amplitude_m_per_s2: point.sign.factor() * m_per_s2_from_g(amplitude_g),
+            stop_at_failure: true,
+            record: false,
+        };
+        match simulate(&model, &request, &mut workspace).verdict {
+            SolverVerdict::Survives => false,
+            SolverVerdict::Fails { .. } => true,
+            SolverVerdict::Undecided { cause } => panic!("seed {seed}: {cause:?}"),
+        }
+    })
+}
+
+type Row = opshock_study::store::summary::PointSummary;
+
+fn swept(input: &SweepInput, simulator: &dyn Simulator) -> Row {
+    let folder = tempfile::tempdir().expect("folder");
+    let end = opshock_study::sweep::sweep(
+        input,
+        simulator,
+        folder.path(),
+        &opshock_study::sweep::SweepOptions::with_threads(1),
+        &opshock_study::sweep::Silent,
+    )
+    .expect("sweeps");
+    let row = end.summary.points[0].clone();
+    assert_eq!(row.status, Status::Ok, "{row:?}");
+    row
+}
+
+fn covered(row: &Row, fails: &mut dyn FnMut(f64) -> bool) -> Covered {
+    let a_crit_g = row.a_crit_g.expect("bracketed");
+    Covered {
+        a_crit_g,
+        low_g: row.err_low_g.expect("a bar"),
+        high_g: row.err_high_g.expect("a bar"),
+        truth_g: truth_g(a_crit_g, fails),
+    }
+}
+
+/// Measures what the log does not have yet, on all cores.
+fn measure(log: &Mutex<Log>, kind: &str, n: usize, one: &(dyn Fn(u64) -> Covered + Sync)) {
+    let next = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let seed = next.fetch_add(1, Ordering::Relaxed);
+                    if seed >= n {
+                        break;
+                    }
+                    let seed = seed as u64;
+                    if log.lock().expect("whole").has(kind, seed) {
+                        continue;
+                    }
+                    let covered = one(seed);
+                    println!("{kind} {seed}: {covered:.1?} {}", covered.inside());
+                    log.lock().expect("whole").put(kind, seed, covered);
+                }
+            });
+        }
+    });
+}
+
+fn laws(log: &Mutex<Log>) {
+    let (input, laws) = (laws_study(LAWS), LawSimulator::of(1000, LAWS));
+    let folder = tempfile::tempdir().expect("folder");
+    let end = run(&input, &laws, folder.path(), 2);
+    let mut log = log.lock().expect("whole");
+    for (seed, (row, law)) in end.summary.points.iter().zip(&laws.0).enumerate() {
+        let covered = Covered {
+            a_crit_g: row.a_crit_g.expect("bracketed"),
+            low_g: row.err_low_g.expect("a bar"),
+            high_g: row.err_high_g.expect("a bar"),
+            truth_g: law.exact_g,
+        };
+        log.put("law", seed as u64, covered);
+    }
+}
+
+#[test]
+#[ignore = "make verify-accuracy: some minutes to 40"]
+fn accuracy_slow_the_truth_lies_inside_the_bars() {
+    let log = Mutex::new(Log::open());
+    laws(&log);
+    measure(&log, "structure", STRUCTURES, &structure);
+    measure(&log, "whole", WHOLE, &whole);
+    let log = log.into_inner().expect("whole");
+    for kinds in [&["law", "structure"][..], &["whole"]] {
+        let (inside, median) = log.judge(kinds);
+        assert!(inside >= 0.95, "{kinds:?}: {inside}");
+        assert!(median <= 10.0, "{kinds:?}: {median}");
+    }
+}
+
+#[test]
+fn the_truth_lies_inside_the_bars_of_disk_and_ramp_alone() {
+    for seed in 0..1 {
+        let covered = structure(seed);
+        assert!(covered.inside(), "seed {seed}: {covered:?}");
+    }
+}
