@@ -5,13 +5,17 @@
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Effect, Mode, Needs, Output, Plan, State, Touch};
 use opshock_solver::simulation::Model;
-use opshock_tests::pairs::{Pair, assert_same, base, coarse, is_answered, random_pair, run};
+use opshock_tests::pairs::{
+    Pair, assert_same, base, coarse, compare, is_answered, random_pair, run,
+};
 use opshock_tests::{scenes, seeded};
+
+const STUDIES: [&str; 3] = ["fig13", "paper-cases", "drive-2.5in"];
 
 /// A point of every ramp model of every study that comes with opshock.
 #[test]
 fn effects_auto_is_full_for_the_studies() {
-    for name in ["fig13", "paper-cases", "drive-2.5in"] {
+    for name in STUDIES {
         let study = scenes::study(name, &[]);
         let mut donor: Option<Model> = None;
         for ramp in &study.ramps {
@@ -56,6 +60,37 @@ fn effects_slow_auto_is_full_for_random_scenes() {
         if seed % 100 == 99 {
             println!("seeds below {} agree", seed + 1);
         }
+    }
+}
+
+/// Every point of every study at the study's own resolution and window, for a third of the points
+/// below, around and above what they survive.
+#[test]
+#[ignore = "slow"]
+fn effects_slow_auto_is_full_for_every_point_of_the_studies() {
+    for name in STUDIES {
+        let study = scenes::study(name, &[]);
+        let asked = [Output::CriticalShock, Output::ContactForce];
+        let mut donor: Option<Model> = None;
+        for (i, point) in study.points.iter().enumerate() {
+            let amplitude_g = point.sign.factor() * [80.0, 200.0, 400.0][i % 3];
+            let what = format!("{name} {} {amplitude_g} G", point.label());
+            let pair = Pair {
+                with_head: true,
+                ..Pair::default()
+            };
+            compare(
+                &point.scene,
+                &asked,
+                amplitude_g,
+                donor.as_ref(),
+                pair,
+                &what,
+            );
+            let plan = Plan::new(&asked, Mode::Auto);
+            donor = Model::assemble(&point.scene, &plan, donor.as_ref()).ok();
+        }
+        println!("{name}: {} points agree", study.points.len());
     }
 }
 

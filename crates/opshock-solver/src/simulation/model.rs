@@ -179,6 +179,7 @@ impl Model {
             ("R9 structure steps", steps),
             ("R9 slider's place", place),
         ]) && self.plan.wake == plan.wake
+            && self.plan.needs == plan.needs
     }
 
     /// The plan it was built by.
@@ -236,7 +237,11 @@ fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, Structu
         resolution: &scene.structure_resolution,
     };
     let structure = StructureModel::build(&parameters, plan.harmonics(scene))?;
-    Ok(structure.with_wake(plan.wake))
+    let structure = structure.with_wake(plan.wake);
+    Ok(match plan.needs {
+        Needs::Head => structure,
+        Needs::Structure | Needs::Flight => structure.without_motion(),
+    })
 }
 
 fn slider_place(scene: &Scene) -> SliderPlace {

@@ -33,6 +33,7 @@ pub(super) struct RunState {
     history: StructuralHistory,
     columns: StructureColumns,
     record: bool,
+    keeps_motion: bool,
 }
 
 pub(super) struct ContactSystem<'a> {
@@ -56,10 +57,12 @@ pub(super) struct ContactSystem<'a> {
     accumulated_steps: u64,
     both_arms: bool,
     decayed: bool,
+    /// First node whose motion is not a finite number.
+    not_finite: Option<usize>,
 }
 
 impl RunState {
-    pub fn prepare(&mut self, shared: &Shared, record: bool) {
+    pub fn prepare(&mut self, shared: &Shared, record: bool, keeps_motion: bool) {
         let n = shared.oscillators.len();
         if self.now.len() == n {
             self.now.reset();
@@ -76,7 +79,7 @@ impl RunState {
             self.total_forced = ForcedState::at_rest(n_forced);
         }
         self.logs.iter_mut().for_each(ContactLog::clear);
-        let n_nodes = shared.n_steps + 1;
+        let n_nodes = if keeps_motion { shared.n_steps + 1 } else { 0 };
         self.history = StructuralHistory {
             step_s: shared.free.step_s,
             pose: Vec::with_capacity(n_nodes),
@@ -86,6 +89,7 @@ impl RunState {
         };
         self.columns = StructureColumns::default();
         self.record = record;
+        self.keeps_motion = keeps_motion;
     }
 }
 
@@ -109,6 +113,7 @@ impl<'a> ContactSystem<'a> {
             accumulated_steps: 0,
             both_arms: false,
             decayed: false,
+            not_finite: None,
         }
     }
 
@@ -210,10 +215,35 @@ impl<'a> ContactSystem<'a> {
         (pose, rate)
     }
 
+    /// The displacement of [`Self::slider`], to the same bits.
+    fn slider_displacement_m(&self, sample: &Sample) -> f64 {
+        let mut displacement_m = self.amplitude * sample.slider.value;
+        if self.awake {
+            let n = self.shared.n_disk;
+            let now = &self.state.now;
+            displacement_m += self.shared.slider[0].read(&now.q_re[..n], &now.q_im[..n]);
+        }
+        displacement_m
+    }
+
     /// Books the node reached.
     pub fn record_node(&mut self) {
         let (shared, sample, a) = (self.shared, self.sample(), self.amplitude);
-        let (pose, rate) = self.slider(sample);
+        // Rates are the head's alone; slopes also stand in columns.
+        let (pose, rate) = if self.state.keeps_motion || self.state.record {
+            self.slider(sample)
+        } else {
+            let displacement_m = self.slider_displacement_m(sample);
+            let pose = DiskPose {
+                displacement_m,
+                ..DiskPose::default()
+            };
+            (pose, DiskPose::default())
+        };
+        let sum = pose.displacement_m + pose.pitch_rad + pose.roll_rad;
+        if !sum.is_finite() && self.not_finite.is_none() {
+            self.not_finite = Some(self.k);
+        }
         let (mut ramp, mut rim) = (a * sample.contact.value, a * sample.rim);
         let mut arms = [a * sample.top.value, a * sample.bottom.value];
         if self.awake {
@@ -236,8 +266,10 @@ impl<'a> ContactSystem<'a> {
                 fixed_frame: energy,
             };
         }
-        self.state.history.pose.push(pose);
-        self.state.history.rate.push(rate);
+        if self.state.keeps_motion {
+            self.state.history.pose.push(pose);
+            self.state.history.rate.push(rate);
+        }
         let time_s = self.k as f64 * shared.free.step_s;
         let node = Node {
             time_s,
@@ -316,8 +348,10 @@ impl<'a> ContactSystem<'a> {
         };
         let h_end = self.energies.fixed_frame;
         if !(h_end.is_finite() && work.is_finite() && self.extremes.slider_max_m.is_finite()) {
-            let time_s = self.first_not_finite_s();
-            return Err(StructureError::NotFinite { time_s });
+            let k = self.not_finite.unwrap_or(self.k);
+            return Err(StructureError::NotFinite {
+                time_s: k as f64 * step_s,
+            });
         }
         let residual = h_end - (work - damping - ledger.impact + ledger.algorithmic);
         let peak = ledger.peak_fixed_frame;
@@ -381,15 +415,6 @@ impl<'a> ContactSystem<'a> {
             end_s,
             warnings,
         })
-    }
-
-    fn first_not_finite_s(&self) -> f64 {
-        let poses = &self.state.history.pose;
-        let k = poses
-            .iter()
-            .position(|p| !(p.displacement_m + p.pitch_rad + p.roll_rad).is_finite())
-            .unwrap_or(poses.len());
-        k as f64 * self.shared.free.step_s
     }
 }
 
@@ -525,6 +550,9 @@ impl UnilateralSystem for ContactSystem<'_> {
 impl ContactSystem<'_> {
     /// Books the jump of the slider's rate by an impulse on the disk now.
     fn book_jump(&mut self, on_disk: f64, kind: ImpulseKind) {
+        if !self.state.keeps_motion {
+            return;
+        }
         let jump = |rate: DiskPose, share: f64| {
             let j = self.shared.slider_jump;
             DiskPose {

@@ -128,6 +128,7 @@ pub enum StructureWarning {
 pub struct StructureModel {
     pub(super) shared: Arc<Shared>,
     wake: Wake,
+    keeps_motion: bool,
 }
 
 /// When the contact-driven state (every harmonic, arms included) starts to be marched.
@@ -197,7 +198,7 @@ pub struct Workspace {
 /// One amplitude through a structural model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructureRun {
-    /// Motion of the disk under the slider.
+    /// Motion of the disk under the slider, unless the model is one without motion.
     pub history: StructuralHistory,
     /// Columns on the grid, when recorded.
     pub columns: Option<StructureColumns>,
@@ -311,6 +312,7 @@ impl StructureModel {
                 warnings,
             }),
             wake: Wake::default(),
+            keeps_motion: true,
         })
     }
 
@@ -318,6 +320,15 @@ impl StructureModel {
     #[must_use]
     pub fn with_wake(self, wake: Wake) -> Self {
         Self { wake, ..self }
+    }
+
+    /// The same model for runs without a head: they need not keep the motion under the slider.
+    #[must_use]
+    pub fn without_motion(self) -> Self {
+        Self {
+            keeps_motion: false,
+            ..self
+        }
     }
 
     /// When the contact-driven state starts to be marched.
@@ -364,7 +375,7 @@ impl StructureModel {
             return self.run_moreau_jean(amplitude_m_per_s2, record);
         }
         let state = workspace.state.get_or_insert_with(RunState::default);
-        state.prepare(shared, record);
+        state.prepare(shared, record, self.keeps_motion);
         let amplitude_m_per_s2 = match mutant::is_on("R5 sign") {
             true => amplitude_m_per_s2.abs(),
             false => amplitude_m_per_s2,
