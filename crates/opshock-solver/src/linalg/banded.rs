@@ -15,6 +15,8 @@
 //! Four pivots are eliminated together, so that a row below is read and written once for four
 //! multiply-subtract sweeps over contiguous slices.
 
+use super::triangles::Triangles;
+use crate::lanes::{Kernel, widest};
 use thiserror::Error;
 
 /// Pivots eliminated together.
@@ -141,6 +143,7 @@ pub struct BandedLu {
     stride: usize,
     rows: Vec<f64>,
     inverse_pivots: Vec<f64>,
+    triangles: Triangles,
 }
 
 impl BandedLu {
@@ -155,6 +158,7 @@ impl BandedLu {
             stride,
             rows: vec![0.0; n_padded * stride],
             inverse_pivots: vec![1.0; n_padded],
+            triangles: Triangles::new(n, half_bandwidth),
         }
     }
 
@@ -182,8 +186,22 @@ impl BandedLu {
         assert_eq!(matrix.n, self.n);
         assert_eq!(matrix.half_bandwidth, self.half_bandwidth);
         assert_eq!(diagonal.len(), self.n);
-        self.load(matrix, scale, diagonal);
+        widest(Factor {
+            lu: self,
+            matrix,
+            scale,
+            diagonal,
+        })
+    }
 
+    #[inline(always)]
+    fn factor_here(
+        &mut self,
+        matrix: &BandMatrix,
+        scale: f64,
+        diagonal: &[f64],
+    ) -> Result<(), BandedError> {
+        self.load(matrix, scale, diagonal);
         let reach = self.half_bandwidth + BLOCK - 1;
         let mut largest: f64 = 0.0;
         for first in (0..self.n_padded).step_by(BLOCK) {
@@ -195,10 +213,35 @@ impl BandedLu {
         if largest > LARGEST_MULTIPLIER {
             return Err(BandedError::Growth { largest });
         }
+        // Row i holds its columns i − b ... i + b after BLOCK − 1 zeros.
+        let (rows, stride) = (&self.rows, self.stride);
+        self.triangles.take(
+            |i| &rows[i * stride + BLOCK - 1..(i + 1) * stride - (BLOCK - 1)],
+            &self.inverse_pivots,
+        );
         Ok(())
     }
 
+    /// Solves A x = `rhs` in place.
+    ///
+    /// # Panics
+    ///
+    /// When `rhs` has not n entries.
+    pub fn solve(&self, rhs: &mut [f64]) {
+        self.triangles.solve(rhs);
+    }
+
+    /// Solves for `K` right-hand sides at once; entry i of `rhs` holds row i of all of them.
+    ///
+    /// # Panics
+    ///
+    /// When `rhs` has not n entries.
+    pub fn solve_columns<const K: usize>(&self, rhs: &mut [[f64; K]]) {
+        self.triangles.solve_columns(rhs);
+    }
+
     /// Copies the matrix into the padded rows.
+    #[inline(always)]
     fn load(&mut self, matrix: &BandMatrix, scale: f64, diagonal: &[f64]) {
         let b = self.half_bandwidth;
         let centre = b + BLOCK - 1;
@@ -222,6 +265,7 @@ impl BandedLu {
 
     /// Eliminates the block of pivots `first..first + BLOCK` among its own rows;
     /// largest multiplier.
+    #[inline(always)]
     fn factor_block(&mut self, first: usize) -> Result<f64, BandedError> {
         let mut largest: f64 = 0.0;
         let width = self.half_bandwidth + BLOCK;
@@ -251,6 +295,7 @@ impl BandedLu {
     }
 
     /// Eliminates the block's columns from the rows below it, up to `last`; largest multiplier.
+    #[inline(always)]
     fn eliminate_below(&mut self, first: usize, last: usize) -> f64 {
         let width = self.half_bandwidth + BLOCK;
         let starts: [usize; BLOCK] = std::array::from_fn(|p| self.start(first + p, first));
@@ -286,99 +331,23 @@ impl BandedLu {
         }
         largest
     }
-
-    /// Solves A x = `rhs` in place.
-    ///
-    /// # Panics
-    ///
-    /// When `rhs` has not n entries.
-    pub fn solve(&self, rhs: &mut [f64]) {
-        assert_eq!(rhs.len(), self.n);
-        let b = self.half_bandwidth;
-        for i in 0..self.n {
-            let first = i.saturating_sub(b);
-            let start = self.start(i, first);
-            let (known, rest) = rhs.split_at_mut(i);
-            rest[0] -= dot(&self.rows[start..start + i - first], &known[first..]);
-        }
-        for i in (0..self.n).rev() {
-            let end = (i + b).min(self.n - 1);
-            let start = self.start(i, i) + 1;
-            let (head, known) = rhs.split_at_mut(i + 1);
-            let sum = dot(&self.rows[start..start + end - i], &known[..end - i]);
-            head[i] = (head[i] - sum) * self.inverse_pivots[i];
-        }
-    }
-
-    /// Solves for `K` right-hand sides at once; entry i of `rhs` holds row i of all of them.
-    ///
-    /// # Panics
-    ///
-    /// When `rhs` has not n entries.
-    pub fn solve_columns<const K: usize>(&self, rhs: &mut [[f64; K]]) {
-        assert_eq!(rhs.len(), self.n);
-        let b = self.half_bandwidth;
-        for i in 0..self.n {
-            let first = i.saturating_sub(b);
-            let start = self.start(i, first);
-            let (known, rest) = rhs.split_at_mut(i);
-            let sum = dots(&self.rows[start..start + i - first], &known[first..]);
-            for (r, s) in rest[0].iter_mut().zip(sum) {
-                *r -= s;
-            }
-        }
-        for i in (0..self.n).rev() {
-            let end = (i + b).min(self.n - 1);
-            let start = self.start(i, i) + 1;
-            let (head, known) = rhs.split_at_mut(i + 1);
-            let sum = dots(&self.rows[start..start + end - i], &known[..end - i]);
-            for (r, s) in head[i].iter_mut().zip(sum) {
-                *r = (*r - s) * self.inverse_pivots[i];
-            }
-        }
-    }
 }
 
-/// Scalar product in four independent sums, an order the compiler can keep in vector registers.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let tail: f64 = a_chunks
-        .remainder()
-        .iter()
-        .zip(b_chunks.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
-    for (x, y) in a_chunks.zip(b_chunks) {
-        for k in 0..8 {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + tail
+/// [`BandedLu::factor`] as a kernel.
+struct Factor<'a> {
+    lu: &'a mut BandedLu,
+    matrix: &'a BandMatrix,
+    scale: f64,
+    diagonal: &'a [f64],
 }
 
-/// Scalar products of one row with `K` columns, even and odd entries in sums of their own.
-#[inline]
-fn dots<const K: usize>(a: &[f64], b: &[[f64; K]]) -> [f64; K] {
-    let mut even = [0.0; K];
-    let mut odd = [0.0; K];
-    let (a_pairs, b_pairs) = (a.chunks_exact(2), b.chunks_exact(2));
-    if let (Some(x), Some(y)) = (a_pairs.remainder().first(), b_pairs.remainder().first()) {
-        for k in 0..K {
-            even[k] = x * y[k];
-        }
+impl Kernel for Factor<'_> {
+    type Output = Result<(), BandedError>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.lu.factor_here(self.matrix, self.scale, self.diagonal)
     }
-    for (x, y) in a_pairs.zip(b_pairs) {
-        for k in 0..K {
-            even[k] += x[0] * y[0][k];
-            odd[k] += x[1] * y[1][k];
-        }
-    }
-    for k in 0..K {
-        even[k] += odd[k];
-    }
-    even
 }
 
 #[cfg(test)]

@@ -2,5 +2,6 @@
 
 pub mod banded;
 pub mod dense;
+mod triangles;
 
 pub use dense::{DenseError, EigenPairs, SquareMatrix};
