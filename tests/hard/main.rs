@@ -1,4 +1,5 @@
 //! Hard cases and random scenes: what must hold of any scene, and of the ones that break solvers.
 
+mod cases;
 mod random_heads;
 mod random_structures;

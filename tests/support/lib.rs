@@ -1,16 +1,13 @@
 //! What the tests share: reference data, named scenes, the built program.
 
-pub mod bodies;
-pub mod films;
 pub mod hdf5_dump;
-pub mod heads;
 pub mod mock_bars;
 pub mod mock_sweep;
 pub mod pairs;
 pub mod scenes;
 pub mod seeded;
-pub mod structures;
-pub mod suspensions;
+
+pub use opshock_study::hard_cases::scenes::{bodies, films, heads, structures, suspensions};
 
 /// Reads a file of reference numbers (`tests/reference/README.md` says where they come from).
 ///

@@ -7,6 +7,7 @@
 
 pub mod accuracy;
 pub mod cli;
+pub mod hard_cases;
 pub mod identity;
 pub mod provenance;
 pub mod report;

@@ -21,6 +21,9 @@ pub struct DoctorArgs {
     /// Folder to write in, where stores are going to be
     #[arg(default_value = ".")]
     folder: PathBuf,
+    /// Run the hard cases instead: set-ups that break solvers, a line each with figure and bound
+    #[arg(long)]
+    hard_cases: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -46,6 +49,9 @@ pub fn run(
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<Exit, Failure> {
+    if arguments.hard_cases {
+        return super::hard_cases::run(global.threads(), console);
+    }
     // Two threads show a race also on one core.
     let threads = global.threads().max(2);
     let study = small_study()?;

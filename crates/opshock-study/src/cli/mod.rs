@@ -10,6 +10,7 @@ mod exit;
 mod explain;
 mod export;
 mod failure;
+mod hard_cases;
 mod modes;
 mod new;
 mod report;

@@ -11,7 +11,7 @@ use opshock_solver::head::{Coupling, HeadModel, HeadResolution};
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 
-use crate::suspensions::default_suspension;
+use super::suspensions::default_suspension;
 
 /// Femto slider with the default surface at r = 21 mm.
 pub fn default_slider() -> SliderParameters {

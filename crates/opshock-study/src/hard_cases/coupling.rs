@@ -1,0 +1,214 @@
+//! D: film and slider solved in turn, and what flows between structure and head.
+
+use super::Check;
+use opshock_solver::fixed_point::{Ending, FixedPoint, Method};
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
+use opshock_solver::scene::Scene;
+use opshock_solver::simulation::{Model, Request, Scope, Workspace, simulate};
+
+use crate::study::{SetArg, Study};
+
+const ANDERSON: Method = Method::Anderson { depth: 3 };
+const METHODS: [Method; 3] = [Method::Plain, Method::Aitken, ANDERSON];
+
+/// Slope of the map "slider on a film spring", trapezoidal rule: 0.6 mg on 1 MN/m.
+fn slope(step_s: f64) -> f64 {
+    -1e6 * step_s * step_s / (4.0 * 0.6e-6)
+}
+
+fn is_converged(ending: &Ending) -> bool {
+    matches!(ending, Ending::Converged { .. })
+}
+
+pub(super) fn d1() -> Vec<Check> {
+    let (mut apart, mut stuck, mut plain) = (0.0_f64, 0, 0.0_f64);
+    for step in [0.5e-6, 1e-6, 2e-6, 5e-6, 1e-5] {
+        let slope = slope(step);
+        let answer = (3e-9 - slope * 1e-9) / (1.0 - slope);
+        let map = |x: &[f64], image: &mut [f64]| {
+            image[0] = 3e-9 + slope * (x[0] - 1e-9);
+            true
+        };
+        for method in [Method::Aitken, ANDERSON] {
+            let mut x = [0.0];
+            let ending = FixedPoint::new(method, 1).solve(&mut x, &[1e-20], 8, map);
+            stuck += usize::from(!is_converged(&ending));
+            apart = apart.max((x[0] / answer - 1.0).abs());
+        }
+        let mut x = [0.0];
+        FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-20], 8, map);
+        plain = plain.max((x[0] / answer - 1.0).abs());
+    }
+    vec![
+        Check::none("steps of 0.5 to 10 us not converged in 8 iterations", stuck),
+        Check::new("against the one-matrix solve", apart, 1e-10)
+            .against("plain iteration, 8 iterations", plain),
+    ]
+}
+
+pub(super) fn d2() -> Vec<Check> {
+    let (mut wrong, mut moved) = (0, 0.0_f64);
+    for method in METHODS {
+        let mut x = [0.0, 0.0];
+        // Every residual is 1: no secant exists.
+        let ending = FixedPoint::new(method, 2).solve(&mut x, &[1e-3; 2], 5, |x, image| {
+            image.copy_from_slice(&[x[0] + 1.0, x[1]]);
+            true
+        });
+        wrong += usize::from(!matches!(ending, Ending::NotConverged { .. }));
+        wrong += x.iter().filter(|v| !v.is_finite()).count();
+        let mut x = [2.0, 3.0];
+        let ending = FixedPoint::new(method, 2).solve(&mut x, &[1e-3; 2], 5, |x, image| {
+            image.copy_from_slice(x);
+            true
+        });
+        wrong += usize::from(!is_converged(&ending));
+        moved = moved.max((x[0] - 2.0).abs() + (x[1] - 3.0).abs());
+    }
+    vec![
+        Check::none("endings other than told, numbers that are none", wrong),
+        Check::new("motion of a converged state", moved, 0.0),
+    ]
+}
+
+pub(super) fn d3() -> Vec<Check> {
+    let mut late = 0;
+    for method in METHODS {
+        let ending = FixedPoint::new(method, 3).solve(&mut [0.0; 3], &[1e-12; 3], 3, |_, image| {
+            image.fill(0.0);
+            true
+        });
+        late += usize::from(!matches!(ending, Ending::Converged { iterations: 1, .. }));
+    }
+    vec![
+        Check::none("methods that do not accept rest at once", late).against(
+            "tolerance relative to a state of zero",
+            METHODS.len() as f64,
+        ),
+    ]
+}
+
+pub(super) fn d4() -> Vec<Check> {
+    let mut sign = 1.0;
+    let (mut last, mut change) = (0.0_f64, f64::INFINITY);
+    let ending = FixedPoint::new(Method::Aitken, 1).solve(&mut [0.0], &[1e-6], 30, |x, image| {
+        sign = -sign;
+        change = change.min((x[0] - last).abs());
+        last = x[0];
+        image[0] = x[0] + sign;
+        true
+    });
+    vec![Check::none(
+        "stalls taken for convergence",
+        usize::from(is_converged(&ending)),
+    )]
+}
+
+pub(super) fn d5() -> Vec<Check> {
+    let mut x = [0.3];
+    let capped = FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-300], 4, |x, image| {
+        image[0] = x[0].cos();
+        true
+    });
+    let broken = FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-9], 4, |_, image| {
+        image[0] = f64::NAN;
+        true
+    });
+    let told = [
+        matches!(capped, Ending::NotConverged { iterations: 4, .. }),
+        matches!(broken, Ending::Broken { iterations: 1 }),
+    ];
+    vec![Check::none(
+        "caps and breakdowns accepted",
+        told.iter().filter(|t| !**t).count(),
+    )]
+}
+
+pub(super) fn d6() -> Vec<Check> {
+    let (gap, pitch) = (4e-9, 110e-6);
+    let map = |x: &[f64], image: &mut [f64]| {
+        let (a, b) = (x[0] - gap, x[1] - pitch);
+        image[0] = gap - 0.4 * a + 1e-5 * b;
+        image[1] = pitch + 2e3 * a + 0.3 * b;
+        true
+    };
+    let (mut gap_error, mut pitch_error) = (0.0_f64, 0.0_f64);
+    for method in METHODS {
+        let mut x = [0.0, 0.0];
+        FixedPoint::new(method, 2).solve(&mut x, &[1e-13, 1e-9], 60, map);
+        gap_error = gap_error.max((x[0] - gap).abs() / 1e-13);
+        pitch_error = pitch_error.max((x[1] - pitch).abs() / 1e-9);
+    }
+    // One norm for both: the gap is never looked at beside microradians.
+    let mut x = [0.0, 0.0];
+    FixedPoint::new(Method::Plain, 2).solve(&mut x, &[1e-9, 1e-9], 60, map);
+    vec![
+        Check::new("gap, in its tolerance of 0.1 pm", gap_error, 3.0).against(
+            "one tolerance of 1e-9 for nm and urad",
+            (x[0] - gap).abs() / 1e-13,
+        ),
+        Check::new("pitch, in its tolerance of 1 nrad", pitch_error, 3.0),
+    ]
+}
+
+/// Paper-like drive with the rigid ramp, for half a millisecond on a coarse film.
+pub(super) fn small_scene() -> Scene {
+    let sets: Vec<SetArg> = [
+        "ramp.models=[\"rigid\"]",
+        "pulse.widths_ms=[0.5]",
+        "pulse.signs=[\"+\"]",
+        "pulse.window_ms=0.8",
+        "solver.film_cells=150",
+        "solver.disk_cut_khz=10",
+        "solver.head_tolerance=0.1",
+        "ramp.clearance_um=40",
+    ]
+    .iter()
+    .map(|set| SetArg::parse(set).expect("a setting"))
+    .collect();
+    let study = Study::from_text(&Study::example("hard case"), &sets).expect("a sound study");
+    study.points[0].scene.clone()
+}
+
+pub(super) fn d7() -> Vec<Check> {
+    let scene = small_scene();
+    let mut loaded = scene.clone();
+    loaded.suspension.gram_load_n *= 1.5;
+    let request = Request {
+        amplitude_m_per_s2: 200.0 * G,
+        stop_at_failure: false,
+        record: true,
+    };
+    let runs = [
+        (&scene, Scope::Full),
+        (&scene, Scope::Structure),
+        (&loaded, Scope::Full),
+    ]
+    .map(|(scene, scope)| {
+        let model = Model::build(scene, scope, None).expect("builds");
+        simulate(&model, &request, &mut Workspace::default())
+    });
+    let columns = |k: usize| &runs[k].history.as_ref().expect("recorded").structure;
+    let mut differing = 0;
+    for k in [1, 2] {
+        let (a, b) = (columns(0), columns(k));
+        for (a, b) in [
+            (&a.disk_slider_m, &b.disk_slider_m),
+            (&a.disk_pitch_rad, &b.disk_pitch_rad),
+            (&a.disk_roll_rad, &b.disk_roll_rad),
+            (&a.contact_top_n, &b.contact_top_n),
+        ] {
+            differing += usize::from(a.len() != b.len());
+            differing += a
+                .iter()
+                .zip(b)
+                .filter(|(a, b)| a.to_bits() != b.to_bits())
+                .count();
+        }
+    }
+    let touched = runs[0].top.first_touch_s.or(runs[0].bottom.first_touch_s);
+    vec![
+        Check::none("disk and ramp numbers that know of the head", differing),
+        Check::none("runs without contact", usize::from(touched.is_none())),
+    ]
+}

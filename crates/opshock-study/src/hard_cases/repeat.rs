@@ -1,0 +1,217 @@
+//! F: the same bits again.
+
+use super::Check;
+use super::coupling::small_scene;
+use super::scenes::structures::{Structure, s1, s1_arms};
+use super::verdict::search;
+use crate::search::{Certify, Flag, SearchSettings, Status, UndecidedCause, Verdict as Told};
+use nalgebra::Complex;
+use opshock_solver::modal::Oscillator;
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
+use opshock_solver::ramp::RampModel;
+use opshock_solver::simulation::{Model, Outcome, Request, Scope, Workspace, simulate};
+use opshock_solver::structure::{StructureRun, Window};
+
+/// Eight small points: two ramps, four amplitudes.
+fn points() -> Vec<(Structure, f64)> {
+    let of = |model: RampModel| {
+        let mut structure = s1(5e-4, model).with_cut(10e3).with_step(1e-6);
+        structure.window = Window::Fixed { length_s: 1e-3 };
+        structure
+    };
+    let amplitudes = [100.0, 200.0, -250.0, 400.0];
+    [RampModel::Rigid, s1_arms()]
+        .into_iter()
+        .flat_map(|model| amplitudes.map(|g| (of(model.clone()), g * G)))
+        .collect()
+}
+
+fn run_all(
+    points: &[(Structure, f64)],
+    order: impl Iterator<Item = usize>,
+) -> Vec<(usize, StructureRun)> {
+    let mut workspace = opshock_solver::structure::Workspace::default();
+    order
+        .map(|k| {
+            let (structure, amplitude) = &points[k];
+            let run = structure.build().run(*amplitude, true, &mut workspace);
+            (k, run.expect("a named structure runs"))
+        })
+        .collect()
+}
+
+/// Points whose numbers differ from those of `reference`.
+fn differing(reference: &[(usize, StructureRun)], other: &[(usize, StructureRun)]) -> usize {
+    reference
+        .iter()
+        .filter(|(k, run)| !other.iter().any(|(j, again)| j == k && again == run))
+        .count()
+}
+
+pub(super) fn f1() -> Vec<Check> {
+    let points = points();
+    let alone = run_all(&points, 0..points.len());
+    let mut wrong = 0;
+    for threads in [2, 3, 8] {
+        let together: Vec<_> = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..threads)
+                .map(|w| {
+                    let points = &points;
+                    scope.spawn(move || run_all(points, (w..points.len()).step_by(threads)))
+                })
+                .collect();
+            let joined = workers
+                .into_iter()
+                .map(|w| w.join().expect("a worker ends"));
+            joined.flatten().collect()
+        });
+        wrong += differing(&alone, &together);
+    }
+    vec![Check::none(
+        "points that differ on 2, 3 and 8 threads",
+        wrong,
+    )]
+}
+
+fn settings() -> SearchSettings {
+    SearchSettings::new((20.0, 2000.0), 0.01, Certify::Staggered, 0.10, true).expect("settings")
+}
+
+pub(super) fn f2() -> Vec<Check> {
+    // A search told again what it was told before it was stopped asks what it would have asked.
+    use crate::search::{PointSearch, Start};
+    let start = Start {
+        hint_g: Some(300.0),
+        onset_node: None,
+        width_rank: 1,
+    };
+    let settings = settings();
+    let law = |index: i32| {
+        if settings.lattice.amplitude_g(index) < 233.0 {
+            Told::Survives
+        } else {
+            Told::Fails {
+                t_fail_s: 1e-3,
+                x_m: 0.0,
+                y_m: 0.0,
+            }
+        }
+    };
+    let until = |search: &mut PointSearch, n: usize| {
+        for _ in 0..n {
+            let Some(asked) = search.ask() else { break };
+            search.tell(&law(asked.probe.index));
+        }
+    };
+    let mut whole = PointSearch::new(settings, start);
+    until(&mut whole, 1000);
+    let mut wrong = 0;
+    for stop in 0..whole.log().len() {
+        let mut first = PointSearch::new(settings, start);
+        until(&mut first, stop);
+        let mut resumed = PointSearch::new(settings, start);
+        for asked in first.log() {
+            resumed.tell(&law(asked.probe.index));
+        }
+        until(&mut resumed, 1000);
+        wrong += usize::from(resumed.log() != whole.log());
+        wrong += usize::from(resumed.findings().failure != whole.findings().failure);
+    }
+    vec![
+        Check::none("stops after which a search goes another way", wrong),
+        Check::new("probes short of 8", 8.0 - whole.log().len() as f64, 0.0),
+    ]
+}
+
+pub(super) fn f3() -> Vec<Check> {
+    let points = points();
+    let n = points.len();
+    let forward = run_all(&points, 0..n);
+    let backward = run_all(&points, (0..n).rev());
+    let mixed = run_all(&points, (0..n).map(|k| (5 * k + 3) % n));
+    vec![Check::none(
+        "points that differ in another order",
+        differing(&forward, &backward) + differing(&forward, &mixed),
+    )]
+}
+
+fn outcome(model: &Model, amplitude_g: f64, workspace: &mut Workspace) -> Outcome {
+    let request = Request {
+        amplitude_m_per_s2: amplitude_g * G,
+        stop_at_failure: true,
+        record: true,
+    };
+    simulate(model, &request, workspace)
+}
+
+pub(super) fn f4() -> Vec<Check> {
+    let model = Model::build(&small_scene(), Scope::Full, None).expect("builds");
+    let clean = outcome(&model, 150.0, &mut Workspace::default());
+    let mut workspace = Workspace::default();
+    let poisoned = outcome(&model, f64::NAN, &mut workspace);
+    let after = outcome(&model, 150.0, &mut workspace);
+    let decided = !matches!(
+        poisoned.verdict,
+        opshock_solver::simulation::Verdict::Undecided { .. }
+    );
+    let undecided = |cause| {
+        let (findings, _) = search(settings(), |_, _| Told::Undecided {
+            cause,
+            message: String::new(),
+        });
+        (findings.status, findings.flags)
+    };
+    let causes = [
+        (UndecidedCause::Panicked, Flag::Panicked),
+        (UndecidedCause::NotFinite, Flag::NotFinite),
+        (UndecidedCause::NotConverged, Flag::NotConverged),
+    ];
+    let untold = causes
+        .into_iter()
+        .filter(|(cause, flag)| {
+            let (status, flags) = undecided(*cause);
+            status != Status::Undecided || !flags.contains(flag)
+        })
+        .count();
+    vec![
+        Check::none(
+            "verdicts from an amplitude that is not a number",
+            usize::from(decided),
+        ),
+        Check::none(
+            "numbers changed by a poisoned run before",
+            usize::from(clean != after),
+        ),
+        Check::none("causes not told apart", untold),
+    ]
+}
+
+pub(super) fn f5() -> Vec<Check> {
+    let decay = || {
+        let oscillator = Oscillator::fixed(6000.0, 0.02);
+        let flow = oscillator.flow(1e-4);
+        let (mut q, mut r) = (Complex::from(1e-4), Complex::from(0.0));
+        let mut sum = 0_u64;
+        let mut wrong = 0;
+        for _ in 0..80_000 {
+            (q, r) = flow.apply(q, r);
+            wrong += usize::from(!(q.re.is_finite() && r.re.is_finite()));
+            sum = sum.rotate_left(7) ^ q.re.to_bits();
+        }
+        (sum, wrong, q.norm())
+    };
+    let (first, wrong, left) = decay();
+    let (again, _, _) = decay();
+    vec![
+        Check::new(
+            "what is left of 0.1 mm after 960 time constants, m",
+            left,
+            1e-300,
+        ),
+        Check::none("numbers that are not finite", wrong),
+        Check::none(
+            "decays that end with other bits",
+            usize::from(first != again),
+        ),
+    ]
+}

@@ -1,0 +1,395 @@
+//! E: the verdict, and the search for the critical shock.
+
+use super::Check;
+use super::scenes::films::{PlaneSlider, uniform};
+use super::scenes::heads::{
+    SingleModeDisk, StillDisk, default_film, default_head, default_resolution, head_on,
+};
+use super::scenes::structures::{paper, paper_arms};
+use crate::search::{
+    Certify, Findings, Flag, PointSearch, Probe, SearchSettings, Start, Status, Verdict as Told,
+};
+use opshock_solver::air_bearing::Attitude;
+use opshock_solver::disk::{DiskMotion, DiskPose};
+use opshock_solver::head::{HeadRun, HeadWorkspace, ShockLoad, Verdict};
+use opshock_solver::integrator::hermite;
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
+use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_solver::structure::Workspace;
+use std::f64::consts::{PI, TAU};
+
+const PULSE: Pulse = Pulse {
+    shape: PulseShape::HalfSine,
+    width_s: 2e-3,
+};
+
+fn shock(
+    disk: &dyn DiskMotion,
+    amplitude_m_per_s2: f64,
+    window_s: f64,
+    tolerance: f64,
+    stop: bool,
+) -> HeadRun {
+    let (film, flight) = default_film(300);
+    let mut resolution = default_resolution();
+    resolution.tolerance = tolerance;
+    resolution.coupling_tolerance = 0.1 * tolerance;
+    let model = head_on(&film, &flight, &resolution);
+    let load = ShockLoad {
+        pulse: &PULSE,
+        amplitude_m_per_s2,
+    };
+    model.run(
+        disk,
+        &load,
+        window_s,
+        stop,
+        true,
+        &mut HeadWorkspace::new(&model),
+    )
+}
+
+pub(super) fn e1() -> Vec<Check> {
+    let model = default_head(300, &default_resolution());
+    let mut drift = 0.0_f64;
+    let mut failed = 0;
+    for amplitude in [0.0, 1e-300] {
+        let run = shock(&StillDisk, amplitude, 5e-3, 1e-3, true);
+        failed += usize::from(run.verdict != Verdict::Survives);
+        for clearance in run.columns.expect("recorded").min_clearance_m {
+            drift = drift.max((clearance / model.steady_clearance_m() - 1.0).abs());
+        }
+    }
+    vec![
+        Check::new("drift of the clearance in 5 ms without shock", drift, 1e-9),
+        Check::none("failures without shock", failed),
+    ]
+}
+
+pub(super) fn e2() -> Vec<Check> {
+    // 1 − 4 t + 3 t² over a step of 2: both ends positive, −1/3 at t = 2/3, zero at 1/3.
+    let cubic = |theta: f64| hermite::value(theta, 2.0, [1.0, 5.0], [-4.0, 8.0]);
+    let (theta, value) = hermite::minimum(4, cubic);
+    let zero = hermite::first_below_zero(2, Some(theta), cubic).unwrap_or(f64::NAN);
+    let amplitude = 900.0 * G;
+    let disk = SingleModeDisk::new(amplitude, 2e-3);
+    let time = |tolerance: f64| match shock(&disk, amplitude, 0.8e-3, tolerance, true).verdict {
+        Verdict::Fails { t_fail_s, .. } => t_fail_s,
+        _ => f64::NAN,
+    };
+    let (coarse, fine) = (time(1e-2), time(1e-4));
+    let gone_on = shock(&disk, amplitude, 0.8e-3, 1e-2, false);
+    let ends = gone_on.columns.expect("recorded").time_s;
+    let step_end = ends
+        .iter()
+        .copied()
+        .find(|t| *t >= coarse)
+        .unwrap_or(f64::NAN);
+    let step = ends
+        .windows(2)
+        .find(|w| w[1] >= coarse)
+        .map_or(f64::NAN, |w| w[1] - w[0]);
+    vec![
+        Check::new(
+            "minimum of a parabola inside a step",
+            (value + 1.0 / 3.0).abs(),
+            1e-12,
+        )
+        .against("looked at step ends", 4.0 / 3.0),
+        Check::new(
+            "its zero, of the step",
+            (zero - 1.0 / 6.0).abs(),
+            1e-2 * 1e-6,
+        ),
+        Check::new(
+            "time of touch at 100 times the tolerance, of a step",
+            (coarse - fine).abs() / step,
+            1.0,
+        )
+        .against(
+            "told at the end of the step",
+            1.0 + (step_end - fine).abs() / step,
+        ),
+    ]
+}
+
+pub(super) fn e3() -> Vec<Check> {
+    let slider = PlaneSlider::square(
+        opshock_solver::air_bearing::FlowModel::Continuum,
+        1.0,
+        1.0,
+        0.1,
+    );
+    let film = slider.film(&uniform(10, 1.0), &uniform(10, 1.0));
+    let (mut worst, mut place, mut centres) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (pitch, roll) in [(1e-4, 3e-5), (-1e-4, 3e-5), (1e-4, -3e-5), (-2e-5, -2e-5)] {
+        let attitude = Attitude {
+            centre_height_m: 2e-7,
+            pitch_rad: pitch,
+            roll_rad: roll,
+        };
+        let half = 0.5e-3;
+        let exact = 2e-7 - half * (f64::abs(pitch) + f64::abs(roll));
+        let found = film.min_clearance(&attitude);
+        worst = worst.max((found.value_m - exact).abs() / 2e-7);
+        // Trailing edge low for a positive pitch, inner side low for a positive roll.
+        let corner = [
+            if pitch > 0.0 { 1e-3 } else { 0.0 },
+            if roll > 0.0 { 0.0 } else { 1e-3 },
+        ];
+        place = place.max((found.x_m - corner[0]).abs() + (found.y_m - corner[1]).abs());
+        let at_centre = 2e-7 - 0.9 * half * (f64::abs(pitch) + f64::abs(roll));
+        centres = centres.max((at_centre - exact).abs() / 2e-7);
+    }
+    vec![
+        Check::new("clearance of a plane at its corner", worst, 1e-12)
+            .against("smallest height of 10 x 10 cell centres", centres),
+        Check::new("place of the touch, m", place, 1e-12),
+    ]
+}
+
+struct Broken;
+
+impl DiskMotion for Broken {
+    fn pose(&self, t: f64) -> DiskPose {
+        DiskPose {
+            displacement_m: if t > 1e-4 { f64::NAN } else { 0.0 },
+            ..DiskPose::default()
+        }
+    }
+    fn pose_rate(&self, _: f64) -> DiskPose {
+        DiskPose::default()
+    }
+    fn events_s(&self) -> &[f64] {
+        &[]
+    }
+}
+
+pub(super) fn e4() -> Vec<Check> {
+    let run = shock(&Broken, 0.0, 1e-3, 1e-3, true);
+    let decided = !matches!(run.verdict, Verdict::Undecided { .. });
+    vec![
+        Check::none(
+            "verdicts from a disk that is not a number",
+            usize::from(decided),
+        ),
+        Check::new("run goes on behind it, s", run.end_s - 1.001e-4, 0.0),
+    ]
+}
+
+fn settings(certify: Certify) -> SearchSettings {
+    SearchSettings::new((20.0, 2000.0), 0.01, certify, 0.10, true).expect("settings")
+}
+
+fn fails() -> Told {
+    Told::Fails {
+        t_fail_s: 1e-3,
+        x_m: 0.0,
+        y_m: 0.0,
+    }
+}
+
+/// Runs a search against a law of (probe, amplitude in g).
+pub(super) fn search(
+    settings: SearchSettings,
+    law: impl Fn(Probe, f64) -> Told,
+) -> (Findings, usize) {
+    let start = Start {
+        hint_g: None,
+        onset_node: None,
+        width_rank: 0,
+    };
+    let mut search = PointSearch::new(settings, start);
+    let mut probes = 0;
+    while let Some(asked) = search.ask() {
+        probes += 1;
+        if probes > 2000 {
+            break;
+        }
+        search.tell(&law(
+            asked.probe,
+            settings.lattice.amplitude_g(asked.probe.index),
+        ));
+    }
+    (search.findings(), probes)
+}
+
+fn above(critical_g: f64) -> impl Fn(Probe, f64) -> Told {
+    move |_, a| {
+        if a < critical_g {
+            Told::Survives
+        } else {
+            fails()
+        }
+    }
+}
+
+/// Largest travel of a mode at 1 kHz per unit amplitude of a half-sine, s².
+fn peak_s2(width_s: f64) -> f64 {
+    let (w, p) = (TAU * 1000.0, PI / width_s);
+    let motion = |t: f64| {
+        if ((p - w) / w).abs() < 1e-9 {
+            let (sine, cosine) = (w * t).sin_cos();
+            ((sine - w * t * cosine) / (2.0 * w * w), 0.5 * t * sine)
+        } else {
+            let scale = 1.0 / (w * w - p * p);
+            let x = scale * ((p * t).sin() - p / w * (w * t).sin());
+            (x, scale * p * ((p * t).cos() - (w * t).cos()))
+        }
+    };
+    let samples = (0..=20_000).map(|i| motion(width_s * f64::from(i) / 20_000.0).0.abs());
+    let (x, v) = motion(width_s);
+    samples.fold(0.0, f64::max).max(x.hypot(v / w))
+}
+
+pub(super) fn e5() -> Vec<Check> {
+    let (mut closed, mut outside, mut wide) = (0.0_f64, 0, 0.0_f64);
+    let settings = settings(Certify::Staggered);
+    for (width_ms, exact) in [
+        (0.25, 426.987_658),
+        (0.5, 256.282_637),
+        (1.0, 232.422_642),
+        (2.0, 317.463_645),
+        (4.0, 357.680_822),
+    ] {
+        let critical = 1e-4 / peak_s2(width_ms * 1e-3) / G;
+        closed = closed.max((critical / exact - 1.0).abs());
+        let (findings, _) = search(settings, above(critical));
+        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+        let (low, high) = (node(findings.survivor), node(findings.failure));
+        outside += usize::from(!(low < exact && exact <= high));
+        wide = wide.max(high / low - 1.0);
+    }
+    vec![
+        Check::new("critical shock against the table", closed, 2e-7),
+        Check::none("widths whose bar does not hold it", outside),
+        Check::new("widest bar", wide, 0.01),
+    ]
+}
+
+pub(super) fn e6() -> Vec<Check> {
+    let settings = settings(Certify::Staggered);
+    let (never, probes) = search(settings, |_, _| Told::Survives);
+    let (always, more) = search(settings, |_, _| fails());
+    let told = [
+        never.status == Status::AboveRange && never.failure.is_none(),
+        always.status == Status::BelowRange && always.survivor.is_none(),
+    ];
+    vec![
+        Check::none(
+            "bounds given as answers",
+            told.iter().filter(|t| !**t).count(),
+        ),
+        Check::new("probes spent", probes.max(more) as f64, 40.0),
+    ]
+}
+
+pub(super) fn e7() -> Vec<Check> {
+    let island = |_: Probe, a: f64| {
+        if (130.0..146.0).contains(&a) || a >= 200.0 {
+            fails()
+        } else {
+            Told::Survives
+        }
+    };
+    let guarded = settings(Certify::Staggered);
+    let exact = guarded
+        .lattice
+        .amplitude_g(guarded.lattice.at_or_above(130.0));
+    let found = |settings: SearchSettings| {
+        let (findings, _) = search(settings, island);
+        let g = findings
+            .failure
+            .map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+        (g / exact - 1.0, findings)
+    };
+    let (error, findings) = found(guarded);
+    let (naive, _) = found(settings(Certify::Off));
+    vec![
+        Check::new("lowest failure", error.abs(), 1e-12)
+            .against("bisection without a scan", naive.abs()),
+        Check::none(
+            "answers not marked as non-monotone",
+            usize::from(!findings.flags.contains(&Flag::NonMonotone)),
+        ),
+        Check::none(
+            "brackets not listed",
+            2_usize.saturating_sub(findings.brackets.len()),
+        ),
+    ]
+}
+
+pub(super) fn e8() -> Vec<Check> {
+    // 0.3 % of flutter on the travel, another at every amplitude.
+    let flutter = |a: f64| {
+        let mixed = a.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        1.0 + 0.003 * (mixed as f64 / f64::from(1 << 23) - 1.0)
+    };
+    let settings = settings(Certify::Staggered);
+    let (mut outside, mut narrow) = (0, f64::INFINITY);
+    for critical in [95.0, 256.282_637, 357.680_822] {
+        let (findings, _) = search(settings, |_, a| {
+            if a * flutter(a) < critical {
+                Told::Survives
+            } else {
+                fails()
+            }
+        });
+        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+        let (low, high) = (node(findings.survivor), node(findings.failure));
+        outside += usize::from(!(low * 0.997 < critical && critical <= high * 1.0031));
+        narrow = narrow.min(high / low - 1.0);
+    }
+    vec![
+        Check::none("answers moved by more than the flutter", outside),
+        Check::new(
+            "bar narrower than a node of the search by",
+            settings.lattice.step() - narrow,
+            1e-12,
+        ),
+    ]
+}
+
+pub(super) fn e9() -> Vec<Check> {
+    let settings = settings(Certify::Staggered);
+    let (findings, _) = search(settings, |probe, a| {
+        let critical = if probe.window_factor == 2 {
+            140.0
+        } else {
+            150.0
+        };
+        above(critical)(probe, a)
+    });
+    let answer = findings.failure == Some(settings.lattice.at_or_above(150.0));
+    vec![
+        Check::none(
+            "late failures not told",
+            usize::from(!findings.flags.contains(&Flag::Window)),
+        ),
+        Check::none(
+            "answers that depend on the doubled window",
+            usize::from(!answer),
+        ),
+    ]
+}
+
+pub(super) fn e10() -> Vec<Check> {
+    let mut workspace = Workspace::default();
+    let model = paper(5e-4, paper_arms()).build();
+    let (mut most, mut wrong) = (0.0_f64, 0);
+    for amplitude in [0.0, 1e-300, -1e-300] {
+        match model.run(amplitude, false, &mut workspace) {
+            Ok(run) => {
+                most = most.max(run.disk.rim_max_m);
+                wrong +=
+                    usize::from(!run.energy.closure.is_finite() || run.first_touch_s.is_some());
+            }
+            Err(_) => wrong += 1,
+        }
+    }
+    wrong += usize::from(model.run(f64::NAN, false, &mut workspace).is_ok());
+    vec![
+        Check::new("largest displacement, m", most, 1e-300),
+        Check::none("runs that fail, touch, or accept NaN", wrong),
+    ]
+}
