@@ -176,7 +176,7 @@ fn impedance_and_modes_at_the_reference_attitude() {
 
 /// From 10 µm, from 0.1 nm, with the pitch of the wrong sign.
 #[test]
-fn bad_first_attitudes_reach_the_same_flight() {
+fn hard_c12_bad_first_attitudes_reach_the_same_flight() {
     let film = film(&default_slider(), 1000);
     let load = [LOAD_N, 0.0, 0.0];
     let flown = fly(&film, load).unwrap();

@@ -43,7 +43,7 @@ fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
 
 /// First-order slip, H = 2 − x: load and peak within 0.1 % at 64 cells crowding at the outlet.
 #[test]
-fn sixty_four_cells_give_load_and_peak_to_a_thousandth() {
+fn hard_c1_sixty_four_cells_give_load_and_peak_to_a_thousandth() {
     for (knudsen, bearing_number, load, centre, peak) in [
         (0.0, 1.0, 0.02638214, 0.5760537, 1.0418171),
         (0.0, 10.0, 0.21002882, 0.6228682, 1.3612459),
@@ -85,7 +85,7 @@ fn largest(held: &Held) -> f64 {
 
 /// Λ to 0 and to infinity; no pressure outside what p h = const allows.
 #[test]
-fn limits_of_the_bearing_number_and_no_new_extrema() {
+fn hard_c2_limits_of_the_bearing_number_and_no_new_extrema() {
     let limits = reference("film_limits_1d.json");
     let hold = |bearing_number: f64| {
         PlaneSlider::wide(FlowModel::Continuum, 2.0, bearing_number, 0.0)
@@ -191,7 +191,7 @@ fn tilted_slider_at_rest_stays_at_ambient_pressure() {
 }
 
 #[test]
-fn roll_and_skew_have_their_mirror_images() {
+fn hard_c9_roll_and_skew_have_their_mirror_images() {
     let lines = (crowded_twice(24), crowded_twice(18));
     let mut slider = PlaneSlider::square(FlowModel::FukuiKaneko, 2.0, 300.0, 0.5);
     slider.recesses = vec![([0.1, 0.3], [0.2, 0.8], 4.0)];

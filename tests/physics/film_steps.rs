@@ -86,7 +86,7 @@ fn steady_film_conserves_mass_cell_by_cell() {
 /// A disk drawn away at 1 m/s for 10 µs from a 100 nm film, implicit Euler: pressure stays positive
 /// and what flows in through the edges is what the film gained.
 #[test]
-fn suction_keeps_pressure_positive_and_mass_closed() {
+fn hard_c7_suction_keeps_pressure_positive_and_mass_closed() {
     use opshock_solver::linalg::banded::BandedLu;
     let slider = PlaneSlider::square(FlowModel::FukuiKaneko, 1.5, 1000.0, 0.64);
     let lines = uniform(24, 1.0);

@@ -33,7 +33,7 @@ fn run(coupling: Coupling) -> HeadRun {
 }
 
 #[test]
-fn partitioned_couplings_agree_with_the_monolithic_solve() {
+fn hard_d1_partitioned_couplings_agree_with_the_monolithic_solve() {
     let together = run(Coupling::Monolithic);
     assert_eq!(together.verdict, Verdict::Survives);
     for coupling in [Coupling::Anderson, Coupling::Aitken, Coupling::FixedPoint] {

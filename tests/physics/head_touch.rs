@@ -56,7 +56,7 @@ fn sudden_disk_velocity_closes_the_gap_or_touches() {
 }
 
 #[test]
-fn time_of_touch_converges_with_the_tolerance() {
+fn hard_e2_time_of_touch_converges_with_the_tolerance() {
     let (film, flight) = default_film(300);
     let fast = SuddenDisk {
         velocity_m_per_s: 0.1,

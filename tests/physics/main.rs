@@ -16,5 +16,4 @@ mod head_rest;
 mod head_shock;
 mod head_touch;
 mod plate;
-mod spinning;
 mod suspension;

@@ -31,7 +31,7 @@ fn results_of(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn table_and_results_do_not_depend_on_the_threads() {
+fn hard_f1_table_and_results_do_not_depend_on_the_threads() {
     let input = fig13();
     let folder = tempfile::tempdir().expect("folder");
     let reference = run(&input, &folder.path().join("1"), 1);
@@ -76,7 +76,7 @@ fn missing_verdicts_do_not_let_the_threads_show() {
 }
 
 #[test]
-fn a_shuffled_study_has_the_same_rows() {
+fn hard_f3_a_shuffled_study_has_the_same_rows() {
     let input = fig13();
     let mut shuffled = fig13();
     let n = input.points.len();
@@ -92,7 +92,7 @@ fn a_shuffled_study_has_the_same_rows() {
 }
 
 #[test]
-fn stopping_and_going_on_ends_the_same() {
+fn hard_f2_stopping_and_going_on_ends_the_same() {
     let input = study(&[RampClass::None, RampClass::Deformable], &[0.5, 1.0, 2.0]);
     let folder = tempfile::tempdir().expect("folder");
     let reference = run(&input, &folder.path().join("whole"), 2);

@@ -9,7 +9,7 @@ use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
 
 #[test]
-fn poisoned_points_do_not_touch_their_neighbours() {
+fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
     let ramps = [RampClass::None, RampClass::Rigid, RampClass::Deformable];
     let input = study(&ramps, &[0.5, 1.0, 2.0]);
     let folder = tempfile::tempdir().expect("folder");

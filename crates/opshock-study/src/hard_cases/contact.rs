@@ -140,7 +140,7 @@ pub(super) fn b3() -> Vec<Check> {
     let of = |found: f64, exact: f64| (found / exact - 1.0).abs();
     vec![
         Check::new("peak displacement", of(deepest, 9.950_371_902e-3), 1e-3),
-        Check::new("peak force of the stop", of(force, 9950.371_902), 1e-3),
+        Check::new("peak force of the stop", of(force, 9_950.371_902), 1e-3),
         Check::new("impulse of the stop", of(impulse, 198.019_802_0), 1e-3),
         Check::new(
             "duration of contact, s",

@@ -231,7 +231,7 @@ pub(super) fn a5() -> Vec<Check> {
 }
 
 pub(super) fn a6() -> Vec<Check> {
-    let (omega, step) = (TAU * 1000.0, 0.5e-6);
+    let (omega, step) = (TAU * 1037.3, 0.5e-6);
     let oscillator = Oscillator::fixed(omega, 0.0);
     let flow = oscillator.flow(step);
     let (mut q, mut r) = (Complex::from(1e-4), Complex::from(0.0));
