@@ -180,6 +180,7 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
         program: "opshock 1 (abc)",
         resolved_study: Some("name = \"<b>\"\n"),
         audit: None,
+        savings: &[],
     });
     assert_nested(&page, &["meta", "br"]);
     assert!(page.contains("default-src 'none'"));
@@ -205,6 +206,7 @@ fn a_report_is_the_same_bytes_twice() {
         program: "opshock 1 (abc)",
         resolved_study: None,
         audit: None,
+        savings: &[],
     };
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
@@ -238,6 +240,7 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
             program: "",
             resolved_study: None,
             audit: None,
+            savings: &[],
         };
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);

@@ -44,6 +44,44 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         "{page}"
     );
 
+    // What the rules saved, counted by hand; explain tells the same.
+    let (_, stored) = load(&folder.path().join("clean")).expect("loads");
+    let stored = stored.expect("results");
+    let onset_g = stored.summary.points[1].onset_g.expect("an onset");
+    let bare = stored
+        .runs
+        .iter()
+        .filter(|row| row.point == 0 && row.levels.is_none());
+    let below = bare.filter(|row| row.amplitude_g < onset_g);
+    let (n, steps) = below.fold((0, 0), |(n, steps), row| {
+        (n + 1, steps + row.result().cost.steps)
+    });
+    assert!(n > 1 && onset_g > 150.0);
+    let saved = report("clean").json()["savings"].clone();
+    assert_eq!(
+        (saved[0]["rule"].clone(), saved[1]["rule"].clone()),
+        ("R4".into(), "R6".into())
+    );
+    assert_eq!(saved[0]["runs"], n);
+    assert_eq!(saved[0]["head_steps"], steps);
+    let share = saved[0]["share"].as_f64().unwrap();
+    assert!(share > 0.0 && share < 0.5, "{share}");
+    assert!(
+        page.contains("R4 saved") && page.contains("R6 saved"),
+        "{page}"
+    );
+    let path = study("fig13");
+    let mut words = vec![
+        "explain",
+        path.to_str().unwrap(),
+        "--store",
+        "clean",
+        "--json",
+    ];
+    words.extend(SMALL.iter().flat_map(|key| ["--set", key]));
+    let explained = Done::of(folder.path(), &words).json();
+    assert_eq!(explained["saved_in_sweep"], saved);
+
     // The plan stands with the results.
     let results = hdf5::File::open(folder.path().join("clean/results.h5")).unwrap();
     let plan = results.attr("plan").unwrap();
@@ -58,6 +96,8 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         rules.as_array().unwrap().iter().any(|rule| rule == "R4")
     };
     assert!(has_r4("rules_below_touch") && !has_r4("rules_above_touch"));
+
+    drop(results);
 
     // The same store with the smallest clearance of one surviving run a bit larger.
     let (loaded, _) = load(&folder.path().join("clean")).expect("loads");

@@ -5,8 +5,9 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::ShockArgs;
-use super::study_file;
 use super::thresholds::coordinates;
+use super::{stored, study_file};
+use crate::report::savings;
 use crate::study::{Point, Study};
 use anyhow::Context as _;
 use clap::Args;
@@ -79,10 +80,24 @@ pub fn run(
             arguments.measure,
         )?);
     }
+    // What a sweep of this study saved, once it has been made.
+    let folder = stored::folder_of_study(&arguments.study, global);
+    let swept = stored::read(&folder, console).ok();
+    let swept = swept.filter(|stored| stored.summary.digest == study.digest_hex());
+    let saved = swept.map_or(Vec::new(), |stored| stored.savings);
     if console.json {
-        console.result_json(&as_json(&study, &plan, amplitude_g, &all))?;
+        let mut told = as_json(&study, &plan, amplitude_g, &all);
+        told["saved_in_sweep"] = json!(saved);
+        console.result_json(&told)?;
     } else {
-        console.result(&as_text(&study, &plan, amplitude_g, &all))?;
+        let mut text = as_text(&study, &plan, amplitude_g, &all);
+        if !saved.is_empty() {
+            let _ = writeln!(text, "\nsaved in the sweep in {}", folder.display());
+        }
+        for line in savings::lines(&saved) {
+            let _ = writeln!(text, "  {line}");
+        }
+        console.result(&text)?;
     }
     Ok(Exit::Complete)
 }

@@ -4,9 +4,9 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::stored;
+use super::stored::{self, Stored};
 use crate::provenance;
-use crate::report::{ReportSource, table, write_report};
+use crate::report::{ReportSource, Saving, savings, table, write_report};
 use crate::store::{Audit, Status, Summary};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -34,13 +34,26 @@ enum TableFormat {
     Json,
 }
 
-/// The table as JSON, with the audit when there was one.
+/// The table as JSON, with the audit when there was one and what the rules saved.
 #[derive(Serialize)]
-struct Told<'a> {
+pub(super) struct Told<'a> {
     #[serde(flatten)]
     summary: &'a Summary,
     #[serde(skip_serializing_if = "Option::is_none")]
     audit: Option<&'a Audit>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    savings: &'a [Saving],
+}
+
+impl<'a> Told<'a> {
+    /// Of what a store holds.
+    pub(super) fn of(stored: &'a Stored) -> Self {
+        Self {
+            summary: &stored.summary,
+            audit: stored.audit.as_ref(),
+            savings: &stored.savings,
+        }
+    }
 }
 
 /// Runs the command.
@@ -58,6 +71,7 @@ pub fn run(
         program: &program,
         resolved_study: stored.resolved_study.as_deref(),
         audit: stored.audit.as_ref(),
+        savings: &stored.savings,
     };
     if let Some(out) = &arguments.out {
         let mut written = write_report(out, &source).context("cannot write the report")?;
@@ -74,15 +88,17 @@ pub fn run(
         format => format,
     };
     match format {
-        None => console.result(&table::terminal(&stored.summary))?,
+        None => {
+            console.result(&table::terminal(&stored.summary))?;
+            for line in savings::lines(&stored.savings) {
+                console.tell(&line);
+            }
+        }
         Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,
         Some(TableFormat::Md) => {
             console.result(&table::markdown(&stored.summary, &source.provenance()))?;
         }
-        Some(TableFormat::Json) => console.result_json(&Told {
-            summary: &stored.summary,
-            audit: stored.audit.as_ref(),
-        })?,
+        Some(TableFormat::Json) => console.result_json(&Told::of(&stored))?,
     }
     Ok(exit_of(&stored.summary))
 }

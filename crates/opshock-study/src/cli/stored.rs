@@ -3,7 +3,7 @@
 use super::GlobalArgs;
 use super::console::Console;
 use super::failure::{Failure, Fault};
-use crate::report::RunDot;
+use crate::report::{RunDot, Saving, savings};
 use crate::store::folder::session;
 use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
 use crate::study::Study;
@@ -55,6 +55,8 @@ pub struct Stored {
     pub resolved_study: Option<String>,
     /// The last audit.
     pub audit: Option<Audit>,
+    /// What the rules saved.
+    pub savings: Vec<Saving>,
 }
 
 /// Reads everything finished in a store, and tells what is wrong with it.
@@ -77,6 +79,7 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
         })
         .collect();
     Ok(Stored {
+        savings: savings(&results),
         audit: Audit::of_store(folder, &results.summary.digest),
         summary: results.summary,
         runs,

@@ -5,7 +5,7 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::report::exit_of;
+use super::report::{Told, exit_of};
 use super::{stored, study_file, thresholds};
 use crate::report::table;
 use crate::store::{Audit, Summary};
@@ -68,22 +68,26 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     drop(progress);
 
     let summary = end.summary;
+    let audited = match arguments.audit.filter(|_| end.ending == Ending::Complete) {
+        Some(share) => {
+            let full = Physics::in_full(&study);
+            let results = stored::results(&folder, console)?;
+            let audit = audit(&input, &results, &full, share, global.threads());
+            audit.keep(&folder)?;
+            Some(audit)
+        }
+        None => None,
+    };
     if console.json {
-        console.result_json(&summary)?;
+        console.result_json(&Told::of(&stored::read(&folder, console)?))?;
     } else {
         console.result(&table::terminal(&summary))?;
     }
     match end.ending {
-        Ending::Complete => match arguments.audit {
-            Some(share) => {
-                let full = Physics::in_full(&study);
-                let results = stored::results(&folder, console)?;
-                let audit = audit(&input, &results, &full, share, global.threads());
-                audit.keep(&folder)?;
-                Ok(audited(&audit, &summary, console))
-            }
-            None => Ok(exit_of(&summary)),
-        },
+        Ending::Complete => Ok(audited.map_or_else(
+            || exit_of(&summary),
+            |audit| tell_audit(&audit, &summary, console),
+        )),
         Ending::Stopped { signal } => {
             console.tell(&resume(&arguments.study, &folder, global));
             let number = signal.and_then(|signal| u8::try_from(signal).ok());
@@ -97,7 +101,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
 }
 
 /// Tells what an audit showed.
-fn audited(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
+fn tell_audit(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
     console.tell(&audit.sentence());
     for difference in &audit.differences {
         console.tell(&difference.to_string());

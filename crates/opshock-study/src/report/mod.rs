@@ -10,6 +10,7 @@ pub mod run_json;
 mod run_plots;
 mod run_text;
 pub mod runs_table;
+pub mod savings;
 pub mod table;
 
 pub use accuracy_files::write_accuracy;
@@ -20,3 +21,4 @@ pub use outcome_map::{RunDot, outcome_map};
 pub use run_json::{RunJson, verdict_word};
 pub use run_plots::{NamedFigure, PlotError, RunCaption, run_figures, write_figures};
 pub use run_text::run_text;
+pub use savings::{Saving, savings};

@@ -3,6 +3,7 @@
 
 use super::critical_shock::critical_shock_figure;
 use super::outcome_map::{RunDot, outcome_map};
+use super::savings::{self, Saving};
 use super::table;
 use crate::store::Audit;
 use crate::store::summary::{Flag, PointSummary, Status, Summary};
@@ -21,6 +22,8 @@ pub struct ReportSource<'a> {
     pub resolved_study: Option<&'a str>,
     /// The last audit of the store.
     pub audit: Option<&'a Audit>,
+    /// What the rules saved.
+    pub savings: &'a [Saving],
 }
 
 impl ReportSource<'_> {
@@ -29,7 +32,12 @@ impl ReportSource<'_> {
         let audit = self
             .audit
             .map_or(String::new(), |audit| format!("; {}", audit.sentence()));
-        format!("{}, study {}{audit}", self.program, self.summary.digest)
+        let mut text = format!("{}, study {}{audit}", self.program, self.summary.digest);
+        for line in savings::lines(self.savings) {
+            text.push_str("\n\n");
+            text.push_str(&line);
+        }
+        text
     }
 }
 
@@ -232,6 +240,9 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("program", source.program);
     entry("study", &summary.study);
     entry("digest", &summary.digest);
+    for line in savings::lines(source.savings) {
+        entry("saved", &line);
+    }
     if let Some(audit) = source.audit {
         let mut told = vec![audit.sentence()];
         told.extend(audit.differences.iter().map(ToString::to_string));
