@@ -58,7 +58,7 @@ verify-durability: bootstrap ## kill -9, torn journals, threads on the real stud
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
 
-verify-scenes: bootstrap ## 14000 random scenes (OPSHOCK_SEEDS=first..end goes on)
+verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow
 
 verify-accuracy: bootstrap ## do the error bars hold the truth? 300 known answers, 40 ten times finer

@@ -250,6 +250,28 @@ fn doctor_finds_a_sound_machine_and_leaves_nothing() {
     );
 }
 
+#[test]
+fn doctor_runs_the_hard_cases_and_tells_figure_and_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = Done::of(folder.path(), &["doctor", "--hard-cases", "--json"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let found = done.json();
+    assert_eq!(found["ok"], true);
+    let cases = found["cases"].as_array().unwrap();
+    assert_eq!(cases.len(), 66);
+    for case in cases {
+        assert_eq!(case["ok"], true, "{case}");
+        for check in case["checks"].as_array().unwrap() {
+            let (figure, bound) = (check["figure"].as_f64(), check["bound"].as_f64());
+            assert!(figure.unwrap() <= bound.unwrap(), "{check}");
+        }
+    }
+    assert_eq!(files(folder.path()).len(), 0);
+    let text = Done::of(folder.path(), &["doctor", "--hard-cases"]).stdout;
+    // The program, a line a case, the count.
+    assert_eq!(text.lines().count(), 68, "{text}");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_sweep_saves_and_ends_with_the_code_of_the_signal() {
