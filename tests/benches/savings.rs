@@ -70,7 +70,20 @@ fn compare(question: &str, ramp: &str, output: Output, amplitude_g: f64) {
     );
 }
 
+/// Parts by name, as `cargo bench --bench savings -- search`; all without one.
 fn main() {
+    let named: Vec<String> = std::env::args().skip(1).collect();
+    let parts: [(&str, fn()); 3] = [("pairs", pairs), ("search", search), ("designs", designs)];
+    let is_named = |part: &str| named.iter().any(|word| word == part);
+    let all = !parts.iter().any(|(part, _)| is_named(part));
+    for (part, run) in parts {
+        if all || is_named(part) {
+            run();
+        }
+    }
+}
+
+fn pairs() {
     println!(
         "| question | one shock, planned | full | ratio | further shock, planned | full | ratio |"
     );
@@ -111,9 +124,6 @@ fn main() {
         Output::CriticalShock,
         190.0,
     );
-    println!();
-    search();
-    designs();
 }
 
 /// Sweeps Fig. 13 at 0.5 ms with some keys set, on one thread, into a store of its own.
