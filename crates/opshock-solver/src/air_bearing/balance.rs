@@ -13,7 +13,7 @@ use super::faces::{BLOCK, Block, Interior, Places, block};
 use super::film::Film;
 use super::flux::is_steep;
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
-use crate::lanes::{Kernel, widest};
+use crate::lanes::{Kernel, total, widest};
 
 /// Sums kept apart so that the order of additions does not depend on the width of a register.
 const SUMS: usize = 8;
@@ -353,19 +353,28 @@ impl Moments {
     #[inline(always)]
     pub(super) fn add(&mut self, load: &Block, places: &Places, first: usize) {
         let (x, y) = (block(&places.x, first), block(&places.y, first));
-        for start in (0..BLOCK).step_by(SUMS) {
+        let (load, x, y) = (
+            load.as_chunks::<SUMS>().0,
+            x.as_chunks::<SUMS>().0,
+            y.as_chunks::<SUMS>().0,
+        );
+        let [mut force, mut pitch, mut roll] = self.sums;
+        for ((load, x), y) in load.iter().zip(x).zip(y) {
             for k in 0..SUMS {
-                let at = start + k;
-                self.sums[0][k] += load[at];
-                self.sums[1][k] -= load[at] * x[at];
-                self.sums[2][k] += load[at] * y[at];
+                force[k] += load[k];
+            }
+            for k in 0..SUMS {
+                pitch[k] -= load[k] * x[k];
+            }
+            for k in 0..SUMS {
+                roll[k] += load[k] * y[k];
             }
         }
+        self.sums = [force, pitch, roll];
     }
 
     #[inline(always)]
     pub(super) fn total(&self) -> [f64; 3] {
-        self.sums
-            .map(|s| ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7])))
+        self.sums.map(total)
     }
 }

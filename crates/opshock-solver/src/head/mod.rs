@@ -20,6 +20,7 @@
 //! plane falls below the limit, found inside the step on the cubic dense output of the slider and
 //! the exact motion of the disk.
 
+mod correction;
 mod mechanics;
 mod model;
 mod outcome;

@@ -18,11 +18,13 @@
 
 use super::HeadModel;
 use super::ShockLoad;
+use super::correction::correct_film;
 use super::mechanics::{StageState, eliminate};
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
 use crate::disk::{DiskMotion, DiskPose};
 use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
+use crate::lanes::products;
 use crate::linalg::banded::BandedLu;
 
 /// Iterations of one stage before it is given up.
@@ -51,8 +53,10 @@ pub(super) struct StageScratch {
     lu: BandedLu,
     /// d for which the factors were made; `None`: there are none.
     factored_d_s: Option<f64>,
-    /// Z, row by row.
+    /// Z, row by row, for the solution of its three columns at once.
     columns: Vec<[f64; 3]>,
+    /// Z, column by column.
+    z: [Vec<f64>; 3],
     /// F_ψ Z − F_q.
     film_matrix: [[f64; 3]; 3],
     pub residual: Vec<f64>,
@@ -89,6 +93,7 @@ impl StageScratch {
             linearisation,
             factored_d_s: None,
             columns: vec![[0.0; 3]; n_cells],
+            z: [0, 1, 2].map(|_| vec![0.0; n_cells]),
             film_matrix: [[0.0; 3]; 3],
             residual: vec![0.0; n_cells],
             mechanical: vec![0.0; n],
@@ -117,7 +122,7 @@ impl StageScratch {
     pub fn solve_film(&mut self) -> [f64; 3] {
         self.lu.solve(&mut self.residual);
         self.counters.solves += 1;
-        std::array::from_fn(|f| dot(&self.linearisation.force_by_psi[f], &self.residual))
+        products(columns_of(&self.linearisation.force_by_psi), &self.residual)
     }
 }
 
@@ -184,13 +189,13 @@ impl Stages<'_> {
         }
         s.lu.solve_columns(&mut s.columns);
         s.counters.solves += 3;
-        for f in 0..3 {
-            let mut sum = [0.0; 3];
-            for (g, z) in s.linearisation.force_by_psi[f].iter().zip(&s.columns) {
-                for (sum, z) in sum.iter_mut().zip(z) {
-                    *sum += g * z;
-                }
+        for (q, z) in s.z.iter_mut().enumerate() {
+            for (z, row) in z.iter_mut().zip(&s.columns) {
+                *z = row[q];
             }
+        }
+        for f in 0..3 {
+            let sum = products(columns_of(&s.z), &s.linearisation.force_by_psi[f]);
             let by_attitude = s.linearisation.force_by_attitude[f];
             s.film_matrix[f] = std::array::from_fn(|q| sum[q] - by_attitude[q]);
         }
@@ -378,13 +383,7 @@ impl Stages<'_> {
     fn apply(&mut self, psi: &mut [f64], x: &mut [f64]) -> Result<(f64, bool), StageFailure> {
         let s = &mut *self.scratch;
         let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
-        let (mut square, mut loss) = (0.0, 0.0_f64);
-        for ((delta, z), psi) in s.residual.iter_mut().zip(&s.columns).zip(&*psi) {
-            *delta = -*delta - (z[0] * dq[0] + z[1] * dq[1] + z[2] * dq[2]);
-            let relative = *delta / psi;
-            square += relative * relative;
-            loss = loss.max(-relative);
-        }
+        let (square, loss) = correct_film(&mut s.residual, &s.z, psi, dq);
         let gap = self.model.gap_change(&dq) / self.gap_m;
         let size = gap + (square / psi.len() as f64).sqrt();
         if !size.is_finite() {
@@ -481,6 +480,6 @@ impl StageSystem for Stages<'_> {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+fn columns_of(columns: &[Vec<f64>; 3]) -> [&[f64]; 3] {
+    [&columns[0], &columns[1], &columns[2]]
 }

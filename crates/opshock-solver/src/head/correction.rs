@@ -1,0 +1,106 @@
+//! Newton's correction of the film once the slider's is known.
+//!
+//! ```text
+//! δψ = −A⁻¹ r_f − Z δq
+//! ```
+
+use crate::lanes::{Kernel, total, widest};
+
+/// Sums kept apart.
+const SUMS: usize = 8;
+
+/// Turns `residual`, which holds A⁻¹ r_f, into δψ in place. Returns Σ (δψ/ψ)² and the largest share
+/// of its gas that a cell would lose; both are NaN-proof in that a NaN in ψ or δψ shows in the sum.
+///
+/// # Panics
+///
+/// When slices differ in length.
+pub(super) fn correct_film(
+    residual: &mut [f64],
+    z: &[Vec<f64>; 3],
+    psi: &[f64],
+    dq: [f64; 3],
+) -> (f64, f64) {
+    assert!(z.iter().all(|z| z.len() == psi.len()) && residual.len() == psi.len());
+    widest(Correct {
+        residual,
+        z: [&z[0], &z[1], &z[2]],
+        psi,
+        dq,
+    })
+}
+
+struct Correct<'a> {
+    residual: &'a mut [f64],
+    z: [&'a [f64]; 3],
+    psi: &'a [f64],
+    dq: [f64; 3],
+}
+
+impl Kernel for Correct<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn call(self) -> (f64, f64) {
+        let (delta, delta_rest) = self.residual.as_chunks_mut::<SUMS>();
+        let (psi, psi_rest) = self.psi.as_chunks::<SUMS>();
+        let z = self.z.map(|z| z.as_chunks::<SUMS>());
+        let mut squares = [0.0; SUMS];
+        let mut losses = [0.0_f64; SUMS];
+        let ((z0, z1), z2) = ((z[0].0, z[1].0), z[2].0);
+        for ((((delta, z0), z1), z2), psi) in delta.iter_mut().zip(z0).zip(z1).zip(z2).zip(psi) {
+            let mut relative = [0.0; SUMS];
+            for k in 0..SUMS {
+                delta[k] =
+                    -delta[k] - (z0[k] * self.dq[0] + z1[k] * self.dq[1] + z2[k] * self.dq[2]);
+                relative[k] = delta[k] / psi[k];
+            }
+            for k in 0..SUMS {
+                squares[k] += relative[k] * relative[k];
+            }
+            for k in 0..SUMS {
+                let loss = -relative[k];
+                losses[k] = if loss > losses[k] { loss } else { losses[k] };
+            }
+        }
+        let (mut square, mut loss) = (0.0, losses.into_iter().fold(0.0, f64::max));
+        for (k, (delta, psi)) in delta_rest.iter_mut().zip(psi_rest).enumerate() {
+            let change: f64 = (0..3).map(|q| z[q].1[k] * self.dq[q]).sum();
+            *delta = -*delta - change;
+            let relative = *delta / psi;
+            square += relative * relative;
+            loss = f64::max(loss, -relative);
+        }
+        (total(squares) + square, loss)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_chunks_and_the_rest_follow_the_formula() {
+        for n in [1, 7, 8, 29] {
+            let at =
+                |seed: f64| -> Vec<f64> { (0..n).map(|k| (seed + k as f64 * 0.7).sin()).collect() };
+            let z = [at(0.1), at(0.2), at(0.3)];
+            let psi: Vec<f64> = at(0.4).iter().map(|v| 2.0 + v).collect();
+            let dq = [0.5, -0.25, 0.125];
+            let start = at(0.5);
+            let mut found = start.clone();
+            let (square, loss) = correct_film(&mut found, &z, &psi, dq);
+            let expected: Vec<f64> = (0..n)
+                .map(|k| -start[k] - (z[0][k] * 0.5 - z[1][k] * 0.25 + z[2][k] * 0.125))
+                .collect();
+            let relative = |k: usize| expected[k] / psi[k];
+            let (mut sum, mut most) = (0.0, 0.0_f64);
+            for k in 0..n {
+                assert!((found[k] - expected[k]).abs() < 1e-15);
+                sum += relative(k) * relative(k);
+                most = most.max(-relative(k));
+            }
+            assert!((square - sum).abs() < 1e-14 * sum && (loss - most).abs() < 1e-15);
+        }
+    }
+}
