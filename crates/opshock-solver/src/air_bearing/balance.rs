@@ -154,13 +154,15 @@ impl Kernel for Balance<'_> {
             for first in (0..faces.length.len()).step_by(BLOCK) {
                 let [up, down] = faces.sides(scratch, first);
                 let base = faces.places.heights(first, attitude);
+                let h_faces =
+                    [up.recess, down.recess].map(|recess| film.floored_block(&base, recess)[0]);
                 let length = block(&faces.length, first);
                 let values = if faces.wind == 0.0 {
-                    still(film, &up, &down, &base, length)
-                } else if any_steep(film, &up, &down, &base, length) {
-                    windy::<true>(film, &up, &down, &base, length)
+                    still(&up, &down, &h_faces, length)
+                } else if any_steep(&up, &down, &h_faces, length) {
+                    windy::<true>(&up, &down, &h_faces, length)
                 } else {
-                    windy::<false>(film, &up, &down, &base, length)
+                    windy::<false>(&up, &down, &h_faces, length)
                 };
                 *block_mut(&mut through, front + first) = values.flux;
                 moments.add(&values.load(), &faces.places, first);
@@ -198,7 +200,8 @@ impl Kernel for Balance<'_> {
                     Picked::new(scratch, cells, &faces.behind[first..first + BLOCK], front);
                 let side = picked.side(&faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
-                let values = edge(film, &side, &base, block(&faces.length, first));
+                let h_face = film.floored_block(&base, side.recess)[0];
+                let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);
                 for (k, &cell) in cells.iter().enumerate() {
                     out[cell] += values.flux[k];
@@ -254,16 +257,15 @@ impl FaceValues {
 /// Whether a half cell of a face that exists is steep.
 #[inline(always)]
 pub(super) fn any_steep(
-    film: &Film,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
-    base: &Block,
+    [h_up, h_down]: &[Block; 2],
     length: &Block,
 ) -> bool {
     let mut any = false;
     for k in 0..BLOCK {
-        let u = is_steep(up.h[k], film.floored(base[k] + up.recess[k]).0);
-        let d = is_steep(down.h[k], film.floored(base[k] + down.recess[k]).0);
+        let u = is_steep(up.h[k], h_up[k]);
+        let d = is_steep(down.h[k], h_down[k]);
         any |= (u | d) & (length[k] != 0.0);
     }
     any
@@ -271,16 +273,14 @@ pub(super) fn any_steep(
 
 #[inline(always)]
 fn windy<const STEEP: bool>(
-    film: &Film,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
-    base: &Block,
+    [h_up, h_down]: &[Block; 2],
     length: &Block,
 ) -> FaceValues {
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
-        let u = up.half(k, film.floored(base[k] + up.recess[k]).0);
-        let d = down.half(k, film.floored(base[k] + down.recess[k]).0);
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
         let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
         let p = (a.alpha + b.alpha) / (a.beta + b.beta);
         flux[k] = length[k] * (a.alpha - a.beta * p);
@@ -292,16 +292,14 @@ fn windy<const STEEP: bool>(
 
 #[inline(always)]
 fn still(
-    film: &Film,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
-    base: &Block,
+    [h_up, h_down]: &[Block; 2],
     length: &Block,
 ) -> FaceValues {
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
-        let u = up.half(k, film.floored(base[k] + up.recess[k]).0);
-        let d = down.half(k, film.floored(base[k] + down.recess[k]).0);
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
         let ((a, b), (c, e)) = (u.still(), d.still());
         let p = (a + c) / (b + e);
         flux[k] = length[k] * (a - b * p);
@@ -313,7 +311,7 @@ fn still(
 
 /// Faces on the slider's edge, where the ambient pressure stands.
 #[inline(always)]
-fn edge(film: &Film, side: &SideBlock<'_>, base: &Block, length: &Block) -> FaceValues {
+fn edge(film: &Film, side: &SideBlock<'_>, h_face: &Block, length: &Block) -> FaceValues {
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     let p = film.ambient_pa;
     let mut put = |k: usize, (alpha, beta): (f64, f64), excess: f64| {
@@ -321,7 +319,7 @@ fn edge(film: &Film, side: &SideBlock<'_>, base: &Block, length: &Block) -> Face
         loads[0][k] = side.area[k] * excess;
     };
     for k in 0..BLOCK {
-        let half = side.half(k, film.floored(base[k] + side.recess[k]).0);
+        let half = side.half(k, h_face[k]);
         if side.wind == 0.0 {
             put(k, half.still(), half.still_excess(p));
         } else if side.wind > 0.0 {

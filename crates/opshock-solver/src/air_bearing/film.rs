@@ -9,7 +9,7 @@
 //! the slider's edges with the ambient pressure on the face; the balance itself is in
 //! `balance`, the choice of the grid in [`super::layout`].
 
-use super::faces::Columns;
+use super::faces::{Block, Columns};
 use super::flow_factor::FlowFactor;
 use super::flux::HalfCell;
 use super::layout;
@@ -226,6 +226,13 @@ impl Film {
     #[inline(always)]
     pub(super) fn floored(&self, h: f64) -> (f64, f64) {
         self.floor.apply(h)
+    }
+
+    /// Heights the film sees in a block where the true ones are `base` + `recess`, and their
+    /// derivatives.
+    #[inline(always)]
+    pub(super) fn floored_block(&self, base: &Block, recess: &Block) -> [Block; 2] {
+        self.floor.apply_block(base, recess)
     }
 
     /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face,

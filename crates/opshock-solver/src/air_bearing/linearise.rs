@@ -155,6 +155,7 @@ fn between_cells(
     for first in (0..faces.length.len()).step_by(BLOCK) {
         let [up, down] = faces.sides(state, first);
         let base = faces.places.heights(first, attitude);
+        let faces_at = [up.recess, down.recess].map(|recess| film.floored_block(&base, recess));
         let length = block(&faces.length, first);
         let arms = Arms {
             face: [&faces.places.x, &faces.places.y].map(|c| *block(c, first)),
@@ -162,11 +163,11 @@ fn between_cells(
             down: [&columns.centre_x, &columns.centre_y].map(|c| *block(c, faces.down + first)),
         };
         let all = if faces.wind == 0.0 {
-            still(film, &up, &down, &base, length, &arms)
-        } else if any_steep(film, &up, &down, &base, length) {
-            windy::<true>(film, &up, &down, &base, length, &arms)
+            still(&up, &down, &faces_at, length, &arms)
+        } else if any_steep(&up, &down, &[faces_at[0][0], faces_at[1][0]], length) {
+            windy::<true>(&up, &down, &faces_at, length, &arms)
         } else {
-            windy::<false>(film, &up, &down, &base, length, &arms)
+            windy::<false>(&up, &down, &faces_at, length, &arms)
         };
         moments.add(&all.load, &faces.places, first);
         for k in 0..BLOCK {
@@ -382,18 +383,15 @@ fn join(
 
 #[inline(always)]
 fn windy<const STEEP: bool>(
-    film: &Film,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
-    base: &Block,
+    [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
     length: &Block,
     arms: &Arms,
 ) -> FaceDerivatives {
     let mut all = FaceDerivatives::zero();
     for k in 0..BLOCK {
-        let (h_up, slope_up) = film.floored(base[k] + up.recess[k]);
-        let (h_down, slope_down) = film.floored(base[k] + down.recess[k]);
-        let (u, d) = (up.half(k, h_up), down.half(k, h_down));
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
         let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
         let total = a.beta + b.beta;
         let p = (a.alpha + b.alpha) / total;
@@ -407,14 +405,14 @@ fn windy<const STEEP: bool>(
                     a.beta,
                     u.mean_excess::<true>(&a, p),
                     up.area[k],
-                    [up.h_slope[k], slope_up],
+                    [up.h_slope[k], slope_up[k]],
                 ),
                 (
                     d.partials::<false>(&b, p),
                     b.beta,
                     d.mean_excess::<false>(&b, p),
                     down.area[k],
-                    [down.h_slope[k], slope_down],
+                    [down.h_slope[k], slope_down[k]],
                 ),
             ],
             1.0 / total,
@@ -427,18 +425,15 @@ fn windy<const STEEP: bool>(
 
 #[inline(always)]
 fn still(
-    film: &Film,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
-    base: &Block,
+    [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
     length: &Block,
     arms: &Arms,
 ) -> FaceDerivatives {
     let mut all = FaceDerivatives::zero();
     for k in 0..BLOCK {
-        let (h_up, slope_up) = film.floored(base[k] + up.recess[k]);
-        let (h_down, slope_down) = film.floored(base[k] + down.recess[k]);
-        let (u, d) = (up.half(k, h_up), down.half(k, h_down));
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
         let ((alpha_up, beta_up), (alpha_down, beta_down)) = (u.still(), d.still());
         let total = beta_up + beta_down;
         let p = (alpha_up + alpha_down) / total;
@@ -452,14 +447,14 @@ fn still(
                     beta_up,
                     u.still_excess(p),
                     up.area[k],
-                    [up.h_slope[k], slope_up],
+                    [up.h_slope[k], slope_up[k]],
                 ),
                 (
                     d.still_partials(p),
                     beta_down,
                     d.still_excess(p),
                     down.area[k],
-                    [down.h_slope[k], slope_down],
+                    [down.h_slope[k], slope_down[k]],
                 ),
             ],
             1.0 / total,

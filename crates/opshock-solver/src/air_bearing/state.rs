@@ -49,13 +49,13 @@ impl FilmScratch {
             let height = columns.places.heights(first, attitude);
             let recess = block(&columns.recess, first);
             let at = front + first;
-            let h = block_mut(&mut self.h, at);
+            let [h, slope] = film.floored_block(&height, recess);
             let inverse = block_mut(&mut self.inverse_h, at);
-            let slope = block_mut(&mut self.h_slope, at);
             for k in 0..BLOCK {
-                (h[k], slope[k]) = film.floored(height[k] + recess[k]);
                 inverse[k] = 1.0 / h[k];
             }
+            *block_mut(&mut self.h, at) = h;
+            *block_mut(&mut self.h_slope, at) = slope;
         }
         let g = &mut self.g[front..front + psi.len()];
         let slopes = &mut self.g_slope[front..front + psi.len()];

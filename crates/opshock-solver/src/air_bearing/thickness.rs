@@ -9,6 +9,8 @@
 //! has a continuous derivative and stays above h0; the clearance that decides a verdict is always
 //! the true height.
 
+use super::faces::{BLOCK, Block};
+
 /// The floor h0 of a film, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Floor {
@@ -26,6 +28,27 @@ impl Floor {
             let s = h0 / (3.0 * h0 - h);
             (h0 * (1.0 + s), s * s)
         }
+    }
+}
+
+impl Floor {
+    /// f and f′ of `base` + `recess` for a block. Where all of a block is above the floor's range
+    /// no division is made; the numbers are the same.
+    #[inline(always)]
+    pub(super) fn apply_block(self, base: &Block, recess: &Block) -> [Block; 2] {
+        let mut h = [0.0; BLOCK];
+        let mut low = false;
+        for k in 0..BLOCK {
+            h[k] = base[k] + recess[k];
+            low |= h[k] < 2.0 * self.h0;
+        }
+        let mut slope = [1.0; BLOCK];
+        if low {
+            for k in 0..BLOCK {
+                (h[k], slope[k]) = self.apply(h[k]);
+            }
+        }
+        [h, slope]
     }
 }
 
