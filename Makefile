@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz verify-accuracy accuracy
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -21,6 +21,9 @@ fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/f
 
 accuracy: build ## what accuracy costs on Fig. 13: ladders, plots and table in results/accuracy/
 	$(OPSHOCK) accuracy studies/fig13/study.toml --at none:2:- --at deformable:2:- --out results/accuracy
+
+figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
+	$(OPSHOCK) figures studies/paper-cases/study.toml --out results/paper
 
 study: build ## run another study: make study NAME=drive-2.5in
 	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }

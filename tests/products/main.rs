@@ -4,6 +4,7 @@ mod accuracy;
 mod bad_inputs;
 mod cli;
 mod cli_explain;
+mod cli_figures;
 mod cli_run;
 mod cli_studies;
 mod error_bars;

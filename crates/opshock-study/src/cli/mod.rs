@@ -10,6 +10,7 @@ mod exit;
 mod explain;
 mod export;
 mod failure;
+mod figures;
 mod hard_cases;
 mod modes;
 mod new;
@@ -131,6 +132,7 @@ enum Command {
     Explain(explain::ExplainArgs),
     Sweep(sweep::SweepArgs),
     Report(report::ReportArgs),
+    Figures(figures::FiguresArgs),
     Accuracy(accuracy::AccuracyArgs),
     Status(status::StatusArgs),
     Export(export::ExportArgs),
@@ -174,6 +176,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
+        Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Accuracy(arguments) => accuracy::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),

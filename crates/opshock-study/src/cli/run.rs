@@ -88,7 +88,7 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
 }
 
 /// Runs the shock by the study's plan.
-fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
+pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
     let model = Model::assemble(&shot.point.scene, &study.plan(), None)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let request = Request {
@@ -164,7 +164,8 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
     }
 }
 
-fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCaption {
+/// What the pictures say about a run.
+pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCaption {
     let scene: &Scene = &shot.point.scene;
     RunCaption {
         shock: shock_words(shot),

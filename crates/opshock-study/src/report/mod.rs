@@ -6,6 +6,7 @@ mod critical_shock;
 mod files;
 pub mod html;
 mod outcome_map;
+pub mod paper;
 pub mod run_json;
 mod run_plots;
 mod run_text;

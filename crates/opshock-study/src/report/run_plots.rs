@@ -308,7 +308,8 @@ fn series(columns: &[Column], (column, name, factor, colour, dash): Curve<'_>) -
     Series::curve(name, colour, dash, curve)
 }
 
-fn find<'a>(columns: &'a [Column], name: &str) -> &'a Column {
+/// Column of a history by its name, which must be one of it.
+pub(super) fn find<'a>(columns: &'a [Column], name: &str) -> &'a Column {
     columns
         .iter()
         .find(|column| column.name == name)
@@ -345,33 +346,40 @@ pub enum PlotError {
 ///
 /// [`PlotError`] at the first file that cannot be written.
 pub fn write_figures(folder: &Path, figures: &[NamedFigure]) -> Result<Vec<PathBuf>, PlotError> {
+    let mut written = Vec::new();
+    for named in figures {
+        let table = csv(&named.table);
+        written.extend(write_picture(folder, named.name, &named.figure, &table)?);
+    }
+    Ok(written)
+}
+
+/// Writes `NAME.png`, `NAME.svg` and `NAME.csv`.
+pub(super) fn write_picture(
+    folder: &Path,
+    name: &str,
+    figure: &Figure,
+    table: &str,
+) -> Result<Vec<PathBuf>, PlotError> {
     let io = |path: &Path, source| PlotError::Io {
         path: path.display().to_string(),
         source,
     };
+    let path = |ending| folder.join(format!("{name}.{ending}"));
+    let png = figure.png().map_err(|source| PlotError::Chart {
+        path: path("png").display().to_string(),
+        source,
+    })?;
+    let files = [
+        (path("png"), png),
+        (path("svg"), figure.svg().into_bytes()),
+        (path("csv"), table.as_bytes().to_vec()),
+    ];
     std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
     let mut written = Vec::new();
-    for named in figures {
-        let png_path = folder.join(format!("{}.png", named.name));
-        let png = named.figure.png().map_err(|source| PlotError::Chart {
-            path: png_path.display().to_string(),
-            source,
-        })?;
-        let files = [
-            (png_path, png),
-            (
-                folder.join(format!("{}.svg", named.name)),
-                named.figure.svg().into_bytes(),
-            ),
-            (
-                folder.join(format!("{}.csv", named.name)),
-                csv(&named.table).into_bytes(),
-            ),
-        ];
-        for (path, bytes) in files {
-            std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
-            written.push(path);
-        }
+    for (path, bytes) in files {
+        std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
+        written.push(path);
     }
     Ok(written)
 }

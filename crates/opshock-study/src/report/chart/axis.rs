@@ -20,6 +20,9 @@ pub struct Axis {
     pub range: Option<(f64, f64)>,
     /// Labelled values.
     pub ticks: Option<Vec<f64>>,
+    /// On an ordinate: a unit is as long as on the abscissa. The range of one of the axes then
+    /// grows about its middle. For drawings.
+    pub is_to_scale: bool,
 }
 
 impl Axis {
@@ -30,6 +33,7 @@ impl Axis {
             scale: Scale::Linear,
             range: None,
             ticks: None,
+            is_to_scale: false,
         }
     }
 
@@ -39,6 +43,13 @@ impl Axis {
             scale: Scale::Log,
             ..Self::linear(label)
         }
+    }
+
+    /// The same ordinate with units as long as on the abscissa.
+    #[must_use]
+    pub fn true_to_scale(mut self) -> Self {
+        self.is_to_scale = true;
+        self
     }
 
     /// The same axis with a fixed range.
@@ -93,6 +104,14 @@ impl ResolvedAxis {
                 .collect(),
             minor,
         }
+    }
+
+    /// The same range grown about its middle by `factor`, with ticks of its own.
+    pub fn grown(&self, factor: f64) -> Self {
+        let middle = 0.5 * (self.low + self.high);
+        let half = 0.5 * factor * (self.high - self.low);
+        let axis = Axis::linear("").between(middle - half, middle + half);
+        Self::new(&axis, std::iter::empty())
     }
 
     /// Share of the axis at `value`: 0 at the low end, 1 at the high end; not clamped.

@@ -94,11 +94,27 @@ fn scene(figure: &Figure) -> Scene {
         let (column, row) = (index % columns, index / columns);
         let left = OUTER_PX + column as f64 * figure.panel_px.0;
         let top = y + row as f64 * figure.panel_px.1;
-        canvas.panel(panel, (left, top), figure.panel_px);
+        canvas.panel(
+            panel,
+            (left, top),
+            figure.panel_px,
+            label_px(figure, column),
+        );
     }
     // Keeps the titles of samples as tooltips without the style sheet that would come with them.
     canvas.scene.has_tooltips = false;
     canvas.scene
+}
+
+/// Room for the ordinates' labels, the same for all panels of a column so that their abscissae
+/// stand over one another.
+fn label_px(figure: &Figure, column: usize) -> f64 {
+    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
+    let panels = figure.panels.iter().skip(column).step_by(columns);
+    panels
+        .flat_map(|panel| ResolvedAxis::new(&panel.y, ordinates(panel)).ticks)
+        .map(|(_, label)| text_width(&label, TEXT_SIZE))
+        .fold(0.0, f64::max)
 }
 
 /// Rows of legend entries with the room each takes.
@@ -125,23 +141,28 @@ fn legend_rows(figure: &Figure, room: f64) -> Vec<Vec<(&Series, f64)>> {
 }
 
 impl Canvas {
-    fn panel(&mut self, panel: &Panel, (left, top): (f64, f64), (width, height): (f64, f64)) {
+    fn panel(
+        &mut self,
+        panel: &Panel,
+        (left, top): (f64, f64),
+        (width, height): (f64, f64),
+        label_px: f64,
+    ) {
         let x_axis = ResolvedAxis::new(&panel.x, abscissae(panel));
         let y_axis = ResolvedAxis::new(&panel.y, ordinates(panel));
-        let widest = y_axis
-            .ticks
-            .iter()
-            .map(|(_, label)| text_width(label, TEXT_SIZE))
-            .fold(0.0, f64::max);
         let heading = if panel.title.is_empty() { 6.0 } else { 26.0 };
         let plot = Plot {
-            x0: left + 26.0 + widest + 10.0,
+            x0: left + 26.0 + label_px + 10.0,
             y0: top + heading,
             x1: left + width - 16.0,
             y1: top + height - 50.0,
             shift: 0.0,
             x: x_axis,
             y: y_axis,
+        };
+        let plot = match panel.y.is_to_scale {
+            true => plot.true_to_scale(),
+            false => plot,
         };
         if !panel.title.is_empty() {
             self.text(
@@ -522,6 +543,18 @@ impl Plot {
             y: self.y.clone(),
             ..*self
         }
+    }
+
+    /// Lengths of the axes' units made equal: the axis with the longer unit shows more.
+    fn true_to_scale(mut self) -> Plot {
+        let x_unit = (self.x1 - self.x0) / (self.x.high - self.x.low);
+        let y_unit = (self.y1 - self.y0) / (self.y.high - self.y.low);
+        if x_unit > y_unit {
+            self.x = self.x.grown(x_unit / y_unit);
+        } else {
+            self.y = self.y.grown(y_unit / x_unit);
+        }
+        self
     }
 
     fn px(&self, x: f64) -> f64 {

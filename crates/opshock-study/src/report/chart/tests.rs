@@ -94,3 +94,45 @@ fn a_range_that_cannot_be_drawn_is_not_taken() {
         assert!(axis.ticks.len() + axis.minor.len() < 40);
     }
 }
+
+#[test]
+fn a_circle_drawn_to_scale_is_round() {
+    let circle: Vec<(f64, f64)> = (0..=360)
+        .map(|k| f64::from(k).to_radians())
+        .map(|angle| (5.0 + angle.cos(), angle.sin()))
+        .collect();
+    for panel_px in [(600.0, 300.0), (300.0, 600.0)] {
+        let figure = Figure {
+            title: String::new(),
+            subtitle: String::new(),
+            columns: 1,
+            panel_px,
+            panels: vec![Panel {
+                title: String::new(),
+                x: Axis::linear("x"),
+                y: Axis::linear("y").true_to_scale(),
+                series: vec![Series::curve("", (1, 2, 3), Dash::Solid, circle.clone())],
+                rules: Vec::new(),
+                shaded: None,
+            }],
+        };
+        let svg = figure.svg();
+        let path = svg
+            .split("<path ")
+            .find(|path| path.contains("#010203"))
+            .expect("the circle");
+        let d = path.split('"').nth(1).expect("its points");
+        let numbers: Vec<f64> = d.split(' ').filter_map(|word| word.parse().ok()).collect();
+        let extent = |first: usize| {
+            let values = numbers.iter().skip(first).step_by(2);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| {
+                (l.min(v), h.max(v))
+            });
+            high - low
+        };
+        let (width, height) = (extent(0), extent(1));
+        assert!(width > 100.0, "{width}");
+        // Thinning may move an end by half a pixel.
+        assert!((width - height).abs() < 0.5, "{width} x {height}");
+    }
+}

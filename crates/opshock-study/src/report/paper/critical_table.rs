@@ -1,0 +1,221 @@
+//! A committed `table.csv` of critical shocks read back, for a figure without its store.
+
+use crate::search::Sign;
+use crate::store::summary::{AxisValue, Flag, PointSummary, Status, Summary, Totals};
+use std::path::Path;
+
+/// A table of critical shocks cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The operating system refused.
+    #[error("cannot read {path}")]
+    Io {
+        /// File.
+        path: String,
+        /// Reason.
+        #[source]
+        source: std::io::Error,
+    },
+    /// The text is no such table.
+    #[error("{path}, line {line}: {key} = {value:?} must be {allowed}")]
+    Cell {
+        /// File.
+        path: String,
+        /// Line from 1.
+        line: usize,
+        /// Column.
+        key: String,
+        /// Value found.
+        value: String,
+        /// What would be valid.
+        allowed: &'static str,
+    },
+}
+
+const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
+const AFTER_AXES: [&str; 8] = [
+    "a_crit_g",
+    "a_fail_g",
+    "err_low_g",
+    "err_high_g",
+    "onset_g",
+    "runs",
+    "status",
+    "flags",
+];
+
+/// Reads the `table.csv` of a report. What the table leaves out (parts of the bars, brackets,
+/// totals) is empty.
+///
+/// # Errors
+///
+/// [`TableError`] with file, line and column.
+pub fn read_table(path: &Path) -> Result<Summary, TableError> {
+    let text = std::fs::read_to_string(path).map_err(|source| TableError::Io {
+        path: path.display().to_string(),
+        source,
+    })?;
+    parse(&text, &path.display().to_string())
+}
+
+fn parse(text: &str, path: &str) -> Result<Summary, TableError> {
+    let mut lines = text
+        .lines()
+        .zip(1..)
+        .map(|(line, number)| (cells(line), number));
+    let (header, _) = lines.next().unwrap_or_default();
+    let axes = header
+        .len()
+        .checked_sub(BEFORE_AXES.len() + AFTER_AXES.len());
+    let known = axes.is_some_and(|axes| {
+        header[..BEFORE_AXES.len()] == BEFORE_AXES
+            && header[BEFORE_AXES.len() + axes..] == AFTER_AXES
+    });
+    let (Some(axes), true) = (axes, known) else {
+        return Err(TableError::Cell {
+            path: path.into(),
+            line: 1,
+            key: "header".into(),
+            value: header.join(","),
+            allowed: "ramp,pulse_ms,sign, further axes, a_crit_g,a_fail_g,err_low_g,err_high_g,\
+                      onset_g,runs,status,flags",
+        });
+    };
+    let points = lines
+        .map(|(cells, line)| point(&header, axes, cells, line, path))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Summary {
+        study: "Critical shocks".into(),
+        digest: String::new(),
+        axes: header[BEFORE_AXES.len()..BEFORE_AXES.len() + axes].to_vec(),
+        points,
+        totals: Totals::default(),
+    })
+}
+
+fn point(
+    header: &[String],
+    axes: usize,
+    mut cells: Vec<String>,
+    line: usize,
+    path: &str,
+) -> Result<PointSummary, TableError> {
+    let fault = |key: &str, value: &str, allowed| TableError::Cell {
+        path: path.into(),
+        line,
+        key: key.into(),
+        value: value.into(),
+        allowed,
+    };
+    if cells.len() != header.len() {
+        let found = cells.len().to_string();
+        return Err(fault("cells", &found, "as many as the header has"));
+    }
+    let after = cells.split_off(BEFORE_AXES.len() + axes);
+    let number = |key: &str, text: &str| {
+        let value = text.parse::<f64>().ok().filter(|v| v.is_finite());
+        value.ok_or_else(|| fault(key, text, "a number"))
+    };
+    let maybe = |column: usize| match after[column].as_str() {
+        "" => Ok(None),
+        text => number(AFTER_AXES[column], text).map(Some),
+    };
+    let flags = after[7].split(';').filter(|word| !word.is_empty());
+    Ok(PointSummary {
+        ramp: cells[0].clone(),
+        pulse_ms: number("pulse_ms", &cells[1])?,
+        sign: Sign::parse(&cells[2]).ok_or_else(|| fault("sign", &cells[2], "+ or -"))?,
+        axes: cells[BEFORE_AXES.len()..]
+            .iter()
+            .map(|text| match text.parse() {
+                Ok(number) => AxisValue::Number(number),
+                Err(_) => AxisValue::Text(text.clone()),
+            })
+            .collect(),
+        a_crit_g: maybe(0)?,
+        a_fail_g: maybe(1)?,
+        err_low_g: maybe(2)?,
+        err_high_g: maybe(3)?,
+        err_parts: Vec::new(),
+        onset_g: maybe(4)?,
+        runs: after[5]
+            .parse()
+            .map_err(|_| fault("runs", &after[5], "a whole number"))?,
+        status: Status::parse(&after[6])
+            .ok_or_else(|| fault("status", &after[6], "a status of the report"))?,
+        flags: flags
+            .map(|word| {
+                Flag::parse(word).ok_or_else(|| fault("flags", word, "flags of the report"))
+            })
+            .collect::<Result<_, _>>()?,
+        brackets_g: Vec::new(),
+        certified_from_g: None,
+        largest_gap_pct: None,
+    })
+}
+
+/// Cells of a line of CSV (RFC 4180, without line breaks inside cells).
+fn cells(line: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let last = cells.len() - 1;
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                cells[last].push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            other => cells[last].push(other),
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::table;
+
+    const TABLE: &str = "ramp,pulse_ms,sign,\"a, b\",a_crit_g,a_fail_g,err_low_g,err_high_g,\
+                         onset_g,runs,status,flags\n\
+                         rigid,0.5,+,60,201.9,203.9,0,2,195.3,4,ok,retry;window\n\
+                         none,3,-,\"say \"\"x\"\"\",2000,,,,,7,above_range,\n";
+
+    #[test]
+    fn a_table_read_back_is_written_the_same() {
+        let summary = parse(TABLE, "table.csv").expect("a table");
+        assert_eq!(summary.axes, ["a, b"]);
+        assert_eq!(summary.points[0].a_fail_g, Some(203.9));
+        assert_eq!(summary.points[1].status, Status::AboveRange);
+        assert_eq!(table::csv(&summary), TABLE);
+    }
+
+    #[test]
+    fn a_fault_names_file_line_and_column() {
+        for (from, to, told) in [
+            (
+                "203.9",
+                "high",
+                "t.csv, line 2: a_fail_g = \"high\" must be a number",
+            ),
+            (
+                "above_range",
+                "good",
+                "t.csv, line 3: status = \"good\" must be a status of the report",
+            ),
+            (",+,", ",up,", "t.csv, line 2: sign = \"up\" must be + or -"),
+            (
+                ",ok,",
+                ",",
+                "t.csv, line 2: cells = \"11\" must be as many as the header has",
+            ),
+        ] {
+            let error = parse(&TABLE.replace(from, to), "t.csv").expect_err("a fault");
+            assert_eq!(error.to_string(), told);
+        }
+        assert!(parse("", "t.csv").is_err());
+    }
+}

@@ -1,0 +1,98 @@
+//! The figures of the paper, drawn from a study's own scene and runs: `fig01` to `fig13`.
+//!
+//! | figures | drawn from |
+//! |---------|------------|
+//! | 1 to 3 | the scene: plan view of the drive, the ramp models in section |
+//! | 4 to 12 | the histories of two shocks, a long and a short one, with every ramp model |
+//! | 13 | a table of critical shocks |
+
+mod critical_table;
+mod curves;
+mod drawings;
+
+pub use critical_table::{TableError, read_table};
+pub use curves::{PaperCase, long_shock_figures, pulse_figure, short_shock_figures};
+pub use drawings::{deformable_ramp_drawing, plan_drawing, rigid_ramp_drawing};
+
+use super::chart::Figure;
+use super::run_plots::{PlotError, write_picture};
+use super::{critical_shock::critical_shock_figure, table};
+use crate::store::summary::Summary;
+use std::path::{Path, PathBuf};
+
+/// A figure of the paper with the table it was drawn from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperFigure {
+    /// Number in the paper, 1 to 13.
+    pub number: u8,
+    /// What it shows, for the list of figures.
+    pub shows: String,
+    /// Picture.
+    pub figure: Figure,
+    /// Table as CSV; every column's name ends in its unit.
+    pub csv: String,
+}
+
+impl PaperFigure {
+    /// File name without ending: `fig04`.
+    pub fn stem(&self) -> String {
+        format!("fig{:02}", self.number)
+    }
+}
+
+/// Fig. 13: critical shock against pulse width. `source` names the table.
+pub fn critical_figure(summary: &Summary, source: &str) -> PaperFigure {
+    PaperFigure {
+        number: 13,
+        shows: format!("critical shock against pulse width, from {source}"),
+        figure: critical_shock_figure(summary, source),
+        csv: table::csv(summary),
+    }
+}
+
+/// Writes SVG, PNG and CSV of every figure and their list, `figures.md`, into `folder`, which is
+/// made when it is missing. Returns the written files. Equal figures give equal bytes.
+///
+/// # Errors
+///
+/// [`PlotError`] at the first file that cannot be written.
+pub fn write_paper_figures(
+    folder: &Path,
+    figures: &[PaperFigure],
+    provenance: &str,
+) -> Result<Vec<PathBuf>, PlotError> {
+    let mut written = Vec::new();
+    for figure in figures {
+        written.extend(write_picture(
+            folder,
+            &figure.stem(),
+            &figure.figure,
+            &figure.csv,
+        )?);
+    }
+    let path = folder.join("figures.md");
+    std::fs::write(&path, list(figures, provenance)).map_err(|source| PlotError::Io {
+        path: path.display().to_string(),
+        source,
+    })?;
+    written.push(path);
+    Ok(written)
+}
+
+fn list(figures: &[PaperFigure], provenance: &str) -> String {
+    let mut text = String::from("# Figures of the paper\n\n");
+    for figure in figures {
+        let stem = figure.stem();
+        text.push_str(&format!(
+            "- Fig. {}: {} ([SVG]({stem}.svg), [PNG]({stem}.png), [CSV]({stem}.csv))\n",
+            figure.number, figure.shows
+        ));
+    }
+    text.push_str(&format!(
+        "\nEvery column's name ends in its unit. Tables of Fig. 4 to 12 hold values of the histories, \
+         not smoothed and not resampled: those of disk and ramp about every 2 us, those of the \
+         slider, and of everything in Fig. 8, at every step. `opshock run --history` writes all of \
+         a run.\n\n{provenance}\n"
+    ));
+    text
+}
