@@ -7,6 +7,7 @@ mod cli_explain;
 mod cli_figures;
 mod cli_run;
 mod cli_studies;
+mod compare;
 mod error_bars;
 mod identity;
 mod real_sweep;

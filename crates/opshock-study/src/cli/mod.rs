@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod check;
+mod compare;
 mod completions;
 mod console;
 mod doctor;
@@ -135,6 +136,7 @@ enum Command {
     Figures(figures::FiguresArgs),
     Accuracy(accuracy::AccuracyArgs),
     Status(status::StatusArgs),
+    Compare(compare::CompareArgs),
     Export(export::ExportArgs),
     Doctor(doctor::DoctorArgs),
     Schema(schema::SchemaArgs),
@@ -179,6 +181,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Accuracy(arguments) => accuracy::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
+        Command::Compare(arguments) => compare::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),
         Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),

@@ -2,6 +2,7 @@
 
 mod accuracy_files;
 pub mod chart;
+pub mod comparison;
 mod critical_shock;
 mod files;
 pub mod html;

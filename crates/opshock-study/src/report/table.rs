@@ -101,17 +101,37 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
 /// Aligned table for a terminal.
 pub fn terminal(summary: &Summary) -> String {
     let (header, rows) = readable(summary);
+    let mut text = format!("{}\n{}", summary.study, aligned(&header, &rows));
+    let totals = &summary.totals;
+    text.push_str(&format!(
+        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open; {} runs\n",
+        totals.points,
+        totals.ok,
+        totals.above_range,
+        totals.below_range,
+        totals.undecided,
+        totals.open,
+        totals.runs
+    ));
+    if let Some(share) = bars_cost(summary) {
+        text.push_str(&format!("error bars: {share}\n"));
+    }
+    text
+}
+
+/// Header and rows in columns: the first and the last two flush left, the others right.
+pub(super) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {
-        std::iter::once(&header)
-            .chain(&rows)
+        std::iter::once(header)
+            .chain(rows.iter().map(Vec::as_slice))
             .map(|row| row[column].chars().count())
             .max()
             .unwrap_or(0)
     };
     let widths: Vec<usize> = (0..header.len()).map(width).collect();
     let last = header.len() - 1;
-    let mut text = format!("{}\n", summary.study);
-    for row in std::iter::once(&header).chain(&rows) {
+    let mut text = String::new();
+    for row in std::iter::once(header).chain(rows.iter().map(Vec::as_slice)) {
         let cells: Vec<String> = row
             .iter()
             .enumerate()
@@ -126,20 +146,6 @@ pub fn terminal(summary: &Summary) -> String {
             .collect();
         text.push_str(cells.join("  ").trim_end());
         text.push('\n');
-    }
-    let totals = &summary.totals;
-    text.push_str(&format!(
-        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open; {} runs\n",
-        totals.points,
-        totals.ok,
-        totals.above_range,
-        totals.below_range,
-        totals.undecided,
-        totals.open,
-        totals.runs
-    ));
-    if let Some(share) = bars_cost(summary) {
-        text.push_str(&format!("error bars: {share}\n"));
     }
     text
 }
