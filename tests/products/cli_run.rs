@@ -201,7 +201,8 @@ fn open_axes_are_exit_2_and_listed_all_at_once() {
 fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
     let folder = tempfile::tempdir().unwrap();
     let path = study("fig13");
-    let sweep = |more: &[&str]| {
+    let other = tempfile::tempdir().unwrap();
+    let sweep_in = |place: &Path, more: &[&str]| {
         let arguments = [
             "sweep",
             path.to_str().unwrap(),
@@ -216,9 +217,16 @@ fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
             "--set",
             "search.certify=off",
         ];
-        Done::of(folder.path(), &[&arguments[..], &COARSE, more].concat())
+        Done::of(place, &[&arguments[..], &COARSE, more].concat())
     };
-    let none = sweep(&["--budget-s", "0", "--json"]);
+    let sweep = |more: &[&str]| sweep_in(folder.path(), more);
+    for wrong in ["0", "soon", "30m7h", "-1h"] {
+        let refused = sweep(&[&format!("--budget={wrong}")]);
+        assert_eq!(refused.code, 2, "{}", refused.stderr);
+        assert!(refused.stderr.contains("as 7h30m"), "{}", refused.stderr);
+        assert_eq!(files(folder.path()).len(), 0);
+    }
+    let none = sweep(&["--budget", "0s", "--json"]);
     assert_eq!(none.code, 5, "{}", none.stderr);
     assert!(
         none.stderr.contains("resume with: opshock sweep "),
@@ -228,6 +236,9 @@ fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
     let first = sweep(&["--json", "-j1"]);
     assert!([0, 4].contains(&first.code), "{}", first.stderr);
     assert_eq!(first.json()["points"].as_array().map(Vec::len), Some(1));
+    // The budget left no trace: a sweep that never had one gives the same bytes.
+    let fresh = sweep_in(other.path(), &["--json", "-j1"]);
+    assert_eq!(first.stdout, fresh.stdout);
     let again = sweep(&["--json", "-j2", "--quiet"]);
     assert_eq!(again.stderr, "");
     assert_eq!(first.stdout, again.stdout);

@@ -26,9 +26,9 @@ pub struct SweepArgs {
     /// Simulate again what had no verdict
     #[arg(long, value_name = "WHAT")]
     only: Option<Only>,
-    /// Save and end after this time, s
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    budget_s: Option<Duration>,
+    /// Start nothing new after this time, save and end with exit code 5, as 7h30m
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    budget: Option<Duration>,
     /// Run this share of the finished simulations again with all effects, as 2%; any difference is
     /// exit code 7
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -52,7 +52,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     stop.listen().context("cannot listen to signals")?;
     let options = SweepOptions {
         stop,
-        budget: arguments.budget_s,
+        budget: arguments.budget,
         retry_undecided: arguments.only == Some(Only::Undecided),
         ..SweepOptions::with_threads(global.threads())
     };
@@ -155,7 +155,49 @@ fn share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| allowed.to_owned())
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    Duration::try_from_secs_f64(seconds).map_err(|_| "must be a time >= 0".to_owned())
+/// A time as `7h30m`, `90s` or `1.5h`: numbers with units that descend, each at most once.
+fn duration(text: &str) -> Result<Duration, String> {
+    let wrong = || "must be a time with units d, h, m, s in this order, as 7h30m".to_owned();
+    let mut units = [('d', 86400.0), ('h', 3600.0), ('m', 60.0), ('s', 1.0)].into_iter();
+    let (mut rest, mut total_s) = (text, 0.0);
+    if rest.is_empty() {
+        return Err(wrong());
+    }
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.');
+        let (number, unit) = rest.split_at(digits.ok_or_else(wrong)?);
+        let number: f64 = number.parse().map_err(|_| wrong())?;
+        let unit_name = unit.chars().next().ok_or_else(wrong)?;
+        let (name, seconds) = units
+            .find(|(name, _)| *name == unit_name)
+            .ok_or_else(wrong)?;
+        total_s += number * seconds;
+        rest = &unit[name.len_utf8()..];
+    }
+    Duration::try_from_secs_f64(total_s).map_err(|_| wrong())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::duration;
+
+    #[test]
+    fn times_are_numbers_with_descending_units() {
+        for (text, seconds) in [
+            ("7h30m", 27000.0),
+            ("90s", 90.0),
+            ("1.5h", 5400.0),
+            ("1d1h1m1.5s", 90061.5),
+            ("0s", 0.0),
+        ] {
+            let read = duration(text).map(|time| time.as_secs_f64());
+            assert_eq!(read, Ok(seconds), "{text}");
+        }
+        for text in [
+            "", "7", "h", "30m7h", "1h1h", "-1h", "1e3s", "1.2.3s", "7 h", "7H", "infs", "nans",
+        ] {
+            assert!(duration(text).is_err(), "{text}");
+        }
+        assert!(duration(&format!("{}d", "9".repeat(20))).is_err());
+    }
 }
