@@ -6,9 +6,9 @@
 //! a knob changes hardly depends on the film.
 //! Two readings turn runs into amplitude:
 //!
-//! * *margin* ([`margin`]): where the smallest clearance falls steadily to zero at the instant at
+//! * *margin* (`margin`): where the smallest clearance falls steadily to zero at the instant at
 //!   which the lowest failure touches, δA = δh / |dh/dA|, a run per knob;
-//! * *verdicts* ([`verdicts`]): where survival ends abruptly (a dimple opens, the slider is thrown),
+//! * *verdicts* (`verdicts`): where survival ends abruptly (a dimple opens, the slider is thrown),
 //!   the critical amplitude of each turned scene itself, bracketed to a sixteenth of the tolerance.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
