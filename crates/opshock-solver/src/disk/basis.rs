@@ -12,7 +12,7 @@
 
 use super::harmonic::{self, RadialMesh};
 use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
-use crate::linalg::{DenseError, dense};
+use crate::linalg::{DenseError, lowest};
 
 /// Fewest modes kept for n = 0.
 pub const MIN_SYMMETRIC_MODES: usize = 8;
@@ -125,17 +125,17 @@ impl DiskBasis {
                 source,
             };
             let m = harmonic::assemble(disk, &stress, &mesh, n);
-            let mut n_below = 0;
-            let n_keep = |squares: &[f64]| {
-                let below = |limit| squares.iter().take_while(|v| v.sqrt() < limit).count();
-                n_below = below(cut);
-                match n {
-                    0 => below(SYMMETRIC_CUT_FACTOR * cut).max(MIN_SYMMETRIC_MODES),
-                    _ => n_below,
-                }
+            let (limit, at_least) = match n {
+                0 => (SYMMETRIC_CUT_FACTOR * cut, MIN_SYMMETRIC_MODES),
+                _ => (cut, 0),
             };
-            let pairs = dense::lowest_modes(&m.stiffness, &m.mass, n_keep).map_err(failed)?;
+            let pairs = lowest::modes_below(&m.stiffness, &m.mass, limit * limit, at_least);
+            let pairs = pairs.map_err(failed)?;
             let n_keep = pairs.values.len();
+            let n_below = match n {
+                0 => pairs.values.iter().take_while(|v| v.sqrt() < cut).count(),
+                _ => n_keep,
+            };
             n_above_cut = if n_below == 0 { n_above_cut + 1 } else { 0 };
             if n >= 2 && n_above_cut >= 2 {
                 break;

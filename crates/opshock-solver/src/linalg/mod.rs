@@ -2,6 +2,7 @@
 
 pub mod banded;
 pub mod dense;
+pub mod lowest;
 mod triangles;
 
 pub use dense::{DenseError, EigenPairs, SquareMatrix};
