@@ -3,6 +3,7 @@
 use super::Check;
 use super::naive;
 use super::scenes::bodies::Body;
+use super::scenes::noted::note;
 use super::scenes::structures::{Structure, paper, paper_arms, s1, s1_arms};
 use super::structure::{run, slider_distance};
 use opshock_solver::complementarity::{ImpactLaw, ImpulseKind};
@@ -274,12 +275,15 @@ pub(super) fn b5() -> Vec<Check> {
     // The dip of 1e-9 lasts 28 ns: between two ends of a step of 1 us nothing is seen of it.
     let dip_s = 2.0 * (2e-9_f64).sqrt() / omega;
     let mut workspace = Workspace::default();
-    let model = paper(0.5e-3, paper_arms()).build();
+    let drive = paper(0.5e-3, paper_arms());
+    let model = drive.build();
     let onset = model.touch_amplitude_m_per_s2(true).unwrap_or(f64::NAN);
     let mut wrong = 0;
     for excess in [1e-9, 1e-6, 1e-3] {
         for (sign, touches) in [(-1.0, false), (1.0, true)] {
-            let run = model.run(onset * (1.0 + sign * excess), false, &mut workspace);
+            let amplitude = onset * (1.0 + sign * excess);
+            note(&drive, amplitude);
+            let run = model.run(amplitude, false, &mut workspace);
             wrong += usize::from(run.map_or(true, |run| run.first_touch_s.is_some() != touches));
         }
     }
@@ -614,14 +618,16 @@ pub(super) fn b17() -> Vec<Check> {
 
 pub(super) fn b18() -> Vec<Check> {
     let mut workspace = Workspace::default();
-    let models =
-        [RampModel::None, RampModel::Rigid, s1_arms()].map(|m| s1(5e-4, m).with_cut(20e3).build());
+    let structures =
+        [RampModel::None, RampModel::Rigid, s1_arms()].map(|m| s1(5e-4, m).with_cut(20e3));
+    let models = structures.each_ref().map(Structure::build);
     let onsets = models[1..]
         .iter()
         .filter_map(|m| m.touch_amplitude_m_per_s2(true));
     let onset = onsets.fold(f64::MAX, f64::min);
     let mut differing = 0;
     for amplitude in [0.999 * onset, -0.5 * onset] {
+        structures.iter().for_each(|s| note(s, amplitude));
         let runs = models
             .each_ref()
             .map(|m| m.run(amplitude, false, &mut workspace).expect("runs"));

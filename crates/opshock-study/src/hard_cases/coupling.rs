@@ -1,12 +1,10 @@
 //! D: film and slider solved in turn, and what flows between structure and head.
 
 use super::Check;
+use super::scenes::drive::small_scene;
 use opshock_solver::fixed_point::{Ending, FixedPoint, Method};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Model, Request, Scope, Workspace, simulate};
-
-use crate::study::{SetArg, Study};
 
 const ANDERSON: Method = Method::Anderson { depth: 3 };
 const METHODS: [Method; 3] = [Method::Plain, Method::Aitken, ANDERSON];
@@ -149,25 +147,6 @@ pub(super) fn d6() -> Vec<Check> {
         ),
         Check::new("pitch, in its tolerance of 1 nrad", pitch_error, 3.0),
     ]
-}
-
-/// Paper-like drive with the rigid ramp, for half a millisecond on a coarse film.
-pub(super) fn small_scene() -> Scene {
-    let sets: Vec<SetArg> = [
-        "ramp.models=[\"rigid\"]",
-        "pulse.widths_ms=[0.5]",
-        "pulse.signs=[\"+\"]",
-        "pulse.window_ms=0.8",
-        "solver.film_cells=150",
-        "solver.disk_cut_khz=10",
-        "solver.head_tolerance=0.1",
-        "ramp.clearance_um=40",
-    ]
-    .iter()
-    .map(|set| SetArg::parse(set).expect("a setting"))
-    .collect();
-    let study = Study::from_text(&Study::example("hard case"), &sets).expect("a sound study");
-    study.points[0].scene.clone()
 }
 
 pub(super) fn d7() -> Vec<Check> {

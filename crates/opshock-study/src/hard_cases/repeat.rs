@@ -1,7 +1,8 @@
 //! F: the same bits again.
 
 use super::Check;
-use super::coupling::small_scene;
+use super::scenes::drive::small_scene;
+use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1, s1_arms};
 use super::verdict::search;
 use crate::search::{Certify, Flag, SearchSettings, Status, UndecidedCause, Verdict as Told};
@@ -34,6 +35,7 @@ fn run_all(
     order
         .map(|k| {
             let (structure, amplitude) = &points[k];
+            note(structure, *amplitude);
             let run = structure.build().run(*amplitude, true, &mut workspace);
             (k, run.expect("a named structure runs"))
         })

@@ -2,6 +2,7 @@
 
 use super::Check;
 use super::naive;
+use super::scenes::noted::note;
 use super::scenes::structures::{Structure, paper, s1};
 use nalgebra::Complex;
 use opshock_solver::disk::{DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics};
@@ -13,6 +14,7 @@ use opshock_solver::structure::{StructureRun, StructureWarning, Wake, Window, Wo
 use std::f64::consts::{PI, TAU};
 
 pub(super) fn run(structure: &Structure, amplitude: f64) -> StructureRun {
+    note(structure, amplitude);
     structure
         .build()
         .run(amplitude, true, &mut Workspace::default())
@@ -382,6 +384,7 @@ pub(super) fn a10() -> Vec<Check> {
     free.window = structure.window;
     let alone = run(&free, 200.0 * G);
     // Every harmonic marched from the onset, not from the first touch.
+    note(&structure, 200.0 * G);
     let marched = structure
         .build()
         .with_wake(Wake::AtOnset)

@@ -5,6 +5,7 @@ use super::scenes::films::{PlaneSlider, uniform};
 use super::scenes::heads::{
     SingleModeDisk, StillDisk, default_film, default_head, default_resolution, head_on,
 };
+use super::scenes::noted::note;
 use super::scenes::structures::{paper, paper_arms};
 use crate::search::{
     Certify, Findings, Flag, PointSearch, Probe, SearchSettings, Start, Status, Verdict as Told,
@@ -375,9 +376,11 @@ pub(super) fn e9() -> Vec<Check> {
 
 pub(super) fn e10() -> Vec<Check> {
     let mut workspace = Workspace::default();
-    let model = paper(5e-4, paper_arms()).build();
+    let drive = paper(5e-4, paper_arms());
+    let model = drive.build();
     let (mut most, mut wrong) = (0.0_f64, 0);
     for amplitude in [0.0, 1e-300, -1e-300] {
+        note(&drive, amplitude);
         match model.run(amplitude, false, &mut workspace) {
             Ok(run) => {
                 most = most.max(run.disk.rim_max_m);
