@@ -260,7 +260,7 @@ fn effects_every_rule_is_decided() {
         .filter(|d| d.applied)
         .map(|d| d.rule)
         .collect();
-    assert_eq!(on, ["R6", "R10"]);
+    assert_eq!(on, ["R6", "R8", "R10"]);
     assert_eq!(
         Plan::new(&[Output::Pitch], Mode::Auto).without_head(),
         Err(Output::Pitch)
@@ -275,7 +275,7 @@ fn effects_every_declared_dependency_is_needed() {
     let answers = |needs: Needs| {
         let plan = Plan {
             needs,
-            ..Plan::new(&[Output::CriticalShock], Mode::Auto)
+            ..Plan::new(&[Output::PressureField], Mode::Auto).with_field_times(&[0.0])
         };
         run(&scene, &plan, 20.0, None).1
     };

@@ -107,6 +107,23 @@ fn effects_mutant_of_the_end_at_touch_is_caught() {
     }
 }
 
+/// The asked times deleted: no field is kept.
+#[test]
+fn effects_mutant_of_the_asked_times_is_caught() {
+    let base = base();
+    let pair = Pair {
+        with_head: true,
+        output: Some(Output::PressureField),
+        ..Pair::default()
+    };
+    random_pair(&base, 2, pair);
+    let mutant = Pair {
+        mutant: Some("R8 asked times"),
+        ..pair
+    };
+    assert!(differs(|| random_pair(&base, 2, mutant)));
+}
+
 #[test]
 fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     let mut scene = base();

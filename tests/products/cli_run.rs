@@ -122,6 +122,80 @@ fn a_run_writes_only_what_it_is_asked_for() {
     assert!(csv.starts_with("time_s,shock_m_per_s2,disk_slider_m,"));
 }
 
+/// Pressure fields in both formats, those before the touch only, and none without a file.
+#[test]
+fn pressure_fields_are_written_beside_the_history() {
+    let folder = tempfile::tempdir().unwrap();
+    let fields = |amplitude_g: &str, times: &str, more: &[&str]| {
+        let times = format!("fields.times_ms={times}");
+        let set = [
+            "--amplitude-g",
+            amplitude_g,
+            "--set",
+            "outputs=[\"min_clearance\",\"pressure_field\"]",
+            "--set",
+            &times,
+        ];
+        let done = run(folder.path(), &[&set[..], more].concat());
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done
+    };
+    let told = fields("100", "[0.4,0.6]", &[]).stderr;
+    assert!(
+        told.contains("pressure fields are kept with --history FILE"),
+        "{told}"
+    );
+    assert_eq!(files(folder.path()).len(), 0);
+
+    let done = fields("100", "[0.9,0.4]", &["--history", "h.h5"]);
+    assert!(
+        done.stderr
+            .contains("2 of 2 pressure fields in h.h5, group fields"),
+        "{}",
+        done.stderr
+    );
+    let file = hdf5::File::open(folder.path().join("h.h5")).unwrap();
+    let read = |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
+    let time = read("fields/time_s");
+    near(time[0], 4e-4);
+    near(time[1], 9e-4);
+    let (x, y) = (read("fields/x_lines_m"), read("fields/y_lines_m"));
+    near(x[x.len() - 1], 0.85e-3);
+    near(y[y.len() - 1], 0.7e-3);
+    let shape = [2, y.len() - 1, x.len() - 1];
+    for name in ["fields/pressure_pa", "fields/gap_m"] {
+        assert_eq!(file.dataset(name).unwrap().shape(), shape, "{name}");
+    }
+    let (pressure, gap) = (read("fields/pressure_pa"), read("fields/gap_m"));
+    let highest = pressure.iter().copied().fold(0.0, f64::max);
+    assert!(highest > 5e5 && highest < 1e8, "{highest:e} Pa");
+
+    // The same numbers, a line per time and cell.
+    fields("100", "[0.4,0.9]", &["--history", "h.csv"]);
+    let csv = std::fs::read_to_string(folder.path().join("h-fields.csv")).unwrap();
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("time_s,x_m,y_m,pressure_pa,gap_m"));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
+    assert_eq!((column(3), column(4)), (pressure, gap));
+    near(rows[0][1], 0.5 * x[1]);
+    near(rows[0][2], 0.5 * y[1]);
+
+    let done = fields("600", "[0.4,1.9]", &["--history", "t.h5"]);
+    assert!(
+        done.stderr.contains("1 of 2 pressure fields"),
+        "{}",
+        done.stderr
+    );
+    assert!(
+        done.stderr
+            .contains("the head's run ended before the others")
+    );
+}
+
 #[test]
 fn a_study_of_the_disk_alone_runs_without_a_head() {
     let folder = tempfile::tempdir().unwrap();

@@ -212,6 +212,7 @@ fn history(with_head: bool) -> History {
     let wave: Vec<f64> = time_s.iter().map(|t| (6000.0 * t).sin()).collect();
     let scaled = |by: f64| wave.iter().map(|w| by * w).collect::<Vec<f64>>();
     History {
+        fields: None,
         structure: StructureColumns {
             time_s: time_s.clone(),
             shock_m_per_s2: scaled(4000.0),

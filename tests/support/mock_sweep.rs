@@ -260,6 +260,7 @@ impl Simulator for MockSimulator<'_> {
             warnings: Vec::new(),
             cost: Default::default(),
             history: Some(History {
+                fields: None,
                 structure,
                 head: Default::default(),
             }),

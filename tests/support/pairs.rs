@@ -18,6 +18,9 @@ use opshock_solver::simulation::{
 use crate::scenes;
 use crate::seeded::Seeded;
 
+/// Times at which a pair that is asked for pressure fields keeps them, s.
+const FIELD_TIMES_S: [f64; 4] = [-1e-4, 0.0, 1.37e-4, 6e-4];
+
 /// Builds `scene` by `plan` and runs one shock, recording.
 ///
 /// # Panics
@@ -61,6 +64,10 @@ pub fn is_answered(output: Output, outcome: &Outcome) -> bool {
         Output::BearingForce => recorded(|head| &head.bearing_force_n),
         Output::DimpleForce => outcome.dimple.is_some(),
         Output::SteadyAttitude => outcome.steady.is_some(),
+        Output::PressureField => {
+            let history = outcome.history.as_ref();
+            history.is_some_and(|h| h.fields.as_ref().is_some_and(|f| !f.time_s.is_empty()))
+        }
         Output::TouchThreshold
         | Output::DiskDisplacement
         | Output::RampDisplacement
@@ -136,6 +143,7 @@ pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
         assert_eq!(lean.dimple, full.dimple, "{what}");
         assert_eq!(lean.cost, full.cost, "{what}");
         assert!(a.head == b.head, "{what}");
+        assert!(a.fields == b.fields, "{what}");
     } else {
         assert_eq!(lean.min_clearance_m, None, "{what}");
     }
@@ -261,13 +269,13 @@ pub fn compare(
     pair: Pair,
     what: &str,
 ) {
-    let mut full = Plan::new(asked, Mode::Full);
+    let mut full = Plan::new(asked, Mode::Full).with_field_times(&FIELD_TIMES_S);
     if !pair.with_head {
         full = full.without_head().expect("structural outputs");
     }
     let (full_model, mut all) = run_to(scene, &full, amplitude_g, None, !pair.whole_window);
     let planned = || {
-        let plan = Plan::new(asked, Mode::Auto);
+        let plan = Plan::new(asked, Mode::Auto).with_field_times(&FIELD_TIMES_S);
         let (model, lean) = run(scene, &plan, amplitude_g, donor);
         let limits = [true, false].map(|plus| model.structure().touch_amplitude_m_per_s2(plus));
         (plan, lean, limits)

@@ -278,6 +278,18 @@ impl Film {
         }
     }
 
+    /// Height of the slider's surface over the disk at the cells' centres, m, not floored.
+    ///
+    /// # Panics
+    ///
+    /// When `out` has not n_cells entries.
+    pub fn heights(&self, attitude: &Attitude, out: &mut [f64]) {
+        assert_eq!(out.len(), self.n_cells());
+        for (h, cell) in out.iter_mut().zip(&self.mesh.cells) {
+            *h = cell.place.height(attitude) + cell.recess;
+        }
+    }
+
     /// Smallest clearance of the true surface over the disk's plane.
     pub fn min_clearance(&self, attitude: &Attitude) -> Clearance {
         self.clearance.minimum(

@@ -21,6 +21,7 @@
 //! the exact motion of the disk.
 
 mod correction;
+mod fields;
 mod mechanics;
 mod model;
 mod outcome;
@@ -28,6 +29,7 @@ mod partitioned;
 mod run;
 mod stage;
 
+pub use fields::PressureFields;
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
 pub use run::HeadWorkspace;

@@ -79,6 +79,8 @@ pub struct HeadModel {
     pub(super) film_n_per_m: f64,
     /// Time in which a velocity error becomes a gap error: 1/ω of the slider on its film, s.
     pub(super) velocity_to_gap_s: f64,
+    /// Times at which pressure fields are kept, ascending, s; none by default.
+    pub(super) field_times_s: Vec<f64>,
 }
 
 impl HeadModel {
@@ -138,6 +140,7 @@ impl HeadModel {
             arms: [1.0, 0.5 * slider.length_m, 0.5 * slider.width_m],
             film_n_per_m,
             velocity_to_gap_s: (mass / film_n_per_m).sqrt(),
+            field_times_s: Vec::new(),
             film,
             flight,
         })
@@ -147,6 +150,15 @@ impl HeadModel {
     #[must_use]
     pub fn with_tableau(mut self, tableau: Tableau) -> Self {
         self.tableau = tableau;
+        self
+    }
+
+    /// The same head whose recorded runs keep the film's pressure and height at `times_s` after
+    /// the onset, in any order.
+    #[must_use]
+    pub fn with_fields(mut self, times_s: &[f64]) -> Self {
+        self.field_times_s = times_s.to_vec();
+        self.field_times_s.sort_by(f64::total_cmp);
         self
     }
 

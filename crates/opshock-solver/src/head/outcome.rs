@@ -1,5 +1,7 @@
 //! What the head answers about one shock. Times are seconds after the onset of the pulse.
 
+use super::fields::PressureFields;
+
 /// Survival is decided, or it is not; a number that is not a number never decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
@@ -166,6 +168,8 @@ pub struct HeadRun {
     pub dimple: DimpleRecord,
     /// Histories, when asked for.
     pub columns: Option<HeadColumns>,
+    /// Pressure fields, when recorded by a head that keeps some.
+    pub fields: Option<PressureFields>,
     /// Cost.
     pub cost: HeadCost,
 }

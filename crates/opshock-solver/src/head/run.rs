@@ -1,5 +1,6 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
+use super::fields::{FieldRecord, StepEnds};
 use super::model::{HeadModel, ShockLoad};
 use super::outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
 use super::stage::{StageFailure, StageScratch, Stages};
@@ -97,6 +98,7 @@ struct Run<'a> {
     dimple: DimpleRecord,
     dimple_force_n: f64,
     columns: Option<HeadColumns>,
+    fields: Option<FieldRecord<'a>>,
     cost: HeadCost,
 }
 
@@ -136,8 +138,13 @@ impl<'a> Run<'a> {
             },
             dimple_force_n: preload,
             columns: record.then(HeadColumns::default),
+            fields: (record && !model.field_times_s.is_empty())
+                .then(|| FieldRecord::new(model, &model.field_times_s)),
             cost: HeadCost::default(),
         };
+        if let Some(fields) = &mut run.fields {
+            fields.keep_steady(model, motion, &run.w.y);
+        }
         run.initial_rate(&attitude);
         run.record(&attitude);
         run
@@ -312,11 +319,13 @@ impl<'a> Run<'a> {
     fn accept(&mut self, dt_s: f64, event_s: f64, step: &TrialStep) {
         let start_s = self.time_s;
         // Time at an event is the event's own, so that rounding never opens a sliver beside it.
-        self.time_s = if dt_s == event_s - start_s {
+        let end_s = if dt_s == event_s - start_s {
             event_s
         } else {
             start_s + dt_s
         };
+        self.keep_fields(dt_s, end_s);
+        self.time_s = end_s;
         let (model, w) = (self.model, &mut *self.w);
         w.y.copy_from_slice(w.stepper.value());
         w.rate.copy_from_slice(w.stepper.rate());
@@ -338,6 +347,7 @@ impl<'a> Run<'a> {
     /// Ends the run at a touch inside the trial step. The state there is that of the cubic through
     /// both ends, in which the touch was located.
     fn end_at(&mut self, dt_s: f64, touch: &Touch) {
+        self.keep_fields(dt_s, touch.time_s);
         let w = &mut *self.w;
         let ends = w.stepper.value().iter().zip(w.stepper.rate());
         for ((y, rate), (y1, rate1)) in w.y.iter_mut().zip(&w.rate).zip(ends) {
@@ -354,6 +364,21 @@ impl<'a> Run<'a> {
         if self.time_s > before_s {
             self.book(self.time_s - before_s, &attitude);
         }
+    }
+
+    /// Keeps the asked pressure fields of the trial step, from the present state up to `until_s`.
+    fn keep_fields(&mut self, dt_s: f64, until_s: f64) {
+        let Some(fields) = &mut self.fields else {
+            return;
+        };
+        let w = &*self.w;
+        let step = StepEnds {
+            start_s: self.time_s,
+            dt_s,
+            y: [&w.y, w.stepper.value()],
+            rate: [&w.rate, w.stepper.rate()],
+        };
+        fields.keep_step(self.model, self.motion, &step, until_s);
     }
 
     /// Books the state reached `dt_s` after the last: dimple, pressure, columns.
@@ -488,6 +513,7 @@ impl<'a> Run<'a> {
             end_s: self.time_s,
             dimple: self.dimple,
             columns: self.columns,
+            fields: self.fields.map(FieldRecord::finish),
             cost: HeadCost {
                 film_residuals: counters.residuals,
                 film_solves: counters.solves,

@@ -16,7 +16,7 @@
 //! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
 //! | R6 | the head ends at touch | a verdict is wanted |
 //! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only, the sign of a contact costs little beside the head |
-//! | R8 | pressure fields only at asked times | none asked |
+//! | R8 | pressure fields only at asked times, in recorded runs | `pressure_field` asked for, its times |
 //! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
@@ -54,11 +54,13 @@ pub enum Output {
     RampDisplacement,
     /// Force and impulse between disk and ramp.
     ContactForce,
+    /// Pressure and height of the film at [asked times](Plan::with_field_times).
+    PressureField,
 }
 
 impl Output {
     /// Every output.
-    pub const ALL: [Output; 11] = [
+    pub const ALL: [Output; 12] = [
         Output::CriticalShock,
         Output::MinClearance,
         Output::SliderAttitude,
@@ -70,6 +72,7 @@ impl Output {
         Output::DiskDisplacement,
         Output::RampDisplacement,
         Output::ContactForce,
+        Output::PressureField,
     ];
 
     /// Its name in a study.
@@ -86,6 +89,7 @@ impl Output {
             Output::DiskDisplacement => "disk_displacement",
             Output::RampDisplacement => "ramp_displacement",
             Output::ContactForce => "contact_force",
+            Output::PressureField => "pressure_field",
         }
     }
 
@@ -104,7 +108,8 @@ impl Output {
             | Output::SliderAttitude
             | Output::Pitch
             | Output::BearingForce
-            | Output::DimpleForce => Needs::Head,
+            | Output::DimpleForce
+            | Output::PressureField => Needs::Head,
             Output::SteadyAttitude => Needs::Flight,
             Output::TouchThreshold
             | Output::DiskDisplacement
@@ -159,6 +164,8 @@ pub struct Plan {
     /// Whether structure, film and steady flight of another model may be taken over, and a model
     /// kept for further shocks.
     pub shares_parts: bool,
+    /// Times after the onset at which recorded runs keep pressure fields, s; none unless asked.
+    pub field_times_s: Vec<f64>,
 }
 
 /// One rule as it stands for a scene.
@@ -234,6 +241,7 @@ impl Plan {
                 needs: asked.unwrap_or(Needs::Structure),
                 wake: Wake::AtTouch,
                 shares_parts: true,
+                field_times_s: Vec::new(),
             },
             Mode::Full => Self {
                 mode,
@@ -241,7 +249,23 @@ impl Plan {
                 needs: Needs::Head,
                 wake: Wake::AtOnset,
                 shares_parts: false,
+                field_times_s: Vec::new(),
             },
+        }
+    }
+
+    /// The plan whose recorded runs keep pressure fields at `times_s` after the onset, when
+    /// [`Output::PressureField`] is asked for.
+    #[must_use]
+    pub fn with_field_times(self, times_s: &[f64]) -> Self {
+        let is_asked = self.outputs.contains(&Output::PressureField);
+        let times_s = match is_asked && !mutant::is_on("R8 asked times") {
+            true => times_s.to_vec(),
+            false => Vec::new(),
+        };
+        Self {
+            field_times_s: times_s,
+            ..self
         }
     }
 
@@ -403,9 +427,12 @@ impl Plan {
             decision(
                 "R8",
                 "pressure fields are kept only at asked times",
-                auto,
-                "fields asked for",
-                "none asked".to_owned(),
+                true,
+                "times at which pressure_field is asked for, in recorded runs; also in full",
+                match self.field_times_s.len() {
+                    0 => "none asked".to_owned(),
+                    n => format!("{n} times asked"),
+                },
             ),
             decision(
                 "R9",

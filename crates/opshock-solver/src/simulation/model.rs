@@ -141,14 +141,17 @@ impl Model {
             false => None,
         };
         let head = match &bearing {
-            Some(bearing) if plan.needs >= Needs::Head => Some(HeadModel::build(
-                &scene.suspension,
-                &scene.slider,
-                Arc::clone(&bearing.film),
-                Arc::clone(&bearing.flight),
-                &scene.head_resolution,
-                scene.fail_below_m,
-            )?),
+            Some(bearing) if plan.needs >= Needs::Head => {
+                let head = HeadModel::build(
+                    &scene.suspension,
+                    &scene.slider,
+                    Arc::clone(&bearing.film),
+                    Arc::clone(&bearing.flight),
+                    &scene.head_resolution,
+                    scene.fail_below_m,
+                )?;
+                Some(head.with_fields(&plan.field_times_s))
+            }
             _ => None,
         };
         Ok(Self {

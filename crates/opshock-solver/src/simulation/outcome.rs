@@ -1,6 +1,6 @@
 //! What one simulation answers. Times are seconds after the onset of the pulse.
 
-pub use crate::head::{Cause, DimpleRecord, HeadColumns, Place, Verdict};
+pub use crate::head::{Cause, DimpleRecord, HeadColumns, Place, PressureFields, Verdict};
 pub use crate::structure::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
 };
@@ -101,4 +101,6 @@ pub struct History {
     pub structure: StructureColumns,
     /// Head; ends at touch.
     pub head: HeadColumns,
+    /// Pressure fields, when the plan keeps some.
+    pub fields: Option<PressureFields>,
 }

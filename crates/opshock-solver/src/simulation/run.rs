@@ -119,6 +119,7 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
             .as_ref()
             .and_then(|h| h.columns.clone())
             .unwrap_or_default(),
+        fields: head.as_ref().and_then(|h| h.fields.clone()),
     });
     Outcome {
         verdict: head

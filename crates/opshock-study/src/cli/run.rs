@@ -8,12 +8,13 @@ use super::selection::ShockArgs;
 use super::study_file;
 use crate::provenance;
 use crate::report::{RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures};
-use crate::store::history::{HistoryHeader, write_csv, write_hdf5};
+use crate::store::history::{HistoryHeader, fields_path, write_csv, write_hdf5};
 use crate::study::{Shot, Study};
 use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
+use opshock_solver::scene::plan::Output;
 use opshock_solver::shock::PulseShape;
 use opshock_solver::simulation::{History, Model, Outcome, Request, Verdict, Workspace, simulate};
 use std::path::{Path, PathBuf};
@@ -60,10 +61,14 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     for warning in &outcome.warnings {
         console.tell(&format!("warning: {}: {}", warning.code, warning.message));
     }
+    if study.asks_for(Output::PressureField) && format.is_none() {
+        console.tell("pressure fields are kept with --history FILE");
+    }
     if let Some(history) = &outcome.history {
         if let (Some(path), Some(format)) = (&arguments.history, format) {
             write_history(path, format, history, &study, &shot, &outcome)?;
             console.tell(&format!("wrote {}", path.display()));
+            tell_fields(path, format, history, &study, console);
         }
         if let Some(folder) = &arguments.plots {
             let figures = run_figures(history, &caption(&study, &shot, &outcome));
@@ -97,6 +102,28 @@ pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outc
         record,
     };
     Ok(simulate(&model, &request, &mut Workspace::default()))
+}
+
+/// What became of the pressure fields asked for: where they are, and which the run did not reach.
+fn tell_fields(
+    path: &Path,
+    format: HistoryFormat,
+    history: &History,
+    study: &Study,
+    console: &Console,
+) {
+    let Some(fields) = &history.fields else {
+        return;
+    };
+    let place = match format {
+        HistoryFormat::Hdf5 => format!("{}, group fields", path.display()),
+        HistoryFormat::Csv => fields_path(path).display().to_string(),
+    };
+    let (kept, asked) = (fields.time_s.len(), study.field_times_s.len());
+    console.tell(&format!("{kept} of {asked} pressure fields in {place}"));
+    if kept < asked {
+        console.tell("the head's run ended before the others");
+    }
 }
 
 fn history_format(path: &Path) -> Result<HistoryFormat, Failure> {

@@ -51,6 +51,7 @@ pub const OUTPUTS: &[&str] = &[
     "ramp_displacement",
     "contact_force",
     "touch_threshold",
+    "pressure_field",
 ];
 /// Effects that can be left out by hand.
 pub const LEAVE_OUT: &[&str] = &["air_bearing"];
@@ -191,6 +192,8 @@ pub static KEYS: &[Key] = &[
     Key::rung("solver.film_floor_nm", LENGTH, "0.3", "Floor of the height the film sees.").usual(0.01, 5.0),
     Key::rung("solver.coupling_tolerance", Number(open(0.0, 0.1)), "1.0e-6", "Relative residual of the coupled solve; a hundredth of head_tolerance when that is set alone.").usual(1e-12, 1e-2),
     Key::rung("solver.suspension_modes", Integer(1, 200), "16", "Modes of the suspension kept above the pinned dimple."),
+    // fields
+    Key::optional("fields.times_ms", Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152"),
     // output
     Key::or("output.keep_histories", Word(&["bracket", "none", "all"]), "\"bracket\"", "Which time histories are stored."),
     Key::or("output.checkpoint_s", Number(above(0.0, 86_400.0)), "30", "Time between two refreshes of results.h5.").usual(1.0, 3600.0),

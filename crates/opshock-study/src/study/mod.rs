@@ -79,6 +79,8 @@ pub struct Study {
     pub output: OutputSettings,
     /// Onset of the pulse on the time axis of every output, s.
     pub start_s: f64,
+    /// Times after the onset at which pressure fields are kept, ascending, s; before it negative.
+    pub field_times_s: Vec<f64>,
     /// Whether only the needed effects are simulated.
     pub effects: Effects,
     /// Effects left out by hand.
@@ -217,6 +219,7 @@ impl Study {
                 checkpoint_s: view.si("output.checkpoint_s"),
             },
             start_s: view.si("pulse.start_ms"),
+            field_times_s: scene::field_times_s(&view),
             effects: if view.word("solver.effects") == "full" {
                 Effects::Full
             } else {
@@ -269,7 +272,7 @@ impl Study {
             Effects::Auto => Mode::Auto,
             Effects::Full => Mode::Full,
         };
-        let plan = Plan::new(&outputs, mode);
+        let plan = Plan::new(&outputs, mode).with_field_times(&self.field_times_s);
         if self.leave_out.iter().any(|effect| effect == "air_bearing") {
             plan.without_head()
                 .unwrap_or_else(|output| panic!("{} needs what is left out", output.as_str()))

@@ -19,6 +19,9 @@ use super::settings::{Datum, View};
 use super::unit;
 use super::words::{self, Ramp};
 
+/// Key of the times of pressure fields.
+pub const FIELD_TIMES: &str = "fields.times_ms";
+
 /// Builds the scene of one point. `width_ms` is its pulse width.
 pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     let Resolutions {
@@ -136,6 +139,17 @@ fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
         _ => PulseShape::HalfSine,
     };
     Pulse { shape, width_s }
+}
+
+/// Times at which pressure fields are asked for, after the onset, ascending.
+pub fn field_times_s(view: &View<'_>) -> Vec<f64> {
+    let start_s = view.si("pulse.start_ms");
+    let asked = view.numbers(FIELD_TIMES).iter();
+    let mut times_s: Vec<f64> = asked
+        .map(|&time| unit::si(FIELD_TIMES, time) - start_s)
+        .collect();
+    times_s.sort_by(f64::total_cmp);
+    times_s
 }
 
 fn window(view: &View<'_>) -> Window {

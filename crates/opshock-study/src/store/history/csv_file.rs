@@ -1,13 +1,20 @@
 //! History as one CSV table.
 
 use super::{HistoryFileError, root_columns};
-use opshock_solver::simulation::History;
+use opshock_solver::simulation::{History, PressureFields};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Table of pressure fields beside a CSV history: `run.csv` has `run-fields.csv`.
+pub fn fields_path(path: &Path) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-fields.csv"))
+}
 
 /// Writes the root columns (see the [module](super)) as CSV: a header line with the names, then one
 /// line per time of the structure. Numbers carry enough digits to read back the same bits; a value
-/// that does not exist, such as the slider's after touch, is empty.
+/// that does not exist, such as the slider's after touch, is empty. Pressure fields, when there are
+/// some, go into a second table ([`fields_path`]), a line per time and cell.
 ///
 /// # Errors
 ///
@@ -31,10 +38,37 @@ pub fn write_csv(path: &Path, history: &History, start_s: f64) -> Result<(), His
         }
         text.push('\n');
     }
+    put(path, &text)?;
+    match &history.fields {
+        Some(fields) => put(&fields_path(path), &fields_table(fields, start_s)),
+        None => Ok(()),
+    }
+}
+
+fn put(path: &Path, text: &str) -> Result<(), HistoryFileError> {
     replace(path, text.as_bytes()).map_err(|source| HistoryFileError::Io {
         path: path.display().to_string(),
         source,
     })
+}
+
+/// A line per time and cell, x running fastest.
+fn fields_table(fields: &PressureFields, start_s: f64) -> String {
+    let middles =
+        |lines: &[f64]| -> Vec<f64> { lines.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect() };
+    let (x, y) = (middles(&fields.x_lines_m), middles(&fields.y_lines_m));
+    let mut text = String::from("time_s,x_m,y_m,pressure_pa,gap_m\n");
+    let mut cell = 0;
+    for time_s in &fields.time_s {
+        for y_m in &y {
+            for x_m in &x {
+                let (p, h) = (fields.pressure_pa[cell], fields.gap_m[cell]);
+                text += &format!("{:e},{x_m:e},{y_m:e},{p:e},{h:e}\n", time_s + start_s);
+                cell += 1;
+            }
+        }
+    }
+    text
 }
 
 /// Writes aside in the same folder, then renames: a reader never sees half a file.

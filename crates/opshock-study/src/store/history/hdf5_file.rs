@@ -1,10 +1,13 @@
 //! History as HDF5.
 
-use super::{Column, HISTORY_FORMAT, HistoryFileError, HistoryHeader, head_columns, root_columns};
+use super::{
+    Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryFileError, HistoryHeader, head_columns,
+    root_columns,
+};
 use crate::store::hdf5_file::create;
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, Location};
-use opshock_solver::simulation::History;
+use opshock_solver::simulation::{History, PressureFields};
 use std::path::Path;
 
 /// Writes a history in the layout of the [module](super). Root attributes: `format`
@@ -62,7 +65,41 @@ fn fill(path: &Path, history: &History, header: &HistoryHeader) -> hdf5::Result<
             "/head/time_s",
         )?;
     }
+    if let Some(fields) = &history.fields {
+        write_fields(&root.create_group("fields")?, fields, header.start_s)?;
+    }
     file.close()
+}
+
+fn write_fields(group: &Group, fields: &PressureFields, start_s: f64) -> hdf5::Result<()> {
+    text(group, "description", "film at the times asked for")?;
+    let times: Vec<f64> = fields.time_s.iter().map(|t| t + start_s).collect();
+    let cells = |lines: &[f64]| lines.len().saturating_sub(1);
+    let shape = [
+        times.len(),
+        cells(&fields.y_lines_m),
+        cells(&fields.x_lines_m),
+    ];
+    let columns: [&[f64]; 5] = [
+        &times,
+        &fields.y_lines_m,
+        &fields.x_lines_m,
+        &fields.pressure_pa,
+        &fields.gap_m,
+    ];
+    for ((name, units, description), values) in FIELD_COLUMNS.into_iter().zip(columns) {
+        let dataset = match name {
+            "pressure_pa" | "gap_m" => {
+                let dataset = group.new_dataset::<f64>().shape(shape).create(name)?;
+                dataset.write_raw(values)?;
+                dataset
+            }
+            _ => group.new_dataset_builder().with_data(values).create(name)?,
+        };
+        text(&dataset, "units", units)?;
+        text(&dataset, "description", description)?;
+    }
+    Ok(())
 }
 
 fn datasets(group: &Group, columns: &[Column], time: &str) -> hdf5::Result<()> {

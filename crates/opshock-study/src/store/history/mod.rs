@@ -7,6 +7,7 @@
 //! |-------|----|------|
 //! | `/NAME` | `/time_s` | every column of structure **and** head; head columns are interpolated linearly from `/head` and empty (NaN) outside the head's time |
 //! | `/head/NAME` | `/head/time_s` | head columns as computed; only when the head was simulated |
+//! | `/fields/pressure_pa`, `/fields/gap_m` | `/fields/time_s` × `y_lines_m` × `x_lines_m` | film pressure and height in the middle of every cell; only when `pressure_field` was asked for |
 //!
 //! So any two root columns can be drawn against each other at once, and nothing computed is lost.
 //! Extremes of the head belong to `/head`, interpolation may cut them off.
@@ -17,7 +18,7 @@ mod hdf5_file;
 #[cfg(test)]
 mod tests;
 
-pub use csv_file::write_csv;
+pub use csv_file::{fields_path, write_csv};
 pub use hdf5_file::write_hdf5;
 
 use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
@@ -85,6 +86,31 @@ pub struct Column {
     /// Values on the column's time.
     pub values: Vec<f64>,
 }
+
+/// Group, dataset or CSV column of what belongs to pressure fields: name, unit, sentence.
+pub(super) const FIELD_COLUMNS: [(&str, &str, &str); 5] = [
+    ("time_s", "s", "times of the fields on the study's axis"),
+    (
+        "y_lines_m",
+        "m",
+        "grid lines across the slider from its inner edge",
+    ),
+    (
+        "x_lines_m",
+        "m",
+        "grid lines along the slider from its leading edge",
+    ),
+    (
+        "pressure_pa",
+        "Pa",
+        "absolute pressure in the middle of every cell: time, y, x",
+    ),
+    (
+        "gap_m",
+        "m",
+        "height of the slider's surface over the disk in the middle of every cell: time, y, x",
+    ),
+];
 
 /// Columns of disk and ramp, `time_s` first, on the study's time axis.
 pub fn structure_columns(columns: &StructureColumns, start_s: f64) -> Vec<Column> {

@@ -30,6 +30,7 @@ fn history() -> History {
             bearing_force_n: vec![0.02; 3],
             dimple_force_n: vec![0.02, 0.01, 0.0],
         },
+        fields: None,
     }
 }
 

@@ -4,6 +4,7 @@
 //! that one mistake makes one message.
 
 mod drive;
+mod fields;
 mod pulse;
 mod rails;
 mod study;
@@ -25,6 +26,7 @@ impl Check<'_, '_> {
     pub fn study(&mut self) {
         self.names();
         self.outputs();
+        self.fields();
         self.search();
         self.without_effect();
     }
@@ -37,6 +39,7 @@ impl Check<'_, '_> {
         self.rails();
         self.suspension();
         self.pulse(widths_ms);
+        self.fields_end();
     }
 
     fn sound(&self, paths: &[&str]) -> bool {
