@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -47,7 +47,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-hard verify-scenes verify-accuracy ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-hard verify-scenes verify-accuracy ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -57,6 +57,9 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
+
+verify-store: bootstrap ## 2000 kill -9 at random moments (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 store_slow
 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bad_inputs;
+mod bad_stores;
 mod cli;
 mod cli_explain;
 mod cli_figures;

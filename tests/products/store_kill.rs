@@ -1,4 +1,4 @@
-//! Processes that are killed, stopped or run out of disk in the middle of a sweep.
+//! Processes that are killed or run out of disk in the middle of a sweep.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -43,15 +43,6 @@ fn start(folder: &Path) -> Child {
     child
 }
 
-fn send(child: &Child, signal: &str) {
-    // The shell's own `kill`: the program of that name is not on every machine.
-    let status = Command::new("sh")
-        .args(["-c", &format!("kill {signal} {}", child.id())])
-        .status()
-        .expect("kill");
-    assert!(status.success());
-}
-
 #[test]
 fn killed_sweeps_end_with_the_same_bits_and_lose_nothing() {
     let root = tempfile::tempdir().expect("folder");
@@ -81,26 +72,6 @@ fn killed_sweeps_end_with_the_same_bits_and_lose_nothing() {
         end.computed_runs < reference.computed_runs,
         "the killed sweeps left nothing"
     );
-}
-
-#[test]
-fn the_first_signal_saves_and_ends_with_its_code() {
-    let root = tempfile::tempdir().expect("folder");
-    finish(&root.path().join("whole"));
-    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
-        let folder = root.path().join(signal);
-        let mut child = start(&folder);
-        std::thread::sleep(Duration::from_millis(120));
-        send(&child, signal);
-        assert_eq!(child.wait().expect("waits").code(), Some(code));
-        let saved = opshock_study::store::results::read(&folder.join("results.h5"))
-            .expect("reads")
-            .expect("is there");
-        assert!(saved.summary.totals.open > 0);
-        assert!(saved.summary.totals.runs > 0);
-        finish(&folder);
-        assert_eq!(content(&folder), content(&root.path().join("whole")));
-    }
 }
 
 #[test]

@@ -47,7 +47,7 @@ use std::process::ExitCode;
     disable_version_flag = true,
     after_help = "Exit codes: 0 complete, 1 internal, 2 command line, 3 study invalid, 4 complete \
                   with open points, 5 ended by a budget, 6 store damaged, locked or newer, \
-                  7 differences beyond limits, 130/143 signals"
+                  7 differences beyond limits, 129/130/143 signals"
 )]
 struct Cli {
     #[command(flatten)]

@@ -57,7 +57,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         ..SweepOptions::with_threads(global.threads())
     };
     let kind = if console.quiet {
-        ProgressKind::None
+        ProgressKind::Warnings
     } else {
         global.progress.into()
     };

@@ -5,10 +5,10 @@
 
 use super::table::aligned;
 use crate::store::summary::{AxisValue, PointSummary, Status, Summary};
+use crate::study::difference::{self, SettingDifference, Settings};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// One side of a comparison.
@@ -89,17 +89,6 @@ fn bar(point: &PointSummary) -> Option<[f64; 2]> {
     ])
 }
 
-/// A setting with different values; `None` where a study does not have it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SettingDifference {
-    /// Dotted path of the key.
-    pub key: String,
-    /// In A.
-    pub a: Option<Value>,
-    /// In B.
-    pub b: Option<Value>,
-}
-
 /// A point of both tables whose answers differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointDifference {
@@ -141,12 +130,10 @@ pub struct Comparison {
     pub only_b: Vec<LonePoint>,
 }
 
-type Settings = BTreeMap<String, Value>;
-
 /// Compares two tables.
 pub fn compare(a: Side<'_>, b: Side<'_>) -> Comparison {
-    let settings_a = a.resolved_study.and_then(flat);
-    let settings_b = b.resolved_study.and_then(flat);
+    let settings_a = a.resolved_study.and_then(difference::flat);
+    let settings_b = b.resolved_study.and_then(difference::flat);
     let paths_a = axis_paths(a.summary, settings_a.as_ref());
     let paths_b = axis_paths(b.summary, settings_b.as_ref());
     let mut paths = paths_a.clone();
@@ -190,7 +177,7 @@ pub fn compare(a: Side<'_>, b: Side<'_>) -> Comparison {
     Comparison {
         settings: settings_a
             .zip(settings_b)
-            .map(|(a, b)| differing_settings(&a, &b)),
+            .map(|(a, b)| difference::differing(&a, &b)),
         points,
         equal_points,
         only_a,
@@ -245,47 +232,6 @@ fn axes_of(
     paths
         .iter()
         .filter_map(|path| Some((path.clone(), value(path)?)))
-        .collect()
-}
-
-/// Every value of a resolved study by its path, entries of tables numbered from 0.
-fn flat(resolved_study: &str) -> Option<Settings> {
-    let table: toml::Table = toml::from_str(resolved_study).ok()?;
-    let mut settings = Settings::new();
-    spread("", &serde_json::to_value(table).ok()?, &mut settings);
-    Some(settings)
-}
-
-fn spread(path: &str, value: &Value, settings: &mut Settings) {
-    match value {
-        Value::Object(members) => {
-            for (name, member) in members {
-                let dot = if path.is_empty() { "" } else { "." };
-                spread(&format!("{path}{dot}{name}"), member, settings);
-            }
-        }
-        Value::Array(entries) if !entries.is_empty() && entries.iter().all(Value::is_object) => {
-            for (place, entry) in entries.iter().enumerate() {
-                spread(&format!("{path}[{place}]"), entry, settings);
-            }
-        }
-        value => {
-            settings.insert(path.to_owned(), value.clone());
-        }
-    }
-}
-
-fn differing_settings(a: &Settings, b: &Settings) -> Vec<SettingDifference> {
-    let mut keys: Vec<&String> = a.keys().chain(b.keys()).collect();
-    keys.sort();
-    keys.dedup();
-    keys.into_iter()
-        .filter(|key| a.get(*key) != b.get(*key))
-        .map(|key| SettingDifference {
-            key: key.clone(),
-            a: a.get(key).cloned(),
-            b: b.get(key).cloned(),
-        })
         .collect()
 }
 

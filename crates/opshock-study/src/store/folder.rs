@@ -15,6 +15,7 @@ use super::machine;
 use super::record::{PointDigest, Record, RunKey, RunRecord, StoredTouch};
 use super::results::{self, Results, Session};
 use crate::search::Verdict;
+use crate::study::difference;
 
 /// Name of the results file in a store.
 pub const RESULTS_FILE: &str = "results.h5";
@@ -125,39 +126,37 @@ impl Store {
             }
         }
 
-        let header = JournalHeader {
-            study: study.name.clone(),
-        };
         let from_results = stored.as_ref().map_or(Vec::new(), Results::records);
-        let mut journal = match content {
-            None => JournalWriter::create(&journal_path, &header, &from_results)?,
+        let records = match content {
+            None => from_results.clone(),
             Some(content) => {
                 let intact =
                     content.header.is_some() && content.damage.iter().all(|damage| damage.at_end);
                 for damage in &content.damage {
                     loaded.notes.push(("journal_damage", told(damage, intact)));
                 }
-                if intact {
-                    let writer = JournalWriter::append_to(&journal_path, content.whole_bytes)?;
-                    loaded.add(content.records);
-                    writer
-                } else {
+                let mut records = content.records;
+                if !intact {
                     let kept = folder.join("journal.damaged");
                     std::fs::copy(&journal_path, kept).map_err(unwritable)?;
-                    let mut records = content.records;
                     records.extend(from_results.iter().cloned());
-                    let writer = JournalWriter::create(&journal_path, &header, &records)?;
-                    loaded.add(records);
-                    writer
                 }
+                records
             }
         };
+        let header = JournalHeader {
+            study: study.name.clone(),
+        };
+        let session = serde_json::to_string(session).expect("a session serialises");
+        let session = [Record::Session(session)];
+        let all = [records.as_slice(), &session].concat();
+        let journal = JournalWriter::create(&journal_path, &header, &all)?;
+        loaded.add(records);
         loaded.add(from_results);
+        loaded.notes.extend(changes(folder, &study.resolved));
         keep_text(folder, "study.toml", &study.given).map_err(unwritable)?;
         keep_text(folder, "study.resolved.toml", &study.resolved).map_err(unwritable)?;
         std::fs::create_dir_all(folder.join("histories")).map_err(unwritable)?;
-        let session = serde_json::to_string(session).expect("a session serialises");
-        journal.append(&[Record::Session(session)])?;
         let store = Store {
             folder: folder.to_owned(),
             journal,
@@ -231,6 +230,21 @@ fn told(damage: &journal::Damage, intact: bool) -> String {
              the file is kept as journal.damaged"
         )
     }
+}
+
+/// What the study changed since the store was used last.
+fn changes(folder: &Path, resolved: &str) -> Option<(&'static str, String)> {
+    let before = std::fs::read_to_string(folder.join("study.resolved.toml")).ok()?;
+    let changed = difference::differing(&difference::flat(&before)?, &difference::flat(resolved)?);
+    let told: Vec<String> = changed.iter().map(ToString::to_string).collect();
+    (!told.is_empty()).then(|| {
+        let message = format!(
+            "the study has changed since the last sweep into this store: {}; simulations that \
+             stay valid are used again",
+            told.join(", ")
+        );
+        ("study_changed", message)
+    })
 }
 
 /// Writes and syncs a small file, and removes it.

@@ -9,16 +9,16 @@
 //! Little-endian. The checksum covers the length and the content. A record counts once
 //! `fdatasync` returned; a failed write or sync is final for the process.
 //!
-//! A kill or a power loss may leave the last records torn: what is not whole at the end is cut
-//! off when the journal is opened for writing. Damage in the middle (a flipped bit) costs the
+//! A kill or a power loss may leave the last records torn: what is not whole at the end is left
+//! out when the journal is opened for writing, which writes it anew. Damage in the middle (a flipped bit) costs the
 //! record it hits: the reader finds the next record by its mark and its checksum, and says what
 //! it skipped. Runs are found by content, so records do not depend on each other.
 
-use std::fs::{File, OpenOptions};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
+use super::files::{Files, OpenFile, RealFiles};
 use super::record::Record;
 
 /// Number of the journal's format; raised when an older reader would go wrong.
@@ -28,6 +28,8 @@ const MAGIC: &[u8; 8] = b"OPSHOCKJ";
 const MARK: &[u8; 4] = b"OPJR";
 /// Mark, length and checksum of a record.
 const FRAME: usize = 12;
+/// Name under which a journal is made before it gets its own.
+const ASIDE: &str = ".aside-journal";
 /// A longer record is not one of ours.
 const LONGEST: usize = 1 << 24;
 
@@ -68,15 +70,23 @@ pub struct JournalContent {
 ///
 /// The file cannot be read, or is newer.
 pub fn read(path: &Path) -> Result<Option<JournalContent>, StoreError> {
-    let mut bytes = Vec::new();
-    match File::open(path) {
-        Ok(mut file) => file
-            .read_to_end(&mut bytes)
-            .map_err(|source| unreadable(path, source))?,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(source) => return Err(unreadable(path, source)),
-    };
-    parse(path, &bytes).map(Some)
+    read_in(&RealFiles, path)
+}
+
+/// As [`read`], in any file system.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_in(files: &impl Files, path: &Path) -> Result<Option<JournalContent>, StoreError> {
+    match files.read(path) {
+        Ok(bytes) => parse(path, &bytes).map(Some),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(StoreError::Unreadable {
+            path: path.to_owned(),
+            source,
+        }),
+    }
 }
 
 /// Reads the bytes of a journal; `path` is only named in the error. A damaged header costs no
@@ -172,8 +182,8 @@ fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(four.try_into().ok()?))
 }
 
-fn unreadable(path: &Path, source: std::io::Error) -> StoreError {
-    StoreError::Unreadable {
+fn unwritable(path: &Path, source: std::io::Error) -> StoreError {
+    StoreError::Unwritable {
         path: path.to_owned(),
         source,
     }
@@ -202,61 +212,61 @@ fn header_bytes(header: &JournalHeader) -> Vec<u8> {
 
 /// A journal open for appending.
 #[derive(Debug)]
-pub struct JournalWriter {
+pub struct JournalWriter<F: OpenFile = File> {
     path: PathBuf,
-    file: File,
-    /// Bytes on the disk.
-    durable: u64,
-    /// A write or sync failed: what is on the disk beyond `durable` is not known any more.
+    file: F,
+    /// A write or sync failed: what is on the disk behind the last success is not known any more.
     failed: bool,
 }
 
 impl JournalWriter {
-    /// Makes a journal with these records, aside, synced, then renamed over `path`.
+    /// [`JournalWriter::create_in`] the file system of the machine.
     ///
     /// # Errors
     ///
-    /// The file cannot be written.
+    /// As there.
     pub fn create(
         path: &Path,
         header: &JournalHeader,
         records: &[Record],
     ) -> Result<JournalWriter, StoreError> {
-        let unwritable = |source| StoreError::Unwritable {
-            path: path.to_owned(),
-            source,
-        };
+        JournalWriter::create_in(&RealFiles, path, header, records)
+    }
+}
+
+impl<F: OpenFile> JournalWriter<F> {
+    /// Makes a journal with these records aside, syncs it, and renames it over `path`.
+    ///
+    /// A journal is opened again by this alone, with the records read from it. To append to the old
+    /// file would not do: after a failed sync its bytes may be readable and yet on no disk, and no
+    /// later sync writes them.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be written; the former one is in place.
+    pub fn create_in<D: Files<Open = F>>(
+        files: &D,
+        path: &Path,
+        header: &JournalHeader,
+        records: &[Record],
+    ) -> Result<JournalWriter<F>, StoreError> {
         let mut bytes = header_bytes(header);
         for record in records {
             bytes.extend_from_slice(&frame(record));
         }
-        super::aside::replace(path, &bytes).map_err(unwritable)?;
-        JournalWriter::append_to(path, bytes.len() as u64)
-    }
-
-    /// Opens a journal that was read, and cuts off what is not whole at its end.
-    ///
-    /// # Errors
-    ///
-    /// The file cannot be written.
-    pub fn append_to(path: &Path, whole_bytes: u64) -> Result<JournalWriter, StoreError> {
-        let open = || -> std::io::Result<File> {
-            let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-            if file.metadata()?.len() != whole_bytes {
-                file.set_len(whole_bytes)?;
-                file.sync_data()?;
-            }
-            file.seek(SeekFrom::Start(whole_bytes))?;
+        let folder = super::aside::folder_of(path);
+        let aside = folder.join(ASIDE);
+        let make = || -> std::io::Result<F> {
+            let mut file = files.create(&aside)?;
+            file.write_all(&bytes)?;
+            file.sync()?;
+            files.rename(&aside, path)?;
+            files.sync_folder(folder)?;
             Ok(file)
         };
-        let file = open().map_err(|source| StoreError::Unwritable {
-            path: path.to_owned(),
-            source,
-        })?;
         Ok(JournalWriter {
+            file: make().map_err(|source| unwritable(path, source))?,
             path: path.to_owned(),
-            file,
-            durable: whole_bytes,
             failed: false,
         })
     }
@@ -267,31 +277,13 @@ impl JournalWriter {
     ///
     /// The write or the sync failed; none of these records counts, and every later append fails.
     pub fn append(&mut self, records: &[Record]) -> Result<(), StoreError> {
-        let unwritable = |source| StoreError::Unwritable {
-            path: self.path.clone(),
-            source,
-        };
         if self.failed {
-            return Err(unwritable(std::io::Error::other(
-                "an earlier write or sync failed",
-            )));
+            let earlier = std::io::Error::other("an earlier write or sync failed");
+            return Err(unwritable(&self.path, earlier));
         }
         let bytes: Vec<u8> = records.iter().flat_map(frame).collect();
-        let written = self
-            .file
-            .write_all(&bytes)
-            .and_then(|()| self.file.sync_data());
-        match written {
-            Ok(()) => {
-                self.durable += bytes.len() as u64;
-                Ok(())
-            }
-            Err(error) => {
-                self.failed = true;
-                // A short write on a full disk; the reader would skip it anyway.
-                let _ = self.file.set_len(self.durable);
-                Err(unwritable(error))
-            }
-        }
+        let written = self.file.write_all(&bytes).and_then(|()| self.file.sync());
+        self.failed = written.is_err();
+        written.map_err(|source| unwritable(&self.path, source))
     }
 }

@@ -8,6 +8,7 @@
 mod aside;
 pub mod audit;
 pub mod error;
+pub mod files;
 pub mod folder;
 pub mod hdf5_file;
 pub mod history;

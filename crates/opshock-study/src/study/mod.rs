@@ -17,6 +17,7 @@
 //! ```
 
 mod complete;
+pub mod difference;
 mod example;
 pub mod fault;
 mod included;

@@ -29,14 +29,19 @@ impl StopFlag {
         }
     }
 
-    /// Lets SIGINT and SIGTERM ask; a second one ends the process at once with 128 + its number.
+    /// Lets SIGINT, SIGTERM and SIGHUP ask; a second one ends the process at once with 128 + its
+    /// number. A signal that the process was started to ignore (`nohup`) stays ignored.
     ///
     /// # Errors
     ///
     /// The system refused the handlers.
     pub fn listen(&self) -> std::io::Result<()> {
-        use signal_hook::consts::{SIGINT, SIGTERM};
-        for signal in [SIGINT, SIGTERM] {
+        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+        let ignored = ignored_signals();
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
+            if ignored >> (signal - 1) & 1 == 1 {
+                continue;
+            }
             // Order matters: the flag is still down when the first signal passes the first handler.
             signal_hook::flag::register_conditional_shutdown(
                 signal,
@@ -48,4 +53,14 @@ impl StopFlag {
         }
         Ok(())
     }
+}
+
+/// Signals ignored by this process, bit 0 for number 1; none where the system does not tell.
+fn ignored_signals() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .unwrap_or(0)
 }

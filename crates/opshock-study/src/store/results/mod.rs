@@ -10,10 +10,13 @@
 //! Every dataset has `units`. Missing numbers are NaN. Times are on the study's axis, where the
 //! pulse starts at `start_s`, unless their name says otherwise.
 //! Nothing outside `/machine` depends on the machine, the threads or the time of day. The file is
-//! written whole aside, synced and renamed; `content_blake3` covers what a resume takes from it.
+//! written whole aside, synced and renamed; `content_blake3`, and `outside_blake3` of
+//! `/machine/outside`, cover what a resume takes from it;
+//! 40 bytes behind the end of the HDF5 data seal the whole file.
 
 mod columns;
 mod read;
+mod seal;
 mod write;
 
 pub use read::read;
@@ -145,6 +148,18 @@ impl Results {
                 };
                 hasher.update(&Record::Touch(record).encode());
             }
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+
+    /// Digest of the simulations outside the canonical sequences, machine facts left out: they lie
+    /// with the machine's facts, for idle cores decide which there are.
+    pub fn outside_digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        for run in &self.outside {
+            let mut run = run.clone();
+            run.machine = RunMachine::default();
+            hasher.update(&Record::Run(run).encode());
         }
         hasher.finalize().to_hex().to_string()
     }

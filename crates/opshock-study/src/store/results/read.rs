@@ -7,6 +7,7 @@ use hdf5::{File, Group};
 use opshock_solver::scene::knob::Levels;
 
 use super::columns::{get, get_number, get_text, get_texts};
+use super::seal::{self, Seal};
 use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
 use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
 use crate::store::error::StoreError;
@@ -38,6 +39,13 @@ pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
         what,
         hint: "if the journal is sound, `opshock sweep` writes it anew from there",
     };
+    let seal = seal::check(path).map_err(|source| StoreError::Unreadable {
+        path: path.to_owned(),
+        source,
+    })?;
+    if seal == Seal::Broken {
+        return Err(damaged("its bytes do not match its seal".into()));
+    }
     let file = hdf5_file::open(path)
         .map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
     let found =
@@ -50,6 +58,11 @@ pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
         });
     }
     let (results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
+    // Files of 0.1.0 before November 2026 have none.
+    let outside = outside_digest(&file).map_err(|error| damaged(error.to_string()))?;
+    if outside.is_some_and(|digest| digest != results.outside_digest()) {
+        return Err(damaged("/machine/outside does not match its digest".into()));
+    }
     // Digests of the first format cover a table without the parts of the error bars.
     if found > 1 && results.content_digest() != digest {
         return Err(damaged("its content does not match its digest".into()));
@@ -128,6 +141,15 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
         written_unix_s: get_number(&machine, "written_unix_s")?,
     };
     Ok((results, get_text(&root, "content_blake3")?))
+}
+
+fn outside_digest(file: &File) -> hdf5::Result<Option<String>> {
+    let group = file.group("machine/outside")?;
+    let names = group.attr_names()?;
+    let is_there = names.iter().any(|name| name == "outside_blake3");
+    is_there
+        .then(|| get_text(&group, "outside_blake3"))
+        .transpose()
 }
 
 fn digests(group: &Group) -> hdf5::Result<Vec<PointDigest>> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::columns::{self, Column, Values, counts, numbers, put_number, put_text, texts};
-use super::{RESULTS_FORMAT, Results, RunRow};
+use super::{RESULTS_FORMAT, Results, RunRow, seal};
 use crate::search::Verdict;
 use crate::search::lattice::REFERENCE_G;
 use crate::store::aside;
@@ -27,6 +27,7 @@ pub fn write(path: &Path, results: &Results) -> Result<(), StoreError> {
     let file = aside::file(path).map_err(unwritable)?;
     fill(file.path(), results)
         .map_err(|error| unwritable(std::io::Error::other(error.to_string())))?;
+    seal::put(file.path()).map_err(unwritable)?;
     aside::persist(file, path).map_err(unwritable)
 }
 
@@ -77,6 +78,7 @@ fn machine(group: &Group, results: &Results, records: &[&RunRecord]) -> hdf5::Re
     columns::write(&group.create_group("runs")?, &time_columns(records))?;
     let outside: Vec<&RunRecord> = results.outside.iter().collect();
     let group = group.create_group("outside")?;
+    put_text(&group, "outside_blake3", &results.outside_digest())?;
     let digest = texts("point_digest", &outside, |run| run.key.point.hex());
     columns::write(&group, &[digest])?;
     columns::write(&group, &run_columns(&outside, results.start_s))?;

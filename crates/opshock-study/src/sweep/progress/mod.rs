@@ -3,7 +3,7 @@
 mod bars;
 mod lines;
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write as _};
 use std::path::PathBuf;
 
 use crate::search::Sign;
@@ -147,6 +147,19 @@ impl Progress for Silent {
     fn event(&self, _event: &Event) {}
 }
 
+/// Tells warnings on standard error, nothing else.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WarningsAlone;
+
+impl Progress for WarningsAlone {
+    fn event(&self, event: &Event) {
+        if let Event::Warning { code, message } = event {
+            // Nobody to tell is no reason to stop.
+            let _ = writeln!(std::io::stderr(), "warning {code}: {message}");
+        }
+    }
+}
+
 /// How a sweep tells of its progress on standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ProgressKind {
@@ -157,6 +170,8 @@ pub enum ProgressKind {
     Bar,
     /// A line per answered point, and one every ten seconds.
     Lines,
+    /// Warnings alone.
+    Warnings,
     /// Nothing.
     None,
 }
@@ -166,6 +181,7 @@ impl ProgressKind {
     pub fn start(self, study: &str) -> Box<dyn Progress> {
         match self {
             ProgressKind::None => Box::new(Silent),
+            ProgressKind::Warnings => Box::new(WarningsAlone),
             ProgressKind::Lines => Box::new(Lines::start(std::io::stderr(), study)),
             ProgressKind::Bar => Box::new(Bars::start(study)),
             ProgressKind::Auto if std::io::stderr().is_terminal() => Box::new(Bars::start(study)),

@@ -1,0 +1,165 @@
+//! Disks that are full, small or may not be written.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, sweep};
+use opshock_tests::hdf5_dump::dump;
+use opshock_tests::mock_sweep::{MockSimulator, fig13};
+
+const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
+
+fn finish(folder: &Path) -> SweepEnd {
+    let input = fig13();
+    let simulator = MockSimulator::new(&input);
+    let options = SweepOptions::with_threads(1);
+    sweep(&input, &simulator, folder, &options, &Silent).expect("sweeps")
+}
+
+/// A mounted file system of its own, taken away in the end.
+struct Mounted(PathBuf);
+
+impl Mounted {
+    /// `None`, said aloud, where this user may not mount.
+    fn tmpfs(at: &Path, options: &str) -> Option<Mounted> {
+        std::fs::create_dir_all(at).expect("folder");
+        let mounted = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", options, "tmpfs"])
+            .arg(at)
+            .output();
+        if mounted.is_ok_and(|output| output.status.success()) {
+            return Some(Mounted(at.to_owned()));
+        }
+        println!("SKIPPED: this user may not mount a file system of {options}");
+        None
+    }
+
+    fn remount(&self, options: &str) {
+        let status = Command::new("mount")
+            .args(["-o", &format!("remount,{options}")])
+            .arg(&self.0)
+            .status()
+            .expect("mount");
+        assert!(status.success(), "remount {options}");
+    }
+}
+
+impl Drop for Mounted {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(&self.0).status();
+    }
+}
+
+/// Sweeps in another process; exit code and what it said on standard error.
+fn mock(folder: &Path) -> (Option<i32>, String) {
+    let output = Command::new(MOCK)
+        .arg(folder)
+        .args(["1", "1", "60000"])
+        .output()
+        .expect("runs");
+    let said = String::from_utf8(output.stderr).expect("UTF-8");
+    (output.status.code(), said)
+}
+
+#[test]
+fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
+    let root = tempfile::tempdir().expect("folder");
+    let whole = finish(&root.path().join("whole"));
+    let expected = dump(&root.path().join("whole/results.h5"), &["/machine"]);
+    let Some(disk) = Mounted::tmpfs(&root.path().join("small"), "size=64k") else {
+        return;
+    };
+    let folder = disk.0.join("store");
+    let (code, said) = mock(&folder);
+    assert_eq!(code, Some(6), "{said}");
+    assert!(said.starts_with("E183"), "{said}");
+    // Room again: what was finished is used, the answer is the same to the bit.
+    disk.remount("size=64m");
+    let end = finish(&folder);
+    assert!(end.computed_runs < whole.computed_runs);
+    assert_eq!(end.summary, whole.summary);
+    assert_eq!(dump(&folder.join("results.h5"), &["/machine"]), expected);
+}
+
+#[test]
+fn a_file_system_that_is_full_already_is_told_before_computing() {
+    let root = tempfile::tempdir().expect("folder");
+    let Some(disk) = Mounted::tmpfs(&root.path().join("full"), "size=16k") else {
+        return;
+    };
+    let ballast = disk.0.join("ballast");
+    let mut bytes = 16 << 10;
+    while std::fs::write(&ballast, vec![1; bytes]).is_err() {
+        bytes -= 1 << 10;
+    }
+    let (code, said) = mock(&disk.0);
+    assert_eq!(code, Some(6), "{said}");
+    assert!(said.starts_with("E183"), "{said}");
+    assert!(!disk.0.join("journal").exists());
+}
+
+#[test]
+fn a_read_only_file_system_is_told_before_computing() {
+    let root = tempfile::tempdir().expect("folder");
+    let Some(disk) = Mounted::tmpfs(&root.path().join("readonly"), "size=4m") else {
+        return;
+    };
+    let folder = disk.0.join("store");
+    finish(&folder);
+    let journal = std::fs::read(folder.join("journal")).expect("journal");
+    disk.remount("ro");
+    let (code, said) = mock(&folder);
+    assert_eq!(code, Some(6), "{said}");
+    assert!(said.starts_with("E183"), "{said}");
+    assert_eq!(
+        std::fs::read(folder.join("journal")).expect("journal"),
+        journal
+    );
+    // Reading goes on.
+    let table = opshock_study::sweep::stored(&fig13(), &folder).expect("reads");
+    assert_eq!(table.summary.totals.open, 0);
+}
+
+#[test]
+fn a_folder_without_permission_is_told_before_computing() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let root = tempfile::tempdir().expect("folder");
+    // Root may write anywhere: the program runs as nobody then, who must be able to start it.
+    let allowed = |path: &Path, mode: u32| {
+        std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode)).expect("mode");
+    };
+    allowed(root.path(), 0o755);
+    let program = root.path().join("sweep-mock");
+    std::fs::copy(MOCK, &program).expect("copies");
+    let folder = root.path().join("store");
+    std::fs::create_dir(&folder).expect("folder");
+    allowed(&folder, 0o555);
+    let run = |words: &[&str]| {
+        Command::new(words[0])
+            .args(&words[1..])
+            .arg(&program)
+            .arg(&folder)
+            .args(["1", "0"])
+            .output()
+    };
+    let is_root = std::fs::write(folder.join("probe"), []).is_ok();
+    let done = if is_root {
+        std::fs::remove_file(folder.join("probe")).expect("removes");
+        run(&[
+            "setpriv",
+            "--reuid=65534",
+            "--regid=65534",
+            "--clear-groups",
+        ])
+    } else {
+        run(&["env"])
+    };
+    let Ok(done) = done else {
+        println!("SKIPPED: root, and no setpriv to become somebody else");
+        return;
+    };
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(6), "{said}");
+    assert!(said.starts_with("E183"), "{said}");
+    assert_eq!(std::fs::read_dir(&folder).expect("reads").count(), 0);
+}

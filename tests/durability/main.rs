@@ -1,0 +1,8 @@
+//! What a store keeps when everything around it fails.
+
+mod flipped;
+mod full_disk;
+mod kills;
+mod power_loss;
+mod signals;
+mod sim_files;
