@@ -25,6 +25,13 @@ accuracy: build ## what accuracy costs on Fig. 13: ladders, plots and table in r
 figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
 	$(OPSHOCK) figures studies/paper-cases/study.toml --out results/paper
 
+.PHONY: claims claims-sensitivity verify-report
+claims: build ## the paper's statements judged, in results/paper/claims.md
+	$(OPSHOCK) claims studies/paper-cases/study.toml --out results/paper --quiet -j $(JOBS) > /dev/null
+
+claims-sensitivity: build ## the same, and what each rests on: tornado plot in results/paper/sensitivity.md (20 minutes, resumes)
+	$(OPSHOCK) claims studies/paper-cases/study.toml --out results/paper --sensitivity results/paper/sensitivity -j $(JOBS) > /dev/null
+
 study: build ## run another study: make study NAME=drive-2.5in
 	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }
 	$(OPSHOCK) sweep studies/$(NAME)/study.toml --store results/$(NAME)/$(NAME).opshock -j $(JOBS)

@@ -4,6 +4,7 @@ mod accuracy;
 mod bad_inputs;
 mod bad_stores;
 mod cli;
+mod cli_claims;
 mod cli_explain;
 mod cli_figures;
 mod cli_run;

@@ -51,6 +51,7 @@ const STUDY: &[(&str, u8)] = &[
     ("store", 2),
     ("sweep", 3),
     ("accuracy", 3),
+    ("claims", 3),
     ("hard_cases", 4),
     ("report", 4),
     ("cli", 5),

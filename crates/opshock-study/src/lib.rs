@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod accuracy;
+pub mod claims;
 pub mod cli;
 pub mod hard_cases;
 pub mod identity;

@@ -40,7 +40,7 @@ pub struct FiguresArgs {
 }
 
 /// Where `make fig13` leaves its table.
-const CRITICAL: &str = "results/fig13/table.csv";
+pub(super) const CRITICAL: &str = "results/fig13/table.csv";
 
 /// Width and amplitude.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,12 @@ pub fn run(
     let study = study_file::read(&arguments.study, global, console)?;
     let program = provenance::program();
     // What cannot be read is said before anything is computed; nothing is written before all is.
-    let critical = critical(arguments, console)?;
+    let critical = critical_shocks(arguments.critical.as_deref(), console)?;
+    if critical.is_none() {
+        console.tell(&format!(
+            "no figure 13: there is no {CRITICAL}; `make fig13` computes it, --critical names another"
+        ));
+    }
     let long = cases(&study, arguments.long, console)?;
     let short = cases(&study, arguments.short, console)?;
 
@@ -104,19 +109,14 @@ pub fn run(
 }
 
 /// The table of Fig. 13 and its name; `None` when none was named and there is none.
-fn critical(
-    arguments: &FiguresArgs,
+pub(super) fn critical_shocks(
+    named: Option<&Path>,
     console: &Console,
 ) -> Result<Option<(Summary, String)>, Failure> {
-    let path = match &arguments.critical {
-        Some(path) => path.clone(),
+    let path = match named {
+        Some(path) => path.to_owned(),
         None if Path::new(CRITICAL).is_file() => CRITICAL.into(),
-        None => {
-            console.tell(&format!(
-                "no figure 13: there is no {CRITICAL}; `make fig13` computes it, --critical names another"
-            ));
-            return Ok(None);
-        }
+        None => return Ok(None),
     };
     let name = path.display().to_string();
     let summary = if path.is_dir() {

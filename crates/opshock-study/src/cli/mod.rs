@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod check;
+mod claims;
 mod compare;
 mod completions;
 mod console;
@@ -134,6 +135,7 @@ enum Command {
     Sweep(sweep::SweepArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
+    Claims(claims::ClaimsArgs),
     Accuracy(accuracy::AccuracyArgs),
     Status(status::StatusArgs),
     Compare(compare::CompareArgs),
@@ -179,6 +181,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
+        Command::Claims(arguments) => claims::run(arguments, &cli.global, console),
         Command::Accuracy(arguments) => accuracy::run(arguments, &cli.global, console),
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Compare(arguments) => compare::run(arguments, &cli.global, console),

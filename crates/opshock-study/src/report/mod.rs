@@ -2,6 +2,7 @@
 
 mod accuracy_files;
 pub mod chart;
+mod claims_files;
 pub mod comparison;
 mod critical_shock;
 mod files;
@@ -16,6 +17,7 @@ pub mod savings;
 pub mod table;
 
 pub use accuracy_files::write_accuracy;
+pub use claims_files::{ClaimTable, tornado, write_claims, write_sensitivity};
 pub use critical_shock::critical_shock_figure;
 pub use files::{ReportError, write_report};
 pub use html::ReportSource;

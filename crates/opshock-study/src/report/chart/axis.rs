@@ -20,6 +20,8 @@ pub struct Axis {
     pub range: Option<(f64, f64)>,
     /// Labelled values.
     pub ticks: Option<Vec<f64>>,
+    /// Words in place of the numbers at given ticks.
+    pub names: Vec<String>,
     /// On an ordinate: a unit is as long as on the abscissa. The range of one of the axes then
     /// grows about its middle. For drawings.
     pub is_to_scale: bool,
@@ -33,6 +35,7 @@ impl Axis {
             scale: Scale::Linear,
             range: None,
             ticks: None,
+            names: Vec::new(),
             is_to_scale: false,
         }
     }
@@ -49,6 +52,15 @@ impl Axis {
     #[must_use]
     pub fn true_to_scale(mut self) -> Self {
         self.is_to_scale = true;
+        self
+    }
+
+    /// The same axis with words at some values, for categories.
+    #[must_use]
+    pub fn named(mut self, names: impl IntoIterator<Item = (f64, String)>) -> Self {
+        let (ticks, names) = names.into_iter().unzip();
+        self.ticks = Some(ticks);
+        self.names = names;
         self
     }
 
@@ -100,7 +112,11 @@ impl ResolvedAxis {
             high,
             ticks: ticks
                 .into_iter()
-                .map(|tick| (tick, tick_label(tick, decimals)))
+                .enumerate()
+                .map(|(place, tick)| {
+                    let name = axis.names.get(place).cloned();
+                    (tick, name.unwrap_or_else(|| tick_label(tick, decimals)))
+                })
                 .collect(),
             minor,
         }

@@ -1,0 +1,164 @@
+//! A claim's number, and what is known of its uncertainty.
+
+use super::catalogue::{CLAIMS, Claim, Source};
+use super::shocks::Shocks;
+use crate::store::summary::Summary;
+use serde::{Deserialize, Serialize};
+
+/// One place a statement about critical shocks is tested at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// `2 ms, +`.
+    pub at: String,
+    /// Its number.
+    pub value: f64,
+    /// Lowest and highest number that the error bars leave possible; `None` without bars.
+    pub bar: Option<[f64; 2]>,
+    /// The statement holds there, by the reported values.
+    pub holds: bool,
+}
+
+impl Part {
+    /// Whether the statement's answer there is the same over the whole bar; `None` without a bar.
+    pub fn is_beyond_the_bar(&self, claim: &Claim) -> Option<bool> {
+        self.bar
+            .map(|bar| bar.iter().all(|&end| claim.admits(end) == self.holds))
+    }
+}
+
+/// The number of a claim in one setting.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// The number; `None` when there is none, as the time of a failure that does not come.
+    pub value: Option<f64>,
+    /// The statement holds.
+    pub holds: bool,
+    /// Places it was tested at, for statements about many.
+    pub parts: Vec<Part>,
+    /// What else a reader wants to see.
+    pub note: String,
+}
+
+/// What every claim finds; `None` for those whose source is missing. In the order of [`CLAIMS`].
+pub fn findings(shocks: &Shocks, critical: Option<&Summary>) -> Vec<Option<Finding>> {
+    CLAIMS
+        .iter()
+        .map(|claim| match claim.source {
+            Source::Shocks(number) => {
+                let (value, note) = number(shocks);
+                let value = value.filter(|value| value.is_finite());
+                Some(Finding {
+                    value,
+                    holds: value.is_some_and(|value| claim.admits(value)),
+                    parts: Vec::new(),
+                    note,
+                })
+            }
+            Source::Critical(parts) => of_parts(claim, parts(critical?)),
+        })
+        .collect()
+}
+
+/// The worst of the parts speaks for all.
+fn of_parts(claim: &Claim, parts: Vec<(String, f64, Option<[f64; 2]>)>) -> Option<Finding> {
+    let parts: Vec<Part> = parts
+        .into_iter()
+        .map(|(at, value, bar)| Part {
+            at,
+            value,
+            bar,
+            holds: claim.admits(value),
+        })
+        .collect();
+    let worst = parts
+        .iter()
+        .min_by(|a, b| claim.margin(a.value).total_cmp(&claim.margin(b.value)))?;
+    Some(Finding {
+        value: Some(worst.value),
+        holds: worst.holds,
+        note: format!(
+            "{} of {} places",
+            parts.iter().filter(|p| p.holds).count(),
+            parts.len()
+        ),
+        parts,
+    })
+}
+
+/// How a number moves when the accuracy is raised.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Largest change, in the claim's unit.
+    pub change: Option<f64>,
+    /// Knob that made it.
+    pub knob: String,
+    /// Knobs with which the answer turns.
+    pub turns: Vec<String>,
+}
+
+/// Compares the number of one claim with those of finer settings, each with its knob's name.
+pub fn spread(base: &Finding, finer: &[(String, Finding)]) -> Spread {
+    let mut spread = Spread::default();
+    for (knob, found) in finer {
+        if found.holds != base.holds {
+            spread.turns.push(knob.clone());
+        }
+        if let (Some(a), Some(b)) = (base.value, found.value) {
+            let change = (b - a).abs();
+            if spread.change.is_none_or(|known| change > known) {
+                spread.change = Some(change);
+                spread.knob.clone_from(knob);
+            }
+        }
+    }
+    spread
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(value: f64, holds: bool) -> Finding {
+        Finding {
+            value: Some(value),
+            holds,
+            ..Finding::default()
+        }
+    }
+
+    #[test]
+    fn the_spread_is_the_largest_change_and_names_every_knob_that_turns_the_answer() {
+        let finer = [
+            ("a".to_owned(), found(1.25, true)),
+            ("b".to_owned(), found(0.5, false)),
+            ("c".to_owned(), found(0.75, false)),
+        ];
+        let spread = spread(&found(1.0, true), &finer);
+        assert_eq!(spread.change, Some(0.5));
+        assert_eq!(spread.knob, "b");
+        assert_eq!(spread.turns, ["b", "c"]);
+    }
+
+    #[test]
+    fn the_worst_part_speaks_for_all_and_a_bar_across_the_bound_decides_nothing() {
+        let claim = CLAIMS
+            .iter()
+            .find(|claim| claim.id == "deformable_above_rigid")
+            .expect("in the catalogue");
+        let parts = vec![
+            ("1 ms, +".to_owned(), 1.04, Some([0.9, 1.2])),
+            ("2 ms, +".to_owned(), 1.5, Some([1.2, 1.8])),
+            ("3 ms, +".to_owned(), 0.97, Some([0.9, 0.99])),
+        ];
+        let found = of_parts(claim, parts).expect("parts");
+        assert_eq!(found.value, Some(0.97));
+        assert!(!found.holds);
+        let beyond: Vec<_> = found
+            .parts
+            .iter()
+            .map(|part| part.is_beyond_the_bar(claim))
+            .collect();
+        assert_eq!(beyond, [Some(false), Some(true), Some(true)]);
+        assert_eq!(of_parts(claim, Vec::new()), None);
+    }
+}

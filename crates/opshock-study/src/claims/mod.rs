@@ -1,0 +1,35 @@
+//! The paper's statements, each with a number of ours that decides it.
+//!
+//! A [`Claim`] is a row: the paper's words, the number, and the bounds between which the statement
+//! holds. The number comes from one of two places:
+//!
+//! | from | statements | its uncertainty |
+//! |---|---|---|
+//! | [`Shocks`]: the paper's two shocks with three ramps | sections 4.1 and 4.2 | the same shocks with every knob of accuracy turned one step finer |
+//! | [`Summary`]: critical shocks | section 4.3 | the error bars of the table |
+//!
+//! Where the paper gives a figure, "about" is met within 10 per cent and a bare figure within 5;
+//! where it says "more", "slightly" or "noticeably", the bound is part of the row and a reader may
+//! dispute it.
+
+mod answer;
+mod catalogue;
+mod critical;
+mod finding;
+mod parameter;
+mod sensitivity;
+mod shock_numbers;
+mod shocks;
+
+pub use answer::{Answer, ClaimRow, rows};
+pub use catalogue::{CLAIMS, Claim, Source};
+pub use finding::{Finding, Part, Spread, findings};
+pub use parameter::{Changed, Parameter, parameters};
+pub use sensitivity::{
+    Found, Rests, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
+    with_sets,
+};
+pub use shocks::{Case, LONG, PaperShock, SHORT, ShockError, Shocks, Task, Three};
+
+#[cfg(doc)]
+use crate::store::summary::Summary;

@@ -1,0 +1,108 @@
+//! `claims`: numbers come from runs and tables, answers from numbers, and always the same.
+
+use super::cli::{Done, files, study};
+use serde_json::Value;
+use std::path::Path;
+
+/// The paper's drive on a coarse film with few disk modes.
+const COARSE: [&str; 6] = [
+    "--set",
+    "solver.film_cells=200",
+    "--set",
+    "solver.disk_cut_khz=8",
+    "--set",
+    "solver.suspension_modes=4",
+];
+/// A table made up so that the answers are known: none rises with signs apart; rigid falls between
+/// its widths with sign + and rises with sign -; deformable is below rigid at 0.5 ms, above at 2 ms.
+const TABLE: &str = "ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags\n\
+    none,0.5,+,400,404,4,4,,9,ok,\nnone,2,+,500,505,5,5,,9,ok,\n\
+    none,0.5,-,600,606,6,6,,9,ok,\nnone,2,-,700,707,7,7,,9,ok,\n\
+    rigid,0.5,+,220,222,2,2,195,9,ok,\nrigid,2,+,200,202,2,2,255,9,ok,\n\
+    rigid,0.5,-,210,212,2,2,195,9,ok,\nrigid,2,-,300,303,3,200,255,9,ok,\n\
+    deformable,0.5,+,190,192,2,2,180,9,ok,\ndeformable,2,+,400,404,4,4,320,9,ok,\n\
+    deformable,0.5,-,191,193,2,2,180,9,ok,\ndeformable,2,-,410,414,4,4,320,9,above_range,\n";
+
+fn claims(folder: &Path, more: &[&str]) -> Done {
+    let path = study("paper-cases");
+    let start = ["claims", path.to_str().unwrap(), "--critical", "table.csv"];
+    Done::of(folder, &[&start[..], &COARSE, more].concat())
+}
+
+fn claim<'a>(table: &'a Value, id: &str) -> &'a Value {
+    let rows = table["claims"].as_array().unwrap();
+    rows.iter().find(|row| row["id"] == id).unwrap()
+}
+
+#[test]
+fn statements_are_judged_by_numbers_of_runs_and_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("table.csv"), TABLE).unwrap();
+    let done = claims(folder.path(), &["--json", "--out", "a"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let table: Value = serde_json::from_str(&done.stdout).unwrap();
+
+    // The free motion has a closed form and the disk's first contact follows from it alone.
+    let touch = &claim(&table, "rigid_touch")["finding"]["value"];
+    let path = study("paper-cases");
+    let shock = ["run", path.to_str().unwrap(), "--json", "--pulse-ms", "2"];
+    let run = |ramp: &str| {
+        let chosen = ["--ramp", ramp, "--sign", "+", "--amplitude-g", "400"];
+        let done = Done::of(folder.path(), &[&shock[..], &chosen, &COARSE].concat());
+        serde_json::from_str::<Value>(&done.stdout).unwrap()
+    };
+    let rigid = run("rigid");
+    let same = |a: &Value, b: &Value, scale: f64| {
+        let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap() * scale);
+        assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} against {b}");
+    };
+    same(touch, &rigid["contact"]["top"]["first_touch_s"], 1e3);
+    let peak = &claim(&table, "rigid_slider")["finding"]["value"];
+    same(peak, &rigid["disk"]["slider_max_m"], 1e6);
+    let survivor = &claim(&table, "free_survives")["finding"]["value"];
+    same(survivor, &run("none")["min_clearance_m"], 1e9);
+
+    // The table is made up, so its answers are known.
+    let answer = |id: &str| claim(&table, id)["answer"].as_str().unwrap().to_owned();
+    assert_eq!(answer("rises_none"), "holds");
+    assert_eq!(answer("rises_rigid"), "depends");
+    assert_eq!(
+        claim(&table, "rises_rigid")["depends_on"][0],
+        "pulse: holds at 0.5 to 2 ms, -; not at 0.5 to 2 ms, +"
+    );
+    assert_eq!(answer("signs_apart_none"), "holds");
+    assert_eq!(answer("signs_close_rigid"), "depends");
+    assert_eq!(answer("deformable_below_rigid"), "holds");
+    // A point without a bracket is no evidence; the other one stands.
+    let above = claim(&table, "deformable_above_rigid");
+    assert_eq!(above["finding"]["parts"].as_array().unwrap().len(), 1);
+    same(&above["finding"]["value"], &serde_json::json!(2.0), 1.0);
+    // 300 + 200 over 212 and 297 over 212: rising beyond the bars; 202 / 218 and 198 / 222: falling.
+    assert_eq!(
+        claim(&table, "rises_rigid")["beyond_the_bars"],
+        serde_json::json!([2, 2])
+    );
+
+    assert_eq!(claims(folder.path(), &["--out", "b", "-j", "1"]).code, 0);
+    let (first, second) = (
+        files(&folder.path().join("a")),
+        files(&folder.path().join("b")),
+    );
+    assert_eq!(first.len(), 3);
+    for (one, other) in first.iter().zip(&second) {
+        assert!(std::fs::read(one).unwrap() == std::fs::read(other).unwrap());
+    }
+}
+
+#[test]
+fn what_cannot_be_judged_is_said_and_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("table.csv"), "ramp\n").unwrap();
+    let done = claims(folder.path(), &["--out", "a"]);
+    assert_eq!(done.code, 2);
+    assert!(done.stderr.contains("table.csv, line 1"), "{}", done.stderr);
+    let done = claims(folder.path(), &["--sensitivity", "kept"]);
+    assert_eq!(done.code, 2);
+    assert!(done.stderr.contains("--out DIR"), "{}", done.stderr);
+    assert!(!folder.path().join("a").exists());
+}
