@@ -1,6 +1,6 @@
 //! `opshock accuracy`: what it measures, and how it refuses.
 
-use opshock_study::accuracy::{Bench, PointLadders, ladders};
+use opshock_study::accuracy::{BRACKET, Bench, PointLadders, ladders};
 use opshock_tests::scenes::scene;
 
 use super::cli::{Done, study};
@@ -24,7 +24,7 @@ fn a_ladder_is_held_against_its_reference() {
         .filter(|setting| setting.ladder == "structure_step_us")
         .map(|setting| {
             let mut bench = Bench::build(&setting.scene, 1.0).expect("builds");
-            let measured = bench.measure(200.0, 220.0);
+            let measured = bench.measure(200.0, 220.0, BRACKET);
             (setting, measured)
         })
         .collect();
@@ -42,6 +42,45 @@ fn a_ladder_is_held_against_its_reference() {
         assert!(critical.expect("bracketed") < 2e-2, "{rung:?}");
     }
     assert!(ladders.rungs.last().is_some_and(|rung| rung.is_reference));
+}
+
+/// Where no contact lies between, errors fall with the formal order: of the flying height with the
+/// cells, of the smallest clearance of a shock without ramp with the head's tolerances.
+#[test]
+fn observed_orders_without_contact_are_the_formal_ones() {
+    let sets = [("solver.film_cells", "800"), ("pulse.window_ms", "0.8")];
+    let scene = scene("fig13", "none", 0.5, &sets);
+    for (ladder, near_g) in [
+        ("film_cells", None),
+        ("head_tolerance", Some(300.0)),
+        ("coupling_tolerance", Some(300.0)),
+    ] {
+        let settings = ladders(&scene).into_iter();
+        let measured: Vec<_> = settings
+            .filter(|setting| setting.ladder == ladder)
+            .map(|setting| {
+                let mut bench = Bench::build(&setting.scene, 1.0).expect("builds");
+                // The probing shock alone: a bracket as wide as can be.
+                let measured = bench.measure(near_g.unwrap_or(10.0), 300.0, 9.0);
+                (setting, measured)
+            })
+            .collect();
+        let ladders = PointLadders::of("none".into(), 300.0, &measured);
+        let order = &ladders.orders[0];
+        println!(
+            "{order:?} {:?}",
+            ladders
+                .rungs
+                .iter()
+                .map(|r| (&r.value, r.errors[1], r.errors[2]))
+                .collect::<Vec<_>>()
+        );
+        let (observed, formal) = (
+            order.observed.expect("an order"),
+            order.formal.expect("known"),
+        );
+        assert!((observed - formal).abs() <= 0.2, "{order:?}");
+    }
 }
 
 #[test]

@@ -1,9 +1,12 @@
 //! Tables, figure and HTML page made from a summary.
 
+use opshock_study::accuracy::{Accuracy, Measured, PointLadders, RungRow};
 use opshock_study::report::html::html;
 use opshock_study::report::{ReportSource, RunDot, critical_shock_figure, table, write_report};
 use opshock_study::search::Sign;
-use opshock_study::store::summary::{AxisValue, Flag, PointSummary, Status, Summary, Totals};
+use opshock_study::store::summary::{
+    AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals,
+};
 
 fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary {
     let known = status == Status::Ok;
@@ -181,6 +184,7 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
         resolved_study: Some("name = \"<b>\"\n"),
         audit: None,
         savings: &[],
+        accuracy: None,
     });
     assert_nested(&page, &["meta", "br"]);
     assert!(page.contains("default-src 'none'"));
@@ -197,6 +201,70 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
     assert!(page.contains("name = &quot;&lt;b&gt;&quot;"));
 }
 
+/// A joint ladder of two settings, the first on the front.
+fn accuracy() -> Accuracy {
+    let rung = |value: &str, error: f64, wall_s: f64, is_on_front: bool| RungRow {
+        ladder: "joint".into(),
+        value: value.into(),
+        fineness: 1.0 / error,
+        is_reference: false,
+        errors: [Some(error); 7],
+        wall_s: Some([wall_s; 3]),
+        is_on_front,
+        measured: Measured::default(),
+    };
+    Accuracy {
+        study: "small".into(),
+        digest: "4567".into(),
+        program: "opshock 1 (abc)".into(),
+        points: vec![PointLadders {
+            label: "rigid 0.5 ms +".into(),
+            probe_g: 180.0,
+            rungs: vec![rung("5%", 0.04, 0.25, true), rung("1%", 0.05, 0.5, false)],
+            orders: Vec::new(),
+        }],
+    }
+}
+
+#[test]
+fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
+    let mut summary = summary();
+    let part = |high_g: f64, factor: f64| ErrorPart {
+        low_g: high_g,
+        high_g,
+        factor,
+    };
+    summary.points[2].err_parts = vec![
+        ("search".to_owned(), part(3.6625, 1.0)),
+        ("disk_modes".to_owned(), part(7.325, 3.0)),
+    ];
+    let accuracy = accuracy();
+    let source = ReportSource {
+        summary: &summary,
+        runs: &[],
+        program: "opshock 1 (abc)",
+        resolved_study: None,
+        audit: None,
+        savings: &[],
+        accuracy: Some(&accuracy),
+    };
+    let page = html(&source);
+    assert_nested(&page, &["meta", "br"]);
+    assert_eq!(page.matches("<h2>Accuracy</h2>").count(), 1);
+    // 1 % and 2 % of 366.25 G, the second with the wide factor.
+    assert!(page.contains("<td class=\"n\">1.00</td>"));
+    assert!(page.contains("<td class=\"n\">2.00 x3</td>"));
+    assert!(page.contains("aria-label=\"Error against time, rigid 0.5 ms +\""));
+    assert!(page.contains("<td><strong>5%</strong></td>"));
+    assert!(page.contains("<td>1%</td>"));
+    assert!(page.contains("<td class=\"n\">0.250</td>"));
+    let without = html(&ReportSource {
+        accuracy: None,
+        ..source
+    });
+    assert!(!without.contains("work-precision") && !without.contains("Error against time"));
+}
+
 #[test]
 fn a_report_is_the_same_bytes_twice() {
     let (summary, runs) = (summary(), runs());
@@ -207,6 +275,7 @@ fn a_report_is_the_same_bytes_twice() {
         resolved_study: None,
         audit: None,
         savings: &[],
+        accuracy: None,
     };
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
@@ -241,6 +310,7 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
             resolved_study: None,
             audit: None,
             savings: &[],
+            accuracy: None,
         };
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);

@@ -5,6 +5,12 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::{Resolutions, Rung, resolutions};
 use opshock_solver::scene::knob::Knob;
 
+/// Relative width to which critical shocks are bracketed, but on the ladder of that width itself.
+pub const BRACKET: f64 = 2.0e-3;
+
+/// Search tolerance around which its ladder stands.
+const SEARCH_TOLERANCE: f64 = 1.0e-2;
+
 /// One rung of a ladder.
 #[derive(Clone, Debug)]
 pub struct Setting {
@@ -16,6 +22,8 @@ pub struct Setting {
     pub fineness: f64,
     /// The ladder's reference.
     pub is_reference: bool,
+    /// Relative width to which the critical shock is bracketed.
+    pub bracket: f64,
     /// Scene with the knob there.
     pub scene: Scene,
 }
@@ -36,6 +44,7 @@ pub fn formal_order(ladder: &str) -> Option<f64> {
 pub fn order_quantity(ladder: &str) -> &'static str {
     match ladder {
         "film_cells" => "flying_height",
+        "search_tolerance_pct" => "critical_shock",
         "disk_cut_khz" | "disk_harmonics" | "structure_step_us" | "ramp_modes" => "contact_impulse",
         _ => "min_clearance",
     }
@@ -122,6 +131,27 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
             is_reference,
             at,
         ));
+    }
+    // No order: below twice the floor the film is another one.
+    for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 2.0, 4.0], 10.0) {
+        let mut at = small.clone();
+        at.film_resolution.floor_m /= factor;
+        let value = format!("{:.4}", 1e9 * at.film_resolution.floor_m);
+        all.push(setting("film_floor_nm", value, factor, is_reference, at));
+    }
+    // No order either: half the bracket is a bound, where in it the answer lies is chance.
+    for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 2.0, 4.0], 40.0) {
+        let bracket = SEARCH_TOLERANCE / factor;
+        all.push(Setting {
+            bracket,
+            ..setting(
+                "search_tolerance_pct",
+                (100.0 * bracket).to_string(),
+                factor,
+                is_reference,
+                small.clone(),
+            )
+        });
     }
     for (factor, is_reference) in rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0) {
         let mut at = scene.clone();
@@ -210,6 +240,7 @@ fn setting(
         value,
         fineness,
         is_reference,
+        bracket: BRACKET,
         scene,
     }
 }

@@ -40,8 +40,6 @@ pub struct Measured {
     pub build_s: f64,
 }
 
-/// Relative width to which critical shocks are bracketed.
-const WIDTH: f64 = 2.0e-3;
 /// First step of the gallop for the bracket, as a ratio.
 const STEP: f64 = 1.01;
 /// A setting whose answer lies farther away than this ratio has none.
@@ -89,8 +87,8 @@ impl Bench {
         began.elapsed().as_secs_f64()
     }
 
-    /// Probing shock and critical shock, looked for from `near_g`.
-    pub fn measure(&mut self, probe_g: f64, near_g: f64) -> Measured {
+    /// Probing shock and critical shock, looked for from `near_g` to a relative width `bracket`.
+    pub fn measure(&mut self, probe_g: f64, near_g: f64, bracket: f64) -> Measured {
         let outcome = self.probe(probe_g);
         let touch = [outcome.top.first_touch_s, outcome.bottom.first_touch_s];
         let mut measured = Measured {
@@ -109,7 +107,7 @@ impl Bench {
             build_s: self.build_s,
             ..Measured::default()
         };
-        match self.critical(near_g) {
+        match self.critical(near_g, bracket) {
             Ok((low, high, runs)) => {
                 measured.critical_g = Some(0.5 * (low + high));
                 measured.bracket_g = high - low;
@@ -121,7 +119,7 @@ impl Bench {
     }
 
     /// Survivor and failure near `from_g`, and the shocks it took.
-    fn critical(&mut self, from_g: f64) -> Result<(f64, f64, u64), String> {
+    fn critical(&mut self, from_g: f64, bracket: f64) -> Result<(f64, f64, u64), String> {
         let (mut low, mut high): (Option<f64>, Option<f64>) = (None, None);
         let (mut at, mut stride) = (from_g, STEP);
         let mut runs = 0;
@@ -140,7 +138,7 @@ impl Bench {
                 }
             }
             match (low, high) {
-                (Some(low), Some(high)) if high / low - 1.0 <= WIDTH => {
+                (Some(low), Some(high)) if high / low - 1.0 <= bracket => {
                     return Ok((low, high, runs));
                 }
                 (Some(low), Some(high)) => at = (low * high).sqrt(),

@@ -11,6 +11,6 @@ mod ladder;
 mod measure;
 mod outcome;
 
-pub use ladder::{Setting, formal_order, ladders, order_quantity};
+pub use ladder::{BRACKET, Setting, formal_order, ladders, order_quantity};
 pub use measure::{Bench, Measured};
 pub use outcome::{Accuracy, LadderOrder, PointLadders, QUANTITIES, RungRow};

@@ -1,6 +1,6 @@
 //! From what was measured to errors, orders and the front.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::ladder::{Setting, formal_order, order_quantity};
 use super::measure::Measured;
@@ -17,7 +17,7 @@ pub const QUANTITIES: [&str; 7] = [
 ];
 
 /// A rung with its errors and cost.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RungRow {
     /// Ladder.
     pub ladder: String,
@@ -38,7 +38,7 @@ pub struct RungRow {
 }
 
 /// Observed order of a ladder.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LadderOrder {
     /// Ladder.
     pub ladder: String,
@@ -51,7 +51,7 @@ pub struct LadderOrder {
 }
 
 /// Ladders of one point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointLadders {
     /// `deformable 2 ms -`.
     pub label: String,
@@ -64,7 +64,7 @@ pub struct PointLadders {
 }
 
 /// Everything a report of it shows.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Name of the study.
     pub study: String,

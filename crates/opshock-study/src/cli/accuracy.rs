@@ -5,7 +5,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::study_file;
-use crate::accuracy::{Accuracy, Bench, Measured, PointLadders, Setting, ladders};
+use crate::accuracy::{Accuracy, BRACKET, Bench, Measured, PointLadders, Setting, ladders};
 use crate::identity;
 use crate::provenance::{self, PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::report::write_accuracy;
@@ -179,6 +179,7 @@ fn ladders_of(
         hasher.update(provenance::program().as_bytes());
         hasher.update(&head);
         hasher.update(&sign.to_le_bytes());
+        hasher.update(&setting.bracket.to_le_bytes());
         hasher.finalize().to_hex().to_string()
     };
     // The study's own setting says where the probing shock stands.
@@ -187,6 +188,7 @@ fn ladders_of(
         value: String::new(),
         fineness: 1.0,
         is_reference: false,
+        bracket: BRACKET,
         scene: point.scene.clone(),
     };
     let base = match memory.known.get(&key(&own)) {
@@ -195,7 +197,7 @@ fn ladders_of(
             let mut bench = build(study, &own, sign)?;
             let middle_g = (study.search.amplitude_min_g * study.search.amplitude_max_g).sqrt();
             let near_g = bench.onset_g().unwrap_or(middle_g);
-            let found = bench.measure(near_g, near_g);
+            let found = bench.measure(near_g, near_g, own.bracket);
             memory.keep(key(&own), found.clone())?;
             found
         }
@@ -225,7 +227,7 @@ fn ladders_of(
         ));
         let measured = match Bench::build(&setting.scene, sign) {
             Ok(mut bench) => {
-                let mut measured = bench.measure(probe_g, near_g);
+                let mut measured = bench.measure(probe_g, near_g, setting.bracket);
                 measured.wall_s.push(bench.time(probe_g));
                 measured
             }

@@ -3,15 +3,16 @@
 use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
-use super::failure::Failure;
+use super::failure::{Failure, Fault};
 use super::stored::{self, Stored};
+use crate::accuracy::Accuracy;
 use crate::provenance;
 use crate::report::{ReportSource, Saving, savings, table, write_report};
 use crate::store::{Audit, Status, Summary};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Show the critical shocks of a store; write table, figure and HTML page
 #[derive(Args, Debug)]
@@ -25,6 +26,9 @@ pub struct ReportArgs {
     /// Folder for table.md, table.csv, fig13.svg, fig13.png, report.html and results.h5
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// accuracy.json of `opshock accuracy`, shown in report.html
+    #[arg(long, value_name = "FILE", requires = "out")]
+    accuracy: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -65,6 +69,7 @@ pub fn run(
     let folder = stored::folder(&arguments.source, global)?;
     let stored = stored::read(&folder, console)?;
     let program = provenance::program();
+    let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
     let source = ReportSource {
         summary: &stored.summary,
         runs: &stored.runs,
@@ -72,6 +77,7 @@ pub fn run(
         resolved_study: stored.resolved_study.as_deref(),
         audit: stored.audit.as_ref(),
         savings: &stored.savings,
+        accuracy: accuracy.as_ref(),
     };
     if let Some(out) = &arguments.out {
         let mut written = write_report(out, &source).context("cannot write the report")?;
@@ -101,6 +107,19 @@ pub fn run(
         Some(TableFormat::Json) => console.result_json(&Told::of(&stored))?,
     }
     Ok(exit_of(&stored.summary))
+}
+
+/// What `opshock accuracy` wrote.
+fn measured(path: &Path) -> Result<Accuracy, Failure> {
+    let told = |what: String| {
+        Failure::Usage(vec![Fault::new(
+            "accuracy",
+            format!("{}: {what}", path.display()),
+        )])
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| told(error.to_string()))?;
+    serde_json::from_str(&text)
+        .map_err(|error| told(format!("not an accuracy.json of this program: {error}")))
 }
 
 /// Complete, or complete but for open points.

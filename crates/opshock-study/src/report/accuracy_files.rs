@@ -118,6 +118,7 @@ fn csv(accuracy: &Accuracy) -> String {
     header.extend(
         [
             "critical_g",
+            "critical_runs",
             "wall_q1_s",
             "wall_median_s",
             "wall_q3_s",
@@ -144,6 +145,7 @@ fn csv(accuracy: &Accuracy) -> String {
             let wall = rung.wall_s.map(|w| w.map(Some)).unwrap_or([None; 3]);
             let measured = &rung.measured;
             row.push(number(measured.critical_g));
+            row.push(measured.critical_runs.to_string());
             row.extend(wall.map(number));
             row.extend([
                 number(Some(measured.build_s)),
@@ -164,9 +166,9 @@ pub fn markdown(accuracy: &Accuracy) -> String {
     for point in &accuracy.points {
         let _ = write!(
             text,
-            "\n## {}, probing shock {:.1} G\n\n| knob | value | critical shock (G) | its error (%) | clearance (%) | \
+            "\n## {}, probing shock {:.1} G\n\n| knob | value | critical shock (G) | shocks for it | its error (%) | clearance (%) | \
              flying height (%) | impulse (%) | rim (%) | slider (%) | first touch (%) | time of a shock (s) | film work |\n\
-             | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+             | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
             point.label, point.probe_g
         );
         for rung in &point.rungs {
@@ -194,8 +196,8 @@ pub fn markdown(accuracy: &Accuracy) -> String {
             };
             let _ = writeln!(
                 text,
-                "| {} | {name} | {critical} |{errors} {wall} | {:.2e} |",
-                rung.ladder, measured.work as f64
+                "| {} | {name} | {critical} | {} |{errors} {wall} | {:.2e} |",
+                rung.ladder, measured.critical_runs, measured.work as f64
             );
         }
         text.push_str(

@@ -151,7 +151,7 @@ pub(super) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
 }
 
 /// Runs and work of the error bars beside those of the search; `None` without any.
-fn bars_cost(summary: &Summary) -> Option<String> {
+pub(super) fn bars_cost(summary: &Summary) -> Option<String> {
     let totals = &summary.totals;
     let search = totals.film_work - totals.bar_film_work;
     (totals.bar_runs > 0 && search > 0).then(|| {
@@ -164,8 +164,14 @@ fn bars_cost(summary: &Summary) -> Option<String> {
     })
 }
 
-/// The parts of every error bar as per cent of `A_crit`; `x3` marks the wide factor.
-fn parts_table(summary: &Summary) -> String {
+/// What a reader of the parts must know.
+pub(super) const PARTS_NOTE: &str = "Parts add up; each but the search bracket goes both ways. \
+    `x3`: the knob showed no formal order and its part carries the wide factor. `structure`, `head`: \
+    all knobs of disk and ramp, of the head, turned together.";
+
+/// The parts of every error bar as per cent of `A_crit`, header and rows; `x3` marks the wide
+/// factor. `None` where the bars have no other part than the bracket.
+pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
     let names: Vec<&str> = ERROR_PARTS
         .into_iter()
         .filter(|name| {
@@ -174,56 +180,59 @@ fn parts_table(summary: &Summary) -> String {
         })
         .collect();
     if names.len() < 2 {
-        return String::new();
+        return None;
     }
-    let mut text = String::from("\n## What the error bars are made of\n\n");
-    let axes: String = summary
-        .axes
-        .iter()
-        .map(|axis| format!(" {axis} |"))
-        .collect();
-    let heads: String = names.iter().map(|name| format!(" {name} (%) |")).collect();
-    text.push_str(&format!(
-        "| ramp | pulse (ms) | sign |{axes} half bar (%) |{heads}\n"
-    ));
-    text.push_str("| --- | ---: | --- |");
-    text.push_str(&" --- |".repeat(summary.axes.len()));
-    text.push_str(&" ---: |".repeat(1 + names.len()));
-    text.push('\n');
+    let mut header: Vec<String> = ["ramp", "pulse (ms)", "sign"].map(String::from).to_vec();
+    header.extend(summary.axes.iter().cloned());
+    header.push("half bar (%)".into());
+    header.extend(names.iter().map(|name| format!("{name} (%)")));
+    let mut rows = Vec::new();
     for point in &summary.points {
         let Some(a_crit_g) = point.a_crit_g else {
             continue;
         };
         let per_cent = |value_g: f64| format!("{:.2}", 100.0 * value_g / a_crit_g);
-        let axes: String = point
-            .axes
-            .iter()
-            .map(|value| format!(" {value} |"))
-            .collect();
-        let half = match (point.err_low_g, point.err_high_g) {
+        let mut row = vec![
+            point.ramp.clone(),
+            point.pulse_ms.to_string(),
+            point.sign.as_str().to_owned(),
+        ];
+        row.extend(point.axes.iter().map(ToString::to_string));
+        row.push(match (point.err_low_g, point.err_high_g) {
             (Some(low), Some(high)) => per_cent(0.5 * (low + high)),
             _ => String::new(),
-        };
-        text.push_str(&format!(
-            "| {} | {} | {} |{axes} {half} |",
-            point.ramp,
-            point.pulse_ms,
-            point.sign.as_str()
-        ));
-        for name in &names {
+        });
+        row.extend(names.iter().map(|name| {
             let part = point.err_parts.iter().find(|(known, _)| known == name);
-            let cell = part.map_or(String::new(), |(_, part)| {
+            part.map_or(String::new(), |(_, part)| {
                 let wide = if part.factor > 2.0 { " x3" } else { "" };
                 format!("{}{wide}", per_cent(part.high_g))
-            });
-            text.push_str(&format!(" {cell} |"));
-        }
-        text.push('\n');
+            })
+        }));
+        rows.push(row);
     }
-    text.push_str(
-        "\nParts add up; each but the search bracket goes both ways. `x3`: the knob showed no \
-         formal order and its part carries the wide factor.",
+    Some((header, rows))
+}
+
+fn parts_table(summary: &Summary) -> String {
+    let Some((header, rows)) = parts(summary) else {
+        return String::new();
+    };
+    let words = 3 + summary.axes.len();
+    let rules: String = (0..header.len())
+        .map(|column| match column == 1 || column >= words {
+            true => " ---: |",
+            false => " --- |",
+        })
+        .collect();
+    let mut text = format!(
+        "\n## What the error bars are made of\n\n| {} |\n|{rules}\n",
+        header.join(" | ")
     );
+    for row in rows {
+        text.push_str(&format!("| {} |\n", row.join(" | ")));
+    }
+    text.push_str(&format!("\n{PARTS_NOTE}"));
     if let Some(cost) = bars_cost(summary) {
         text.push_str(&format!(" Cost: {cost}."));
     }

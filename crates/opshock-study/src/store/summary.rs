@@ -32,12 +32,16 @@ impl std::fmt::Display for AxisValue {
 }
 
 /// Names of the parts of error bars, in the order in which they are listed.
-pub const ERROR_PARTS: [&str; 7] = [
+///
+/// `structure` and `head` stand for all knobs of disk and ramp, and of the head, turned together.
+pub const ERROR_PARTS: [&str; 9] = [
     "search",
     "film_grid",
+    "structure",
     "disk_modes",
-    "suspension_modes",
     "structure_step",
+    "head",
+    "suspension_modes",
     "head_tolerance",
     "coupling_tolerance",
 ];

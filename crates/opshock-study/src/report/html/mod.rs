@@ -1,10 +1,13 @@
 //! The report as one HTML file that needs nothing else: no network, no other file. It keeps its
 //! own content security policy (`default-src 'none'`, inline style and script).
 
+mod accuracy;
+
 use super::critical_shock::critical_shock_figure;
 use super::outcome_map::{RunDot, outcome_map};
 use super::savings::{self, Saving};
 use super::table;
+use crate::accuracy::Accuracy;
 use crate::store::Audit;
 use crate::store::summary::{Flag, PointSummary, Status, Summary};
 use std::fmt::Write as _;
@@ -24,6 +27,8 @@ pub struct ReportSource<'a> {
     pub audit: Option<&'a Audit>,
     /// What the rules saved.
     pub savings: &'a [Saving],
+    /// What accuracy was measured to cost, if it was.
+    pub accuracy: Option<&'a Accuracy>,
 }
 
 impl ReportSource<'_> {
@@ -96,6 +101,9 @@ pub fn html(source: &ReportSource<'_>) -> String {
                 )
             ),
         );
+    }
+    if let Some(body) = accuracy::section(summary, source.accuracy) {
+        section("Accuracy", &body);
     }
     section("Provenance", &provenance(source));
     let _ = write!(

@@ -12,7 +12,8 @@ use crate::search::evidence::NodeVerdict;
 
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.
 const EVENT_S: f64 = 1.0e-4;
-/// Largest distance of the two amplitudes behind a slope, as a share.
+/// Largest distance of the two amplitudes behind a slope, as a share; a difference of clearance
+/// worth more is not read by it.
 const REACH: f64 = 0.12;
 
 /// What differences are read against.
@@ -100,14 +101,19 @@ impl Reference {
         let slope_m = self.slope_m[0].min(self.slope_m[1]);
         let near = (half_m - self.at.h_min_m) / slope_m;
         let far = (self.proxy_m[1] - half_m) / slope_m;
-        Ok(Some(judge::two_steps(Knob::FilmGrid, near, far)))
+        Ok(within_reach([near, far]).then(|| judge::two_steps(Knob::FilmGrid, near, far)))
     }
 
-    /// Error of another knob from one step away on the proxy, from two where that is not little:
-    /// at the survivor, or at the amplitude below it where turned scenes fail at the survivor.
-    pub(super) fn knob(&self, walk: &mut Walk<'_>, knob: Knob) -> Result<Option<Estimate>, Ask> {
-        let once = walk.proxy().turned(knob, judge::step(knob));
-        let twice = once.turned(knob, judge::step(knob));
+    /// Error of other knobs turned together by one step on the proxy, of one knob by two where that
+    /// is not little: at the survivor, or at the amplitude below it where turned scenes fail at the
+    /// survivor.
+    pub(super) fn knobs(
+        &self,
+        walk: &mut Walk<'_>,
+        knobs: &[Knob],
+    ) -> Result<Option<Estimate>, Ask> {
+        let once = judge::coarser(walk.proxy(), knobs);
+        let accuracy = walk.input.accuracy;
         for (index, proxy_m) in [
             (self.at.index, self.proxy_m[1]),
             (self.below, self.proxy_m[0]),
@@ -116,16 +122,30 @@ impl Reference {
                 continue;
             };
             let first = (first_m - proxy_m) / self.slope_m[1];
-            let estimate = judge::one_step(knob, first);
-            if estimate.share * estimate.factor <= judge::NEGLIGIBLE * walk.input.accuracy {
+            if !within_reach([first]) {
+                continue;
+            }
+            let estimate = judge::one_step(knobs, first);
+            let &[knob] = knobs else {
+                return Ok(Some(estimate));
+            };
+            if estimate.is_negligible(accuracy) || estimate.is_excessive(accuracy) {
                 return Ok(Some(estimate));
             }
-            let seen = walk.see(twice, index)?;
-            if let Some(second_m) = clearance(seen, self.at.t_min_s) {
-                let second = (second_m - first_m) / self.slope_m[1];
-                return Ok(Some(judge::two_steps(knob, first, second)));
-            }
+            let seen = walk.see(judge::coarser(once, knobs), index)?;
+            let second = clearance(seen, self.at.t_min_s)
+                .map(|second_m| (second_m - first_m) / self.slope_m[1])
+                .filter(|&second| within_reach([second]));
+            return Ok(Some(match second {
+                Some(second) => judge::two_steps(knob, first, second),
+                None => estimate,
+            }));
         }
         Ok(None)
     }
+}
+
+/// The clearances differ by no more than the amplitudes between which their slope was measured.
+fn within_reach<const N: usize>(shifts: [f64; N]) -> bool {
+    shifts.iter().all(|shift| shift.abs() <= REACH)
 }

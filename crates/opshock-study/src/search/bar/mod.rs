@@ -1,18 +1,21 @@
 //! Error bar of a critical shock: what search and resolution add, part by part.
 //!
-//! Each part asks what the answer would be if one knob were turned ([`Knob`]): coarser where finer
-//! is dear (film, disk modes, structure step), else finer. All knobs but the film's grid are turned
-//! on a film of a quarter or an eighth of the cells, where a run costs a tenth, because what such
-//! a knob changes hardly depends on the film.
+//! Each part asks what the answer would be if one knob were turned a step coarser ([`Knob`]), so
+//! that its runs cost less than those of the search. All knobs but the film's grid are turned on a
+//! film of a quarter or an eighth of the cells, because what such a knob changes hardly depends on
+//! the film; and first together, in two groups ([`GROUPS`]): of disk and ramp, and of the head. Only
+//! where a group moves the answer by what counts is each of its knobs turned alone.
 //! Two readings turn runs into amplitude:
 //!
 //! * *margin* (`margin`): where the smallest clearance falls steadily to zero at the instant at
-//!   which the lowest failure touches, δA = δh / |dh/dA|, a run per knob;
+//!   which the lowest failure touches, δA = δh / |dh/dA|, a run per group;
 //! * *verdicts* (`verdicts`): where survival ends abruptly (a dimple opens, the slider is thrown),
-//!   the critical amplitude of each turned scene itself, bracketed to a sixteenth of the tolerance.
+//!   the critical amplitude of each turned scene itself, bracketed to a sixteenth of the tolerance
+//!   or to a 32nd of what is in the bar already.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
-//! 1994, J. Fluids Eng. 116, 405). Parts add up; nothing is taken from their having signs.
+//! 1994, J. Fluids Eng. 116, 405). Parts add up; nothing is taken from their having signs. A part
+//! says that the answer may be wrong by a ratio 1 + e either way.
 //!
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.
@@ -34,6 +37,23 @@ use super::outcome::Flag;
 
 /// Nodes of the bar's lattice per step of the search.
 pub const SUBNODES: i32 = 16;
+
+/// Knobs that are first turned together, with the name of their common part. The one that most
+/// often counts comes first: the others alone tell what is left to it.
+const GROUPS: [(&str, &[Knob]); 2] = [
+    ("structure", &[Knob::DiskModes, Knob::StructureStep]),
+    (
+        "head",
+        &[
+            Knob::SuspensionModes,
+            Knob::HeadTolerance,
+            Knob::CouplingTolerance,
+        ],
+    ),
+];
+
+/// Part of what a bar holds already to which brackets of further parts are narrowed.
+const GRAIN: f64 = 1.0 / 32.0;
 
 /// A survivor that the search has met.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +110,7 @@ pub struct Seen {
 /// One part of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// `search` or the knob's word.
+    /// `search`, the knob's word or that of a group.
     pub name: &'static str,
     /// Below the reported value, as a share of it.
     pub low: f64,
@@ -110,6 +130,25 @@ pub struct Bar {
 }
 
 impl Bar {
+    /// Adds a part; one that is not known is said to be missing.
+    fn add(&mut self, name: &'static str, estimate: Option<Estimate>, accuracy: f64) {
+        let Some(estimate) = estimate else {
+            self.flags.insert(Flag::BarPartial);
+            return;
+        };
+        let error = estimate.error();
+        self.parts.push(Part {
+            name,
+            // The ratio 1 + e downwards.
+            low: error / (1.0 + error),
+            high: error,
+            factor: estimate.factor,
+        });
+        if estimate.factor == judge::WIDE && !estimate.is_negligible(accuracy) {
+            self.flags.insert(Flag::BarWide);
+        }
+    }
+
     /// Half the bar's length over the reported value: what is compared with the accuracy asked.
     pub fn half_length(&self) -> f64 {
         0.5 * self
@@ -165,6 +204,11 @@ impl Walk<'_> {
         Levels::NONE.turned(Knob::FilmGrid, -self.input.film_halvings.min(2))
     }
 
+    /// Whole nodes in a share.
+    fn nodes(&self, share: f64) -> i32 {
+        self.input.lattice.nodes_within(share)
+    }
+
     /// Ratio of amplitudes `nodes` apart, minus one.
     fn share(&self, nodes: i32) -> f64 {
         (f64::from(nodes) / f64::from(self.input.lattice.nodes_per_octave)).exp2() - 1.0
@@ -184,38 +228,77 @@ fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {
         true => None,
         false => margin::Reference::find(walk)?,
     };
-    for &knob in &input.knobs {
+    let mut coarsest = None;
+    if input.knobs.contains(&Knob::FilmGrid) {
         let by_margin = match &margin {
-            Some(reference) if knob == Knob::FilmGrid => reference.film(walk)?,
-            Some(reference) => reference.knob(walk, knob)?,
+            Some(reference) => reference.film(walk)?,
             None => None,
         };
-        let estimate = match by_margin {
-            Some(estimate) => Some(estimate),
-            None if knob == Knob::FilmGrid => verdicts::film(walk)?,
-            None => verdicts::knob(walk, knob)?,
+        let (film, found) = match by_margin {
+            Some(estimate) => (Some(estimate), None),
+            None => verdicts::film(walk)?,
         };
-        match estimate {
-            Some(Estimate { share, factor }) => {
-                let error = share * factor;
-                bar.parts.push(Part {
-                    name: knob.as_str(),
-                    // No amplitude is negative.
-                    low: error.min(1.0),
-                    high: error,
-                    factor,
-                });
-                if factor == judge::WIDE && error > judge::NEGLIGIBLE * input.accuracy {
-                    bar.flags.insert(Flag::BarWide);
-                }
-            }
-            None => {
-                bar.flags.insert(Flag::BarPartial);
-            }
-        }
+        coarsest = found;
+        bar.add(Knob::FilmGrid.as_str(), film, input.accuracy);
+    }
+    for (name, of_group) in GROUPS {
+        let is_turned = |knob: &Knob| input.knobs.contains(knob);
+        let knobs: Vec<Knob> = of_group.iter().copied().filter(is_turned).collect();
+        group(walk, (&margin, coarsest), (name, &knobs), &mut bar)?;
     }
     if !input.knobs.is_empty() && bar.half_length() > input.accuracy {
         bar.flags.insert(Flag::BarExceeds);
     }
     Ok(bar)
+}
+
+/// Adds the part of knobs turned together, or, where that counts, those of each of them.
+fn group(
+    walk: &mut Walk<'_>,
+    (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
+    (name, knobs): (&'static str, &[Knob]),
+    bar: &mut Bar,
+) -> Result<(), Ask> {
+    let accuracy = walk.input.accuracy;
+    let grain = walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1);
+    let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
+        let by_margin = match margin {
+            Some(reference) => reference.knobs(walk, knobs)?,
+            None => None,
+        };
+        match by_margin {
+            Some(estimate) => Ok(Some(estimate)),
+            None => verdicts::knobs(walk, knobs, grain, coarsest),
+        }
+    };
+    let (Some((&first, others)), several) = (knobs.split_first(), knobs.len() > 1) else {
+        return Ok(());
+    };
+    let joint = match several {
+        true => turned(walk, knobs)?,
+        false => None,
+    };
+    // Beside what is in the bar already it need not be told which of them it is.
+    let little = judge::NEGLIGIBLE * accuracy.max(bar.half_length());
+    if let Some(estimate) = joint.filter(|estimate| estimate.error() <= little) {
+        bar.add(name, Some(estimate), accuracy);
+        return Ok(());
+    }
+    let mut alone = Vec::new();
+    for &knob in others {
+        alone.push((knob, turned(walk, &[knob])?));
+    }
+    let is_little = |(_, estimate): &(Knob, Option<Estimate>)| {
+        estimate.is_some_and(|estimate| estimate.error() <= little)
+    };
+    let left = joint.filter(|joint| joint.is_excessive(accuracy) && alone.iter().all(is_little));
+    let estimate = match left {
+        Some(joint) => Some(joint),
+        None => turned(walk, &[first])?,
+    };
+    bar.add(first.as_str(), estimate, accuracy);
+    for (knob, estimate) in alone {
+        bar.add(knob.as_str(), estimate, accuracy);
+    }
+    Ok(())
 }

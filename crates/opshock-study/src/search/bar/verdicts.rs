@@ -7,7 +7,9 @@ use super::{Ask, Walk};
 use crate::search::evidence::NodeVerdict;
 
 /// Farthest that a turned scene's answer is looked for, as a share.
-const FARTHEST: f64 = 0.5;
+const FARTHEST: f64 = 1.0;
+/// Growth of the stride while it is looked for: most of what is passed survives, which is dear.
+const GROWTH: i32 = 4;
 
 /// Survivor and failure of a turned scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,14 +18,20 @@ struct Bracket {
     high: i32,
 }
 
-/// How narrow a bracket is made.
+/// How narrow a bracket is made: a large shift is known well enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Width {
-    /// One node.
-    OneNode,
-    /// A quarter of its distance from where the search began: a large shift is known well enough.
-    QuarterOfDistance,
+struct Width {
+    /// Nodes.
+    nodes: i32,
+    /// Or this part of its distance from where the search began; 0: no.
+    distance_over: i32,
 }
+
+/// Of the coarse films when they are held against the scene itself.
+const OF_FILM: Width = Width {
+    nodes: 2,
+    distance_over: 8,
+};
 
 /// Brackets the turned scene's answer beginning at `from`. `None` without verdicts or too far away.
 fn locate(
@@ -48,10 +56,8 @@ fn locate(
         match (low, high) {
             (Some(low), Some(high)) => {
                 let distance = (low - from.low).abs().max((high - from.high).abs());
-                let enough = match width {
-                    Width::OneNode => 1,
-                    Width::QuarterOfDistance => (distance / 4).max(1),
-                };
+                let part = distance.checked_div(width.distance_over).unwrap_or(0);
+                let enough = part.max(width.nodes);
                 if high - low <= enough {
                     return Ok(Some(Bracket { low, high }));
                 }
@@ -60,35 +66,61 @@ fn locate(
             (Some(low), None) if low < from.high => next = from.high,
             (Some(low), None) => {
                 next = low + stride;
-                stride *= 2;
+                stride *= GROWTH;
             }
             (None, _) => {
                 next -= stride;
-                stride *= 2;
+                stride *= GROWTH;
             }
         }
     }
 }
 
-/// A coarser film with its bracket, one node wide.
+/// Halves a bracket down to `nodes`. `None` without verdicts.
+fn narrowed(
+    walk: &mut Walk<'_>,
+    levels: Levels,
+    mut bracket: Bracket,
+    nodes: i32,
+) -> Result<Option<Bracket>, Ask> {
+    while bracket.high - bracket.low > nodes {
+        let middle = bracket.low + (bracket.high - bracket.low) / 2;
+        match walk.see(levels, middle)?.verdict {
+            NodeVerdict::Undecided => return Ok(None),
+            NodeVerdict::Survives => bracket.low = middle,
+            NodeVerdict::Fails => bracket.high = middle,
+        }
+    }
+    Ok(Some(bracket))
+}
+
+/// A coarser film with its bracket.
 #[derive(Clone, Copy, Debug)]
-struct OnFilm {
+pub(super) struct OnFilm {
     halvings: i8,
     bracket: Bracket,
 }
 
-/// The coarsest film, of at most `halvings`, on which the answer is found.
-fn on_film(walk: &mut Walk<'_>, halvings: i8) -> Result<Option<OnFilm>, Ask> {
-    let own = Bracket {
+fn halved(halvings: i8) -> Levels {
+    Levels::NONE.turned(Knob::FilmGrid, -halvings)
+}
+
+/// The bracket of the scene itself, as wide as the tolerance.
+fn own(walk: &Walk<'_>) -> Bracket {
+    Bracket {
         low: walk.input.survivor,
         high: walk.input.failure,
-    };
+    }
+}
+
+/// The coarsest film, of at most `halvings`, on which the answer is found.
+fn on_film(walk: &mut Walk<'_>, halvings: i8, width: Width) -> Result<Option<OnFilm>, Ask> {
+    let own = own(walk);
     // Without a film the scene itself is as cheap as it gets.
     let has_film = walk.input.knobs.contains(&Knob::FilmGrid);
     let fewest = i8::from(has_film);
     for halvings in (fewest..=halvings.min(walk.input.film_halvings)).rev() {
-        let film = Levels::NONE.turned(Knob::FilmGrid, -halvings);
-        if let Some(bracket) = locate(walk, film, own, Width::OneNode)? {
+        if let Some(bracket) = locate(walk, halved(halvings), own, width)? {
             return Ok(Some(OnFilm { halvings, bracket }));
         }
     }
@@ -101,31 +133,51 @@ fn shift(walk: &Walk<'_>, from: Bracket, to: Bracket) -> f64 {
     walk.share(if low.abs() > high.abs() { low } else { high })
 }
 
-/// Error of a knob but the film's grid from one or two steps away on the coarsest film.
-pub(super) fn knob(walk: &mut Walk<'_>, knob: Knob) -> Result<Option<Estimate>, Ask> {
-    let Some(film) = on_film(walk, 3)? else {
+/// Error of knobs but the film's grid turned together by one step on the coarsest film, of one knob
+/// by two where that is neither little nor too much. `known`: the film found by [`film`].
+pub(super) fn knobs(
+    walk: &mut Walk<'_>,
+    knobs: &[Knob],
+    grain: i32,
+    known: Option<OnFilm>,
+) -> Result<Option<Estimate>, Ask> {
+    let plain = Width {
+        nodes: grain,
+        distance_over: 0,
+    };
+    let quarter = Width {
+        nodes: grain,
+        distance_over: 4,
+    };
+    let found = match known {
+        Some(film) => Some(film),
+        None => on_film(walk, 3, plain)?,
+    };
+    let Some(found) = found else {
         return Ok(None);
     };
-    let base = film.bracket;
-    let film = Levels::NONE.turned(Knob::FilmGrid, -film.halvings);
-    let once = film.turned(knob, judge::step(knob));
-    let Some(one) = locate(walk, once, base, Width::QuarterOfDistance)? else {
+    let film = halved(found.halvings);
+    let Some(base) = narrowed(walk, film, found.bracket, grain)? else {
+        return Ok(None);
+    };
+    let once = judge::coarser(film, knobs);
+    let Some(one) = locate(walk, once, base, quarter)? else {
         return Ok(None);
     };
     if one == base {
-        return Ok(Some(judge::agreement(&walk.input.lattice, knob)));
+        let nodes = base.high - base.low;
+        return Ok(Some(judge::agreement(&walk.input.lattice, nodes, knobs)));
     }
     let first = shift(walk, base, one);
-    let estimate = judge::one_step(knob, first);
-    // Too little to matter, or so much that the bar exceeds what was asked by this part alone.
+    let estimate = judge::one_step(knobs, first);
     let accuracy = walk.input.accuracy;
-    if estimate.share * estimate.factor <= judge::NEGLIGIBLE * accuracy
-        || estimate.share * judge::NARROW > 2.0 * accuracy
-    {
+    let &[knob] = knobs else {
+        return Ok(Some(estimate));
+    };
+    if estimate.is_negligible(accuracy) || estimate.is_excessive(accuracy) {
         return Ok(Some(estimate));
     }
-    let twice = once.turned(knob, judge::step(knob));
-    let Some(two) = locate(walk, twice, one, Width::QuarterOfDistance)? else {
+    let Some(two) = locate(walk, judge::coarser(once, knobs), one, quarter)? else {
         return Ok(Some(estimate));
     };
     let second = shift(walk, one, two);
@@ -136,16 +188,14 @@ pub(super) fn knob(walk: &mut Walk<'_>, knob: Knob) -> Result<Option<Estimate>, 
 ///
 /// With errors e, ρ²e and ρ³e on all, a quarter and an eighth of the cells, the two answers differ
 /// by ρ²(ρ - 1) e, and that on all cells follows: it must lie in the bracket that was found there.
-pub(super) fn film(walk: &mut Walk<'_>) -> Result<Option<Estimate>, Ask> {
-    let Some(near) = on_film(walk, 2)? else {
-        return Ok(None);
+///
+/// The coarsest film is told, too: on it the other knobs are turned.
+pub(super) fn film(walk: &mut Walk<'_>) -> Result<(Option<Estimate>, Option<OnFilm>), Ask> {
+    let Some(near) = on_film(walk, 2, OF_FILM)? else {
+        return Ok((None, None));
     };
     let formal = Knob::FilmGrid.formal_ratio();
-    let own = Bracket {
-        low: walk.input.survivor,
-        high: walk.input.failure,
-    };
-    // Against the bracket of the scene itself, as wide as the tolerance.
+    let own = own(walk);
     let farthest = walk
         .share(near.bracket.high - own.low)
         .abs()
@@ -155,21 +205,25 @@ pub(super) fn film(walk: &mut Walk<'_>) -> Result<Option<Estimate>, Ask> {
         share: farthest / (rise - 1.0),
         factor: judge::WIDE,
     };
-    if near.halvings < 2 {
-        return Ok(Some(coarse));
+    if near.halvings < 2 || walk.input.film_halvings < 3 {
+        return Ok((Some(coarse), Some(near)));
     }
-    let far = match on_film(walk, 3)? {
-        Some(far) if far.halvings == 3 => far.bracket,
-        _ => return Ok(Some(coarse)),
+    let Some(far) = locate(walk, halved(3), near.bracket, OF_FILM)? else {
+        return Ok((Some(coarse), Some(near)));
+    };
+    let coarsest = OnFilm {
+        halvings: 3,
+        bracket: far,
     };
     let middle = |bracket: Bracket| f64::from(bracket.low + bracket.high) / 2.0;
     let error = (middle(far) - middle(near.bracket)) / (rise * (formal - 1.0));
     let expected = middle(near.bracket) - (rise - 1.0) * error;
-    let slack = 1.0 + 0.5 * error.abs();
+    let half = |bracket: Bracket| f64::from(bracket.high - bracket.low) / 2.0;
+    let slack = half(near.bracket) + half(far) + 0.5 * error.abs();
     let is_formal =
         expected >= f64::from(own.low) - slack && expected <= f64::from(own.high) + slack;
     let share = walk.share(error.abs().max(0.5).ceil() as i32);
-    Ok(Some(if is_formal {
+    let estimate = if is_formal {
         Estimate {
             share,
             factor: judge::NARROW,
@@ -179,5 +233,6 @@ pub(super) fn film(walk: &mut Walk<'_>) -> Result<Option<Estimate>, Ask> {
             share: coarse.share.max(share),
             factor: judge::WIDE,
         }
-    }))
+    };
+    Ok((Some(estimate), Some(coarsest)))
 }
