@@ -87,11 +87,12 @@ fn clearance_of_the_true_surface() {
 }
 
 /// Converged: 9.15 ± 0.05 nm and 113.0 µrad; lift 3.66 and suction −1.46 gf. What it costs: the
-/// error falls from 6.4 % at 1000 cells over 3.2 % at 2000 to 0.8 % at 8000, where a grid that
-/// merely follows the edges has 24, 14 and 5.6 %.
+/// error falls from some 3 % at 1000 cells over 0.3 % at 2400 to 0.15 % at 8000, where a grid that
+/// merely follows the edges has 24, 14 and 5.6 %. On coarse grids it goes up and down by as much
+/// with the number of cells between two edges.
 #[test]
 fn default_slider_flies_at_its_converged_clearance() {
-    for (cells, tolerance) in [(1000, 0.075), (2000, 0.037), (4000, 0.018), (8000, 0.0109)] {
+    for (cells, tolerance) in [(1000, 0.03), (2400, 0.005), (4000, 0.005), (8000, 0.0025)] {
         let film = film(&default_slider(), cells);
         assert!((film.n_cells() as f64 / cells as f64 - 1.0).abs() < 0.1);
         let flight = fly(&film, [LOAD_N, 0.0, 0.0]).unwrap();
@@ -322,14 +323,14 @@ fn thin_margin_slider() -> SliderParameters {
 }
 
 /// The thin-margin surface (centre step 205 µm wide, centre pad 125 µm, 0.948 gf at r 22.215 mm):
-/// 3.64 nm converged, 3.83 at 2000 cells, 3.72 at 4000.
+/// 3.64 nm converged.
 #[test]
 fn thin_margin_slider_flies_at_three_point_seven_nanometres() {
     let slider = thin_margin_slider();
-    for (cells, clearance_nm) in [(2000, 3.83), (4000, 3.72)] {
+    for (cells, tolerance) in [(2000, 0.025), (4000, 0.01)] {
         let flight = fly(&film(&slider, cells), [0.948 * GRAM_FORCE_N, 0.0, 0.0]).unwrap();
         let found = flight.min_clearance_m * 1e9;
-        assert!((found - clearance_nm).abs() < 0.02, "{cells}: {found}");
+        assert!((found / 3.64 - 1.0).abs() < tolerance, "{cells}: {found}");
     }
 }
 
@@ -357,7 +358,8 @@ fn film_slow_both_surfaces_converge() {
 }
 
 /// The layout serves any surface: a slanted, skewed one with a tapered leading edge comes within
-/// 4 % of its finer self at a quarter of the cells.
+/// 4 % of its finer self at a quarter of the cells. Slanted sides are followed in steps, which
+/// converge with the first order only: layouts of 16000 cells still differ by 3 %.
 #[test]
 fn layout_serves_slanted_rails_and_skew() {
     let mut slider = default_slider();

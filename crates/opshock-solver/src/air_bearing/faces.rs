@@ -1,8 +1,8 @@
 //! The mesh as columns of numbers, so that kernels run over whole blocks of faces.
 //!
-//! Cells are numbered along x first; the face between cell k and its neighbour along a direction has
-//! the number k. The faces that would join the end of one row to the start of the next exist too,
-//! with a length of 0, so that the cells of a block of faces are blocks of cells.
+//! Cells are numbered along y first; the face between cell k and its neighbour along a direction has
+//! the number k. The faces that would join the end of one column to the start of the next exist
+//! too, with a length of 0, so that the cells of a block of faces are blocks of cells.
 //!
 //! A face has an up side, from which the wind comes, and a down side; without wind the up side is
 //! the cell with the smaller number.
@@ -128,8 +128,8 @@ pub(super) struct Columns {
 impl Columns {
     pub(super) fn new(mesh: &Mesh) -> Self {
         let n_cells = mesh.cells.len();
-        let [nx, ny] = mesh.counts();
-        let front = nx.max(2);
+        let [_, ny] = mesh.counts();
+        let front = ny.max(2);
         let blocks = n_cells.next_multiple_of(BLOCK);
         let padded = front + blocks + 2 * front + BLOCK;
         let mut columns = Self {
@@ -175,7 +175,7 @@ impl Columns {
 
 fn interior(mesh: &Mesh, d: usize, blocks: usize, front: usize) -> Interior {
     let [nx, ny] = mesh.counts();
-    let stride = [1, nx][d];
+    let stride = [ny, 1][d];
     let x_faces = (nx - 1) * ny;
     let faces = if d == 0 {
         &mesh.faces[..x_faces]

@@ -11,7 +11,7 @@
 
 use super::Attitude;
 use super::film::Film;
-use crate::linalg::banded::{BandMatrix, BandedError, BandedLu};
+use crate::linalg::banded::{Band, BandMatrix, BandedError, BandedLu};
 use nalgebra::{Complex, Matrix3};
 use thiserror::Error;
 
@@ -64,11 +64,15 @@ impl<'a> SmallMotion<'a> {
         let mut linearisation = film.linearisation();
         film.linearise(psi, attitude, &mut linearisation, &mut film.scratch());
         let n = film.n_cells();
-        let half_bandwidth = 2 * linearisation.by_psi.half_bandwidth() + 1;
+        let Band { below, above } = linearisation.by_psi.band();
+        let band = Band {
+            below: 2 * below + 1,
+            above: 2 * above + 1,
+        };
         Self {
             film,
-            matrix: BandMatrix::zeros(2 * n, half_bandwidth),
-            lu: BandedLu::new(2 * n, half_bandwidth),
+            matrix: BandMatrix::zeros(2 * n, band),
+            lu: BandedLu::new(2 * n, band),
             columns: vec![[0.0; 3]; 2 * n],
             zero: vec![0.0; 2 * n],
             by_psi: linearisation.by_psi,
@@ -85,10 +89,10 @@ impl<'a> SmallMotion<'a> {
     /// [`ImpedanceError::Singular`] when s meets a decay rate of the film itself.
     pub fn at(&mut self, s: Complex<f64>) -> Result<Matrix3<Complex<f64>>, ImpedanceError> {
         let n = self.film.n_cells();
-        let b = self.by_psi.half_bandwidth();
+        let Band { below, above } = self.by_psi.band();
         self.matrix.clear();
         for (i, capacity) in self.film.capacity().iter().enumerate() {
-            for j in i.saturating_sub(b)..=(i + b).min(n - 1) {
+            for j in i.saturating_sub(below)..=(i + above).min(n - 1) {
                 let value = self.by_psi.get(i, j);
                 if value != 0.0 {
                     self.matrix.add(2 * i, 2 * j, value);

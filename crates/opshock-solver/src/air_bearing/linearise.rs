@@ -49,7 +49,7 @@ impl Film {
         let n = self.n_cells();
         FilmLinearisation {
             residual: vec![0.0; n],
-            by_psi: BandMatrix::zeros(n, self.mesh.half_bandwidth()),
+            by_psi: BandMatrix::zeros(n, self.mesh.band()),
             by_attitude: [0, 1, 2].map(|_| vec![0.0; n]),
             force: [0.0; 3],
             force_by_psi: [0, 1, 2].map(|_| vec![0.0; n]),

@@ -1,11 +1,13 @@
 //! Cells and faces of a film: places, recesses, sizes, and the wind through every face.
 //!
-//! Cells are numbered along x first. The two-point fluxes reach one cell further upstream where the
-//! wind carries them; along x that lies within the band the neighbours along y need anyway.
+//! Cells are numbered along y first: a grid has fewer lines that way, and the band of a matrix over
+//! the cells is as wide as a column of them. Fluxes along x reach one cell further upstream where
+//! the wind carries them, a column more on that side of the band.
 
 use super::Attitude;
 use super::corner::{Widths, conductance_factors};
 use crate::grid::Lines;
+use crate::linalg::banded::Band;
 use crate::slider::surface::Surface;
 
 /// Recesses closer than this belong to one smooth stretch of film.
@@ -72,6 +74,14 @@ pub(super) struct Face {
     pub(super) length: f64,
 }
 
+impl Face {
+    /// True when both sides belong to one smooth stretch of film.
+    pub(super) fn is_smooth(&self) -> bool {
+        let [left, right] = self.sides.map(|side| side.recess);
+        (left - right).abs() < SAME_RECESS_M
+    }
+}
+
 /// Face on the slider's edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeFace {
@@ -85,10 +95,12 @@ pub(super) struct EdgeFace {
 pub(super) struct Mesh {
     /// Grid lines along x and along y.
     pub(super) lines: [Lines; 2],
+    /// 6 μ U along x.
+    wind_x: f64,
     pub(super) cells: Vec<Cell>,
-    /// Faces across x row by row, then faces across y.
+    /// Faces across x, then faces across y, each in the order of the cells in front of them.
     pub(super) faces: Vec<Face>,
-    /// Both ends of every row, then those of every column.
+    /// The faces on both ends of the rows, then those on both ends of the columns.
     pub(super) edge_faces: Vec<EdgeFace>,
 }
 
@@ -101,15 +113,16 @@ impl Mesh {
             edge_faces: Vec::with_capacity(4 * lines[0].n_cells().max(lines[1].n_cells())),
             cells,
             lines,
+            wind_x: wind[0],
         };
         let [nx, ny] = mesh.counts();
-        for row in 0..ny {
-            for line in 0..=nx {
+        for line in 0..=nx {
+            for row in 0..ny {
                 mesh.add_face(surface, 0, line, row, wind[0]);
             }
         }
-        for line in 0..=ny {
-            for column in 0..nx {
+        for column in 0..nx {
+            for line in 0..=ny {
                 mesh.add_face(surface, 1, line, column, wind[1]);
             }
         }
@@ -123,14 +136,22 @@ impl Mesh {
 
     /// Number of the cell in column i and row j.
     pub(super) fn index(&self, i: usize, j: usize) -> usize {
-        j * self.lines[0].n_cells() + i
+        i * self.lines[1].n_cells() + j
     }
 
-    /// Entries on either side of the diagonal in a matrix over the cells.
-    pub(super) fn half_bandwidth(&self) -> usize {
-        match self.counts() {
-            [_, 1] => 2,
-            [nx, _] => nx.max(2),
+    /// Column and row of cell `c`.
+    pub(super) fn place_of(&self, c: usize) -> [usize; 2] {
+        let ny = self.lines[1].n_cells();
+        [c / ny, c % ny]
+    }
+
+    /// Band of a matrix over the cells.
+    pub(super) fn band(&self) -> Band {
+        let ny = self.lines[1].n_cells();
+        let reach = |upstream: bool| if upstream { 2 * ny } else { ny };
+        Band {
+            below: reach(self.wind_x >= 0.0),
+            above: reach(self.wind_x < 0.0),
         }
     }
 
@@ -229,8 +250,8 @@ impl Mesh {
                     above: y.width(j),
                 };
                 let factors = conductance_factors(recess.map(|r| kappa(base + r)), &widths);
-                let x_face = |j: usize| j * (nx - 1) + (i - 1);
-                let y_face = |i: usize| ny * (nx - 1) + (j - 1) * nx + i;
+                let x_face = |j: usize| (i - 1) * ny + j;
+                let y_face = |i: usize| (nx - 1) * ny + i * (ny - 1) + (j - 1);
                 let meeting = [x_face(j - 1), y_face(i), x_face(j), y_face(i - 1)];
                 for (face, factor) in meeting.into_iter().zip(factors) {
                     for side in &mut self.faces[face].sides {
@@ -246,8 +267,8 @@ fn cells(surface: &Surface, lines: &[Lines; 2]) -> Vec<Cell> {
     let [nx, ny] = [lines[0].n_cells(), lines[1].n_cells()];
     let (xs, ys) = (lines[0].as_slice(), lines[1].as_slice());
     let mut cells = Vec::with_capacity(nx * ny);
-    for j in 0..ny {
-        for i in 0..nx {
+    for i in 0..nx {
+        for j in 0..ny {
             cells.push(Cell {
                 place: Place::new(surface, lines[0].centre(i), lines[1].centre(j)),
                 recess: surface.mean_recess_m([xs[i], xs[i + 1]], [ys[j], ys[j + 1]]),

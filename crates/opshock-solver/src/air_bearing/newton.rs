@@ -44,7 +44,7 @@ impl<'a> Newton<'a> {
         Self {
             film,
             scratch: film.scratch(),
-            lu: BandedLu::new(n, linearisation.by_psi.half_bandwidth()),
+            lu: BandedLu::new(n, linearisation.by_psi.band()),
             linearisation,
             columns: vec![[0.0; 4]; n],
             zero: vec![0.0; n],

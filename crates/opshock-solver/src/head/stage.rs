@@ -86,10 +86,10 @@ impl StageScratch {
     pub fn new(model: &HeadModel) -> Self {
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let linearisation = model.film.linearisation();
-        let half_bandwidth = linearisation.by_psi.half_bandwidth();
+        let band = linearisation.by_psi.band();
         Self {
             film: model.film.scratch(),
-            lu: BandedLu::new(n_cells, half_bandwidth),
+            lu: BandedLu::new(n_cells, band),
             linearisation,
             factored_d_s: None,
             columns: vec![[0.0; 3]; n_cells],

@@ -1,7 +1,7 @@
 //! Banded matrices and their LU factorisation on a fixed pattern.
 //!
 //! ```text
-//! A = L U,   a_ij = 0 for |i − j| > b
+//! A = L U,   a_ij = 0 for i − j > below and for j − i > above
 //! ```
 //!
 //! Rows are eliminated without exchanges, so the pattern of L + U is the band itself and a
@@ -45,21 +45,54 @@ pub enum BandedError {
     },
 }
 
-/// Square banded matrix, rows stored one after the other, 2 b + 1 entries each.
+/// How far a matrix reaches on either side of its diagonal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Band {
+    /// Entries of a row before the diagonal.
+    pub below: usize,
+    /// Entries of a row behind the diagonal.
+    pub above: usize,
+}
+
+impl Band {
+    /// As far on either side.
+    pub fn even(half_bandwidth: usize) -> Self {
+        Self {
+            below: half_bandwidth,
+            above: half_bandwidth,
+        }
+    }
+
+    /// Entries of a row.
+    pub(super) fn width(self) -> usize {
+        self.below + 1 + self.above
+    }
+
+    fn holds(self, i: usize, j: usize) -> bool {
+        i <= j + self.below && j <= i + self.above
+    }
+
+    /// Columns of row `i` of `n`, first and last.
+    fn columns(self, i: usize, n: usize) -> std::ops::RangeInclusive<usize> {
+        i.saturating_sub(self.below)..=(i + self.above).min(n - 1)
+    }
+}
+
+/// Square banded matrix, rows stored one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandMatrix {
     n: usize,
-    half_bandwidth: usize,
+    band: Band,
     entries: Vec<f64>,
 }
 
 impl BandMatrix {
-    /// Zero matrix of `n` rows with entries where |i − j| <= `half_bandwidth`.
-    pub fn zeros(n: usize, half_bandwidth: usize) -> Self {
+    /// Zero matrix of `n` rows with entries in `band`.
+    pub fn zeros(n: usize, band: Band) -> Self {
         Self {
             n,
-            half_bandwidth,
-            entries: vec![0.0; n * (2 * half_bandwidth + 1)],
+            band,
+            entries: vec![0.0; n * band.width()],
         }
     }
 
@@ -69,8 +102,8 @@ impl BandMatrix {
     }
 
     /// Entries on either side of the diagonal.
-    pub fn half_bandwidth(&self) -> usize {
-        self.half_bandwidth
+    pub fn band(&self) -> Band {
+        self.band
     }
 
     /// Sets every entry to zero.
@@ -80,10 +113,10 @@ impl BandMatrix {
 
     /// Entry (i, j); zero outside the band.
     pub fn get(&self, i: usize, j: usize) -> f64 {
-        if i.abs_diff(j) > self.half_bandwidth {
-            0.0
-        } else {
+        if self.band.holds(i, j) {
             self.entries[self.index(i, j)]
+        } else {
+            0.0
         }
     }
 
@@ -100,10 +133,13 @@ impl BandMatrix {
 
     /// Aᵀ.
     pub fn transposed(&self) -> Self {
-        let mut out = Self::zeros(self.n, self.half_bandwidth);
+        let band = Band {
+            below: self.band.above,
+            above: self.band.below,
+        };
+        let mut out = Self::zeros(self.n, band);
         for i in 0..self.n {
-            let last = (i + self.half_bandwidth).min(self.n - 1);
-            for j in i.saturating_sub(self.half_bandwidth)..=last {
+            for j in self.band.columns(i, self.n) {
                 let index = out.index(j, i);
                 out.entries[index] = self.entries[self.index(i, j)];
             }
@@ -115,19 +151,18 @@ impl BandMatrix {
     pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
         assert_eq!(x.len(), self.n);
         assert_eq!(out.len(), self.n);
-        let b = self.half_bandwidth;
         for (i, out_i) in out.iter_mut().enumerate() {
-            let first = i.saturating_sub(b);
-            let last = (i + b).min(self.n - 1);
-            let row = &self.entries[self.index(i, first)..=self.index(i, last)];
-            *out_i = row.iter().zip(&x[first..=last]).map(|(a, x)| a * x).sum();
+            let columns = self.band.columns(i, self.n);
+            let row =
+                &self.entries[self.index(i, *columns.start())..=self.index(i, *columns.end())];
+            *out_i = row.iter().zip(&x[columns]).map(|(a, x)| a * x).sum();
         }
     }
 
     #[inline]
     fn index(&self, i: usize, j: usize) -> usize {
-        debug_assert!(i.abs_diff(j) <= self.half_bandwidth);
-        i * (2 * self.half_bandwidth + 1) + (j + self.half_bandwidth - i)
+        debug_assert!(self.band.holds(i, j));
+        i * self.band.width() + (j + self.band.below - i)
     }
 }
 
@@ -137,7 +172,7 @@ pub struct BandedLu {
     n: usize,
     /// Rows rounded up to a multiple of [`BLOCK`]; the extra ones are rows of the identity.
     n_padded: usize,
-    half_bandwidth: usize,
+    band: Band,
     /// Entries of a row: the band, and BLOCK − 1 zeros on either side so that the four pivot rows
     /// of a block can be swept over the same columns.
     stride: usize,
@@ -147,18 +182,18 @@ pub struct BandedLu {
 }
 
 impl BandedLu {
-    /// Storage for matrices of `n` rows and half bandwidth `half_bandwidth`.
-    pub fn new(n: usize, half_bandwidth: usize) -> Self {
+    /// Storage for matrices of `n` rows with entries in `band`.
+    pub fn new(n: usize, band: Band) -> Self {
         let n_padded = n.next_multiple_of(BLOCK);
-        let stride = 2 * (half_bandwidth + BLOCK - 1) + 1;
+        let stride = band.width() + 2 * (BLOCK - 1);
         Self {
             n,
             n_padded,
-            half_bandwidth,
+            band,
             stride,
             rows: vec![0.0; n_padded * stride],
             inverse_pivots: vec![1.0; n_padded],
-            triangles: Triangles::new(n, half_bandwidth),
+            triangles: Triangles::new(n, band),
         }
     }
 
@@ -184,7 +219,7 @@ impl BandedLu {
         diagonal: &[f64],
     ) -> Result<(), BandedError> {
         assert_eq!(matrix.n, self.n);
-        assert_eq!(matrix.half_bandwidth, self.half_bandwidth);
+        assert_eq!(matrix.band, self.band);
         assert_eq!(diagonal.len(), self.n);
         widest(Factor {
             lu: self,
@@ -202,7 +237,7 @@ impl BandedLu {
         diagonal: &[f64],
     ) -> Result<(), BandedError> {
         self.load(matrix, scale, diagonal);
-        let reach = self.half_bandwidth + BLOCK - 1;
+        let reach = self.band.below + BLOCK - 1;
         let mut largest: f64 = 0.0;
         for first in (0..self.n_padded).step_by(BLOCK) {
             largest = largest.max(self.factor_block(first)?);
@@ -213,7 +248,7 @@ impl BandedLu {
         if largest > LARGEST_MULTIPLIER {
             return Err(BandedError::Growth { largest });
         }
-        // Row i holds its columns i − b ... i + b after BLOCK − 1 zeros.
+        // A row of the band stands between BLOCK − 1 zeros.
         let (rows, stride) = (&self.rows, self.stride);
         self.triangles.take(
             |i| &rows[i * stride + BLOCK - 1..(i + 1) * stride - (BLOCK - 1)],
@@ -243,13 +278,13 @@ impl BandedLu {
     /// Copies the matrix into the padded rows.
     #[inline(always)]
     fn load(&mut self, matrix: &BandMatrix, scale: f64, diagonal: &[f64]) {
-        let b = self.half_bandwidth;
-        let centre = b + BLOCK - 1;
+        let width = self.band.width();
+        let centre = self.centre();
         for (i, row) in self.rows.chunks_exact_mut(self.stride).enumerate() {
             row.fill(0.0);
             if i < self.n {
-                let source = &matrix.entries[i * (2 * b + 1)..(i + 1) * (2 * b + 1)];
-                row[BLOCK - 1..BLOCK + 2 * b].copy_from_slice(source);
+                let source = &matrix.entries[i * width..(i + 1) * width];
+                row[BLOCK - 1..BLOCK - 1 + width].copy_from_slice(source);
                 row[centre] += scale * diagonal[i];
             } else {
                 row[centre] = 1.0;
@@ -257,10 +292,16 @@ impl BandedLu {
         }
     }
 
+    /// Where the diagonal stands in a row.
+    #[inline]
+    fn centre(&self) -> usize {
+        self.band.below + BLOCK - 1
+    }
+
     /// Index of column `first` of the block in row `row`.
     #[inline]
     fn start(&self, row: usize, first: usize) -> usize {
-        row * self.stride + (first + self.half_bandwidth + BLOCK - 1 - row)
+        row * self.stride + (first + self.centre() - row)
     }
 
     /// Eliminates the block of pivots `first..first + BLOCK` among its own rows;
@@ -268,11 +309,11 @@ impl BandedLu {
     #[inline(always)]
     fn factor_block(&mut self, first: usize) -> Result<f64, BandedError> {
         let mut largest: f64 = 0.0;
-        let width = self.half_bandwidth + BLOCK;
+        let width = self.band.above + BLOCK;
         for p in 0..BLOCK {
             let row = first + p;
+            let offset = first + self.centre();
             let (above, below) = self.rows.split_at_mut(row * self.stride);
-            let offset = first + self.half_bandwidth + BLOCK - 1;
             let target = &mut below[offset - row..offset - row + width];
             for q in 0..p {
                 let source_start = (first + q) * self.stride + offset - (first + q);
@@ -297,10 +338,10 @@ impl BandedLu {
     /// Eliminates the block's columns from the rows below it, up to `last`; largest multiplier.
     #[inline(always)]
     fn eliminate_below(&mut self, first: usize, last: usize) -> f64 {
-        let width = self.half_bandwidth + BLOCK;
+        let width = self.band.above + BLOCK;
         let starts: [usize; BLOCK] = std::array::from_fn(|p| self.start(first + p, first));
         let inverse: [f64; BLOCK] = std::array::from_fn(|p| self.inverse_pivots[first + p]);
-        let offset = first + self.half_bandwidth + BLOCK - 1;
+        let offset = first + self.centre();
         let (above, below) = self.rows.split_at_mut((first + BLOCK) * self.stride);
         let [u0, u1, u2, u3]: [&[f64]; BLOCK] =
             std::array::from_fn(|p| &above[starts[p]..starts[p] + width]);
@@ -355,12 +396,12 @@ mod tests {
     use super::*;
 
     /// Column-dominant band with entries from a fixed recurrence.
-    fn sample(n: usize, b: usize) -> BandMatrix {
-        let mut matrix = BandMatrix::zeros(n, b);
+    fn sample(n: usize, band: Band) -> BandMatrix {
+        let mut matrix = BandMatrix::zeros(n, band);
         let mut state: u64 = 1;
         for j in 0..n {
             let mut column = 0.0;
-            for i in j.saturating_sub(b)..=(j + b).min(n - 1) {
+            for i in j.saturating_sub(band.above)..=(j + band.below).min(n - 1) {
                 if i != j {
                     state = state
                         .wrapping_mul(6364136223846793005)
@@ -377,8 +418,22 @@ mod tests {
 
     #[test]
     fn solution_reproduces_a_known_vector_for_sizes_around_the_block() {
-        for (n, b) in [(1, 0), (3, 1), (4, 2), (5, 4), (17, 3), (64, 9), (203, 23)] {
-            let matrix = sample(n, b);
+        for (n, below, above) in [
+            (1, 0, 0),
+            (3, 1, 1),
+            (4, 2, 2),
+            (5, 4, 4),
+            (17, 3, 3),
+            (64, 9, 9),
+            (203, 23, 23),
+            (5, 4, 1),
+            (17, 6, 3),
+            (64, 3, 18),
+            (203, 46, 23),
+            (40, 12, 0),
+        ] {
+            let band = Band { below, above };
+            let matrix = sample(n, band);
             let exact: Vec<f64> = (0..n).map(|i| (i as f64 * 0.7).sin() + 0.2).collect();
             let diagonal: Vec<f64> = (0..n).map(|i| 1.0 + i as f64).collect();
             let mut rhs = vec![0.0; n];
@@ -387,12 +442,15 @@ mod tests {
                 rhs[i] += 0.01 * diagonal[i] * exact[i];
             }
             let mut columns: Vec<[f64; 3]> = rhs.iter().map(|&v| [v, 2.0 * v, -v]).collect();
-            let mut lu = BandedLu::new(n, b);
+            let mut lu = BandedLu::new(n, band);
             lu.factor(&matrix, 0.01, &diagonal).unwrap();
             lu.solve(&mut rhs);
             lu.solve_columns(&mut columns);
             for i in 0..n {
-                assert!((rhs[i] - exact[i]).abs() < 1e-12, "n {n}, b {b}, row {i}");
+                assert!(
+                    (rhs[i] - exact[i]).abs() < 1e-12,
+                    "n {n}, {band:?}, row {i}"
+                );
                 assert!((columns[i][1] - 2.0 * exact[i]).abs() < 1e-12);
                 assert!((columns[i][2] + exact[i]).abs() < 1e-12);
             }
@@ -401,10 +459,10 @@ mod tests {
 
     #[test]
     fn zero_pivot_and_growth_are_refused() {
-        let mut matrix = BandMatrix::zeros(2, 1);
+        let mut matrix = BandMatrix::zeros(2, Band::even(1));
         matrix.add(0, 1, 1.0);
         matrix.add(1, 0, 1.0);
-        let mut lu = BandedLu::new(2, 1);
+        let mut lu = BandedLu::new(2, Band::even(1));
         assert_eq!(
             lu.factor(&matrix, 0.0, &[0.0; 2]),
             Err(BandedError::Pivot { row: 0, value: 0.0 })

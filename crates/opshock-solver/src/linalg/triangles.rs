@@ -10,6 +10,7 @@
 //! every column of a block is eight numbers side by side, times one number of the solution, and the
 //! inverses of the small triangles are made once. Sums have a fixed order whatever the registers.
 
+use super::banded::Band;
 use crate::lanes::{Simd, WithSimd, widest};
 
 /// Rows solved together.
@@ -25,35 +26,35 @@ type Column = [f64; ROWS];
 #[derive(Clone, Debug)]
 pub(super) struct Triangles {
     n: usize,
-    half_bandwidth: usize,
-    /// Per block of rows: the b columns before it, then the inverse of its own triangle.
+    band: Band,
+    /// Per block of rows: the columns before it, then the inverse of its own triangle.
     lower: Vec<Column>,
-    /// Per block of rows: the inverse of its own triangle, then the b columns behind it.
+    /// Per block of rows: the inverse of its own triangle, then the columns behind it.
     upper: Vec<Column>,
 }
 
 impl Triangles {
-    /// Storage for matrices of `n` rows and half bandwidth `half_bandwidth`.
-    pub(super) fn new(n: usize, half_bandwidth: usize) -> Self {
-        let columns = n.div_ceil(ROWS) * (half_bandwidth + ROWS);
+    /// Storage for matrices of `n` rows with entries in `band`.
+    pub(super) fn new(n: usize, band: Band) -> Self {
+        let blocks = n.div_ceil(ROWS);
         Self {
             n,
-            half_bandwidth,
-            lower: vec![[0.0; ROWS]; columns],
-            upper: vec![[0.0; ROWS]; columns],
+            band,
+            lower: vec![[0.0; ROWS]; blocks * (band.below + ROWS)],
+            upper: vec![[0.0; ROWS]; blocks * (band.above + ROWS)],
         }
     }
 
-    /// Takes over factors: `row(i)` holds columns i − b ... i + b, L without its diagonal of ones
-    /// and U; the diagonal of U is given inverted.
+    /// Takes over factors: `row(i)` holds the columns of row i in the band, L without its diagonal of
+    /// ones and U; the diagonal of U is given inverted.
     #[inline(always)]
     pub(super) fn take<'r>(&mut self, row: impl Fn(usize) -> &'r [f64], inverse_pivots: &[f64]) {
-        let (n, b) = (self.n, self.half_bandwidth);
-        let width = b + ROWS;
+        let n = self.n;
+        let Band { below, above } = self.band;
         for (block, (lower, upper)) in self
             .lower
-            .chunks_exact_mut(width)
-            .zip(self.upper.chunks_exact_mut(width))
+            .chunks_exact_mut(below + ROWS)
+            .zip(self.upper.chunks_exact_mut(above + ROWS))
             .enumerate()
         {
             let first = block * ROWS;
@@ -64,24 +65,25 @@ impl Triangles {
             let mut inverse = [1.0; ROWS];
             for r in 0..ROWS.min(n - first) {
                 let entries = row(first + r);
-                // Entry k is column first + r − b + k. Before the block: b − r of them.
-                let before = b.saturating_sub(r);
+                // Entry k is column first + r − below + k. Before the block: below − r of them.
+                let before = below.saturating_sub(r);
                 for (k, value) in entries[..before].iter().enumerate() {
                     lower[r + k][r] = *value;
                 }
-                for c in r.saturating_sub(b)..r {
-                    unit[r][c] = entries[c + b - r];
+                for c in r.saturating_sub(below)..r {
+                    unit[r][c] = entries[c + below - r];
                 }
-                for c in r + 1..ROWS.min(r + b + 1) {
-                    full[r][c] = entries[c + b - r];
+                for c in r + 1..ROWS.min(r + above + 1) {
+                    full[r][c] = entries[c + below - r];
                 }
-                // Behind the block: columns first + ROWS ... first + r + b.
-                for k in (ROWS + b - r).min(2 * b + 1)..2 * b + 1 {
-                    upper[r + k - b][r] = entries[k];
+                // Behind the block: columns first + ROWS ... first + r + above.
+                let width = self.band.width();
+                for k in (ROWS + below - r).min(width)..width {
+                    upper[r + k - below][r] = entries[k];
                 }
                 inverse[r] = inverse_pivots[first + r];
             }
-            invert_unit_lower(&unit, &mut lower[b..]);
+            invert_unit_lower(&unit, &mut lower[below..]);
             invert_upper(&full, &inverse, &mut upper[..ROWS]);
         }
     }
@@ -164,27 +166,26 @@ impl<const K: usize> Solve<'_, K> {
     fn run<S: Simd, const V: usize>(self, simd: S) {
         let Triangles {
             n,
-            half_bandwidth: b,
+            band,
             lower,
             upper,
         } = self.triangles;
-        let (n, b, rhs) = (*n, *b, self.rhs);
-        let width = b + ROWS;
-        for (block, columns) in lower.chunks_exact(width).enumerate() {
+        let (n, Band { below, above }, rhs) = (*n, *band, self.rhs);
+        for (block, columns) in lower.chunks_exact(below + ROWS).enumerate() {
             let first = block * ROWS;
             let end = n.min(first + ROWS);
-            let known = first.saturating_sub(b);
-            let (before, own) = columns.split_at(b);
+            let known = first.saturating_sub(below);
+            let (before, own) = columns.split_at(below);
             for k in 0..K {
-                let before = &before[b - (first - known)..];
+                let before = &before[below - (first - known)..];
                 let sum = product::<S, V, K>(simd, before, &rhs[known..first], k);
                 settle::<S, V, K>(simd, own, sum, &mut rhs[first..end], k);
             }
         }
-        for (block, columns) in upper.chunks_exact(width).enumerate().rev() {
+        for (block, columns) in upper.chunks_exact(above + ROWS).enumerate().rev() {
             let first = block * ROWS;
             let end = n.min(first + ROWS);
-            let known = n.min(end + b);
+            let known = n.min(end + above);
             let (own, behind) = columns.split_at(ROWS);
             for k in 0..K {
                 let behind = &behind[..known - end];

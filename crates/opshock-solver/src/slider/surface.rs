@@ -192,6 +192,29 @@ impl Surface {
         }
         [tidy(x, self.length_m), tidy(y, self.width_m)]
     }
+
+    /// Ranges of x, and of y, that the rails' slanted sides run through and in which a cell's size
+    /// says how well their steps are followed: those with at least half of the side's normal along
+    /// the direction, m.
+    pub(crate) fn slanted_ranges_m(&self) -> [Vec<[f64; 2]>; 2] {
+        let mut ranges = [Vec::new(), Vec::new()];
+        for rail in &self.rails {
+            let corners = rail.outline.corners_m();
+            for (k, a) in corners.iter().enumerate() {
+                let b = corners[(k + 1) % corners.len()];
+                let run = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+                if run[0] == 0.0 || run[1] == 0.0 {
+                    continue;
+                }
+                for d in 0..2 {
+                    if run[1 - d] >= 0.5 * run[0].hypot(run[1]) {
+                        ranges[d].push([a[d].min(b[d]), a[d].max(b[d])]);
+                    }
+                }
+            }
+        }
+        ranges
+    }
 }
 
 /// Sorted coordinates within 0 ... `length`, those closer than 1e-9 of it merged.
