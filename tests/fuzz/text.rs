@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use opshock_study::study::source::decode;
-use opshock_study::study::{Study, StudyErrors, fault::MAX_LISTED};
+use opshock_study::study::samples::{self, Samples};
+use opshock_study::study::source::{Source, decode};
+use opshock_study::study::{Study, StudyError, StudyErrors, fault::MAX_LISTED};
 use opshock_tests::seeded::{Seeded, seeds};
 
 use crate::{corpus, mutate, watch};
@@ -78,6 +79,18 @@ fn scratch() -> tempfile::TempDir {
     .expect("a folder to write in")
 }
 
+/// Bytes of a mutated file: two times in three by lines, else by bytes.
+fn mutated_file(seed: u64, corpus: &[String]) -> Vec<u8> {
+    let mut seeded = Seeded::new(seed);
+    let base = seeded.one_of(corpus).clone();
+    if !seeded.once_in(3) {
+        return mutate::text(&mut seeded, &base, corpus).into_bytes();
+    }
+    let mut bytes = base.into_bytes();
+    mutate::bytes(&mut seeded, &mut bytes);
+    bytes
+}
+
 /// A file that a sound study names, mutated anew for every seed.
 fn fuzz_named(
     name: &str,
@@ -90,16 +103,7 @@ fn fuzz_named(
     let at = |file: &str| -> PathBuf { folder.path().join(file) };
     std::fs::write(at("study.toml"), study).expect("written");
     watch::run(name, range, tell_every, |seed| {
-        let mut seeded = Seeded::new(seed);
-        let base = seeded.one_of(corpus).clone();
-        let bytes = if seeded.once_in(3) {
-            let mut bytes = base.into_bytes();
-            mutate::bytes(&mut seeded, &mut bytes);
-            bytes
-        } else {
-            mutate::text(&mut seeded, &base, corpus).into_bytes()
-        };
-        std::fs::write(at(name), bytes).expect("written");
+        std::fs::write(at(name), mutated_file(seed, corpus)).expect("written");
         judge(seed, Study::from_path(&at("study.toml"), &[]))
     });
 }
@@ -107,14 +111,53 @@ fn fuzz_named(
 const HEAD: &str = "study_format = 1\nname = \"case\"\n[ramp]\nmodels = [\"rigid\"]\n";
 
 fn fuzz_surfaces(range: std::ops::Range<u64>, tell_every: u64) {
-    let study =
-        format!("{HEAD}[pulse]\nwidths_ms = [2.0]\n[slider]\nsurface = {{ file = \"surface\" }}\n");
+    let study = format!(
+        "{HEAD}[pulse]\nwidths_ms = [2.0]\nsigns = [\"+\"]\n[slider]\nsurface = {{ file = \"surface\" }}\n"
+    );
     fuzz_named("surface", &study, &corpus::surfaces(), range, tell_every);
+}
+
+/// One in this many pulses is also read as a user's is, by a study that names its file.
+const WHOLE: u64 = 64;
+
+/// What must hold of an answer of the pulses' own reader.
+fn judge_samples(answer: Result<Samples, Vec<StudyError>>) -> bool {
+    match answer {
+        Ok(Samples {
+            time_ms, relative, ..
+        }) => {
+            assert!(time_ms.len() >= 2 && time_ms.len() == relative.len());
+            assert!(time_ms[0] == 0.0 && time_ms.is_sorted_by(|a, b| a < b));
+            assert!(time_ms.iter().chain(&relative).all(|v| v.is_finite()));
+            true
+        }
+        Err(faults) => {
+            assert!(!faults.is_empty());
+            for fault in &faults {
+                assert!(fault.code == "E153" && !fault.message.is_empty());
+            }
+            false
+        }
+    }
 }
 
 fn fuzz_pulses(range: std::ops::Range<u64>, tell_every: u64) {
     let study = format!("{HEAD}[pulse]\nwidths_ms = [2.0]\nshape = \"table\"\ntable = \"pulse\"\n");
-    fuzz_named("pulse", &study, &corpus::pulses(), range, tell_every);
+    let folder = scratch();
+    let at = |file: &str| -> PathBuf { folder.path().join(file) };
+    std::fs::write(at("study.toml"), study).expect("written");
+    let corpus = corpus::pulses();
+    watch::run("pulse", range, tell_every, |seed| {
+        let bytes = mutated_file(seed, &corpus);
+        if seed.is_multiple_of(WHOLE) {
+            std::fs::write(at("pulse"), &bytes).expect("written");
+            judge(seed, Study::from_path(&at("study.toml"), &[]));
+        }
+        match decode(bytes, "pulse") {
+            Ok(text) => judge_samples(samples::read(&Source::new("pulse".to_owned(), text))),
+            Err(refused) => judge(seed, Err(StudyErrors::from(*refused))),
+        }
+    });
 }
 
 #[test]

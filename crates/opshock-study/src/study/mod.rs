@@ -28,7 +28,7 @@ mod points;
 mod polygon;
 mod read;
 mod resolved;
-mod samples;
+pub mod samples;
 mod scene;
 pub mod schema;
 mod select;

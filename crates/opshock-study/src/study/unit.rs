@@ -189,16 +189,13 @@ pub struct Parted<'a> {
 
 /// Takes the name of one key apart. The longest suffix wins; upper case is recognised.
 pub fn part(name: &str) -> Parted<'_> {
-    let lower = name.to_ascii_lowercase();
-    let best = UNITS
-        .iter()
-        .filter(|unit| {
-            lower == unit.suffix
-                || lower
-                    .strip_suffix(unit.suffix)
-                    .is_some_and(|stem| stem.ends_with('_'))
-        })
-        .max_by_key(|unit| unit.suffix.len());
+    // The whole name, then what follows each underscore: the longest first.
+    let starts = std::iter::once(0).chain(name.match_indices('_').map(|(at, _)| at + 1));
+    let best = starts.map(|from| &name[from..]).find_map(|end| {
+        UNITS
+            .iter()
+            .find(|unit| unit.suffix.eq_ignore_ascii_case(end))
+    });
     match best {
         None => Parted {
             stem: name,
