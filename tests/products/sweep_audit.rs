@@ -58,16 +58,41 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
     });
     assert!(n > 1 && onset_g > 150.0);
     let saved = report("clean").json()["savings"].clone();
+    let rules: Vec<&str> = (0..9).map(|k| saved[k]["rule"].as_str().unwrap()).collect();
     assert_eq!(
-        (saved[0]["rule"].clone(), saved[1]["rule"].clone()),
-        ("R4".into(), "R6".into())
+        rules,
+        ["R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8", "R9"]
     );
-    assert_eq!(saved[0]["runs"], n);
-    assert_eq!(saved[0]["head_steps"], steps);
-    let share = saved[0]["share"].as_f64().unwrap();
+    let r4 = &saved[3];
+    assert_eq!(r4["runs"], n);
+    assert_eq!(r4["head_steps"], steps);
+    let share = r4["share"].as_f64().unwrap();
     assert!(share > 0.0 && share < 0.5, "{share}");
+    // Seconds are steps at the sweep's own seconds a step.
+    let made: u64 = stored.runs.iter().map(|row| row.result().cost.steps).sum();
+    let wall_s: f64 = stored.runs.iter().map(|row| row.run.machine.wall_s).sum();
+    let told = opshock_study::report::savings(&stored);
+    let seconds = told[3].seconds.expect("head steps");
+    assert!((seconds / (wall_s * steps as f64 / made as f64) - 1.0).abs() < 1e-9);
+    // Without ramp no harmonics; every run but the first of each of the two models took it over;
+    // one film for both points.
+    let count = |point: usize| {
+        let of_point = stored.runs.iter().filter(|row| row.point == point);
+        of_point.filter(|row| row.levels.is_none()).count()
+    };
+    assert_eq!(saved[1]["runs"], count(0));
+    assert_eq!(saved[2]["runs"], count(1));
+    assert_eq!(saved[4]["runs"], count(0) + count(1) - 2);
+    assert_eq!(saved[8]["runs"], 1);
+    assert!(told[0].seconds.is_none() && saved[6]["runs"] == 0);
     assert!(
-        page.contains("R4 saved") && page.contains("R6 saved"),
+        saved[3]["seconds"].is_null(),
+        "a sweep done again gives the same JSON"
+    );
+    assert!(
+        page.contains("R4 saved")
+            && page.contains("R6 saved")
+            && page.contains("saved nothing: R1"),
         "{page}"
     );
     let path = study("fig13");
