@@ -5,7 +5,7 @@ use opshock_solver::disk::{DiskDamping, DiskResolution};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::shock::{Pulse, PulseShape};
-use opshock_solver::structure::{StructureRun, Window, Workspace};
+use opshock_solver::structure::{StructureRun, StructureWarning, Window, Workspace};
 use opshock_tests::seeded::{OnPanic, Seeded, seeds};
 use opshock_tests::structures::{Structure, paper};
 
@@ -87,6 +87,40 @@ fn random(seeded: &mut Seeded) -> (Structure, f64) {
     (s, sign * seeded.log_between(1.0, 2000.0) * G)
 }
 
+/// Depth at which a run warns, m.
+const WARNED_M: f64 = 1e-7;
+
+/// Twice the largest motion of disk and arms in a step, m: nodes see half of a swing.
+fn motion_m(run: &StructureRun) -> f64 {
+    let columns = run.columns.as_ref().expect("recorded");
+    let most = |column: &[f64]| {
+        let steps = column.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        steps.fold(0.0, f64::max)
+    };
+    let arms = most(&columns.ramp_top_m).max(most(&columns.ramp_bottom_m));
+    2.0 * (most(&columns.disk_ramp_m) + arms)
+}
+
+/// No deeper than disk and arms move towards each other in a step, and what a run warns of. Beyond
+/// that (energy forbids to give back at once what swings on between nodes) the depth must be the
+/// step's: a warned run at an eighth of the step sinks a third as deep at most.
+fn judge_depth(run_at: impl Fn(f64) -> StructureRun, plain: &StructureRun) {
+    let depth = plain.complementarity.max_penetration_m;
+    if depth <= motion_m(plain) + WARNED_M {
+        return;
+    }
+    let warns = |w: &StructureWarning| matches!(w, StructureWarning::Penetration { .. });
+    assert!(
+        plain.warnings.iter().any(warns),
+        "{depth:e} m and no warning"
+    );
+    let finer = run_at(0.125).complementarity.max_penetration_m;
+    assert!(
+        finer <= depth / 3.0,
+        "{depth:e} m, at an eighth of the step {finer:e} m"
+    );
+}
+
 fn run(structure: &Structure, amplitude: f64, workspace: &mut Workspace) -> StructureRun {
     structure
         .build()
@@ -120,18 +154,7 @@ fn judge(run: &StructureRun) {
     );
     assert!(e.impact_loss_j >= -rounding, "{e:?}");
     assert!(c.min_multiplier_n_s >= 0.0, "{c:?}");
-    // No further than the two move towards each other in a step (nodes see half of a swing) and
-    // what energy forbids to give back at once: that is measured, not derived. Of 10000 scenes one
-    // with a single arm in contact needs 0.16 um, so 0.2; a disk held by both arms gets 0.5.
-    let squeezed = run.top.impulse_n_s > 0.0 && run.bottom.impulse_n_s > 0.0;
-    let slack = if squeezed { 5e-7 } else { 2e-7 };
-    let most = |column: &[f64]| {
-        let steps = column.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-        steps.fold(0.0, f64::max)
-    };
-    let arms = most(&columns.ramp_top_m).max(most(&columns.ramp_bottom_m));
-    let reach = 2.0 * (most(&columns.disk_ramp_m) + arms) + slack;
-    assert!(c.max_penetration_m <= reach, "{c:?}, {reach:e}");
+    let reach = motion_m(run) + c.max_penetration_m;
     let impulse = run.top.impulse_n_s + run.bottom.impulse_n_s;
     assert!(c.max_product_n_s_m <= impulse * reach, "{c:?}");
 }
@@ -177,6 +200,12 @@ fn one(seed: u64, workspace: &mut Workspace) -> bool {
     let (structure, amplitude) = random(&mut seeded);
     let plain = run(&structure, amplitude, workspace);
     judge(&plain);
+    let finer = |share: f64| {
+        let mut finer = structure.clone();
+        finer.resolution.step_s *= share;
+        run(&finer, amplitude, &mut Workspace::default())
+    };
+    judge_depth(finer, &plain);
     let touched = plain.first_touch_s.is_some();
     let travel = plain.disk.slider_max_m.max(-plain.disk.slider_min_m);
     match seed % 12 {

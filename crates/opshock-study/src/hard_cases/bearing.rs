@@ -66,7 +66,10 @@ pub(super) fn c2() -> Vec<Check> {
             load,
             1e-5,
         ),
-        Check::new("pressure beyond what p h = const allows", outside, 1e-12),
+        Check::new("pressure beyond what p h = const allows", outside, 1e-12).against(
+            "central differences in P, 32 equal cells, bearing number 10000: above 2",
+            naive::central_slider(1e4, 32, exact, 2.0).1,
+        ),
     ]
 }
 
@@ -170,10 +173,34 @@ pub(super) fn c5() -> Vec<Check> {
             .count();
         wrong += held.force.iter().filter(|f| !f.is_finite()).count();
     }
-    vec![Check::none(
-        "pressures and forces that are not numbers, 1 nm to below 0",
-        wrong,
-    )]
+    // Free molecular flow: Q_P = -ln D/sqrt(pi) + c0, with D ~ gap; conductance 6 Q_P psi/D.
+    let free_path = 63.5e-9 * 101_325.0;
+    let factor = FlowFactor::new(FlowModel::FukuiKaneko, free_path);
+    let root = std::f64::consts::PI.sqrt();
+    let (mut flow, mut fit) = (0.0_f64, 0.0_f64);
+    for h in [1e-11, 1e-13, 1e-15] {
+        let psi = 101_325.0 * h;
+        let d = 0.5 * root * psi / free_path;
+        let rate = -d.ln() / root + 0.376_261;
+        let found = factor.conductance(psi).0 * d / (6.0 * psi);
+        flow = flow.max((found / rate - 1.0).abs());
+        fit = fit.max((naive::thin_gap_fit(d) / rate - 1.0).abs());
+    }
+    let unfloored = [1e-9, 1e-11, 1e-13, 0.0, -5e-8].map(|h| AMBIENT_PA * 1e-9 / h);
+    let breaks = unfloored.iter().filter(|p| !(p.is_finite() && **p > 0.0));
+    vec![
+        Check::none(
+            "pressures and forces that are not numbers, 1 nm to below 0",
+            wrong,
+        )
+        .against("psi over the height itself", breaks.count() as f64),
+        Check::new(
+            "flow below 10 pm against its free-molecular limit",
+            flow,
+            1e-3,
+        )
+        .against("the three-range fit beyond its range", fit),
+    ]
 }
 
 const PULSE: Pulse = Pulse {
@@ -236,6 +263,11 @@ pub(super) fn c7() -> Vec<Check> {
             "pull of the film, of ambient pressure x area",
             pull / (101_325.0 * area),
             1.0,
+        ),
+        Check::new(
+            "mass not accounted for by a step, of the film's",
+            run.cost.mass_balance_error,
+            1e-2,
         ),
         Check::none(
             "verdicts other than survival",

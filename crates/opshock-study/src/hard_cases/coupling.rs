@@ -1,6 +1,7 @@
 //! D: film and slider solved in turn, and what flows between structure and head.
 
 use super::Check;
+use super::naive;
 use super::scenes::drive::small_scene;
 use opshock_solver::fixed_point::{Ending, FixedPoint, Method};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
@@ -64,7 +65,13 @@ pub(super) fn d2() -> Vec<Check> {
         moved = moved.max((x[0] - 2.0).abs() + (x[1] - 3.0).abs());
     }
     vec![
-        Check::none("endings other than told, numbers that are none", wrong),
+        Check::none("endings other than told, numbers that are none", wrong).against(
+            "Aitken's factor as printed: numbers that are none of two",
+            naive::aitken_as_printed()
+                .iter()
+                .filter(|w| !w.is_finite())
+                .count() as f64,
+        ),
         Check::new("motion of a converged state", moved, 0.0),
     ]
 }
@@ -96,10 +103,16 @@ pub(super) fn d4() -> Vec<Check> {
         image[0] = x[0] + sign;
         true
     });
-    vec![Check::none(
-        "stalls taken for convergence",
-        usize::from(is_converged(&ending)),
-    )]
+    vec![
+        Check::none(
+            "stalls taken for convergence",
+            usize::from(is_converged(&ending)),
+        )
+        .against(
+            "judged by the change of the iterate, 1e-6",
+            f64::from(u8::from(change <= 1e-6)),
+        ),
+    ]
 }
 
 pub(super) fn d5() -> Vec<Check> {
@@ -108,18 +121,27 @@ pub(super) fn d5() -> Vec<Check> {
         image[0] = x[0].cos();
         true
     });
+    let reached = x[0];
     let broken = FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-9], 4, |_, image| {
         image[0] = f64::NAN;
         true
     });
+    // The answer is cos x = x.
+    let (left, tolerance) = ((reached - 0.739_085_133_215_160_6).abs(), 1e-3);
     let told = [
         matches!(capped, Ending::NotConverged { iterations: 4, .. }),
         matches!(broken, Ending::Broken { iterations: 1 }),
     ];
-    vec![Check::none(
-        "caps and breakdowns accepted",
-        told.iter().filter(|t| !**t).count(),
-    )]
+    vec![
+        Check::none(
+            "caps and breakdowns accepted",
+            told.iter().filter(|t| !**t).count(),
+        )
+        .against(
+            "the iterate at the cap as the answer: wrong by more than 1e-3",
+            f64::from(u8::from(left > tolerance)),
+        ),
+    ]
 }
 
 pub(super) fn d6() -> Vec<Check> {

@@ -85,7 +85,7 @@ impl Case {
     }
 }
 
-const fn case(id: &'static str, name: &'static str, run: fn() -> Vec<Check>) -> Case {
+pub(crate) const fn case(id: &'static str, name: &'static str, run: fn() -> Vec<Check>) -> Case {
     Case { id, name, run }
 }
 

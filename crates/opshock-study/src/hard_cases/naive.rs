@@ -210,3 +210,44 @@ fn tridiagonal<'a>(rows: &mut [[f64; 3]], rhs: &'a mut [f64]) -> &'a [f64] {
     }
     rhs
 }
+
+/// Largest pull, N s in a step of `step` s, of a stop that holds a mode of 1 kg at 1 kHz on itself
+/// by an equation, whichever way a force of 1 N at 100 Hz points: what holds it is minus the force.
+pub fn held_by_an_equation(step: f64) -> f64 {
+    let force = |t: f64| (std::f64::consts::TAU * 100.0 * t).sin();
+    (0..10_000)
+        .map(|k| step * force(f64::from(k) * step))
+        .fold(0.0, f64::max)
+}
+
+/// Aitken's factor ω r₀ / (r₀ − r₁) as printed, for two equal residuals and for residuals of zero.
+pub fn aitken_as_printed() -> [f64; 2] {
+    [1.0_f64, 0.0].map(|residual| {
+        let (before, now) = (residual, residual);
+        -0.5 * before / (now - before)
+    })
+}
+
+/// A clearance as a verdict: whether it is below zero.
+pub fn is_below_zero(clearance: f64) -> bool {
+    clearance < 0.0
+}
+
+/// Critical amplitude by bisection that takes the ends of its range for a survivor and a failure.
+pub fn bisected(low: f64, high: f64, fails: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (low, high);
+    while high / low > 1.01 {
+        let middle = (low * high).sqrt();
+        if fails(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
+    }
+    high
+}
+
+/// Q_P of Fukui and Kaneko's fit for D < 0.15, at any D (1990, table 1).
+pub fn thin_gap_fit(d: f64) -> f64 {
+    -2.229_19 * d + 2.106_73 + 0.016_53 / d - 0.000_069_4 / (d * d)
+}

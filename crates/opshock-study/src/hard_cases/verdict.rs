@@ -1,6 +1,7 @@
 //! E: the verdict, and the search for the critical shock.
 
 use super::Check;
+use super::naive;
 use super::scenes::films::{PlaneSlider, uniform};
 use super::scenes::heads::{
     SingleModeDisk, StillDisk, default_film, default_head, default_resolution, head_on,
@@ -173,6 +174,10 @@ pub(super) fn e4() -> Vec<Check> {
         Check::none(
             "verdicts from a disk that is not a number",
             usize::from(decided),
+        )
+        .against(
+            "fails when clearance < 0, else survives",
+            f64::from(u8::from(!naive::is_below_zero(f64::NAN))),
         ),
         Check::new("run goes on behind it, s", run.end_s - 1.001e-4, 0.0),
     ]
@@ -280,6 +285,14 @@ pub(super) fn e6() -> Vec<Check> {
         Check::none(
             "bounds given as answers",
             told.iter().filter(|t| !**t).count(),
+        )
+        .against(
+            "bisection between the bounds: answers where there is none",
+            [f64::INFINITY, 0.0]
+                .map(|critical| naive::bisected(20.0, 2000.0, |a| a >= critical))
+                .iter()
+                .filter(|answer| answer.is_finite())
+                .count() as f64,
         ),
         Check::new("probes spent", probes.max(more) as f64, 40.0),
     ]
