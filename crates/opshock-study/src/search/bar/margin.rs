@@ -93,15 +93,18 @@ impl Reference {
 
     /// Error of the film's grid from half and a quarter of the cells.
     pub(super) fn film(&self, walk: &mut Walk<'_>) -> Result<Option<Estimate>, Ask> {
+        // The flatter of the two slopes: the same error of clearance is more amplitude.
+        let slope_m = self.slope_m[0].min(self.slope_m[1]);
+        let both = (self.proxy_m[1] - self.at.h_min_m) / slope_m;
+        if both.abs() > REACH {
+            return Ok(None);
+        }
         let half = Levels::NONE.turned(Knob::FilmGrid, -1);
         let Some(half_m) = clearance(walk.see(half, self.at.index)?, self.at.t_min_s) else {
             return Ok(None);
         };
-        // The flatter of the two slopes: the same error of clearance is more amplitude.
-        let slope_m = self.slope_m[0].min(self.slope_m[1]);
         let near = (half_m - self.at.h_min_m) / slope_m;
-        let far = (self.proxy_m[1] - half_m) / slope_m;
-        Ok(within_reach([near, far]).then(|| judge::two_steps(Knob::FilmGrid, near, far)))
+        Ok(Some(judge::two_steps(Knob::FilmGrid, near, both - near)))
     }
 
     /// Error of other knobs turned together by one step on the proxy, of one knob by two where that
@@ -111,6 +114,7 @@ impl Reference {
         &self,
         walk: &mut Walk<'_>,
         knobs: &[Knob],
+        little: f64,
     ) -> Result<Option<Estimate>, Ask> {
         let once = judge::coarser(walk.proxy(), knobs);
         let accuracy = walk.input.accuracy;
@@ -122,20 +126,20 @@ impl Reference {
                 continue;
             };
             let first = (first_m - proxy_m) / self.slope_m[1];
-            if !within_reach([first]) {
+            if first.abs() > REACH {
                 continue;
             }
             let estimate = judge::one_step(knobs, first);
             let &[knob] = knobs else {
                 return Ok(Some(estimate));
             };
-            if estimate.is_negligible(accuracy) || estimate.is_excessive(accuracy) {
+            if estimate.error() <= little || estimate.is_excessive(accuracy) {
                 return Ok(Some(estimate));
             }
             let seen = walk.see(judge::coarser(once, knobs), index)?;
             let second = clearance(seen, self.at.t_min_s)
                 .map(|second_m| (second_m - first_m) / self.slope_m[1])
-                .filter(|&second| within_reach([second]));
+                .filter(|second| second.abs() <= REACH);
             return Ok(Some(match second {
                 Some(second) => judge::two_steps(knob, first, second),
                 None => estimate,
@@ -143,9 +147,4 @@ impl Reference {
         }
         Ok(None)
     }
-}
-
-/// The clearances differ by no more than the amplitudes between which their slope was measured.
-fn within_reach<const N: usize>(shifts: [f64; N]) -> bool {
-    shifts.iter().all(|shift| shift.abs() <= REACH)
 }

@@ -38,8 +38,7 @@ use super::outcome::Flag;
 /// Nodes of the bar's lattice per step of the search.
 pub const SUBNODES: i32 = 16;
 
-/// Knobs that are first turned together, with the name of their common part. The one that most
-/// often counts comes first: the others alone tell what is left to it.
+/// Knobs that are first turned together, with the name of their common part.
 const GROUPS: [(&str, &[Knob]); 2] = [
     ("structure", &[Knob::DiskModes, Knob::StructureStep]),
     (
@@ -252,7 +251,17 @@ fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {
     Ok(bar)
 }
 
-/// Adds the part of knobs turned together, or, where that counts, those of each of them.
+/// How closely knobs are looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Limits {
+    /// Nodes to which brackets are narrowed.
+    grain: i32,
+    /// Error that needs no closer look, a share.
+    little: f64,
+}
+
+/// Adds the part of knobs turned together, or those of each of them where that may bring the bar
+/// below what was asked.
 fn group(
     walk: &mut Walk<'_>,
     (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
@@ -260,43 +269,35 @@ fn group(
     bar: &mut Bar,
 ) -> Result<(), Ask> {
     let accuracy = walk.input.accuracy;
-    let grain = walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1);
+    // Beside what is in the bar already it need not be told which of them it is.
+    let limits = Limits {
+        grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1),
+        little: judge::NEGLIGIBLE * accuracy.max(bar.half_length()),
+    };
     let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
         let by_margin = match margin {
-            Some(reference) => reference.knobs(walk, knobs)?,
+            Some(reference) => reference.knobs(walk, knobs, limits.little)?,
             None => None,
         };
         match by_margin {
             Some(estimate) => Ok(Some(estimate)),
-            None => verdicts::knobs(walk, knobs, grain, coarsest),
+            None => verdicts::knobs(walk, knobs, coarsest, limits),
         }
     };
-    let (Some((&first, others)), several) = (knobs.split_first(), knobs.len() > 1) else {
-        return Ok(());
+    let joint = match knobs.len() {
+        0 => return Ok(()),
+        1 => None,
+        _ => turned(walk, knobs)?,
     };
-    let joint = match several {
-        true => turned(walk, knobs)?,
-        false => None,
-    };
-    // Beside what is in the bar already it need not be told which of them it is.
-    let little = judge::NEGLIGIBLE * accuracy.max(bar.half_length());
-    if let Some(estimate) = joint.filter(|estimate| estimate.error() <= little) {
+    let is_told = |joint: &Estimate| joint.error() <= limits.little || joint.is_excessive(accuracy);
+    if let Some(estimate) = joint.filter(is_told) {
         bar.add(name, Some(estimate), accuracy);
         return Ok(());
     }
     let mut alone = Vec::new();
-    for &knob in others {
+    for &knob in knobs {
         alone.push((knob, turned(walk, &[knob])?));
     }
-    let is_little = |(_, estimate): &(Knob, Option<Estimate>)| {
-        estimate.is_some_and(|estimate| estimate.error() <= little)
-    };
-    let left = joint.filter(|joint| joint.is_excessive(accuracy) && alone.iter().all(is_little));
-    let estimate = match left {
-        Some(joint) => Some(joint),
-        None => turned(walk, &[first])?,
-    };
-    bar.add(first.as_str(), estimate, accuracy);
     for (knob, estimate) in alone {
         bar.add(knob.as_str(), estimate, accuracy);
     }

@@ -3,11 +3,11 @@
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
-use super::{Ask, Walk};
+use super::{Ask, Limits, Walk};
 use crate::search::evidence::NodeVerdict;
 
 /// Farthest that a turned scene's answer is looked for, as a share.
-const FARTHEST: f64 = 1.0;
+const FARTHEST: f64 = 0.5;
 /// Growth of the stride while it is looked for: most of what is passed survives, which is dear.
 const GROWTH: i32 = 4;
 
@@ -29,8 +29,8 @@ struct Width {
 
 /// Of the coarse films when they are held against the scene itself.
 const OF_FILM: Width = Width {
-    nodes: 2,
-    distance_over: 8,
+    nodes: 4,
+    distance_over: 4,
 };
 
 /// Brackets the turned scene's answer beginning at `from`. `None` without verdicts or too far away.
@@ -42,7 +42,8 @@ fn locate(
 ) -> Result<Option<Bracket>, Ask> {
     let farthest = walk.input.lattice.nodes_within(FARTHEST);
     let (mut low, mut high) = (None, None);
-    let mut next = from.low;
+    // The upper end first: a survivor there answers for the lower end too.
+    let mut next = from.high;
     let mut stride = (from.high - from.low).max(1);
     loop {
         if (next - from.low).abs() > farthest {
@@ -63,11 +64,11 @@ fn locate(
                 }
                 next = low + (high - low) / 2;
             }
-            (Some(low), None) if low < from.high => next = from.high,
             (Some(low), None) => {
                 next = low + stride;
                 stride *= GROWTH;
             }
+            (None, Some(high)) if high > from.low => next = from.low,
             (None, _) => {
                 next -= stride;
                 stride *= GROWTH;
@@ -138,8 +139,8 @@ fn shift(walk: &Walk<'_>, from: Bracket, to: Bracket) -> f64 {
 pub(super) fn knobs(
     walk: &mut Walk<'_>,
     knobs: &[Knob],
-    grain: i32,
     known: Option<OnFilm>,
+    Limits { grain, little }: Limits,
 ) -> Result<Option<Estimate>, Ask> {
     let plain = Width {
         nodes: grain,
@@ -170,11 +171,10 @@ pub(super) fn knobs(
     }
     let first = shift(walk, base, one);
     let estimate = judge::one_step(knobs, first);
-    let accuracy = walk.input.accuracy;
     let &[knob] = knobs else {
         return Ok(Some(estimate));
     };
-    if estimate.is_negligible(accuracy) || estimate.is_excessive(accuracy) {
+    if estimate.error() <= little || estimate.is_excessive(walk.input.accuracy) {
         return Ok(Some(estimate));
     }
     let Some(two) = locate(walk, judge::coarser(once, knobs), one, quarter)? else {
