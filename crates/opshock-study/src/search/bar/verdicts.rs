@@ -6,8 +6,8 @@ use super::judge::{self, Estimate};
 use super::{Ask, Limits, Walk};
 use crate::search::evidence::NodeVerdict;
 
-/// Farthest that a turned scene's answer is looked for, as a share.
-const FARTHEST: f64 = 0.5;
+/// Farthest that the answer of turned knobs is looked for, as a share.
+const FARTHEST: f64 = 1.0;
 /// Growth of the stride while it is looked for: most of what is passed survives, which is dear.
 const GROWTH: i32 = 4;
 
@@ -19,18 +19,21 @@ struct Bracket {
 }
 
 /// How narrow a bracket is made: a large shift is known well enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Width {
     /// Nodes.
     nodes: i32,
     /// Or this part of its distance from where the search began; 0: no.
     distance_over: i32,
+    /// Farthest that it is looked for, as a share.
+    farthest: f64,
 }
 
 /// Of the coarse films when they are held against the scene itself.
 const OF_FILM: Width = Width {
     nodes: 4,
     distance_over: 4,
+    farthest: 0.5,
 };
 
 /// Brackets the turned scene's answer beginning at `from`. `None` without verdicts or too far away.
@@ -40,7 +43,7 @@ fn locate(
     from: Bracket,
     width: Width,
 ) -> Result<Option<Bracket>, Ask> {
-    let farthest = walk.input.lattice.nodes_within(FARTHEST);
+    let farthest = walk.input.lattice.nodes_within(width.farthest);
     let (mut low, mut high) = (None, None);
     // The upper end first: a survivor there answers for the lower end too.
     let mut next = from.high;
@@ -145,10 +148,12 @@ pub(super) fn knobs(
     let plain = Width {
         nodes: grain,
         distance_over: 0,
+        farthest: OF_FILM.farthest,
     };
     let quarter = Width {
         nodes: grain,
         distance_over: 4,
+        farthest: FARTHEST,
     };
     let found = match known {
         Some(film) => Some(film),
