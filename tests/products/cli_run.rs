@@ -122,6 +122,27 @@ fn a_run_writes_only_what_it_is_asked_for() {
     assert!(csv.starts_with("time_s,shock_m_per_s2,disk_slider_m,"));
 }
 
+/// A slider below the limit before the shock is no failure by shock: place and amount, exit 3.
+#[test]
+fn a_slider_below_the_limit_at_the_start_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "--amplitude-g",
+        "50",
+        "--set",
+        "solver.fail_below_nm=60",
+        "--json",
+    ];
+    let done = run(folder.path(), &set);
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let errors = done.errors();
+    assert_eq!(errors.len(), 1);
+    assert_eq!(errors[0]["code"], "E148");
+    let message = errors[0]["message"].as_str().unwrap();
+    assert!(message.contains("mm from its leading"), "{message}");
+    assert_eq!(files(folder.path()).len(), 0);
+}
+
 /// Pressure fields in both formats, those before the touch only, and none without a file.
 #[test]
 fn pressure_fields_are_written_beside_the_history() {

@@ -42,6 +42,7 @@ pub(super) struct FieldRecord<'a> {
     times_s: &'a [f64],
     fields: PressureFields,
     psi: Vec<f64>,
+    cells: Vec<f64>,
 }
 
 /// One step: its start, its length, and states and rates at both ends.
@@ -68,6 +69,7 @@ impl<'a> FieldRecord<'a> {
                 gap_m: room(),
             },
             psi: vec![0.0; n_cells],
+            cells: vec![0.0; n_cells],
         }
     }
 
@@ -128,14 +130,20 @@ impl<'a> FieldRecord<'a> {
         x: [f64; 3],
     ) {
         let attitude = model.attitude(&x, &motion.pose(pose_s));
-        let Self { fields, psi, .. } = self;
-        let from = fields.pressure_pa.len();
-        fields.time_s.push(time_s);
-        for field in [&mut fields.pressure_pa, &mut fields.gap_m] {
-            field.resize(from + psi.len(), 0.0);
-        }
         let film = &model.film;
-        film.pressure(psi, &attitude, &mut fields.pressure_pa[from..]);
-        film.heights(&attitude, &mut fields.gap_m[from..]);
+        let [nx, ny] = film.lines_m().map(|lines| lines.len() - 1);
+        let Self {
+            fields, psi, cells, ..
+        } = self;
+        fields.time_s.push(time_s);
+        // The film numbers its cells as its matrices like them.
+        let put = |field: &mut Vec<f64>, cells: &[f64]| {
+            let rows = (0..ny).flat_map(|y| (0..nx).map(move |x| (x, y)));
+            field.extend(rows.map(|(x, y)| cells[film.cell_index(x, y)]));
+        };
+        film.pressure(psi, &attitude, cells);
+        put(&mut fields.pressure_pa, cells);
+        film.heights(&attitude, cells);
+        put(&mut fields.gap_m, cells);
     }
 }

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::HeadResolution;
 use super::mechanics::Mechanics;
+use super::outcome::Place;
 use crate::air_bearing::steady::Flight;
 use crate::air_bearing::{Attitude, Film};
 use crate::disk::DiskPose;
@@ -38,6 +39,8 @@ pub enum HeadError {
     StartsFailed {
         /// Steady clearance, m.
         min_clearance_m: f64,
+        /// Where on the slider it is.
+        place: Place,
         /// Failure limit, m.
         fail_below_m: f64,
     },
@@ -119,11 +122,16 @@ impl HeadModel {
         let reduced = ReducedSuspension::build(suspension, resolution.suspension_modes)?;
         let mechanics =
             Mechanics::new(suspension, &reduced, slider).ok_or(HeadError::SingularMass)?;
-        let steady_clearance_m = film.min_clearance(&flight.attitude).value_m;
+        let steady = film.min_clearance(&flight.attitude);
+        let steady_clearance_m = steady.value_m;
         let flies = steady_clearance_m > fail_below_m;
         if !flies {
             return Err(HeadError::StartsFailed {
                 min_clearance_m: steady_clearance_m,
+                place: Place {
+                    x_m: steady.x_m,
+                    y_m: steady.y_m,
+                },
                 fail_below_m,
             });
         }

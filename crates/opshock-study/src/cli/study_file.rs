@@ -4,6 +4,8 @@ use super::GlobalArgs;
 use super::console::{Console, stderr_colour, stderr_width};
 use super::failure::{Failure, Fault};
 use crate::study::{ChoiceError, SetArg, SetSyntaxError, Study, StudyError, StudyErrors, fault};
+use opshock_solver::head::HeadError;
+use opshock_solver::simulation::BuildError;
 use std::path::Path;
 
 /// The `--set` arguments.
@@ -62,8 +64,29 @@ pub fn refuse_unaccepted(study: &Study, global: &GlobalArgs) -> Result<(), Failu
 
 /// A scene that passes every check of its numbers and still has no answer, as a slider without
 /// steady flight.
-pub fn cannot_be_simulated(study: &Study, error: &dyn std::error::Error) -> Failure {
+pub fn cannot_be_simulated(study: &Study, error: &(dyn std::error::Error + 'static)) -> Failure {
     let file = study.path.display().to_string();
+    if let Some(BuildError::Head(HeadError::StartsFailed {
+        min_clearance_m,
+        place,
+        fail_below_m,
+    })) = error.downcast_ref()
+    {
+        let nm = |metres: &f64| 1e9 * metres;
+        let message = format!(
+            "the slider flies {:.3} nm above the disk before the shock, {:.3} mm from its leading and \
+             {:.3} mm from its inner edge: not above the limit of failure",
+            nm(min_clearance_m),
+            1e3 * place.x_m,
+            1e3 * place.y_m
+        );
+        let mut fault = StudyError::in_file("E148", &file, message)
+            .value(format!("{}", nm(fail_below_m)))
+            .allowed(format!("a limit below {:.3} nm", nm(min_clearance_m)))
+            .hint("no failure by shock: see `opshock steady`");
+        fault.key = "solver.fail_below_nm".to_owned();
+        return StudyErrors::from(fault).into();
+    }
     let fault = StudyError::in_file("E190", &file, error.to_string())
         .hint("change the scene; `opshock steady` and `opshock modes` show its parts");
     StudyErrors::from(fault).into()
