@@ -7,8 +7,8 @@
 
 pub use pulp::{NullaryFnOnce as Kernel, Simd, WithSimd};
 
-/// Sums kept apart in [`products`], so that their order does not depend on the registers.
-const SUMS: usize = 8;
+/// Sums that every reduction keeps apart, so that its order does not depend on the registers.
+pub const SUMS: usize = 8;
 
 /// Scalar products of `x` with three rows.
 ///
@@ -19,34 +19,78 @@ pub fn products(rows: [&[f64]; 3], x: &[f64]) -> [f64; 3] {
     widest(Products { rows, x })
 }
 
-struct Products<'a> {
-    rows: [&'a [f64]; 3],
+/// Scalar product of `x` with a row.
+///
+/// # Panics
+///
+/// When the row is shorter than `x`.
+pub fn product(row: &[f64], x: &[f64]) -> f64 {
+    widest(Products { rows: [row], x })[0]
+}
+
+/// Sum of `x`.
+pub fn sum(x: &[f64]) -> f64 {
+    widest(Sum { x })
+}
+
+struct Sum<'a> {
     x: &'a [f64],
 }
 
-impl Kernel for Products<'_> {
-    type Output = [f64; 3];
+impl Kernel for Sum<'_> {
+    type Output = f64;
 
     #[inline(always)]
-    fn call(self) -> [f64; 3] {
-        self.rows.map(|row| {
-            let mut sums = [0.0; SUMS];
+    fn call(self) -> f64 {
+        let (chunks, rest) = self.x.as_chunks::<SUMS>();
+        let mut sums = [0.0; SUMS];
+        for chunk in chunks {
+            for k in 0..SUMS {
+                sums[k] += chunk[k];
+            }
+        }
+        let mut last = 0.0;
+        for x in rest {
+            last += x;
+        }
+        total(sums) + last
+    }
+}
+
+struct Products<'a, const K: usize> {
+    rows: [&'a [f64]; K],
+    x: &'a [f64],
+}
+
+impl<const K: usize> Kernel for Products<'_, K> {
+    type Output = [f64; K];
+
+    // A closure would be compiled once, for the narrowest registers: loops all along.
+    #[inline(always)]
+    fn call(self) -> [f64; K] {
+        let (x, x_rest) = self.x.as_chunks::<SUMS>();
+        let mut out = [0.0; K];
+        for (out, row) in out.iter_mut().zip(self.rows) {
             let (a, a_rest) = row[..self.x.len()].as_chunks::<SUMS>();
-            let (x, x_rest) = self.x.as_chunks::<SUMS>();
+            let mut sums = [0.0; SUMS];
             for (a, x) in a.iter().zip(x) {
                 for k in 0..SUMS {
                     sums[k] += a[k] * x[k];
                 }
             }
-            let rest: f64 = a_rest.iter().zip(x_rest).map(|(a, x)| a * x).sum();
-            total(sums) + rest
-        })
+            let mut rest = 0.0;
+            for (a, x) in a_rest.iter().zip(x_rest) {
+                rest += a * x;
+            }
+            *out = total(sums) + rest;
+        }
+        out
     }
 }
 
 /// All eight in a fixed order.
 #[inline(always)]
-pub fn total(s: [f64; 8]) -> f64 {
+pub fn total(s: [f64; SUMS]) -> f64 {
     ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]))
 }
 

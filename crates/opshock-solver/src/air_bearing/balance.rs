@@ -13,10 +13,7 @@ use super::faces::{BLOCK, Block, Interior, Places, block};
 use super::film::Film;
 use super::flux::is_steep;
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
-use crate::lanes::{Kernel, total, widest};
-
-/// Sums kept apart so that the order of additions does not depend on the width of a register.
-const SUMS: usize = 8;
+use crate::lanes::{Kernel, SUMS, total, widest};
 
 impl Film {
     /// Scratch for this film.
@@ -154,8 +151,10 @@ impl Kernel for Balance<'_> {
             for first in (0..faces.length.len()).step_by(BLOCK) {
                 let [up, down] = faces.sides(scratch, first);
                 let base = faces.places.heights(first, attitude);
-                let h_faces =
-                    [up.recess, down.recess].map(|recess| film.floored_block(&base, recess)[0]);
+                let h_faces = [
+                    film.floored_block(&base, up.recess)[0],
+                    film.floored_block(&base, down.recess)[0],
+                ];
                 let length = block(&faces.length, first);
                 let values = if faces.wind == 0.0 {
                     still(&up, &down, &h_faces, length)
@@ -373,6 +372,7 @@ impl Moments {
 
     #[inline(always)]
     pub(super) fn total(&self) -> [f64; 3] {
-        self.sums.map(total)
+        let [force, pitch, roll] = self.sums;
+        [total(force), total(pitch), total(roll)]
     }
 }

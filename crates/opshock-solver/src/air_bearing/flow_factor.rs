@@ -86,8 +86,21 @@ impl FlowFactor {
         }
     }
 
+    /// G and dG/dψ of many ψ > 0 (Pa m).
+    ///
+    /// # Panics
+    ///
+    /// When slices differ in length.
+    #[inline(always)]
+    pub fn conductances(&self, psi: &[f64], g: &mut [f64], slope: &mut [f64]) {
+        assert!(g.len() == psi.len() && slope.len() == psi.len());
+        for ((psi, g), slope) in psi.iter().zip(g).zip(slope) {
+            (*g, *slope) = self.conductance(*psi);
+        }
+    }
+
     /// G and dG/dψ at ψ > 0 (Pa m).
-    #[inline]
+    #[inline(always)]
     pub fn conductance(&self, psi: f64) -> (f64, f64) {
         let l = self.knudsen_psi;
         match self.model {
@@ -108,12 +121,19 @@ impl FlowFactor {
                             (c1 + t * (2.0 * c2 + t * 3.0 * c3)) * scale,
                         )
                     }
-                    None => fukui_kaneko(s),
+                    None => outside(s),
                 };
                 (g * l, slope)
             }
         }
     }
+}
+
+/// The model itself, off the paths that matter.
+#[cold]
+#[inline(never)]
+fn outside(s: f64) -> (f64, f64) {
+    fukui_kaneko(s)
 }
 
 /// Number of the interval that holds `s` > 0, counted from s = 0.

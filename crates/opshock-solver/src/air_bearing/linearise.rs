@@ -155,7 +155,10 @@ fn between_cells(
     for first in (0..faces.length.len()).step_by(BLOCK) {
         let [up, down] = faces.sides(state, first);
         let base = faces.places.heights(first, attitude);
-        let faces_at = [up.recess, down.recess].map(|recess| film.floored_block(&base, recess));
+        let faces_at = [
+            film.floored_block(&base, up.recess),
+            film.floored_block(&base, down.recess),
+        ];
         let length = block(&faces.length, first);
         let arms = Arms {
             face: [&faces.places.x, &faces.places.y].map(|c| *block(c, first)),

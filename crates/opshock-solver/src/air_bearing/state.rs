@@ -59,9 +59,7 @@ impl FilmScratch {
         }
         let g = &mut self.g[front..front + psi.len()];
         let slopes = &mut self.g_slope[front..front + psi.len()];
-        for ((psi, g), slope) in psi.iter().zip(g).zip(slopes) {
-            (*g, *slope) = film.flow.conductance(*psi);
-        }
+        film.flow.conductances(psi, g, slopes);
     }
 }
 

@@ -4,10 +4,7 @@
 //! δψ = −A⁻¹ r_f − Z δq
 //! ```
 
-use crate::lanes::{Kernel, total, widest};
-
-/// Sums kept apart.
-const SUMS: usize = 8;
+use crate::lanes::{Kernel, SUMS, total, widest};
 
 /// Turns `residual`, which holds A⁻¹ r_f, into δψ in place. Returns Σ (δψ/ψ)² and the largest share
 /// of its gas that a cell would lose; both are NaN-proof in that a NaN in ψ or δψ shows in the sum.
@@ -44,10 +41,13 @@ impl Kernel for Correct<'_> {
     fn call(self) -> (f64, f64) {
         let (delta, delta_rest) = self.residual.as_chunks_mut::<SUMS>();
         let (psi, psi_rest) = self.psi.as_chunks::<SUMS>();
-        let z = self.z.map(|z| z.as_chunks::<SUMS>());
+        let [(z0, z0_rest), (z1, z1_rest), (z2, z2_rest)] = [
+            self.z[0].as_chunks::<SUMS>(),
+            self.z[1].as_chunks::<SUMS>(),
+            self.z[2].as_chunks::<SUMS>(),
+        ];
         let mut squares = [0.0; SUMS];
         let mut losses = [0.0_f64; SUMS];
-        let ((z0, z1), z2) = ((z[0].0, z[1].0), z[2].0);
         for ((((delta, z0), z1), z2), psi) in delta.iter_mut().zip(z0).zip(z1).zip(z2).zip(psi) {
             let mut relative = [0.0; SUMS];
             for k in 0..SUMS {
@@ -65,7 +65,8 @@ impl Kernel for Correct<'_> {
         }
         let (mut square, mut loss) = (0.0, losses.into_iter().fold(0.0, f64::max));
         for (k, (delta, psi)) in delta_rest.iter_mut().zip(psi_rest).enumerate() {
-            let change: f64 = (0..3).map(|q| z[q].1[k] * self.dq[q]).sum();
+            let change =
+                z0_rest[k] * self.dq[0] + z1_rest[k] * self.dq[1] + z2_rest[k] * self.dq[2];
             *delta = -*delta - change;
             let relative = *delta / psi;
             square += relative * relative;

@@ -15,6 +15,7 @@
 //! suspension's root lies beyond the leading edge). The contact pushes only; its force is
 //! continuous with a kink where the dimple opens.
 
+use crate::linalg::pivoted::PivotedLu;
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
 use crate::suspension::{ReducedSuspension, SuspensionParameters};
@@ -93,14 +94,16 @@ impl Mechanics {
         }
 
         let mut inverse_mass = vec![0.0; n * n];
-        let (mut work, mut column) = (mass.clone(), vec![0.0; n]);
+        let mut factors = PivotedLu::new(n);
+        factors.matrix_mut().copy_from_slice(&mass);
+        if !factors.factor() {
+            return None;
+        }
+        let mut column = vec![0.0; n];
         for j in 0..n {
-            work.copy_from_slice(&mass);
             column.fill(0.0);
             column[j] = 1.0;
-            if !eliminate(&mut work, &mut column) {
-                return None;
-            }
+            factors.solve(&mut column);
             for i in 0..n {
                 inverse_mass[i * n + j] = column[i];
             }
@@ -271,78 +274,4 @@ fn multiply(matrix: &[f64], x: &[f64], out: &mut [f64]) {
 #[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Solves a small dense system in place by elimination with row exchanges, leaving the solution in
-/// `rhs`; false when a pivot is zero or not finite.
-///
-/// Rows are compared after scaling by their largest entry, since metres and radians meet in one
-/// matrix.
-pub(super) fn eliminate(matrix: &mut [f64], rhs: &mut [f64]) -> bool {
-    let n = rhs.len();
-    for i in 0..n {
-        let row = &mut matrix[i * n..(i + 1) * n];
-        let largest = row.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-        if !(largest > 0.0 && largest.is_finite()) {
-            return false;
-        }
-        row.iter_mut().for_each(|a| *a /= largest);
-        rhs[i] /= largest;
-    }
-    for k in 0..n {
-        let pivot_row = (k..n)
-            .max_by(|&a, &b| matrix[a * n + k].abs().total_cmp(&matrix[b * n + k].abs()))
-            .unwrap_or(k);
-        if pivot_row != k {
-            let (above, below) = matrix.split_at_mut(pivot_row * n);
-            above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
-            rhs.swap(k, pivot_row);
-        }
-        let pivot = matrix[k * n + k];
-        if !(pivot != 0.0 && pivot.is_finite()) {
-            return false;
-        }
-        let (done, rest) = matrix.split_at_mut((k + 1) * n);
-        let pivot_entries = &done[k * n + k..];
-        let pivot_rhs = rhs[k];
-        for (row, r) in rest.chunks_exact_mut(n).zip(&mut rhs[k + 1..]) {
-            let multiplier = row[k] / pivot;
-            for (a, p) in row[k..].iter_mut().zip(pivot_entries) {
-                *a -= multiplier * p;
-            }
-            *r -= multiplier * pivot_rhs;
-        }
-    }
-    for k in (0..n).rev() {
-        let known: f64 = matrix[k * n + k + 1..(k + 1) * n]
-            .iter()
-            .zip(&rhs[k + 1..])
-            .map(|(a, x)| a * x)
-            .sum();
-        rhs[k] = (rhs[k] - known) / matrix[k * n + k];
-    }
-    rhs.iter().all(|x| x.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::eliminate;
-
-    #[test]
-    fn elimination_needs_row_exchanges_and_survives_mixed_units() {
-        // Exact solution (1, -2, 3); the first pivot is zero and rows differ by 1e14 in scale.
-        let rows = [[0.0, 2.0, 1.0], [3e14, 1e14, -2e14], [1e-9, 1e-9, 4e-9]];
-        let exact = [1.0, -2.0, 3.0];
-        let mut matrix: Vec<f64> = rows.iter().flatten().copied().collect();
-        let mut rhs: Vec<f64> = rows
-            .iter()
-            .map(|r| r.iter().zip(exact).map(|(a, x)| a * x).sum())
-            .collect();
-        assert!(eliminate(&mut matrix, &mut rhs));
-        for (x, wanted) in rhs.iter().zip(exact) {
-            assert!((x - wanted).abs() < 1e-13);
-        }
-        assert!(!eliminate(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
-        assert!(!eliminate(&mut [1.0, f64::NAN, 2.0, 4.0], &mut [1.0, 1.0]));
-    }
 }

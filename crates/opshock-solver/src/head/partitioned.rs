@@ -8,6 +8,7 @@
 use super::Coupling;
 use super::stage::{Instant, MechanicalIterate, StageFailure, Stages};
 use crate::fixed_point::{Ending, FixedPoint, Method};
+use crate::lanes::sum;
 
 /// Exchanges of one stage before it is given up.
 const MAX_EXCHANGES: usize = 40;
@@ -101,7 +102,7 @@ impl Stages<'_> {
         let mut size = f64::INFINITY;
         for _ in 0..MAX_FILM_ITERATIONS {
             self.film_residual(instant, &attitude, psi, psi_known);
-            let spurious: f64 = self.scratch.residual.iter().sum();
+            let spurious = sum(&self.scratch.residual);
             self.scratch.solve_film();
             let (mut square, mut loss) = (0.0, 0.0_f64);
             for (delta, psi) in self.scratch.residual.iter().zip(&*psi) {

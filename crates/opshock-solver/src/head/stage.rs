@@ -19,13 +19,14 @@
 use super::HeadModel;
 use super::ShockLoad;
 use super::correction::correct_film;
-use super::mechanics::{StageState, eliminate};
+use super::mechanics::StageState;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
 use crate::disk::{DiskMotion, DiskPose};
 use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
-use crate::lanes::products;
+use crate::lanes::{product, products, sum};
 use crate::linalg::banded::BandedLu;
+use crate::linalg::pivoted::PivotedLu;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
@@ -53,8 +54,6 @@ pub(super) struct StageScratch {
     lu: BandedLu,
     /// d for which the factors were made; `None`: there are none.
     factored_d_s: Option<f64>,
-    /// Z, row by row, for the solution of its three columns at once.
-    columns: Vec<[f64; 3]>,
     /// Z, column by column.
     z: [Vec<f64>; 3],
     /// F_ψ Z − F_q.
@@ -63,12 +62,22 @@ pub(super) struct StageScratch {
     pub mechanical: Vec<f64>,
     pub velocity: Vec<f64>,
     pub small: Vec<f64>,
-    pub matrix: Vec<f64>,
+    /// S + film's condensed stiffness, factored, and what it was made for.
+    lu_small: PivotedLu,
+    small_key: Option<SmallKey>,
     /// Contraction of the last iteration with the present factors.
     contraction: f64,
     /// Whether the dimple was closed at the last mechanical iterate.
     last_closed: bool,
     pub counters: Counters,
+}
+
+/// What the matrix of slider and suspension depends on besides the film's condensed stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SmallKey {
+    d_s: f64,
+    is_closed: bool,
+    with_film: bool,
 }
 
 /// What the stage solves have cost, and their worst figures.
@@ -92,14 +101,14 @@ impl StageScratch {
             lu: BandedLu::new(n_cells, band),
             linearisation,
             factored_d_s: None,
-            columns: vec![[0.0; 3]; n_cells],
             z: [0, 1, 2].map(|_| vec![0.0; n_cells]),
             film_matrix: [[0.0; 3]; 3],
             residual: vec![0.0; n_cells],
             mechanical: vec![0.0; n],
             velocity: vec![0.0; n],
             small: vec![0.0; n],
-            matrix: vec![0.0; n * n],
+            lu_small: PivotedLu::new(n),
+            small_key: None,
             contraction: 0.1,
             last_closed: true,
             counters: Counters::default(),
@@ -109,6 +118,7 @@ impl StageScratch {
     /// Forgets factors and counts, keeping the storage.
     pub fn reset(&mut self) {
         self.factored_d_s = None;
+        self.small_key = None;
         self.contraction = 0.1;
         self.counters = Counters::default();
     }
@@ -183,23 +193,18 @@ impl Stages<'_> {
         {
             return Err(StageFailure::NotConverged(f64::INFINITY));
         }
-        let [by_h, by_pitch, by_roll] = &s.linearisation.by_attitude;
-        for (((z, h), p), r) in s.columns.iter_mut().zip(by_h).zip(by_pitch).zip(by_roll) {
-            *z = [*h, *p, *r];
+        for (z, by) in s.z.iter_mut().zip(&s.linearisation.by_attitude) {
+            z.copy_from_slice(by);
+            s.lu.solve(z);
         }
-        s.lu.solve_columns(&mut s.columns);
         s.counters.solves += 3;
-        for (q, z) in s.z.iter_mut().enumerate() {
-            for (z, row) in z.iter_mut().zip(&s.columns) {
-                *z = row[q];
-            }
-        }
         for f in 0..3 {
             let sum = products(columns_of(&s.z), &s.linearisation.force_by_psi[f]);
             let by_attitude = s.linearisation.force_by_attitude[f];
             s.film_matrix[f] = std::array::from_fn(|q| sum[q] - by_attitude[q]);
         }
         s.factored_d_s = Some(d_s);
+        s.small_key = None;
         s.contraction = 0.1;
         Ok(())
     }
@@ -243,25 +248,37 @@ impl Stages<'_> {
     /// Notes what is left of the film's mass balance, relative to the mass that is there: a slider
     /// far from the disk holds many times the mass of steady flight.
     pub fn note_imbalance(&mut self, spurious: f64, psi: &[f64]) {
-        let capacity = self.model.film.capacity();
-        let mass: f64 = capacity.iter().zip(psi).map(|(c, psi)| c * psi).sum();
+        let mass = product(self.model.film.capacity(), psi);
         let worst = &mut self.scratch.counters.mass_balance_error;
         *worst = worst.max((spurious / mass).abs());
     }
 
-    /// S + film's condensed stiffness into the scratch's small matrix.
-    fn assemble_small(&mut self, d_s: f64, closed: bool, with_film: bool) {
+    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness; the
+    /// factors are kept while d, dimple and film stay. False when there is none.
+    fn solve_small(&mut self, d_s: f64, is_closed: bool, with_film: bool) -> bool {
         let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
-        self.model
-            .mechanics
-            .stage_matrix(d_s, closed, &mut s.matrix);
-        if with_film {
-            for f in 0..3 {
-                for q in 0..3 {
-                    s.matrix[f * n + q] += s.film_matrix[f][q];
+        let key = SmallKey {
+            d_s,
+            is_closed,
+            with_film,
+        };
+        if s.small_key != Some(key) {
+            s.small_key = None;
+            let matrix = s.lu_small.matrix_mut();
+            self.model.mechanics.stage_matrix(d_s, is_closed, matrix);
+            if with_film {
+                for f in 0..3 {
+                    for q in 0..3 {
+                        matrix[f * n + q] += s.film_matrix[f][q];
+                    }
                 }
             }
+            if !s.lu_small.factor() {
+                return false;
+            }
+            s.small_key = Some(key);
         }
+        s.lu_small.solve(&mut s.mechanical)
     }
 
     /// One mechanical correction δx for residual r_m and film term `condensed`, left in
@@ -291,9 +308,7 @@ impl Stages<'_> {
                 *r -= f;
             }
         }
-        self.assemble_small(state.instant.d_s, closed, condensed.is_some());
-        let s = &mut *self.scratch;
-        if eliminate(&mut s.matrix, &mut s.mechanical) {
+        if self.solve_small(state.instant.d_s, closed, condensed.is_some()) {
             Ok(())
         } else {
             Err(StageFailure::NotFinite("slider and suspension"))
@@ -324,7 +339,7 @@ impl Stages<'_> {
                 *v = (x - known) / instant.d_s;
             }
             let film = self.film_residual(instant, &attitude, psi, psi_known);
-            let spurious: f64 = self.scratch.residual.iter().sum();
+            let spurious = sum(&self.scratch.residual);
             let condensed = self.scratch.solve_film();
             let iterate = MechanicalIterate {
                 instant,
@@ -463,15 +478,21 @@ impl StageSystem for Stages<'_> {
         for (r, f) in s.mechanical.iter_mut().zip(force) {
             *r += f;
         }
-        self.assemble_small(d_s, closed, true);
-        let s = &mut *self.scratch;
-        if !eliminate(&mut s.matrix, &mut s.mechanical) {
+        if !self.solve_small(d_s, closed, true) {
             error.fill(f64::NAN);
             return;
         }
+        let s = &mut *self.scratch;
         let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
-        for ((e, r), z) in e_psi.iter_mut().zip(&s.residual).zip(&s.columns) {
-            *e = r - (z[0] * dq[0] + z[1] * dq[1] + z[2] * dq[2]);
+        let [z_h, z_pitch, z_roll] = &s.z;
+        for ((((e, r), h), pitch), roll) in e_psi
+            .iter_mut()
+            .zip(&s.residual)
+            .zip(z_h)
+            .zip(z_pitch)
+            .zip(z_roll)
+        {
+            *e = r - (h * dq[0] + pitch * dq[1] + roll * dq[2]);
         }
         for ((e_x, e_v), x) in e_x.iter_mut().zip(e_v).zip(&s.mechanical) {
             *e_v = (x - *e_x) / d_s;

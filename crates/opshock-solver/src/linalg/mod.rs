@@ -3,6 +3,7 @@
 pub mod banded;
 pub mod dense;
 pub mod lowest;
+pub mod pivoted;
 mod triangles;
 
 pub use dense::{DenseError, EigenPairs, SquareMatrix};
