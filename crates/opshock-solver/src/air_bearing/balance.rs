@@ -197,7 +197,7 @@ impl Kernel for Balance<'_> {
                 let cells = &faces.cells[first..first + BLOCK];
                 let picked =
                     Picked::new(scratch, cells, &faces.behind[first..first + BLOCK], front);
-                let side = picked.side(&faces.side, first, faces.wind);
+                let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
                 let h_face = film.floored_block(&base, side.recess)[0];
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
@@ -222,15 +222,13 @@ impl Interior {
     pub(super) fn sides<'a>(&'a self, state: &'a FilmScratch, first: usize) -> [SideBlock<'a>; 2] {
         let (up, down) = (self.up + first, self.down + first);
         [
-            SideBlock::between_cells(
-                state,
+            SideBlock::new(
+                state.cells(up, self.behind + first),
                 &self.up_side,
-                up,
-                self.behind + first,
                 first,
                 self.wind,
             ),
-            SideBlock::between_cells(state, &self.down_side, down, down, first, -self.wind),
+            SideBlock::new(state.cells(down, down), &self.down_side, first, -self.wind),
         ]
     }
 }
@@ -263,8 +261,8 @@ pub(super) fn any_steep(
 ) -> bool {
     let mut any = false;
     for k in 0..BLOCK {
-        let u = is_steep(up.h[k], h_up[k]);
-        let d = is_steep(down.h[k], h_down[k]);
+        let u = is_steep(up.h(k), h_up[k]);
+        let d = is_steep(down.h(k), h_down[k]);
         any |= (u | d) & (length[k] != 0.0);
     }
     any

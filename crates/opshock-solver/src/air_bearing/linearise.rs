@@ -216,7 +216,7 @@ fn on_edges(
             let cells = &faces.cells[first..first + BLOCK];
             let behind = &faces.behind[first..first + BLOCK];
             let picked = Picked::new(state, cells, behind, front);
-            let side = picked.side(&faces.side, first, faces.wind);
+            let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
             let length = block(&faces.length, first);
             let centre = [&columns.centre_x, &columns.centre_y].map(|column| {
@@ -408,14 +408,14 @@ fn windy<const STEEP: bool>(
                     a.beta,
                     u.mean_excess::<true>(&a, p),
                     up.area[k],
-                    [up.h_slope[k], slope_up[k]],
+                    [up.h_slope(k), slope_up[k]],
                 ),
                 (
                     d.partials::<false>(&b, p),
                     b.beta,
                     d.mean_excess::<false>(&b, p),
                     down.area[k],
-                    [down.h_slope[k], slope_down[k]],
+                    [down.h_slope(k), slope_down[k]],
                 ),
             ],
             1.0 / total,
@@ -450,14 +450,14 @@ fn still(
                     beta_up,
                     u.still_excess(p),
                     up.area[k],
-                    [up.h_slope[k], slope_up[k]],
+                    [up.h_slope(k), slope_up[k]],
                 ),
                 (
                     d.still_partials(p),
                     beta_down,
                     d.still_excess(p),
                     down.area[k],
-                    [down.h_slope[k], slope_down[k]],
+                    [down.h_slope(k), slope_down[k]],
                 ),
             ],
             1.0 / total,
@@ -505,7 +505,7 @@ fn edge(
             partials,
             share: length[k],
             area: side.area[k],
-            slopes: [side.h_slope[k], slope],
+            slopes: [side.h_slope(k), slope],
         };
         let nothing = SideDerivatives {
             partials: HalfPartials::NONE,

@@ -71,42 +71,50 @@ pub(super) fn block_mut(column: &mut [f64], first: usize) -> &mut Block {
         .expect("a slice of BLOCK entries")
 }
 
+/// State of a block of cells and ψ of those behind them.
+pub(super) struct CellBlock<'a> {
+    psi: &'a Block,
+    psi_behind: &'a Block,
+    g: &'a Block,
+    g_slope: &'a Block,
+    h: &'a Block,
+    inverse_h: &'a Block,
+    h_slope: &'a Block,
+}
+
+impl FilmScratch {
+    /// The cells from `at`, those behind them from `behind` in the columns of states.
+    #[inline(always)]
+    pub(super) fn cells(&self, at: usize, behind: usize) -> CellBlock<'_> {
+        CellBlock {
+            psi: block(&self.psi, at),
+            psi_behind: block(&self.psi, behind),
+            g: block(&self.g, at),
+            g_slope: block(&self.g_slope, at),
+            h: block(&self.h, at),
+            inverse_h: block(&self.inverse_h, at),
+            h_slope: block(&self.h_slope, at),
+        }
+    }
+}
+
 /// One side of a block of faces: its cells' state and what is fixed about them.
 pub(super) struct SideBlock<'a> {
-    pub(super) psi: &'a Block,
-    pub(super) psi_behind: &'a Block,
-    pub(super) g: &'a Block,
-    pub(super) g_slope: &'a Block,
-    pub(super) h: &'a Block,
-    pub(super) inverse_h: &'a Block,
-    pub(super) h_slope: &'a Block,
+    cells: CellBlock<'a>,
     pub(super) recess: &'a Block,
     pub(super) reach: &'a Block,
-    pub(super) inverse_distance: &'a Block,
+    inverse_distance: &'a Block,
     pub(super) area: &'a Block,
     /// 6 μ U out of the cells.
     pub(super) wind: f64,
 }
 
 impl<'a> SideBlock<'a> {
-    /// Cells from `at` and `behind` in the columns of states, faces from `first`.
+    /// `cells` at the faces from `first`.
     #[inline(always)]
-    pub(super) fn between_cells(
-        state: &'a FilmScratch,
-        sides: &'a Sides,
-        at: usize,
-        behind: usize,
-        first: usize,
-        wind: f64,
-    ) -> Self {
+    pub(super) fn new(cells: CellBlock<'a>, sides: &'a Sides, first: usize, wind: f64) -> Self {
         Self {
-            psi: block(&state.psi, at),
-            psi_behind: block(&state.psi, behind),
-            g: block(&state.g, at),
-            g_slope: block(&state.g_slope, at),
-            h: block(&state.h, at),
-            inverse_h: block(&state.inverse_h, at),
-            h_slope: block(&state.h_slope, at),
+            cells,
             recess: block(&sides.recess, first),
             reach: block(&sides.reach, first),
             inverse_distance: block(&sides.inverse_distance, first),
@@ -115,17 +123,29 @@ impl<'a> SideBlock<'a> {
         }
     }
 
+    /// Height at the centre of cell k.
+    #[inline(always)]
+    pub(super) fn h(&self, k: usize) -> f64 {
+        self.cells.h[k]
+    }
+
+    /// Derivative of that height by the true one.
+    #[inline(always)]
+    pub(super) fn h_slope(&self, k: usize) -> f64 {
+        self.cells.h_slope[k]
+    }
+
     /// Half cell k with the height `h_face` at the face.
     #[inline(always)]
     pub(super) fn half(&self, k: usize, h_face: f64) -> HalfCell {
         HalfCell {
-            psi: self.psi[k],
-            psi_behind: self.psi_behind[k],
+            psi: self.cells.psi[k],
+            psi_behind: self.cells.psi_behind[k],
             reach: self.reach[k],
-            g: self.g[k],
-            g_slope: self.g_slope[k],
-            h_centre: self.h[k],
-            inverse_h: self.inverse_h[k],
+            g: self.cells.g[k],
+            g_slope: self.cells.g_slope[k],
+            h_centre: self.cells.h[k],
+            inverse_h: self.cells.inverse_h[k],
             h_face,
             inverse_distance: self.inverse_distance[k],
             wind: self.wind,
@@ -172,8 +192,8 @@ impl Picked {
     }
 
     #[inline(always)]
-    pub(super) fn side<'a>(&'a self, sides: &'a Sides, first: usize, wind: f64) -> SideBlock<'a> {
-        SideBlock {
+    pub(super) fn cells(&self) -> CellBlock<'_> {
+        CellBlock {
             psi: &self.psi,
             psi_behind: &self.psi_behind,
             g: &self.g,
@@ -181,11 +201,6 @@ impl Picked {
             h: &self.h,
             inverse_h: &self.inverse_h,
             h_slope: &self.h_slope,
-            recess: block(&sides.recess, first),
-            reach: block(&sides.reach, first),
-            inverse_distance: block(&sides.inverse_distance, first),
-            area: block(&sides.area, first),
-            wind,
         }
     }
 }

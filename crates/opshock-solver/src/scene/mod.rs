@@ -5,7 +5,7 @@ pub mod knob;
 pub mod plan;
 mod refine;
 
-use crate::air_bearing::{FilmResolution, FlowModel};
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel};
 use crate::disk::{DiskParameters, DiskResolution};
 use crate::gas::GasParameters;
 pub use crate::head::{Coupling, HeadResolution};
@@ -45,4 +45,21 @@ pub struct Scene {
     pub film_resolution: FilmResolution,
     /// Resolution of the head.
     pub head_resolution: HeadResolution,
+}
+
+impl Scene {
+    /// The film under the slider, over the disk at its speed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::build`].
+    pub fn film(&self) -> Result<Film, FilmError> {
+        Film::build(
+            &self.slider,
+            &self.gas,
+            self.flow,
+            self.disk.spin_rad_per_s,
+            &self.film_resolution,
+        )
+    }
 }

@@ -64,13 +64,7 @@ impl Bearing {
     /// # Errors
     /// [`BuildError::Film`], [`BuildError::Steady`].
     pub fn build(scene: &Scene) -> Result<Self, BuildError> {
-        let film = Film::build(
-            &scene.slider,
-            &scene.gas,
-            scene.flow,
-            scene.disk.spin_rad_per_s,
-            &scene.film_resolution,
-        )?;
+        let film = scene.film()?;
         let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
         Ok(Self {
             film: Arc::new(film),

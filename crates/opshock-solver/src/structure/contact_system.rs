@@ -4,13 +4,14 @@
 //! until the first touch; from then on it is carried by its exact flow and kicked by impulses.
 
 use super::Window;
+use super::closing::Closing;
 use super::contact_log::ContactLog;
 use super::energy::{Energies, Ledger};
 use super::free_motion::{ForcedState, Sample};
 use super::history::{Break, StructuralHistory};
 use super::model::{Shared, StructureError, StructureRun, StructureWarning};
 use super::node::Node;
-use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -335,86 +336,40 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Closes the books.
+    ///
+    /// # Errors
+    /// [`StructureError::NotFinite`].
     pub fn finish(self) -> Result<StructureRun, StructureError> {
-        let shared = self.shared;
-        let step_s = shared.free.step_s;
-        let end_s = self.k as f64 * step_s;
-        let ledger = self.ledger;
-        let (work, damping) = if self.awake {
-            (ledger.work, ledger.damping)
-        } else {
+        let mut ledger = self.ledger;
+        if !self.awake {
             let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
-            (a2 * sample.work, a2 * sample.loss)
-        };
-        let h_end = self.energies.fixed_frame;
-        if !(h_end.is_finite() && work.is_finite() && self.extremes.slider_max_m.is_finite()) {
-            let k = self.not_finite.unwrap_or(self.k);
-            return Err(StructureError::NotFinite {
-                time_s: k as f64 * step_s,
-            });
+            (ledger.work, ledger.damping) = (a2 * sample.work, a2 * sample.loss);
         }
-        let residual = h_end - (work - damping - ledger.impact + ledger.algorithmic);
-        let peak = ledger.peak_fixed_frame;
-        let energy = EnergyBook {
-            kinetic_j: self.energies.kinetic,
-            elastic_j: self.energies.elastic,
-            h_end_j: h_end,
-            h_peak_j: peak,
-            shock_work_j: work,
-            damping_loss_j: damping,
-            impact_loss_j: ledger.impact,
-            algorithmic_j: ledger.algorithmic,
-            spindle_work_j: ledger.spindle,
-            closure: if peak > 0.0 {
-                residual.abs() / peak
-            } else {
-                0.0
-            },
+        let state = self.state;
+        let history = std::mem::take(&mut state.history);
+        let columns = std::mem::take(&mut state.columns);
+        let closing = Closing {
+            shared: self.shared,
+            k: self.k,
+            not_finite: self.not_finite,
+            energies: self.energies,
+            ledger,
+            extremes: self.extremes,
+            complementarity: self.complementarity,
+            logs: &state.logs,
+            history,
+            columns: state.record.then_some(columns),
         };
-        let mut warnings = shared.warnings.clone();
-        warnings.extend(StructureRun::penetration_warning(
-            self.complementarity.max_penetration_m,
-        ));
+        let mut run = closing.run()?;
         if self.accumulated_steps > 0 {
-            warnings.push(StructureWarning::BouncesAccumulated {
+            run.warnings.push(StructureWarning::BouncesAccumulated {
                 steps: self.accumulated_steps,
             });
         }
         if self.both_arms {
-            warnings.push(StructureWarning::BothArmsOnePoint);
+            run.warnings.push(StructureWarning::BothArmsOnePoint);
         }
-        let state = self.state;
-        let [top, bottom] = [0, 1].map(|side| state.logs[side].summary(step_s));
-        let mut history = std::mem::take(&mut state.history);
-        history
-            .events_s
-            .extend(shared.free.kinks_s().filter(|&t| t <= end_s));
-        history.events_s.sort_by(f64::total_cmp);
-        history.events_s.dedup();
-        let columns = state.record.then(|| {
-            let mut columns = std::mem::take(&mut state.columns);
-            let n = columns.time_s.len();
-            columns.contact_top_n = state.logs[0].running_mean(step_s, n);
-            columns.contact_bottom_n = state.logs[1].running_mean(step_s, n);
-            columns
-        });
-        let first_touch_s = [top.first_touch_s, bottom.first_touch_s]
-            .into_iter()
-            .flatten()
-            .min_by(f64::total_cmp);
-        Ok(StructureRun {
-            history,
-            columns,
-            disk: self.extremes,
-            top,
-            bottom,
-            energy,
-            complementarity: self.complementarity,
-            first_touch_s,
-            steps: self.k as u64,
-            end_s,
-            warnings,
-        })
+        Ok(run)
     }
 }
 

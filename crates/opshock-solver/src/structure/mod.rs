@@ -2,6 +2,7 @@
 #![doc = include_str!("theory.md")]
 
 mod bank;
+mod closing;
 mod contact_log;
 mod contact_system;
 mod energy;

@@ -13,13 +13,14 @@
 //! event for the head.
 
 use super::Window;
+use super::closing::Closing;
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::energy::Ledger;
 use super::history::StructuralHistory;
 use super::model::{Shared, StructureError, StructureModel, StructureRun};
 use super::node::Node;
-use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use crate::complementarity::moreau_jean::{LinearMode, MoreauJean};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -58,15 +59,11 @@ impl StructureModel {
         for k in 0..shared.n_steps {
             march.step(k);
             march.record_node(k + 1);
-            if !march.last.energies.fixed_frame.is_finite() {
-                let time_s = march.last.time_s;
-                return Err(StructureError::NotFinite { time_s });
-            }
-            if march.decayed() {
+            if march.decayed() || !march.last.energies.fixed_frame.is_finite() {
                 break;
             }
         }
-        Ok(march.finish())
+        march.finish()
     }
 }
 
@@ -208,62 +205,21 @@ impl<'a> March<'a> {
     }
 
     /// Closes the books.
-    fn finish(self) -> StructureRun {
-        let shared = self.shared;
-        let step_s = shared.free.step_s;
-        let end_s = self.last.time_s;
-        let (ledger, energies) = (self.ledger, self.last.energies);
-        let peak = ledger.peak_fixed_frame;
-        let residual = energies.fixed_frame - (ledger.work - ledger.damping - ledger.impact);
-        let energy = EnergyBook {
-            kinetic_j: energies.kinetic,
-            elastic_j: energies.elastic,
-            h_end_j: energies.fixed_frame,
-            h_peak_j: peak,
-            shock_work_j: ledger.work,
-            damping_loss_j: ledger.damping,
-            impact_loss_j: ledger.impact,
-            algorithmic_j: 0.0,
-            spindle_work_j: ledger.spindle,
-            closure: if peak > 0.0 {
-                residual.abs() / peak
-            } else {
-                0.0
-            },
-        };
-        let mut warnings = shared.warnings.clone();
-        warnings.extend(StructureRun::penetration_warning(
-            self.complementarity.max_penetration_m,
-        ));
-        let [top, bottom] = self.logs.each_ref().map(|log| log.summary(step_s));
-        let mut history = self.history;
-        let kinks = shared.free.kinks_s().filter(|&t| t <= end_s);
-        history.events_s.extend(kinks);
-        history.events_s.sort_by(f64::total_cmp);
-        history.events_s.dedup();
-        let columns = self.columns.map(|mut columns| {
-            let n = columns.time_s.len();
-            columns.contact_top_n = self.logs[0].running_mean(step_s, n);
-            columns.contact_bottom_n = self.logs[1].running_mean(step_s, n);
-            columns
-        });
-        let first_touch_s = [top.first_touch_s, bottom.first_touch_s]
-            .into_iter()
-            .flatten()
-            .min_by(f64::total_cmp);
-        StructureRun {
-            steps: history.pose.len() as u64 - 1,
-            history,
-            columns,
-            disk: self.extremes,
-            top,
-            bottom,
-            energy,
+    fn finish(self) -> Result<StructureRun, StructureError> {
+        let k = self.history.pose.len() - 1;
+        let closing = Closing {
+            shared: self.shared,
+            k,
+            not_finite: None,
+            energies: self.last.energies,
+            ledger: self.ledger,
+            extremes: self.extremes,
             complementarity: self.complementarity,
-            first_touch_s,
-            end_s,
-            warnings,
-        }
+            logs: &self.logs,
+            history: self.history,
+            columns: self.columns,
+        };
+        closing.run()
     }
 }
 

@@ -11,7 +11,6 @@ use crate::report::savings;
 use crate::study::{Point, Study};
 use anyhow::Context as _;
 use clap::Args;
-use opshock_solver::air_bearing::Film;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Decision, Effect, Mode, Needs, Plan, Touch};
@@ -137,14 +136,7 @@ fn film_cells(
     {
         return Ok(Some(*cells));
     }
-    let film = Film::build(
-        &scene.slider,
-        &scene.gas,
-        scene.flow,
-        scene.disk.spin_rad_per_s,
-        &scene.film_resolution,
-    )
-    .context("no film")?;
+    let film = scene.film().context("no film")?;
     let cells = film.n_cells();
     *last = Some((scene.clone(), cells));
     Ok(Some(cells))

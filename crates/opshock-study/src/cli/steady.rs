@@ -129,13 +129,7 @@ struct State {
 }
 
 fn film(study: &Study, scene: &Scene) -> Result<Film, Failure> {
-    let film = Film::build(
-        &scene.slider,
-        &scene.gas,
-        scene.flow,
-        scene.disk.spin_rad_per_s,
-        &scene.film_resolution,
-    );
+    let film = scene.film();
     film.map_err(|error| study_file::cannot_be_simulated(study, &error))
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
-use super::files::ReportError;
+use super::files::{ReportError, json, write_all};
 use super::table::csv_line;
 use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
 
@@ -15,19 +15,10 @@ use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
 ///
 /// [`ReportError`] at the first file that cannot be made.
 pub fn write_accuracy(folder: &Path, accuracy: &Accuracy) -> Result<Vec<PathBuf>, ReportError> {
-    let io = |path: &Path, source| ReportError::Io {
-        path: path.display().to_string(),
-        source,
-    };
-    std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
-    let json = serde_json::to_string_pretty(accuracy).map_err(|error| ReportError::Io {
-        path: folder.display().to_string(),
-        source: error.into(),
-    })?;
     let mut files: Vec<(String, Vec<u8>)> = vec![
         ("accuracy.md".into(), markdown(accuracy).into_bytes()),
         ("accuracy.csv".into(), csv(accuracy).into_bytes()),
-        ("accuracy.json".into(), json.into_bytes()),
+        ("accuracy.json".into(), json(folder, accuracy)?),
     ];
     for (number, point) in accuracy.points.iter().enumerate() {
         let figure = figure(point, &accuracy.program);
@@ -37,13 +28,7 @@ pub fn write_accuracy(folder: &Path, accuracy: &Accuracy) -> Result<Vec<PathBuf>
         ));
         files.push((format!("accuracy-{}.png", number + 1), figure.png()?));
     }
-    let mut written = Vec::new();
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
-        written.push(path);
-    }
-    Ok(written)
+    Ok(write_all(folder, files)?)
 }
 
 /// Work-precision plots of a point: error of three quantities against wall time, a panel a ladder.

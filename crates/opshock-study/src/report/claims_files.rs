@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour};
-use super::files::ReportError;
+use super::files::{ReportError, json, write_all};
 use super::table::csv_line;
 use crate::claims::{Answer, ClaimRow, Found, Rests, Row, Sensitivity};
 use serde::Serialize;
@@ -249,14 +249,12 @@ fn short_change(value: f64) -> String {
 ///
 /// [`ReportError`] at the first file that cannot be made.
 pub fn write_claims(folder: &Path, table: &ClaimTable) -> Result<Vec<PathBuf>, ReportError> {
-    write(
-        folder,
-        vec![
-            ("claims.md", table.markdown().into_bytes()),
-            ("claims.csv", table.csv().into_bytes()),
-            ("claims.json", json(folder, table)?),
-        ],
-    )
+    let files = [
+        ("claims.md", table.markdown().into_bytes()),
+        ("claims.csv", table.csv().into_bytes()),
+        ("claims.json", json(folder, table)?),
+    ];
+    Ok(write_all(folder, files)?)
 }
 
 /// Writes `sensitivity.md`, `.csv`, `.json`, `.svg` and `.png` into `folder`; returns the written
@@ -267,39 +265,14 @@ pub fn write_claims(folder: &Path, table: &ClaimTable) -> Result<Vec<PathBuf>, R
 /// [`ReportError`] at the first file that cannot be made.
 pub fn write_sensitivity(folder: &Path, all: &Sensitivity) -> Result<Vec<PathBuf>, ReportError> {
     let figure = tornado(all);
-    write(
-        folder,
-        vec![
-            ("sensitivity.md", sensitivity_markdown(all).into_bytes()),
-            ("sensitivity.csv", sensitivity_csv(all).into_bytes()),
-            ("sensitivity.json", json(folder, all)?),
-            ("sensitivity.svg", figure.svg().into_bytes()),
-            ("sensitivity.png", figure.png()?),
-        ],
-    )
-}
-
-fn json(folder: &Path, value: &impl Serialize) -> Result<Vec<u8>, ReportError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| ReportError::Io {
-        path: folder.display().to_string(),
-        source: error.into(),
-    })?;
-    Ok((text + "\n").into_bytes())
-}
-
-fn write(folder: &Path, files: Vec<(&str, Vec<u8>)>) -> Result<Vec<PathBuf>, ReportError> {
-    let io = |path: &Path, source| ReportError::Io {
-        path: path.display().to_string(),
-        source,
-    };
-    std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
-    let mut written = Vec::new();
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
-        written.push(path);
-    }
-    Ok(written)
+    let files = [
+        ("sensitivity.md", sensitivity_markdown(all).into_bytes()),
+        ("sensitivity.csv", sensitivity_csv(all).into_bytes()),
+        ("sensitivity.json", json(folder, all)?),
+        ("sensitivity.svg", figure.svg().into_bytes()),
+        ("sensitivity.png", figure.png()?),
+    ];
+    Ok(write_all(folder, files)?)
 }
 
 fn sensitivity_markdown(all: &Sensitivity) -> String {

@@ -19,7 +19,7 @@ pub mod table;
 pub use accuracy_files::write_accuracy;
 pub use claims_files::{ClaimTable, tornado, write_claims, write_sensitivity};
 pub use critical_shock::critical_shock_figure;
-pub use files::{ReportError, write_report};
+pub use files::{ReportError, WriteError, write_report};
 pub use html::ReportSource;
 pub use outcome_map::{RunDot, outcome_map};
 pub use run_json::{RunJson, verdict_word};

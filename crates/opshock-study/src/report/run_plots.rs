@@ -1,6 +1,7 @@
 //! Pictures of one simulation against time.
 
 use super::chart::{Axis, ChartError, Dash, Figure, Panel, Rule, Series, colour};
+use super::files::{WriteError, write_all};
 use crate::store::history::{Column, head_columns, root_columns, structure_columns};
 use opshock_solver::simulation::History;
 use std::path::{Path, PathBuf};
@@ -320,14 +321,8 @@ pub(super) fn find<'a>(columns: &'a [Column], name: &str) -> &'a Column {
 #[derive(Debug, thiserror::Error)]
 pub enum PlotError {
     /// The operating system refused.
-    #[error("cannot write {path}")]
-    Io {
-        /// File or folder.
-        path: String,
-        /// Reason.
-        #[source]
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] WriteError),
     /// The picture could not be encoded.
     #[error("cannot draw {path}")]
     Chart {
@@ -361,27 +356,17 @@ pub(super) fn write_picture(
     figure: &Figure,
     table: &str,
 ) -> Result<Vec<PathBuf>, PlotError> {
-    let io = |path: &Path, source| PlotError::Io {
-        path: path.display().to_string(),
-        source,
-    };
-    let path = |ending| folder.join(format!("{name}.{ending}"));
+    let name = |ending: &str| format!("{name}.{ending}");
     let png = figure.png().map_err(|source| PlotError::Chart {
-        path: path("png").display().to_string(),
+        path: folder.join(name("png")).display().to_string(),
         source,
     })?;
     let files = [
-        (path("png"), png),
-        (path("svg"), figure.svg().into_bytes()),
-        (path("csv"), table.as_bytes().to_vec()),
+        (name("png"), png),
+        (name("svg"), figure.svg().into_bytes()),
+        (name("csv"), table.as_bytes().to_vec()),
     ];
-    std::fs::create_dir_all(folder).map_err(|source| io(folder, source))?;
-    let mut written = Vec::new();
-    for (path, bytes) in files {
-        std::fs::write(&path, bytes).map_err(|source| io(&path, source))?;
-        written.push(path);
-    }
-    Ok(written)
+    Ok(write_all(folder, files)?)
 }
 
 fn csv(table: &[Column]) -> String {

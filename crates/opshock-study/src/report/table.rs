@@ -2,25 +2,27 @@
 
 use crate::store::summary::{ERROR_PARTS, PointSummary, Status, Summary};
 
+/// Columns of the table before those of the study's axes.
+pub(super) const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
+/// Columns behind them.
+pub(super) const AFTER_AXES: [&str; 8] = [
+    "a_crit_g",
+    "a_fail_g",
+    "err_low_g",
+    "err_high_g",
+    "onset_g",
+    "runs",
+    "status",
+    "flags",
+];
+
 /// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,
 /// runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
 /// digits. Nothing in it depends on the machine.
 pub fn csv(summary: &Summary) -> String {
-    let mut header: Vec<String> = ["ramp", "pulse_ms", "sign"].map(String::from).to_vec();
+    let mut header: Vec<String> = BEFORE_AXES.map(String::from).to_vec();
     header.extend(summary.axes.iter().cloned());
-    header.extend(
-        [
-            "a_crit_g",
-            "a_fail_g",
-            "err_low_g",
-            "err_high_g",
-            "onset_g",
-            "runs",
-            "status",
-            "flags",
-        ]
-        .map(String::from),
-    );
+    header.extend(AFTER_AXES.map(String::from));
     let mut text = csv_line(&header);
     for point in &summary.points {
         let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());

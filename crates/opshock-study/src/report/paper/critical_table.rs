@@ -1,5 +1,6 @@
 //! A committed `table.csv` of critical shocks read back, for a figure without its store.
 
+use super::super::table::{AFTER_AXES, BEFORE_AXES};
 use crate::search::Sign;
 use crate::store::summary::{AxisValue, Flag, PointSummary, Status, Summary, Totals};
 use std::path::Path;
@@ -31,18 +32,6 @@ pub enum TableError {
         allowed: &'static str,
     },
 }
-
-const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
-const AFTER_AXES: [&str; 8] = [
-    "a_crit_g",
-    "a_fail_g",
-    "err_low_g",
-    "err_high_g",
-    "onset_g",
-    "runs",
-    "status",
-    "flags",
-];
 
 /// Reads the `table.csv` of a report. What the table leaves out (parts of the bars, brackets,
 /// totals) is empty.

@@ -15,6 +15,7 @@ pub use curves::{PaperCase, long_shock_figures, pulse_figure, short_shock_figure
 pub use drawings::{deformable_ramp_drawing, plan_drawing, rigid_ramp_drawing};
 
 use super::chart::Figure;
+use super::files::write_all;
 use super::run_plots::{PlotError, write_picture};
 use super::{critical_shock::critical_shock_figure, table};
 use crate::store::summary::Summary;
@@ -70,12 +71,8 @@ pub fn write_paper_figures(
             &figure.csv,
         )?);
     }
-    let path = folder.join("figures.md");
-    std::fs::write(&path, list(figures, provenance)).map_err(|source| PlotError::Io {
-        path: path.display().to_string(),
-        source,
-    })?;
-    written.push(path);
+    let list = list(figures, provenance).into_bytes();
+    written.extend(write_all(folder, [("figures.md", list)])?);
     Ok(written)
 }
 
