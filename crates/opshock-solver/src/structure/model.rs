@@ -26,8 +26,8 @@ const MAX_IMPACTS_PER_STEP: u32 = 8;
 /// Penetration above which a run warns, m.
 const PENETRATION_WARNING_M: f64 = 1e-7;
 /// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
-/// cannot be aimed (see [`crate::complementarity`]). A static correction of n >= 1 faster than that
-/// is slowed at constant compliance, so that the grid is the same whether n >= 1 is built or not.
+/// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
+/// constant compliance: it stands for stiffness, and would divide the step three to five times.
 const FASTEST_DISK_ANGLE: f64 = 3.0;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
@@ -548,11 +548,12 @@ fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
     Ok(n as usize)
 }
 
-/// The step divided for the modes: those of n = 0, which every basis holds, and the cut, below
-/// which the modes of other harmonics lie. So all ramps share one grid.
+/// The step divided for the modes below the cut and, should it be lower, the slowest of n = 0, which
+/// every basis holds. So all ramps share one grid.
 fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -> f64 {
     let symmetric = basis.modes.iter().filter(|mode| mode.nodal_diameters == 0);
     let fastest = symmetric
+        .filter(|mode| mode.nodal_circles.is_some())
         .map(|mode| mode.omega_rad_per_s)
         .fold(std::f64::consts::TAU * resolution.cut_hz, f64::max);
     let n_parts = (fastest * step_s / FASTEST_DISK_ANGLE).ceil().max(1.0);
@@ -563,8 +564,7 @@ fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -
 fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
     let limit = FASTEST_DISK_ANGLE / step_s;
     for mode in &mut basis.modes {
-        let is_correction = mode.nodal_diameters > 0 && mode.nodal_circles.is_none();
-        if is_correction && mode.omega_rad_per_s > limit {
+        if mode.nodal_circles.is_none() && mode.omega_rad_per_s > limit {
             let share = limit / mode.omega_rad_per_s;
             mode.omega_rad_per_s = limit;
             for (value, slope) in &mut mode.shape {
