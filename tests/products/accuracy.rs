@@ -44,37 +44,27 @@ fn a_ladder_is_held_against_its_reference() {
     assert!(ladders.rungs.last().is_some_and(|rung| rung.is_reference));
 }
 
-/// Where no contact lies between, errors fall with the formal order: of the flying height with the
-/// cells, of the smallest clearance of a shock without ramp with the head's tolerances.
+/// Where no contact lies between, errors fall with the formal order: of the smallest clearance of a
+/// shock without ramp with the head's tolerances. The film's is shown on nested grids (physics,
+/// `flying_height_converges_with_the_formal_order_on_nested_grids`): every number of cells has a
+/// layout of its own, whose error goes up and down on the way.
 #[test]
 fn observed_orders_without_contact_are_the_formal_ones() {
     let sets = [("solver.film_cells", "800"), ("pulse.window_ms", "0.8")];
     let scene = scene("fig13", "none", 0.5, &sets);
-    for (ladder, near_g) in [
-        ("film_cells", None),
-        ("head_tolerance", Some(300.0)),
-        ("coupling_tolerance", Some(300.0)),
-    ] {
+    for ladder in ["head_tolerance", "coupling_tolerance"] {
         let settings = ladders(&scene).into_iter();
         let measured: Vec<_> = settings
             .filter(|setting| setting.ladder == ladder)
             .map(|setting| {
                 let mut bench = Bench::build(&setting.scene, 1.0).expect("builds");
                 // The probing shock alone: a bracket as wide as can be.
-                let measured = bench.measure(near_g.unwrap_or(10.0), 300.0, 9.0);
+                let measured = bench.measure(300.0, 300.0, 9.0);
                 (setting, measured)
             })
             .collect();
         let ladders = PointLadders::of("none".into(), 300.0, &measured);
         let order = &ladders.orders[0];
-        println!(
-            "{order:?} {:?}",
-            ladders
-                .rungs
-                .iter()
-                .map(|r| (&r.value, r.errors[1], r.errors[2]))
-                .collect::<Vec<_>>()
-        );
         let (observed, formal) = (
             order.observed.expect("an order"),
             order.formal.expect("known"),
