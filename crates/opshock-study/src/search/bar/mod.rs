@@ -3,7 +3,7 @@
 //! Each part asks what the answer would be if one knob were turned a step coarser ([`Knob`]), so
 //! that its runs cost less than those of the search. All knobs but the film's grid are turned on a
 //! film of a quarter or an eighth of the cells, because what such a knob changes hardly depends on
-//! the film; and first together, in two groups ([`GROUPS`]): of disk and ramp, and of the head. Only
+//! the film; and first together, in two groups (`GROUPS`): of disk and ramp, and of the head. Only
 //! where a group moves the answer by what counts is each of its knobs turned alone.
 //! Two readings turn runs into amplitude:
 //!
