@@ -82,7 +82,7 @@ fn a_full_disk_ends_the_sweep_and_keeps_what_was_finished() {
     // 32 blocks of 512 or 1024 bytes: the journal does not fit.
     let status = Command::new("sh")
         .arg("-c")
-        .arg("trap '' XFSZ; ulimit -f 32; exec \"$0\" \"$1\" 2 1 2>/dev/null >/dev/null")
+        .arg("trap '' XFSZ; ulimit -f 32; exec \"$0\" \"$1\" 2 1 60000 2>/dev/null >/dev/null")
         .arg(MOCK)
         .arg(&folder)
         .status()

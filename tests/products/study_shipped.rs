@@ -43,7 +43,7 @@ fn every_study_is_clean_and_documented() {
         }
         names.push(name);
     }
-    for expected in ["fig13", "paper-cases", "drive-2.5in"] {
+    for expected in ["fig13", "paper-cases", "drive-2.5in", "clearance"] {
         assert!(
             names.iter().any(|name| name == expected),
             "studies/{expected} is missing"

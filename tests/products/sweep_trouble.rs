@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use opshock_study::search::{Flag, RampClass, Status};
+use opshock_study::store::summary::PointSummary;
 use opshock_study::store::{Record, RunRecord, Store, folder::session, hdf5_file, journal};
 use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
@@ -55,7 +56,15 @@ fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
             assert_eq!(row.a_fail_g, None);
             causes.push(row.flags.clone());
         } else {
-            assert_eq!(row, well);
+            // A point that learns from a sick one starts its search elsewhere: the same answer
+            // from other runs.
+            let answer = |row: &PointSummary| PointSummary {
+                runs: 0,
+                certified_from_g: None,
+                largest_gap_pct: None,
+                ..row.clone()
+            };
+            assert_eq!(answer(row), answer(well));
         }
     }
     assert_eq!(

@@ -6,6 +6,7 @@ pub mod mock_sweep;
 pub mod pairs;
 pub mod scenes;
 pub mod seeded;
+pub mod tables;
 
 pub use opshock_study::hard_cases::scenes::{bodies, films, heads, structures, suspensions};
 

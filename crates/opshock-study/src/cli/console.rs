@@ -39,6 +39,16 @@ impl Console {
         self.result(&(text + "\n"))
     }
 
+    /// Prints a result as a line of JSON.
+    ///
+    /// # Errors
+    ///
+    /// As [`Console::result`].
+    pub fn result_json_line(&self, value: &impl Serialize) -> Result<(), Failure> {
+        let text = serde_json::to_string(value).context("cannot write the result as JSON")?;
+        self.result(&(text + "\n"))
+    }
+
     /// Tells something on stderr, unless quiet.
     pub fn tell(&self, text: &str) {
         if !self.quiet {

@@ -14,12 +14,15 @@ mod export;
 mod failure;
 mod figures;
 mod hard_cases;
+mod merge;
 mod modes;
 mod new;
+mod plan;
 mod report;
 mod run;
 mod schema;
 mod selection;
+mod slurm;
 mod status;
 mod steady;
 mod stored;
@@ -132,7 +135,9 @@ enum Command {
     Modes(modes::ModesArgs),
     Steady(steady::SteadyArgs),
     Explain(explain::ExplainArgs),
+    Plan(plan::PlanArgs),
     Sweep(sweep::SweepArgs),
+    Merge(merge::MergeArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
     Claims(claims::ClaimsArgs),
@@ -178,6 +183,8 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
         Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
         Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
+        Command::Plan(arguments) => plan::run(arguments, &cli.global, console),
+        Command::Merge(arguments) => merge::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),

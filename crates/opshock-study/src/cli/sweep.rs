@@ -8,9 +8,10 @@ use super::failure::Failure;
 use super::report::{Told, exit_of};
 use super::{stored, study_file, thresholds};
 use crate::report::table;
+use crate::search::Order;
 use crate::store::{Audit, Summary};
 use crate::sweep::{
-    Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, audit, sweep,
+    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, sweep,
 };
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -29,6 +30,13 @@ pub struct SweepArgs {
     /// Start nothing new after this time, save and end with exit code 5, as 7h30m
     #[arg(long, value_name = "TIME", value_parser = duration)]
     budget: Option<Duration>,
+    /// Take finished simulations of equal content from this store, of any study; may be repeated
+    #[arg(long, value_name = "STORE")]
+    reuse: Vec<PathBuf>,
+    /// Complete one part of the points, as 2/4, into a store of its own within the store; parts
+    /// may run at the same time, on any machines that share the folder (see `merge`)
+    #[arg(long, value_name = "K/N", conflicts_with = "audit")]
+    shard: Option<Shard>,
     /// Run this share of the finished simulations again with all effects, as 2%; any difference is
     /// exit code 7
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -54,6 +62,8 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         stop,
         budget: arguments.budget,
         retry_undecided: arguments.only == Some(Only::Undecided),
+        reuse: arguments.reuse.clone(),
+        shard: arguments.shard,
         ..SweepOptions::with_threads(global.threads())
     };
     let kind = if console.quiet {
@@ -67,7 +77,20 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
     drop(progress);
 
-    let summary = end.summary;
+    if !arguments.reuse.is_empty() {
+        console.tell(&format!(
+            "{} simulations taken from other stores, {} made",
+            end.reused_runs, end.computed_runs
+        ));
+    }
+    let mut summary = end.summary;
+    let own = arguments.shard.map(|shard| shard.folder(&folder));
+    if let Some(shard) = &arguments.shard {
+        // The other rows are for their own shards to complete.
+        let coordinates: Vec<_> = input.points.iter().map(|p| p.coordinates.clone()).collect();
+        let mut owned = shard.owned(&Order::of(&coordinates)).into_iter();
+        summary.points.retain(|_| owned.next() == Some(true));
+    }
     let audited = match arguments.audit.filter(|_| end.ending == Ending::Complete) {
         Some(share) => {
             let full = Physics::in_full(&study);
@@ -79,7 +102,8 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         None => None,
     };
     if console.json {
-        console.result_json(&Told::of(&stored::read(&folder, console)?))?;
+        let folder = own.as_ref().unwrap_or(&folder);
+        console.result_json(&Told::of(&stored::read(folder, console)?))?;
     } else {
         console.result(&table::terminal(&summary))?;
     }
@@ -89,12 +113,12 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             |audit| tell_audit(&audit, &summary, console),
         )),
         Ending::Stopped { signal } => {
-            console.tell(&resume(&arguments.study, &folder, global));
+            console.tell(&resume(arguments, &folder, global));
             let number = signal.and_then(|signal| u8::try_from(signal).ok());
             Ok(number.map_or(Exit::Budget, Exit::Signal))
         }
         Ending::Budget => {
-            console.tell(&resume(&arguments.study, &folder, global));
+            console.tell(&resume(arguments, &folder, global));
             Ok(Exit::Budget)
         }
     }
@@ -114,15 +138,28 @@ fn tell_audit(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
 }
 
 /// What to type to go on.
-fn resume(study: &Path, folder: &Path, global: &GlobalArgs) -> String {
+fn resume(arguments: &SweepArgs, folder: &Path, global: &GlobalArgs) -> String {
     let mut line = format!(
-        "saved; resume with: opshock sweep {}",
-        quoted(&study.display().to_string())
+        "saved; resume with: opshock sweep {} --store {}{}",
+        quoted(&arguments.study.display().to_string()),
+        quoted(&folder.display().to_string()),
+        settings(global)
     );
-    line.push_str(&format!(
-        " --store {}",
-        quoted(&folder.display().to_string())
-    ));
+    for store in &arguments.reuse {
+        line.push_str(&format!(
+            " --reuse {}",
+            quoted(&store.display().to_string())
+        ));
+    }
+    if let Some(shard) = &arguments.shard {
+        line.push_str(&format!(" --shard {shard}"));
+    }
+    line
+}
+
+/// `--set` and `--accept` as they were given, each with a space before it.
+pub(super) fn settings(global: &GlobalArgs) -> String {
+    let mut line = String::new();
     for set in &global.set {
         line.push_str(&format!(" --set {}", quoted(set)));
     }
@@ -133,7 +170,7 @@ fn resume(study: &Path, folder: &Path, global: &GlobalArgs) -> String {
 }
 
 /// As a POSIX shell takes it back.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

@@ -12,14 +12,12 @@ use std::collections::BTreeSet;
 
 use super::findings::{Findings, Inheritance};
 use super::follow;
-use super::order::{Coordinates, HintSource, Order};
+use super::hint::{self, Known};
+use super::order::{Coordinates, Order};
 use super::outcome::Status;
 use super::point::{Asked, PointSearch, Start};
 use super::probe::Verdict;
 use super::settings::SearchSettings;
-
-/// Share above first touch at which a rigid ramp is expected to fail.
-const RIGID_HINT: f64 = 1.03;
 
 /// First touch of disk and ramp of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +31,15 @@ pub enum Touch {
     },
     /// Not known.
     Unknown,
+}
+
+/// Which answers a starting amplitude is made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trust {
+    /// Those that no longer change.
+    Settled,
+    /// Those of a closed bracket too, under which no lower failure has been found so far.
+    Likely,
 }
 
 #[derive(Clone, Debug)]
@@ -127,10 +134,19 @@ impl Campaign {
     ///
     /// The point asks nothing.
     pub fn tell(&mut self, point: usize, verdict: &Verdict) {
+        self.tell_margin(point, verdict, None);
+    }
+
+    /// As [`Campaign::tell`], with the smallest clearance of the run, m.
+    ///
+    /// # Panics
+    ///
+    /// As there.
+    pub fn tell_margin(&mut self, point: usize, verdict: &Verdict, h_min_m: Option<f64>) {
         let Stage::Searching(search) = &mut self.points[point].stage else {
             panic!("verdict for point {point}, which does not search");
         };
-        search.tell(verdict);
+        search.tell_margin(verdict, h_min_m);
         if search.ask().is_none() {
             if self.points[point].base.is_none() {
                 self.settle(point);
@@ -206,8 +222,9 @@ impl Campaign {
         findings
     }
 
-    /// Search that a waiting point would make if only its companion's answer, still open, turned
-    /// out to lie above first touch: what idle cores may compute ahead.
+    /// Search that a waiting point would make if its companion's answer, still open, turned out to
+    /// lie above first touch, and brackets that are still scanned below stayed: what idle cores may
+    /// compute ahead.
     pub fn likely_search(&self, point: usize) -> Option<PointSearch> {
         let state = &self.points[point];
         if !matches!(state.stage, Stage::Waiting) {
@@ -215,7 +232,7 @@ impl Campaign {
         }
         let touch = state.touch?;
         let relations = &self.order.relations[point];
-        let hint_g = self.hint_g(point, touch)?;
+        let hint_g = self.hint_g(point, touch, Trust::Likely)?;
         let onset_node = self.onset_node(point)?;
         if onset_node > self.settings.range.high {
             return None;
@@ -264,7 +281,7 @@ impl Campaign {
                 settled => settled.as_ref(),
             },
         };
-        let Some(hint_g) = self.hint_g(point, touch) else {
+        let Some(hint_g) = self.hint_g(point, touch, Trust::Settled) else {
             return false;
         };
         let inheritance = match (companion, self.onset_node(point)) {
@@ -287,6 +304,10 @@ impl Campaign {
             }
             _ => {
                 let search = PointSearch::new(self.settings, start(None));
+                let search = match touch {
+                    Touch::NoRamp => search.without_ramp(),
+                    Touch::At { .. } | Touch::Unknown => search,
+                };
                 (Stage::Searching(Box::new(search)), None)
             }
         };
@@ -349,30 +370,55 @@ impl Campaign {
 
     /// Starting amplitude: `None` while a point it comes from is open, `Some(None)` when there is
     /// nothing to start from.
-    fn hint_g(&self, point: usize, touch: Touch) -> Option<Option<f64>> {
-        match self.order.relations[point].hint {
-            HintSource::Onset => Some(match touch {
-                Touch::At { onset_g } => Some(onset_g * RIGID_HINT),
-                Touch::NoRamp | Touch::Unknown => None,
-            }),
-            HintSource::Nothing => Some(None),
-            HintSource::Point(other) => self.answer_g(other),
-            HintSource::Widths { below, above } => {
-                let mut known = Vec::new();
-                for other in below.into_iter().chain(above) {
-                    if let Some(answer_g) = self.answer_g(other)? {
-                        known.push((self.pulse_ms[other], answer_g));
-                    }
-                }
-                Some(interpolate(&known, self.pulse_ms[point]))
-            }
+    fn hint_g(&self, point: usize, touch: Touch, trust: Trust) -> Option<Option<f64>> {
+        let relations = &self.order.relations[point];
+        let mut answered = Vec::new();
+        for other in relations.answered.into_iter().flatten() {
+            let touch = self.points[other].touch?;
+            answered.push(self.known(other, touch, self.answer_g(other, trust)?, trust)?);
         }
+        let at = self.known(point, touch, None, trust)?;
+        Some(hint::expected_g(at, &answered))
     }
 
-    /// Amplitude that a settled point hands on; `None` while it is open.
-    fn answer_g(&self, point: usize) -> Option<Option<f64>> {
-        let findings = self.points[point].base.as_ref()?;
+    /// A point with its reference, `None` while that is open.
+    fn known(
+        &self,
+        point: usize,
+        touch: Touch,
+        answer_g: Option<f64>,
+        trust: Trust,
+    ) -> Option<Known> {
+        let onset_g = |touch: Touch| match touch {
+            Touch::At { onset_g } => Some(onset_g),
+            Touch::NoRamp | Touch::Unknown => None,
+        };
+        let reference = match self.order.relations[point].reference {
+            None => None,
+            Some(other) => {
+                let onset_g = onset_g(self.points[other].touch?);
+                self.answer_g(other, trust)?
+                    .map(|answer_g| (onset_g, answer_g))
+            }
+        };
+        Some(Known {
+            pulse_ms: self.pulse_ms[point],
+            onset_g: onset_g(touch),
+            answer_g,
+            reference,
+        })
+    }
+
+    /// Amplitude that a point hands on; `None` while it is open.
+    fn answer_g(&self, point: usize, trust: Trust) -> Option<Option<f64>> {
         let SearchSettings { lattice, range, .. } = &self.settings;
+        let Some(findings) = &self.points[point].base else {
+            let bracketed = self.search(point).filter(|_| trust == Trust::Likely)?;
+            let failure = bracketed
+                .first_failure()
+                .and(bracketed.evidence().lowest_failure())?;
+            return Some(Some(lattice.amplitude_g(failure)));
+        };
         let node = match findings.status {
             Status::Ok => findings.failure,
             Status::AboveRange => Some(range.high),
@@ -380,17 +426,5 @@ impl Campaign {
             Status::Undecided | Status::Open => None,
         };
         Some(node.map(|node| lattice.amplitude_g(node)))
-    }
-}
-
-/// Power law through two (width, amplitude) pairs, the one amplitude if there is one.
-fn interpolate(known: &[(f64, f64)], at: f64) -> Option<f64> {
-    match *known {
-        [] => None,
-        [(_, amplitude)] => Some(amplitude),
-        [(width_a, a), (width_b, b), ..] => {
-            let share = (at / width_a).ln() / (width_b / width_a).ln();
-            Some(a * ((b / a).ln() * share).exp())
-        }
     }
 }

@@ -5,9 +5,10 @@
 //! It ends
 //!
 //! * at the amplitude of first touch, below which the no-ramp answer holds and needs no run, or
-//! * where nothing is known from elsewhere (no ramp), at the low end of the range; then the gap is
-//!   kept down to 0.71 of the bracket and doubled at every step below that. Windows of failure come
-//!   with ramp contact, so a scan without contact may be coarse; the row says how coarse it was.
+//! * where nothing is known from elsewhere, at the low end of the range; then the gap is kept down to
+//!   0.71 of the bracket and doubled at every step below that. Windows of failure come with ramp
+//!   contact: without a ramp the gap is doubled at every step below the first. The row says how
+//!   coarse the scan was (`largest_gap_pct`).
 //!
 //! Scanned nodes are those congruent to a phase modulo the gap; the phases of neighbouring widths
 //! differ by the golden ratio of the gap, so that a window of failure that spans several widths
@@ -42,9 +43,12 @@ impl Scan {
         let mut at = top;
         loop {
             let gap = self.gap_at(top - at);
-            // The node below the floor is answered without a run.
+            // The node below the floor is answered without a run. A node without verdict bridges
+            // nothing: below one that ends the scan the floor itself is tested.
             if at - gap < self.floor {
-                return None;
+                let is_sound = evidence.get(at) != Some(NodeVerdict::Undecided) || at == top;
+                let is_left = at > self.floor && evidence.get(self.floor).is_none();
+                return (!is_sound && is_left).then_some(self.floor);
             }
             match highest_use(evidence, at - gap, at) {
                 Some(known) => at = known,

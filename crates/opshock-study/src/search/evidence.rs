@@ -17,12 +17,30 @@ pub enum NodeVerdict {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
     nodes: BTreeMap<i32, NodeVerdict>,
+    /// Smallest clearances of survivors, bits of metres.
+    margins: BTreeMap<i32, u64>,
 }
 
 impl Evidence {
     /// Records a node.
     pub fn insert(&mut self, index: i32, verdict: NodeVerdict) {
         self.nodes.insert(index, verdict);
+    }
+
+    /// Records the smallest clearance, m, of a node that survives.
+    pub fn insert_margin(&mut self, index: i32, h_min_m: f64) {
+        self.margins.insert(index, h_min_m.to_bits());
+    }
+
+    /// Where the clearance of the two highest survivors below `limit` (exclusive) would vanish on a
+    /// straight line, in nodes; `None` when it does not fall, or one of the two has none.
+    pub fn vanishing_point(&self, limit: Option<i32>) -> Option<f64> {
+        let high = self.highest_survivor_below(limit)?;
+        let low = self.highest_survivor_below(Some(high))?;
+        let margin = |index| self.margins.get(&index).copied().map(f64::from_bits);
+        let (h_low, h_high) = (margin(low)?, margin(high)?);
+        let slope = (h_low - h_high) / f64::from(high - low);
+        (slope > 0.0 && h_high >= 0.0).then(|| f64::from(high) + h_high / slope)
     }
 
     /// Verdict of a node, if tested.

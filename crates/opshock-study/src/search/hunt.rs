@@ -1,14 +1,20 @@
 //! From a starting amplitude to a bracket: gallop, then halve.
 //!
-//! The gallop starts with a 4 % step and doubles it at every further step up to an octave; without
+//! The gallop starts with a 3 % step and doubles it at every further step up to an octave; without
 //! a hint every step is an octave. Its direction is that of the last decided verdict. Nodes without
 //! a verdict are stepped over.
+//!
+//! Where the smallest clearance falls steadily with the amplitude, two survivors show where it
+//! vanishes: the gallop goes there instead of beyond, and the first nodes tested in the bracket lie
+//! on both sides of that place. Where the clearance is no guide, this costs two runs at most.
 
 use super::evidence::{Evidence, NodeVerdict};
 use super::lattice::{Lattice, NodeRange};
 
 /// First step of a gallop from a hint, as a share.
-const FIRST_STEP: f64 = 0.04;
+const FIRST_STEP: f64 = 0.03;
+/// Nodes of a bracket that the clearance may choose; a guide that needs more is none.
+const AIMED: usize = 3;
 
 /// Gallop of one point.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,7 +76,14 @@ impl Hunt {
                 return HuntStep::Test((bottom - self.stride(self.downs)).max(nodes.low));
             }
             if top < nodes.high {
-                return HuntStep::Test((top + self.stride(self.ups)).min(nodes.high));
+                let stride = self.stride(self.ups);
+                let step = match evidence.vanishing_point(None) {
+                    Some(place) if top > self.start => {
+                        ((place - f64::from(top)).ceil() as i32).clamp(1, stride)
+                    }
+                    _ => stride,
+                };
+                return HuntStep::Test((top + step).min(nodes.high));
             }
             return HuntStep::Exhausted;
         };
@@ -98,6 +111,29 @@ impl Hunt {
         // Beyond 2^20 the octave has long been reached.
         (self.first_step << steps.min(20)).min(self.octave.max(self.first_step))
     }
+}
+
+/// Node next to the place in a bracket where the clearance vanishes, after `halvings` nodes tested
+/// in it; `None` when the clearance is no guide (any more) or nodes without verdict lie between.
+pub(super) fn aimed(
+    evidence: &Evidence,
+    survivor: i32,
+    failure: i32,
+    halvings: usize,
+) -> Option<i32> {
+    if failure - survivor < 3
+        || halvings >= AIMED
+        || !evidence.undecided_between(survivor, failure).is_empty()
+    {
+        return None;
+    }
+    let place = evidence.vanishing_point(Some(failure))?;
+    let last = place.floor();
+    if !(f64::from(survivor) <= last && last < f64::from(failure)) {
+        return None;
+    }
+    // The last node expected to survive, or if that is known, the one above it.
+    Some((last as i32).max(survivor + 1).min(failure - 1))
 }
 
 /// Next node between a survivor and a failure, `None` when nothing testable is left between them.

@@ -9,8 +9,8 @@ use super::probe::{Probe, Purpose, Verdict};
 /// Where a probe's answer is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Lookup {
-    /// Finished.
-    Known(Verdict),
+    /// Finished, with the smallest clearance, m.
+    Known(Verdict, Option<f64>),
     /// Being computed.
     Running,
     /// Nobody computes it.
@@ -54,8 +54,8 @@ pub fn candidates(
         let (mut search, likelihood) = open.swap_remove(best);
         let Some(asked) = search.ask() else { continue };
         match lookup(asked.probe) {
-            Lookup::Known(verdict) => {
-                search.tell(&verdict);
+            Lookup::Known(verdict, h_min_m) => {
+                search.tell_margin(&verdict, h_min_m);
                 open.push((search, likelihood));
                 continue;
             }

@@ -14,6 +14,7 @@ mod certify;
 pub mod evidence;
 pub mod findings;
 mod follow;
+mod hint;
 mod hunt;
 pub mod lattice;
 pub mod lookahead;

@@ -5,11 +5,13 @@
 //! starting amplitude from points earlier in that order alone, so that a sequential search and
 //! any parallel one ask the same probes:
 //!
-//! 1. rigid ramp: amplitude of first touch times 1.03;
-//! 2. neighbouring widths already answered (same ramp, sign and axes), interpolated in the
-//!    logarithms of width and amplitude;
-//! 3. the other sign; 4. the previous ramp; 5. the previous values of the further axes;
-//! 6. none: the middle of the range, by doublings.
+//! 1. the *reference* point: the same width, ramp and axes with the other sign; else the previous
+//!    ramp that is touched; else the same point at the previous values of the further axes;
+//! 2. neighbouring widths already answered (same ramp, sign and axes): how far they lie from their
+//!    own reference points, interpolated in the logarithm of the width, corrects the reference;
+//! 3. neither: the amplitude of first touch times 1.03, or the middle of the range, by doublings.
+//!
+//! With a ramp all amplitudes are taken relative to first touch (`hint`).
 //!
 //! A point with a ramp also has a *companion*: the same point without ramp. Below the amplitude of
 //! first touch its answers are the companion's.
@@ -42,29 +44,13 @@ pub struct Coordinates {
     pub axes: Vec<String>,
 }
 
-/// Where the starting amplitude of a point comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HintSource {
-    /// First touch x 1.03.
-    Onset,
-    /// Answered widths below and above (places in the study).
-    Widths {
-        /// Next smaller answered width.
-        below: Option<usize>,
-        /// Next larger answered width.
-        above: Option<usize>,
-    },
-    /// Another point's answer.
-    Point(usize),
-    /// Nothing to learn from.
-    Nothing,
-}
-
 /// A point's relations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relations {
-    /// Starting amplitude.
-    pub hint: HintSource,
+    /// Next smaller and next larger answered width of the same ramp, sign and axes.
+    pub answered: [Option<usize>; 2],
+    /// A point that was answered before and is expected to answer much the same.
+    pub reference: Option<usize>,
     /// The same point without ramp.
     pub companion: Option<usize>,
     /// Next smaller and next larger width of the same ramp, sign and axes.
@@ -78,12 +64,9 @@ pub struct Relations {
 impl Relations {
     /// Points that must have their answer before this one can start.
     pub fn predecessors(&self) -> Vec<usize> {
-        let mut all: Vec<usize> = self.companion.into_iter().collect();
-        match self.hint {
-            HintSource::Widths { below, above } => all.extend(below.into_iter().chain(above)),
-            HintSource::Point(point) => all.push(point),
-            HintSource::Onset | HintSource::Nothing => {}
-        }
+        // The references of answered widths are answered before these.
+        let mut all: Vec<usize> = self.companion.into_iter().chain(self.reference).collect();
+        all.extend(self.answered.into_iter().flatten());
         all.sort_unstable();
         all.dedup();
         all
@@ -163,7 +146,8 @@ impl Order {
         }
 
         let unknown = Relations {
-            hint: HintSource::Nothing,
+            answered: [None, None],
+            reference: None,
             companion: None,
             neighbours: [None, None],
             chain: 0,
@@ -186,18 +170,9 @@ impl Order {
             for (rank, (place, below, above)) in ends_first(chain.len()).into_iter().enumerate() {
                 let point = chain[place];
                 let at = &points[point];
-                let hint = if at.ramp_class == RampClass::Rigid {
-                    HintSource::Onset
-                } else if below.is_some() || above.is_some() {
-                    HintSource::Widths {
-                        below: below.map(|place| chain[place]),
-                        above: above.map(|place| chain[place]),
-                    }
-                } else {
-                    first_width_hint(points, &chains[..number], at)
-                };
                 relations[point] = Relations {
-                    hint,
+                    answered: [below, above].map(|place| place.map(|place| chain[place])),
+                    reference: reference(points, &chains[..number], at),
                     companion: companion(points, at),
                     neighbours: [
                         place.checked_sub(1).map(|place| chain[place]),
@@ -220,12 +195,9 @@ impl Order {
     }
 }
 
-/// Hint of a chain's first width from the chains before it.
-fn first_width_hint(
-    points: &[Coordinates],
-    earlier: &[Vec<usize>],
-    at: &Coordinates,
-) -> HintSource {
+/// The reference of a point among the chains before its own.
+fn reference(points: &[Coordinates], earlier: &[Vec<usize>], at: &Coordinates) -> Option<usize> {
+    let is_touched = |point: &Coordinates| point.ramp_class != RampClass::None;
     let find = |wanted: &dyn Fn(&Coordinates) -> bool| {
         earlier
             .iter()
@@ -236,12 +208,16 @@ fn first_width_hint(
     };
     let other_sign =
         find(&|other| other.axes == at.axes && other.ramp == at.ramp && other.sign != at.sign);
-    let previous_ramp = || find(&|other| other.axes == at.axes && other.sign == at.sign);
+    let previous_ramp = || {
+        find(&|other| {
+            other.axes == at.axes
+                && other.sign == at.sign
+                && other.ramp != at.ramp
+                && is_touched(other) == is_touched(at)
+        })
+    };
     let previous_axes = || find(&|other| other.ramp == at.ramp && other.sign == at.sign);
-    other_sign
-        .or_else(previous_ramp)
-        .or_else(previous_axes)
-        .map_or(HintSource::Nothing, HintSource::Point)
+    other_sign.or_else(previous_ramp).or_else(previous_axes)
 }
 
 fn companion(points: &[Coordinates], at: &Coordinates) -> Option<usize> {

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::certify::Scan;
 use super::evidence::{Evidence, NodeVerdict};
 use super::findings::Findings;
-use super::hunt::{Hunt, HuntStep, bisect, survives_at_top};
+use super::hunt::{Hunt, HuntStep, aimed, bisect, survives_at_top};
 use super::lattice::NodeRange;
 use super::outcome::{Flag, Status};
 use super::probe::{Probe, Purpose, Retry, Verdict};
@@ -98,6 +98,13 @@ impl PointSearch {
         }
     }
 
+    /// The same search of a point without ramp, scanned more coarsely (`certify`).
+    #[must_use]
+    pub fn without_ramp(mut self) -> PointSearch {
+        self.scan.keep = self.scan.keep.map(|_| self.scan.gap);
+        self
+    }
+
     /// The next probe, `None` when the search has its answer.
     pub fn ask(&self) -> Option<Asked> {
         let (node, window_factor, purpose) = self.next_node()?;
@@ -117,6 +124,16 @@ impl PointSearch {
     ///
     /// No probe was asked: the search had its answer.
     pub fn tell(&mut self, verdict: &Verdict) {
+        self.tell_margin(verdict, None);
+    }
+
+    /// As [`PointSearch::tell`], with the smallest clearance of the run, m: it may choose which node
+    /// of a bracket is tested next, and never decides one.
+    ///
+    /// # Panics
+    ///
+    /// As there.
+    pub fn tell_margin(&mut self, verdict: &Verdict, h_min_m: Option<f64>) {
         let asked = self.ask().expect("a verdict without a probe");
         self.log.push(asked);
         let node_verdict = match verdict {
@@ -144,6 +161,9 @@ impl PointSearch {
             self.hunt.count(asked.probe.index);
         }
         self.evidence.insert(asked.probe.index, node_verdict);
+        if let (NodeVerdict::Survives, Some(h_min_m)) = (node_verdict, h_min_m) {
+            self.evidence.insert_margin(asked.probe.index, h_min_m);
+        }
         self.note_bracket();
     }
 
@@ -295,7 +315,10 @@ impl PointSearch {
             {
                 HuntStep::Test(node) => Some((node, 1, Purpose::Hunt)),
                 HuntStep::Bracketed { survivor, failure } => {
-                    bisect(&self.evidence, survivor, failure).map(|node| (node, 1, Purpose::Bisect))
+                    let halvings = self.log.iter().filter(|a| a.purpose == Purpose::Bisect);
+                    aimed(&self.evidence, survivor, failure, halvings.count())
+                        .or_else(|| bisect(&self.evidence, survivor, failure))
+                        .map(|node| (node, 1, Purpose::Bisect))
                 }
                 HuntStep::Exhausted => None,
             };

@@ -11,6 +11,13 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     persist(aside, path)
 }
 
+/// Copies a file to `path`, which gets all of it or nothing.
+pub fn keep_copy(from: &Path, path: &Path) -> std::io::Result<()> {
+    let mut aside = file(path)?;
+    std::io::copy(&mut File::open(from)?, &mut aside)?;
+    persist(aside, path)
+}
+
 /// A file beside `path`, with the permissions that any new file has.
 pub(super) fn file(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();

@@ -19,6 +19,7 @@ pub mod record;
 pub mod results;
 pub mod summary;
 
+pub(crate) use aside::keep_copy;
 pub use audit::{Audit, Difference};
 pub use error::StoreError;
 pub use folder::{Loaded, Store, StudyTexts, load};

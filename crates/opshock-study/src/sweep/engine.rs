@@ -5,7 +5,7 @@
 //! probably ask. Answers come back in any order and change nothing but when a probe is answered.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -19,6 +19,7 @@ use super::histories;
 use super::input::SweepInput;
 use super::ledger::{Job, Ledger, Told};
 use super::progress::{Event, Progress};
+use super::shard::{self, Others, Shard};
 use super::simulator::Simulator;
 use super::stop::StopFlag;
 use super::writer::{self, Message};
@@ -42,6 +43,10 @@ pub struct SweepOptions {
     pub retry_undecided: bool,
     /// Let idle threads compute probes that will probably be asked.
     pub speculate: bool,
+    /// Stores, of any study, whose finished simulations answer what they can.
+    pub reuse: Vec<PathBuf>,
+    /// Complete one part of the points, into a store of its own within the store.
+    pub shard: Option<Shard>,
 }
 
 impl SweepOptions {
@@ -53,6 +58,8 @@ impl SweepOptions {
             budget: None,
             retry_undecided: false,
             speculate: true,
+            reuse: Vec::new(),
+            shard: None,
         }
     }
 }
@@ -80,6 +87,8 @@ pub struct SweepEnd {
     pub ending: Ending,
     /// Simulations computed by this process.
     pub computed_runs: u64,
+    /// Simulations taken from other stores.
+    pub reused_runs: u64,
     /// Measured time, s.
     pub wall_s: f64,
     /// Share of the threads' time spent simulating.
@@ -90,6 +99,8 @@ pub struct SweepEnd {
 const CHANNEL: usize = 1024;
 /// How often stop, budget and checkpoint are looked at.
 const TICK: Duration = Duration::from_millis(50);
+/// How often a shard looks at the stores of the others.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 
 /// Sweeps a study into the store in `folder`, or goes on with it.
 ///
@@ -105,8 +116,16 @@ pub fn sweep(
     progress: &dyn Progress,
 ) -> Result<SweepEnd, StoreError> {
     let session = folder::session(options.threads);
+    let whole = folder;
+    let own = options.shard.map(|shard| shard.folder(whole));
+    let folder = own.as_deref().unwrap_or(whole);
     let (mut store, mut loaded) = Store::open(folder, &input.texts, &session)?;
+    let mut others = HashMap::new();
+    for other in &options.reuse {
+        others.extend(store::load(other)?.0.runs);
+    }
     if options.retry_undecided {
+        others.retain(|_, run| !matches!(run.result.verdict, Verdict::Undecided { .. }));
         loaded
             .runs
             .retain(|_, run| !matches!(run.result.verdict, Verdict::Undecided { .. }));
@@ -120,7 +139,11 @@ pub fn sweep(
     let (to_writer, messages) = crossbeam_channel::bounded(CHANNEL);
     std::thread::scope(|scope| {
         let writer = scope.spawn(move || writer::write(&mut store, &messages, progress));
-        let run = Run::new(input, options, session, loaded, to_writer);
+        let mut run = Run::new(input, options, session, loaded, to_writer);
+        run.others = others;
+        if let Some(shard) = &options.shard {
+            run.divide(shard, whole);
+        }
         let end = run.drive(simulator, folder);
         match writer.join() {
             Ok(written) => written.map(|()| end),
@@ -179,6 +202,20 @@ struct Run<'a> {
     began: Instant,
     busy_s: f64,
     computed_runs: u64,
+    reused_runs: u64,
+    /// Simulations of other stores.
+    others: HashMap<RunKey, RunRecord>,
+    neighbours: Option<Neighbours>,
+}
+
+/// The other parts of a divided sweep.
+struct Neighbours {
+    others: Others,
+    /// Shard that owns each point.
+    owners: Vec<usize>,
+    /// Points whose answers this part cannot do without.
+    needed: Vec<bool>,
+    asked_at: Instant,
 }
 
 impl<'a> Run<'a> {
@@ -203,6 +240,52 @@ impl<'a> Run<'a> {
             began: Instant::now(),
             busy_s: 0.0,
             computed_runs: 0,
+            reused_runs: 0,
+            others: HashMap::new(),
+            neighbours: None,
+        }
+    }
+
+    /// Restricts the run to a shard's part.
+    fn divide(&mut self, shard: &Shard, whole: &Path) {
+        let order = self.ledger.campaign().order();
+        let owned = shard.owned(order);
+        let neighbours = Neighbours {
+            others: Others::of(shard, whole),
+            owners: shard.owners(order),
+            needed: shard::needed(order, &owned),
+            asked_at: Instant::now(),
+        };
+        self.ledger.want(owned);
+        self.neighbours = Some(neighbours);
+        self.ask_neighbours(true);
+    }
+
+    /// Takes what other shards have finished, and the points of those that are not at work.
+    fn ask_neighbours(&mut self, at_once: bool) {
+        let Some(neighbours) = &mut self.neighbours else {
+            return;
+        };
+        if !at_once && neighbours.asked_at.elapsed() < BETWEEN_LOOKS {
+            return;
+        }
+        neighbours.asked_at = Instant::now();
+        let at_work = neighbours.others.at_work();
+        let is_left = |(point, &owner): (usize, &usize)| {
+            self.ledger.wants(point) || neighbours.needed[point] && !at_work[owner]
+        };
+        let allowed = neighbours.owners.iter().enumerate().map(is_left).collect();
+        let news = neighbours.others.news();
+        self.ledger.allow(allowed);
+        for record in news {
+            let told = match record {
+                Record::Run(run) if !self.ledger.runs().contains_key(&run.key) => {
+                    self.ledger.finished(run)
+                }
+                Record::Touch(TouchRecord { point, touch }) => self.ledger.touched(point, touch),
+                Record::Run(_) | Record::Session(_) => continue,
+            };
+            self.report(&told, None);
         }
     }
 
@@ -238,6 +321,7 @@ impl<'a> Run<'a> {
             summary: results.summary.clone(),
             ending,
             computed_runs: self.computed_runs,
+            reused_runs: self.reused_runs,
             wall_s,
             core_use: self.busy_s / (wall_s * self.options.threads as f64),
         };
@@ -293,11 +377,19 @@ impl<'a> Run<'a> {
         let mut checkpoint_at = Instant::now();
         pool.in_place_scope(|scope| {
             loop {
+                self.ask_neighbours(false);
                 let stopped = self.stopped();
                 while in_flight < threads && stopped.is_none() && !self.ledger.is_done() {
                     let Some(job) = self.ledger.next_job(self.options.speculate) else {
                         break;
                     };
+                    if let Job::Run { key, .. } = job
+                        && let Some(record) = self.others.get(&key).cloned()
+                    {
+                        self.reused_runs += 1;
+                        self.keep(record, None);
+                        continue;
+                    }
                     let to_here = to_here.clone();
                     let (point, amplitude, digest) = match job {
                         Job::Onset { point } => (point, 0.0, self.input.points[point].digest),
@@ -325,7 +417,8 @@ impl<'a> Run<'a> {
                     });
                     in_flight += 1;
                 }
-                if in_flight == 0 {
+                let waits = self.neighbours.is_some() && !self.ledger.is_done();
+                if in_flight == 0 && (stopped.is_some() || !waits) {
                     return stopped.unwrap_or(Ending::Complete);
                 }
                 match answers.recv_timeout(TICK) {
@@ -375,11 +468,17 @@ impl<'a> Run<'a> {
                         finished_unix_s: machine::unix_now_s(),
                     },
                 };
-                self.send(Message::Keep(Record::Run(record.clone())));
-                let told = self.ledger.finished(record);
-                self.report(&told, Some((key, wall_s)));
+                self.keep(record, Some(wall_s));
             }
         }
+    }
+
+    /// Keeps a finished simulation and tells the searches.
+    fn keep(&mut self, record: RunRecord, wall_s: Option<f64>) {
+        let key = record.key;
+        self.send(Message::Keep(Record::Run(record.clone())));
+        let told = self.ledger.finished(record);
+        self.report(&told, wall_s.map(|wall_s| (key, wall_s)));
     }
 
     /// Tells what the searches were told.

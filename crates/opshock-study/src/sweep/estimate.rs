@@ -7,8 +7,8 @@ use super::ledger::Ledger;
 use super::progress::Estimate;
 use crate::search::RampClass;
 
-/// Probes of a point before any was finished: hunt 3, halving 3, scan 6, window 1.
-const PRIOR_RUNS: f64 = 13.0;
+/// Probes of a point before any was finished: hunt 3, halving 2, scan 3, window 1.
+const PRIOR_RUNS: f64 = 9.0;
 /// Spread of that number from point to point.
 const PRIOR_SPREAD: f64 = 4.0;
 
@@ -66,10 +66,4 @@ pub(super) fn estimate(input: &SweepInput, ledger: &Ledger<'_>, threads: usize) 
         runs_left_sd: f64::sqrt(variance),
         eta_s: (overall.1 > 0.0).then_some(left_s / threads as f64),
     }
-}
-
-/// Runs expected for a whole study and their standard deviation, before anything is known.
-pub fn before_start(points: usize) -> (f64, f64) {
-    let points = points as f64;
-    (PRIOR_RUNS * points, PRIOR_SPREAD * points.sqrt())
 }

@@ -28,7 +28,7 @@ pub(super) struct Wanted {
 /// Histories of final points that are not in `folder` yet.
 pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>, folder: &Path) -> Vec<Wanted> {
     let mut wanted = Vec::new();
-    for point in 0..input.points.len() {
+    for point in (0..input.points.len()).filter(|&point| ledger.wants(point)) {
         for probe in probes(input, ledger, point) {
             let key = ledger.key(point, probe);
             let amplitude_g = input.settings.lattice.amplitude_g(probe.index);

@@ -61,6 +61,15 @@ pub(super) struct Ledger<'a> {
     urgency: Vec<usize>,
     /// Error bars as far as they have got, by place.
     bars: Vec<BarStage>,
+    part: Part,
+}
+
+/// What a sweep is to find, by place in the study.
+struct Part {
+    /// Points whose rows it is to complete.
+    wanted: Vec<bool>,
+    /// Points whose probes it may simulate.
+    allowed: Vec<bool>,
 }
 
 /// Error bar of a point as far as it has got.
@@ -102,7 +111,26 @@ impl<'a> Ledger<'a> {
             sharing,
             urgency,
             bars: input.points.iter().map(|_| BarStage::Waiting).collect(),
+            part: Part {
+                wanted: vec![true; input.points.len()],
+                allowed: vec![true; input.points.len()],
+            },
         }
+    }
+
+    /// Completes these points alone, by place in the study.
+    pub(super) fn want(&mut self, wanted: Vec<bool>) {
+        self.part.wanted = wanted;
+    }
+
+    /// Simulates for these points alone from now on, by place in the study.
+    pub(super) fn allow(&mut self, allowed: Vec<bool>) {
+        self.part.allowed = allowed;
+    }
+
+    /// The row of a point is to be completed.
+    pub(super) fn wants(&self, point: usize) -> bool {
+        self.part.wanted[point]
     }
 
     /// The searches.
@@ -158,7 +186,9 @@ impl<'a> Ledger<'a> {
                 let Some(record) = self.runs.get(&key) else {
                     break;
                 };
-                self.campaign.tell(point, &record.result.verdict);
+                let result = &record.result;
+                self.campaign
+                    .tell_margin(point, &result.verdict, result.h_min_m);
                 told.push(Told { point, asked, key });
                 places.extend(self.campaign.take_changed());
             }
@@ -286,9 +316,17 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// All points have.
+    /// All points have that are wanted.
     pub(super) fn is_done(&self) -> bool {
-        (0..self.input.points.len()).all(|point| self.is_final(point))
+        (0..self.input.points.len()).all(|point| !self.wants(point) || self.is_final(point))
+    }
+
+    /// The bar of a point is wanted: its own, or that of a point which takes it over.
+    fn wants_bar(&self, point: usize) -> bool {
+        self.part.allowed[point] && (self.wants(point) || (0..self.bars.len()).any(|other| {
+            self.wants(other)
+                && matches!(self.bars[other], BarStage::Taken { companion } if companion == point)
+        }))
     }
 
     fn bar_job(&self) -> Option<Job> {
@@ -301,7 +339,7 @@ impl<'a> Ledger<'a> {
                 return None;
             };
             let key = self.key(point, bar_probe(ask));
-            (!self.in_flight.contains(&key)).then_some(Job::Run {
+            (!self.in_flight.contains(&key) && self.wants_bar(point)).then_some(Job::Run {
                 point,
                 asked: bar_asked(ask),
                 key,
@@ -343,7 +381,13 @@ impl<'a> Ledger<'a> {
         if let Some(point) = onset {
             return Some(Job::Onset { point });
         }
-        self.urgency.iter().find_map(|&point| {
+        // What is wanted first: another process may be about to answer the rest.
+        let (own, others): (Vec<usize>, Vec<usize>) = self
+            .urgency
+            .iter()
+            .filter(|&&point| self.part.allowed[point])
+            .partition(|&&point| self.wants(point));
+        own.into_iter().chain(others).find_map(|point| {
             let asked = self.campaign.ask(point)?;
             let key = self.key(point, asked.probe);
             (!self.in_flight.contains(&key)).then_some(Job::Run { point, asked, key })
@@ -354,7 +398,7 @@ impl<'a> Ledger<'a> {
         /// Chance that the companion of a point does not answer for it.
         const OWN_ANSWER: f64 = 0.9;
         let mut best: Option<(f64, Job)> = None;
-        for &point in &self.urgency {
+        for &point in self.urgency.iter().filter(|&&point| self.wants(point)) {
             let waiting: Option<PointSearch>;
             let (search, chance) = match self.campaign.search(point) {
                 Some(search) => (search, 1.0),
@@ -369,7 +413,9 @@ impl<'a> Ledger<'a> {
             let lookup = |probe: Probe| {
                 let key = self.key(point, probe);
                 match self.runs.get(&key) {
-                    Some(record) => Lookup::Known(record.result.verdict.clone()),
+                    Some(record) => {
+                        Lookup::Known(record.result.verdict.clone(), record.result.h_min_m)
+                    }
                     None if self.in_flight.contains(&key) => Lookup::Running,
                     None => Lookup::Free,
                 }

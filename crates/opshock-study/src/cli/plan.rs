@@ -1,0 +1,176 @@
+//! `opshock plan`: what a sweep is going to cost, and a job script for Slurm.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::{slurm, stored, study_file};
+use crate::store::{self, Loaded, StoreError};
+use crate::study::Study;
+use crate::study::difference::{self, SettingDifference};
+use crate::sweep::forecast::{Forecast, Spread, forecast};
+use crate::sweep::{Physics, SweepInput};
+use anyhow::Context as _;
+use clap::Args;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Tell what a sweep is going to cost: simulations, core-hours, time, disk
+#[derive(Args, Debug)]
+pub struct PlanArgs {
+    /// Study file
+    study: PathBuf,
+    /// Print a job-array script for Slurm instead, one task per shard with -j threads each
+    #[arg(long)]
+    slurm: bool,
+    /// Tasks of the job array [default: as many as points, at most 16]
+    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u16).range(1..))]
+    shards: Option<u16>,
+}
+
+/// Runs the command.
+pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let study = study_file::read(&arguments.study, global, console)?;
+    study_file::refuse_unaccepted(&study, global)?;
+    let folder = stored::folder_of_study(&arguments.study, global);
+    let loaded = match store::load(&folder) {
+        Ok((loaded, _)) => loaded,
+        Err(StoreError::Empty { .. }) => Loaded::default(),
+        Err(error) => return Err(error.into()),
+    };
+    let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
+    let threads = if arguments.slurm {
+        global.jobs.map_or(1, usize::from)
+    } else {
+        global.threads()
+    };
+    let nodes = history_nodes(&study);
+    let forecast = forecast(&input, &Physics::of(&study), loaded, threads, nodes);
+    if arguments.slurm {
+        let shards = arguments
+            .shards
+            .map_or_else(|| input.points.len().clamp(1, 16), usize::from);
+        let job = slurm::Job {
+            name: &study.name,
+            study: &arguments.study,
+            store: &folder,
+            shards,
+            threads,
+            hours: forecast.core_h.max / (shards * threads) as f64,
+        };
+        console.result(&slurm::script(&job, global).context("cannot write the script")?)?;
+    } else {
+        let told = Told {
+            changed: changed(&folder, &input.texts.resolved),
+            forecast,
+        };
+        if console.json {
+            console.result_json(&told)?;
+        } else {
+            console.result(&as_text(&study.name, &told))?;
+        }
+    }
+    Ok(Exit::Complete)
+}
+
+/// The forecast, and why simulations in the store no longer serve.
+#[derive(Serialize)]
+struct Told {
+    #[serde(flatten)]
+    forecast: Forecast,
+    changed: Vec<SettingDifference>,
+}
+
+/// Settings changed since the store was used last.
+fn changed(folder: &Path, resolved: &str) -> Vec<SettingDifference> {
+    let before = std::fs::read_to_string(folder.join("study.resolved.toml")).unwrap_or_default();
+    match (difference::flat(&before), difference::flat(resolved)) {
+        (Some(before), Some(now)) if !before.is_empty() => difference::differing(&before, &now),
+        _ => Vec::new(),
+    }
+}
+
+/// Time steps of a history of the longest point.
+fn history_nodes(study: &Study) -> f64 {
+    let nodes = |point: &crate::study::Point| {
+        let scene = &point.scene;
+        let window_s = match scene.window {
+            opshock_solver::scene::Window::Fixed { length_s } => length_s,
+            opshock_solver::scene::Window::UntilDecayed { max_s, .. } => max_s,
+        };
+        window_s / scene.structure_resolution.step_s
+    };
+    study.points.iter().map(nodes).fold(0.0, f64::max)
+}
+
+fn as_text(name: &str, told: &Told) -> String {
+    let forecast = &told.forecast;
+    let mut text = String::new();
+    let mut line = |what: &str, value: String| {
+        // Writing into a text cannot fail.
+        let _ = writeln!(text, "{what:<14}{value}");
+    };
+    line("study", name.to_owned());
+    line(
+        "points",
+        format!(
+            "{}, {} of them answered",
+            forecast.points, forecast.answered
+        ),
+    );
+    line(
+        "reuse",
+        format!("{} finished simulations stay valid", forecast.reused_runs),
+    );
+    for setting in &told.changed {
+        line("  changed", setting.to_string());
+    }
+    let runs = |spread: Spread| {
+        format!(
+            "{:.0} to {:.0}, likely {:.0}",
+            spread.min, spread.max, spread.likely
+        )
+    };
+    line("simulations", runs(forecast.runs));
+    line("  search", runs(forecast.search_runs));
+    line("  error bars", runs(forecast.bar_runs));
+    let paces: Vec<String> = forecast
+        .seconds_per_run
+        .iter()
+        .map(|(ramp, seconds)| format!("{ramp} {seconds:.2} s"))
+        .collect();
+    line("each", paces.join(", "));
+    let hours = |spread: Spread| {
+        format!(
+            "{} to {}, likely {}",
+            time(spread.min),
+            time(spread.max),
+            time(spread.likely)
+        )
+    };
+    line("core time", hours(forecast.core_h));
+    line(
+        "time",
+        format!(
+            "{}, with {} threads",
+            hours(forecast.wall_h),
+            forecast.threads
+        ),
+    );
+    line(
+        "disk",
+        format!("{:.1} MB at most", forecast.disk_bytes as f64 * 1e-6),
+    );
+    text
+}
+
+/// Hours in words.
+fn time(hours: f64) -> String {
+    let seconds = hours * 3600.0;
+    match seconds {
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        _ => format!("{hours:.1} h"),
+    }
+}

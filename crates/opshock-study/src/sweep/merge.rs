@@ -1,0 +1,174 @@
+//! Stores united: every finished simulation of several stores in one, and the table from them.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::engine::replay;
+use super::input::SweepInput;
+use crate::search::ProbeResult;
+use crate::store::{
+    Loaded, Record, Results, RunKey, Session, Store, StoreError, StoredTouch, TouchRecord,
+};
+
+/// What was united.
+#[derive(Clone, Debug)]
+pub struct Merged {
+    /// Table and simulations.
+    pub results: Results,
+    /// Simulations taken over, per store.
+    pub taken: Vec<u64>,
+    /// Simulations whose numbers differ between two stores while their verdicts agree: machines
+    /// with other instructions. The first store's are kept.
+    pub rounding: u64,
+}
+
+/// Two stores that cannot be united.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// Amplitude, m/s2, with its sign.
+    pub amplitude_m_per_s2: f64,
+    /// A store and its verdict.
+    pub first: (PathBuf, &'static str),
+    /// The other.
+    pub second: (PathBuf, &'static str),
+}
+
+impl std::fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let ((a, at_a), (b, at_b)) = (&self.first, &self.second);
+        write!(
+            f,
+            "the same simulation at {:.6} m/s2 {at_a} in {} and {at_b} in {}",
+            self.amplitude_m_per_s2,
+            a.display(),
+            b.display()
+        )
+    }
+}
+
+/// Outcome of [`merge`].
+#[derive(Clone, Debug)]
+pub enum MergeEnd {
+    /// United.
+    Merged(Box<Merged>),
+    /// Verdicts of the same simulation differ; nothing was written.
+    Disagree(Vec<Disagreement>),
+}
+
+/// Unites what `from` holds with the store in `folder`, which is made when it is missing. Histories
+/// come along. The result does not depend on who simulated what.
+///
+/// # Errors
+///
+/// [`StoreError`]: a store cannot be read, or the one in `folder` cannot be written.
+pub fn merge(
+    input: &SweepInput,
+    folder: &Path,
+    from: &[PathBuf],
+    session: &Session,
+) -> Result<MergeEnd, StoreError> {
+    let mut sources = Vec::new();
+    for path in from {
+        sources.push((path.clone(), crate::store::load(path)?.0));
+    }
+    let (disagreements, rounding) = compare(&sources);
+    if !disagreements.is_empty() {
+        return Ok(MergeEnd::Disagree(disagreements));
+    }
+    let (mut store, mut loaded) = Store::open(folder, &input.texts, session)?;
+    let own = [(folder.to_owned(), loaded.clone())];
+    let with_own: Vec<(PathBuf, Loaded)> = own.into_iter().chain(sources.iter().cloned()).collect();
+    let (disagreements, _) = compare(&with_own);
+    if !disagreements.is_empty() {
+        return Ok(MergeEnd::Disagree(disagreements));
+    }
+    let mut taken = Vec::new();
+    for (_, source) in &sources {
+        let new = missing(&loaded, source);
+        let is_run = |record: &&Record| matches!(record, Record::Run(_));
+        taken.push(new.iter().filter(is_run).count() as u64);
+        store.append(&new)?;
+        loaded.add(new);
+    }
+    for path in from {
+        take_histories(path, folder)?;
+    }
+    let results = replay(input, loaded, session);
+    store.checkpoint(&results)?;
+    Ok(MergeEnd::Merged(Box::new(Merged {
+        results,
+        taken,
+        rounding,
+    })))
+}
+
+/// Records of `source` that `loaded` does not have, in an order of their own.
+fn missing(loaded: &Loaded, source: &Loaded) -> Vec<Record> {
+    let mut touches: Vec<_> = source
+        .touches
+        .iter()
+        .filter(|(point, _)| !loaded.touches.contains_key(*point))
+        .map(|(&point, &touch): (_, &StoredTouch)| TouchRecord { point, touch })
+        .collect();
+    touches.sort_by_key(|touch| touch.point);
+    let undecided = |result: &ProbeResult| result.verdict.as_str() == "undecided";
+    let mut runs: Vec<_> = source
+        .runs
+        .values()
+        .filter(|run| {
+            let known = loaded.runs.get(&run.key);
+            known.is_none_or(|known| undecided(&known.result) && !undecided(&run.result))
+        })
+        .cloned()
+        .collect();
+    runs.sort_by_key(|run| run.key);
+    let touches = touches.into_iter().map(Record::Touch);
+    touches.chain(runs.into_iter().map(Record::Run)).collect()
+}
+
+/// Verdicts that differ between stores, and the number of simulations that differ in less.
+fn compare(sources: &[(PathBuf, Loaded)]) -> (Vec<Disagreement>, u64) {
+    let mut first: HashMap<RunKey, (&Path, &ProbeResult)> = HashMap::new();
+    let mut found = Vec::new();
+    let mut rounding = 0;
+    for (path, loaded) in sources {
+        for (key, run) in &loaded.runs {
+            let Some(&(before, result)) = first.get(key) else {
+                first.insert(*key, (path, &run.result));
+                continue;
+            };
+            let words = [result.verdict.as_str(), run.result.verdict.as_str()];
+            // A verdict replaces none: that is no contradiction.
+            if words[0] != words[1] && !words.contains(&"undecided") {
+                let at = Disagreement {
+                    amplitude_m_per_s2: f64::from_bits(key.amplitude_bits),
+                    first: (before.to_owned(), words[0]),
+                    second: (path.clone(), words[1]),
+                };
+                found.push((*key, at));
+            } else if *result != run.result {
+                rounding += 1;
+            }
+        }
+    }
+    found.sort_by_key(|(key, _)| *key);
+    (found.into_iter().map(|(_, at)| at).collect(), rounding)
+}
+
+/// Copies recorded histories that are not there yet; their names carry their content.
+fn take_histories(from: &Path, to: &Path) -> Result<(), StoreError> {
+    let unwritable = |path: &Path| {
+        let path = path.to_owned();
+        move |source| StoreError::Unwritable { path, source }
+    };
+    let Ok(entries) = std::fs::read_dir(from.join("histories")) else {
+        return Ok(());
+    };
+    for entry in entries.flatten() {
+        let target = to.join("histories").join(entry.file_name());
+        if !target.exists() {
+            crate::store::keep_copy(&entry.path(), &target).map_err(unwritable(&target))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,191 @@
+//! A job array on a real Slurm: munged, slurmctld and slurmd of this machine on the loopback address.
+//!
+//! Skipped aloud where Slurm cannot run; `make verify-slurm` fails there instead.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use crate::cli::{Done, study};
+use opshock_study::store::{Record, journal};
+use opshock_tests::hdf5_dump::dump;
+
+/// Figure 13 without and with the rigid ramp at three widths, coarse: 12 points.
+const SMALL: [&str; 8] = [
+    "pulse.widths_ms=[0.5, 0.6, 0.8]",
+    "ramp.models=[\"none\", \"rigid\"]",
+    "pulse.window_ms=1.0",
+    "search.tolerance_pct=1",
+    "search.error_bars=false",
+    "solver.film_cells=300",
+    "solver.disk_cut_khz=10",
+    "output.keep_histories=\"none\"",
+];
+
+/// Waits for something that takes seconds.
+const PATIENCE: Duration = Duration::from_secs(240);
+
+fn words<'a>(command: &'a str, file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let mut words = vec![command, file, "--store", "s.opshock", "--quiet"];
+    for set in SMALL {
+        words.extend(["--set", set]);
+    }
+    words.extend(more);
+    words
+}
+
+fn script() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scripts/slurm-loopback")
+}
+
+/// A Slurm that is stopped in the end.
+struct Slurm {
+    folder: PathBuf,
+}
+
+impl Slurm {
+    /// `None` where it cannot run.
+    fn start(folder: &Path) -> Option<Slurm> {
+        let check = Command::new(script())
+            .arg("check")
+            .output()
+            .expect("the script");
+        if !check.status.success() {
+            let why = String::from_utf8_lossy(&check.stderr);
+            assert!(std::env::var_os("OPSHOCK_NEEDS_SLURM").is_none(), "{why}");
+            println!("SKIPPED: {why}");
+            return None;
+        }
+        let port = 20_000 + 2 * (std::process::id() % 10_000);
+        let output = Command::new(script())
+            .arg("start")
+            .arg(folder)
+            .env("OPSHOCK_SLURM_PORT", port.to_string())
+            .output()
+            .expect("the script");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        Some(Slurm {
+            folder: folder.to_owned(),
+        })
+    }
+
+    fn run(&self, folder: &Path, words: &[&str]) -> Output {
+        Command::new(words[0])
+            .args(&words[1..])
+            .current_dir(folder)
+            .env("SLURM_CONF", self.folder.join("slurm.conf"))
+            .output()
+            .expect("a program of Slurm")
+    }
+
+    fn ask(&self, folder: &Path, words: &[&str]) -> String {
+        let output = self.run(folder, words);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{words:?}: {said}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+}
+
+impl Drop for Slurm {
+    fn drop(&mut self) {
+        let _ = Command::new(script())
+            .arg("stop")
+            .arg(&self.folder)
+            .status();
+    }
+}
+
+fn wait(what: &str, mut is_there: impl FnMut() -> bool) {
+    let began = Instant::now();
+    while !is_there() {
+        assert!(began.elapsed() < PATIENCE, "{what} did not come");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+fn runs(store: &Path) -> usize {
+    let content = journal::read(&store.join("journal")).expect("reads");
+    content.map_or(0, |content| {
+        let is_run = |record: &&Record| matches!(record, Record::Run(_));
+        content.records.iter().filter(is_run).count()
+    })
+}
+
+/// Process that holds a store, from its lock.
+fn holder(store: &Path) -> String {
+    let text = std::fs::read_to_string(store.join("lock")).expect("a lock");
+    let number = text
+        .split(' ')
+        .nth(1)
+        .expect("process N on HOST since TIME");
+    number.to_owned()
+}
+
+#[test]
+fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
+    let root = tempfile::tempdir().unwrap();
+    let Some(slurm) = Slurm::start(&root.path().join("slurm")) else {
+        return;
+    };
+    let (whole, parts) = (root.path().join("whole"), root.path().join("parts"));
+    std::fs::create_dir(&whole).unwrap();
+    std::fs::create_dir(&parts).unwrap();
+    let file = study("fig13");
+    let file = file.to_str().unwrap();
+
+    let more = ["--slurm", "--shards", "4", "-j1"];
+    let planned = Done::of(&parts, &words("plan", file, &more));
+    assert_eq!(planned.code, 0, "{}", planned.stderr);
+    std::fs::write(parts.join("job.sh"), &planned.stdout).unwrap();
+    let job = slurm.ask(&parts, &["sbatch", "--parsable", "job.sh"]);
+    let job = job.trim();
+
+    // One task is killed in the middle of its work, told as failed, and requeued.
+    let victim = parts.join("s.opshock/shards/2-of-4");
+    wait("the second shard", || runs(&victim) >= 3);
+    let before = runs(&victim);
+    let kill = format!("kill -9 {}", holder(&victim));
+    assert!(
+        Command::new("sh")
+            .args(["-c", &kill])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let task = format!("{job}_2");
+    let state = || {
+        slurm.ask(
+            &parts,
+            &["squeue", "-h", "-t", "all", "-j", &task, "-o", "%T"],
+        )
+    };
+    wait("the end of the killed task", || state().trim() == "FAILED");
+    slurm.ask(&parts, &["scontrol", "requeue", &task]);
+    // Slurm would let it wait for two minutes.
+    slurm.ask(
+        &parts,
+        &[
+            "scontrol",
+            "update",
+            &format!("JobId={task}"),
+            "StartTime=now",
+        ],
+    );
+    wait("the end of the array", || {
+        slurm.ask(&parts, &["squeue", "-h", "-j", job]).is_empty()
+    });
+    let ended = slurm.ask(
+        &parts,
+        &["squeue", "-h", "-t", "all", "-j", job, "-o", "%T"],
+    );
+    assert!(ended.lines().all(|state| state == "COMPLETED"), "{ended}");
+    assert!(runs(&victim) > before, "the killed task went on");
+
+    let merged = Done::of(&parts, &["merge", "s.opshock"]);
+    let swept = Done::of(&whole, &words("sweep", file, &["-j2"]));
+    assert_eq!(merged.code, swept.code, "{}", merged.stderr);
+    assert_eq!(merged.stdout, swept.stdout);
+    let content = |folder: &Path| dump(&folder.join("s.opshock/results.h5"), &["/machine"]);
+    assert!(content(&parts) == content(&whole), "other bits");
+}
