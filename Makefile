@@ -54,7 +54,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-accuracy ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-accuracy verify-report ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -80,6 +80,10 @@ verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes o
 
 verify-accuracy: bootstrap ## do the error bars hold the truth? 300 known answers, 40 ten times finer
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture accuracy_slow
+
+verify-report: ## the report in headless Chromium, series read by VTK (installs both)
+	@scripts/bootstrap --verify
+	OPSHOCK_NEED_CHROMIUM=1 cargo test --locked -p opshock-tests --test products -- --include-ignored --nocapture report_page report_slow
 
 verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse or journal (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

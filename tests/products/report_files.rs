@@ -185,17 +185,25 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
         audit: None,
         savings: &[],
         accuracy: None,
+        plan: "",
+        film: None,
     });
     assert_nested(&page, &["meta", "br"]);
     assert!(page.contains("default-src 'none'"));
-    let without_namespace = page.replace("http://www.w3.org/2000/svg", "");
+    let without_namespace = page
+        .replace("http://www.w3.org/2000/svg", "")
+        .replace("href=\"#", "")
+        .replace("url(#", "");
     for reference in [
         "http:", "https:", "src=", "href=", "url(", "@import", "fetch(",
     ] {
         assert!(!without_namespace.contains(reference), "{reference}");
     }
     assert!(!page.contains("<script>alert"));
-    assert_eq!(page.matches("<tr").count(), 1 + 8);
+    // The table, and the simulations of the one point that has some.
+    assert_eq!(page.matches("<tr data-point").count(), 8);
+    assert_eq!(page.matches("<article class=\"page\"").count(), 8);
+    assert_eq!(page.matches("<tr class=\"fails\">").count(), 1);
     assert_eq!(page.matches("class=\"reserved\"").count(), 2);
     assert!(page.contains("369.5 G: fails, clearance 2.00 nm"));
     assert!(page.contains("name = &quot;&lt;b&gt;&quot;"));
@@ -247,10 +255,12 @@ fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
         audit: None,
         savings: &[],
         accuracy: Some(&accuracy),
+        plan: r#"{"ramps": {"rigid": {"effects": {"disk": "on", "hub": "off"}, "rules_below_touch": ["R4"]}}}"#,
+        film: None,
     };
     let page = html(&source);
     assert_nested(&page, &["meta", "br"]);
-    assert_eq!(page.matches("<h2>Accuracy</h2>").count(), 1);
+    assert_eq!(page.matches(">Accuracy</h2>").count(), 1);
     // 1 % and 2 % of 366.25 G, the second with the wide factor.
     assert!(page.contains("<td class=\"n\">1.00</td>"));
     assert!(page.contains("<td class=\"n\">2.00 x3</td>"));
@@ -258,6 +268,9 @@ fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
     assert!(page.contains("<td><strong>5%</strong></td>"));
     assert!(page.contains("<td>1%</td>"));
     assert!(page.contains("<td class=\"n\">0.250</td>"));
+    assert!(page.contains(
+        "<td class=\"wrap\">disk</td><td class=\"wrap\">hub</td><td class=\"wrap\">R4</td>"
+    ));
     let without = html(&ReportSource {
         accuracy: None,
         ..source
@@ -276,6 +289,8 @@ fn a_report_is_the_same_bytes_twice() {
         audit: None,
         savings: &[],
         accuracy: None,
+        plan: "",
+        film: None,
     };
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
@@ -311,6 +326,8 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
             audit: None,
             savings: &[],
             accuracy: None,
+            plan: "",
+            film: None,
         };
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);

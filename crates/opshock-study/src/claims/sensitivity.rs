@@ -239,7 +239,7 @@ pub struct Sensitivity {
     pub study: String,
     /// Program.
     pub program: String,
-    /// Settings of the coarse search.
+    /// Settings of the coarse search; empty: the critical shocks were left alone.
     pub coarse: Vec<String>,
     /// A row for each claim.
     pub rows: Vec<Row>,
@@ -247,15 +247,15 @@ pub struct Sensitivity {
 
 impl Sensitivity {
     /// Puts together what the runs gave: shocks and critical shocks of the study and of every
-    /// variant, `None` where the drive could not be simulated.
+    /// variant, `None` where the drive could not be simulated or the searches were left out.
     pub fn of(
         study: &Study,
         program: &str,
-        base: (&Shocks, &Summary),
-        variants: &[(Variant, Option<(Shocks, Summary)>)],
+        base: (&Shocks, Option<&Summary>),
+        variants: &[(Variant, Option<(Shocks, Option<Summary>)>)],
     ) -> Sensitivity {
         let table = resolved(study);
-        let own = findings(base.0, Some(base.1));
+        let own = findings(base.0, base.1);
         let value_of: BTreeMap<&str, f64> = parameters()
             .into_iter()
             .filter_map(|parameter| Some((parameter.name, parameter.value(&table)?)))
@@ -267,7 +267,7 @@ impl Sensitivity {
                 let none = || vec![None; CLAIMS.len()];
                 (
                     variant,
-                    found.map_or_else(none, |(shocks, table)| findings(shocks, Some(table))),
+                    found.map_or_else(none, |(shocks, table)| findings(shocks, table.as_ref())),
                 )
             })
             .collect();
@@ -292,7 +292,10 @@ impl Sensitivity {
         Sensitivity {
             study: study.digest_hex(),
             program: program.into(),
-            coarse: coarse_sets(),
+            coarse: match base.1 {
+                Some(_) => coarse_sets(),
+                None => Vec::new(),
+            },
             rows: rows.collect(),
         }
     }

@@ -38,6 +38,9 @@ pub struct ClaimsArgs {
     /// again, it resumes
     #[arg(long, value_name = "DIR")]
     sensitivity: Option<PathBuf>,
+    /// Leave the searches out: only statements about the two shocks are tried
+    #[arg(long, requires = "sensitivity")]
+    shocks_only: bool,
 }
 
 /// Runs the command.
@@ -74,7 +77,14 @@ pub fn run(
     let mut written = Vec::new();
     let sensitivity = match (&arguments.sensitivity, &arguments.out) {
         (Some(kept), Some(out)) => {
-            let Some(all) = runner.sensitivity(&study, &own, global, kept, console)? else {
+            let Some(all) = runner.sensitivity(
+                &study,
+                &own,
+                global,
+                (!arguments.shocks_only).then_some(kept.as_path()),
+                console,
+            )?
+            else {
                 console.tell("saved; run again to go on");
                 return Ok(Exit::Budget);
             };
@@ -169,21 +179,25 @@ impl Runner {
         Ok((Shocks::of(own), finer))
     }
 
-    /// `None` when a signal stopped it.
+    /// `None` when a signal stopped it. Without a folder to keep them in there are no searches.
     fn sensitivity(
         &self,
         study: &Study,
         own: &Shocks,
         global: &GlobalArgs,
-        kept: &Path,
+        kept: Option<&Path>,
         console: &Console,
     ) -> Result<Option<Sensitivity>, Failure> {
         let stop = StopFlag::default();
         stop.listen().context("cannot listen to signals")?;
         let read = |sets: &[&[String]]| with_sets(study, &global.set, sets);
         let coarse = read(&[&coarse_sets()])?;
-        let Some(base) = self.search(&coarse, &kept.join("study"), &stop)? else {
-            return Ok(None);
+        let base = match kept {
+            None => None,
+            Some(kept) => match self.search(&coarse, &kept.join("study"), &stop)? {
+                None => return Ok(None),
+                found => found,
+            },
         };
         let asked = read(&[&shock_sets()])?;
         let scenes = Shocks::tasks(&asked, Levels::NONE).map_err(shock_failure)?;
@@ -211,27 +225,29 @@ impl Runner {
                     continue;
                 }
             };
-            let moved = read(&[&coarse_sets(), &variant.sets])?;
-            let touched = touched_ramps(&coarse, &moved);
-            let table = if touched.is_empty() {
-                base.clone()
-            } else {
-                let only = ramps_set(&touched);
-                let moved = read(&[&coarse_sets(), &variant.sets, &only])?;
-                let folder = kept.join(variant.stem());
-                let Some(changed) = self.search(&moved, &folder, &stop)? else {
-                    return Ok(None);
-                };
-                merged(&base, &changed)
+            let table = match (&base, kept) {
+                (Some(base), Some(kept)) => {
+                    let moved = read(&[&coarse_sets(), &variant.sets])?;
+                    let touched = touched_ramps(&coarse, &moved);
+                    if touched.is_empty() {
+                        Some(base.clone())
+                    } else {
+                        let only = ramps_set(&touched);
+                        let moved = read(&[&coarse_sets(), &variant.sets, &only])?;
+                        let folder = kept.join(variant.stem());
+                        let Some(changed) = self.search(&moved, &folder, &stop)? else {
+                            return Ok(None);
+                        };
+                        Some(merged(base, &changed))
+                    }
+                }
+                _ => None,
             };
             found.push((variant, Some((shocks, table))));
         }
-        Ok(Some(Sensitivity::of(
-            study,
-            &provenance::program(),
-            (own, &base),
-            &found,
-        )))
+        let program = provenance::program();
+        let all = Sensitivity::of(study, &program, (own, base.as_ref()), &found);
+        Ok(Some(all))
     }
 
     /// A sweep kept in its own store; `None` when a signal stopped it.

@@ -1,15 +1,16 @@
-//! `opshock export`: every simulation of a store as CSV or JSON.
+//! `opshock export`: every simulation of a store as CSV or JSON; one shock for ParaView.
 
 use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
-use super::failure::Failure;
-use super::stored;
+use super::failure::{Failure, Fault};
+use super::selection::ShockArgs;
+use super::{export_vtu, stored};
 use crate::report::runs_table::{csv, json};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Print every simulation of a store as CSV or JSON
+/// Print every simulation of a store as CSV or JSON; write one shock of a study for ParaView
 #[derive(Args, Debug)]
 pub struct ExportArgs {
     /// Store, or study file
@@ -18,12 +19,22 @@ pub struct ExportArgs {
     /// Format
     #[arg(long, value_name = "FORMAT")]
     format: Option<ExportFormat>,
+    #[command(flatten)]
+    shock: ShockArgs,
+    /// Folder of the time series; vtu only
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Times of the series; vtu only
+    #[arg(long, value_name = "N", default_value_t = 111, value_parser = clap::value_parser!(u16).range(2..))]
+    frames: u16,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ExportFormat {
     Csv,
     Json,
+    /// One shock of a study for ParaView: disk, ramp and film over time, into --out
+    Vtu,
 }
 
 /// Runs the command.
@@ -32,6 +43,32 @@ pub fn run(
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<Exit, Failure> {
+    if arguments.format == Some(ExportFormat::Vtu) {
+        let Some(out) = &arguments.out else {
+            return Err(Failure::Usage(vec![Fault {
+                key: Some("--out".into()),
+                allowed: Some("a folder".into()),
+                ..Fault::new(
+                    "usage",
+                    "--format vtu writes many files: --out names their folder",
+                )
+            }]));
+        };
+        let frames = usize::from(arguments.frames);
+        let (source, shock) = (&arguments.source, &arguments.shock);
+        return export_vtu::run(source, shock, out, frames, global, console);
+    }
+    let is_for_series = arguments.out.is_some() || arguments.shock.is_given();
+    if is_for_series {
+        return Err(Failure::Usage(vec![Fault {
+            key: Some("--format".into()),
+            allowed: Some("vtu".into()),
+            ..Fault::new(
+                "usage",
+                "--out and the options of a shock go with --format vtu; a store prints all its simulations",
+            )
+        }]));
+    }
     let folder = stored::folder(&arguments.source, global)?;
     let results = stored::results(&folder, console)?;
     let as_json = match arguments.format {

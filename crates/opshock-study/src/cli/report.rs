@@ -7,7 +7,7 @@ use super::failure::{Failure, Fault};
 use super::stored::{self, Stored};
 use crate::accuracy::Accuracy;
 use crate::provenance;
-use crate::report::{ReportSource, Saving, savings, table, write_report};
+use crate::report::{ReportSource, Saving, savings, table, terminal_plot, write_report};
 use crate::store::{Audit, Status, Summary};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -23,6 +23,9 @@ pub struct ReportArgs {
     /// Format of the table on standard output
     #[arg(long, value_name = "FORMAT")]
     format: Option<TableFormat>,
+    /// Plot the critical shocks as text
+    #[arg(long, conflicts_with = "format")]
+    plot: bool,
     /// Folder for table.md, table.csv, fig13.svg, fig13.png, report.html and results.h5
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -70,6 +73,11 @@ pub fn run(
     let stored = stored::read(&folder, console)?;
     let program = provenance::program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
+    let film = stored
+        .resolved_study
+        .as_deref()
+        .filter(|_| arguments.out.is_some())
+        .and_then(|study| stored::film(&folder, study));
     let source = ReportSource {
         summary: &stored.summary,
         runs: &stored.runs,
@@ -78,6 +86,8 @@ pub fn run(
         audit: stored.audit.as_ref(),
         savings: &stored.savings,
         accuracy: accuracy.as_ref(),
+        plan: &stored.plan,
+        film: film.as_ref(),
     };
     if let Some(out) = &arguments.out {
         let mut written = write_report(out, &source).context("cannot write the report")?;
@@ -94,6 +104,7 @@ pub fn run(
         format => format,
     };
     match format {
+        None if arguments.plot => console.result(&terminal_plot(&stored.summary))?,
         None => {
             console.result(&table::terminal(&stored.summary))?;
             for line in savings::lines(&stored.savings) {

@@ -29,6 +29,11 @@ pub struct ShockArgs {
 }
 
 impl ShockArgs {
+    /// Anything was chosen.
+    pub fn is_given(&self) -> bool {
+        self.choice() != Choice::default()
+    }
+
     /// As the study takes it.
     pub fn choice(&self) -> Choice {
         Choice {

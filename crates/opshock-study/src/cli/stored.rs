@@ -3,8 +3,9 @@
 use super::GlobalArgs;
 use super::console::Console;
 use super::failure::{Failure, Fault};
-use crate::report::{RunDot, Saving, savings};
+use crate::report::{RunDot, Saving, ShockFilm, savings};
 use crate::store::folder::session;
+use crate::store::history::read_hdf5;
 use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
 use crate::study::Study;
 use crate::sweep::{SweepInput, replay};
@@ -57,6 +58,8 @@ pub struct Stored {
     pub audit: Option<Audit>,
     /// What the rules saved.
     pub savings: Vec<Saving>,
+    /// Effects and rules, as JSON.
+    pub plan: String,
 }
 
 /// Reads everything finished in a store, and tells what is wrong with it.
@@ -82,6 +85,7 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
         savings: savings(&results),
         audit: Audit::of_store(folder, &results.summary.digest),
         summary: results.summary,
+        plan: results.plan,
         runs,
         resolved_study: resolved_study(folder),
     })
@@ -108,6 +112,36 @@ pub fn results(folder: &Path, console: &Console) -> Result<Results, Failure> {
         path: folder.to_owned(),
     };
     Ok(newer.or(results).ok_or_else(empty)?)
+}
+
+/// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,
+/// else the first that can be shown.
+pub fn film(folder: &Path, resolved_study: &str) -> Option<ShockFilm> {
+    let entries = std::fs::read_dir(folder.join("histories")).ok()?;
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|ending| ending == "h5"))
+        .collect();
+    paths.sort();
+    let is_deformable = |path: &&PathBuf| {
+        path.file_name()
+            .is_some_and(|name| name.to_string_lossy().starts_with("deformable"))
+    };
+    let first = paths.iter().filter(is_deformable);
+    let mut shown = None;
+    for path in first.chain(paths.iter()) {
+        let Ok(history) = read_hdf5(path) else {
+            continue;
+        };
+        let Some(film) = ShockFilm::of(&history, resolved_study) else {
+            continue;
+        };
+        if history.verdict == "fails" {
+            return Some(film);
+        }
+        shown.get_or_insert(film);
+    }
+    shown
 }
 
 fn resolved_study(folder: &Path) -> Option<String> {

@@ -289,7 +289,7 @@ fn sensitivity_markdown(all: &Sensitivity) -> String {
         "# What the statements rest on\n\nEvery parameter that the paper does not print is moved to \
          both ends of a range, one at a time. Of {} statements {} hold whatever is moved, {} never \
          do, {} turn with a parameter and so rest on what was tuned.\n\n![Tornado plot](sensitivity.png)\n\n## Robust\n\n",
-        all.rows.len(),
+        answered().count(),
         robust(true).len(),
         robust(false).len(),
         turning.len()
@@ -348,14 +348,31 @@ fn sensitivity_markdown(all: &Sensitivity) -> String {
             lost.join(", ")
         );
     }
+    text.push_str("\nThe two shocks run at the study's accuracy. ");
+    if all.coarse.is_empty() {
+        let left: Vec<String> = all
+            .rows
+            .iter()
+            .filter(|row| row.base.is_none())
+            .map(words)
+            .collect();
+        let _ = write!(
+            text,
+            "Not tried, because the searches were left out: {}.",
+            left.join("; ")
+        );
+    } else {
+        let _ = write!(
+            text,
+            "Critical shocks come from a coarse search (`{}`): its values are not those of the \
+             table, their changes are what counts.",
+            all.coarse.join("`, `")
+        );
+    }
     let _ = write!(
         text,
-        "\nThe two shocks run at the study's accuracy. Critical shocks come from a coarse search \
-         (`{}`): its values are not those of the table, their changes are what counts. Gimbal \
-         stiffness moves pitch, roll and vertical together.\n\n{}, study {}\n",
-        all.coarse.join("`, `"),
-        all.program,
-        all.study
+        " Gimbal stiffness moves pitch, roll and vertical together.\n\n{}, study {}\n",
+        all.program, all.study
     );
     text
 }

@@ -1,9 +1,18 @@
 //! The report as one HTML file that needs nothing else: no network, no other file. It keeps its
 //! own content security policy (`default-src 'none'`, inline style and script).
+//!
+//! Without JavaScript it has its tables, its static figures and, by their addresses, the pages of
+//! its points. The script (`report.js`) draws zoomable plots in place of the static ones.
 
 mod accuracy;
+mod data;
+mod points;
+mod shock_film;
+
+pub use shock_film::ShockFilm;
 
 use super::critical_shock::critical_shock_figure;
+use super::margin_curves::margin_curves;
 use super::outcome_map::{RunDot, outcome_map};
 use super::savings::{self, Saving};
 use super::table;
@@ -29,6 +38,10 @@ pub struct ReportSource<'a> {
     pub savings: &'a [Saving],
     /// What accuracy was measured to cost, if it was.
     pub accuracy: Option<&'a Accuracy>,
+    /// Effects and rules of each ramp's scenes, as the JSON of the results; empty: not known.
+    pub plan: &'a str,
+    /// A kept shock to be shown moving.
+    pub film: Option<&'a ShockFilm>,
 }
 
 impl ReportSource<'_> {
@@ -52,7 +65,7 @@ pub fn html(source: &ReportSource<'_>) -> String {
     let title = escaped(&summary.study);
     let totals = &summary.totals;
     let mut page = format!(
-        r#"<!doctype html>
+        r##"<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -63,10 +76,13 @@ pub fn html(source: &ReportSource<'_>) -> String {
 {style}</style>
 </head>
 <body>
+<a class="skip" href="#table">to the table</a>
+<header>
 <h1>{title}</h1>
 <p>{ok} of {points} points bracketed, {above} above and {below} below the searched range, {undecided} undecided, {open} open; {runs} simulations.</p>
 <p class="quiet">{program}, study {digest}</p>
-"#,
+</header>
+"##,
         style = include_str!("style.css"),
         ok = totals.ok,
         points = totals.points,
@@ -78,45 +94,183 @@ pub fn html(source: &ReportSource<'_>) -> String {
         program = escaped(source.program),
         digest = escaped(&summary.digest),
     );
-    let mut section = |heading: &str, body: &str| {
-        let _ = write!(page, "<section>\n<h2>{heading}</h2>\n{body}\n</section>\n");
-    };
-    section(
-        "Critical shock",
-        &figure(
-            &critical_shock_figure(summary, "").svg(),
-            "Critical shock against pulse width",
-        ),
-    );
-    section("Table", &main_table(summary));
-    section("Reservations", &reservations(summary));
-    if !source.runs.is_empty() {
-        section(
-            "Outcome map",
-            &format!(
-                "<p>Every simulation that the answers rest on, at its pulse width and amplitude.</p>\n{}",
-                figure(
-                    &outcome_map(summary, source.runs).svg(),
-                    "Outcome of every simulation"
-                )
-            ),
+    let sections = sections(source);
+    page.push_str("<nav aria-label=\"Sections\"><ul>\n");
+    for section in &sections {
+        let _ = writeln!(
+            page,
+            "<li><a href=\"#{}\">{}</a></li>",
+            section.id, section.heading
         );
     }
-    if let Some(body) = accuracy::section(summary, source.accuracy) {
-        section("Accuracy", &body);
+    page.push_str("</ul></nav>\n<main>\n<div id=\"controls\" role=\"group\" aria-label=\"What the plots show\"></div>\n");
+    for section in &sections {
+        let _ = write!(
+            page,
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{}</h2>\n{}\n</section>\n",
+            section.heading,
+            section.body,
+            id = section.id
+        );
     }
-    section("Provenance", &provenance(source));
+    page.push_str("</main>\n");
+    page.push_str(&data::block(summary, source.runs, source.film));
     let _ = write!(
         page,
-        "<script>\n{}</script>\n</body>\n</html>\n",
-        include_str!("sort.js")
+        "<pre id=\"csv\" hidden>{}</pre>\n<script>\n{}</script>\n</body>\n</html>\n",
+        escaped(&table::csv(summary)),
+        include_str!("report.js")
     );
     page
 }
 
+/// One part of the page.
+struct Section {
+    id: &'static str,
+    heading: &'static str,
+    body: String,
+}
+
+/// The parts, in their order. A part that has nothing to show is left out.
+fn sections(source: &ReportSource<'_>) -> Vec<Section> {
+    let summary = source.summary;
+    let has_runs = !source.runs.is_empty();
+    let mut sections = Vec::new();
+    let mut add = |id, heading, body: String| sections.push(Section { id, heading, body });
+    add(
+        "critical",
+        "Critical shock",
+        replaced(
+            &critical_shock_figure(summary, "").svg(),
+            "Critical shock against pulse width",
+            "critical",
+        ),
+    );
+    add("table", "Table", main_table(summary));
+    add(
+        "points",
+        "Points",
+        "<p>A name in the table, or a mark in a plot, opens the page of its point here.</p>\n"
+            .to_owned()
+            + &points::pages(summary, source.runs),
+    );
+    add(
+        "compare",
+        "Compare",
+        "<div id=\"compare-tool\"></div>".to_owned(),
+    );
+    if has_runs {
+        add(
+            "map",
+            "Outcome map",
+            format!(
+                "<p>Every simulation that the answers rest on, at its pulse width and amplitude: \
+                 open circles survive, full squares touch.</p>\n{}",
+                replaced(
+                    &outcome_map(summary, source.runs).svg(),
+                    "Outcome of every simulation",
+                    "map"
+                )
+            ),
+        );
+        add(
+            "margin",
+            "Margin",
+            format!(
+                "<p>Smallest clearance between slider and disk against amplitude.</p>\n{}",
+                replaced(
+                    &margin_curves(summary, source.runs).svg(),
+                    "Smallest clearance against amplitude",
+                    "margin"
+                )
+            ),
+        );
+    }
+    if let Some(film) = source.film {
+        add(
+            "film",
+            "One shock",
+            format!(
+                "<p>{}. Displacements are drawn some hundred times too large; an arm in contact is orange. \
+                 The figures of a run without this script: <code>opshock run --plots</code>.</p>\n\
+                 <div id=\"film-stage\"></div>",
+                escaped(&film.label)
+            ),
+        );
+    }
+    if let Some(body) = accuracy::section(summary, source.accuracy) {
+        add("accuracy", "Accuracy", body);
+    }
+    add("effects", "Effects", effects(source));
+    add("trouble", "Trouble", reservations(summary));
+    add("provenance", "Provenance", provenance(source));
+    sections
+}
+
+/// What was simulated for each ramp, and which rules left things out.
+fn effects(source: &ReportSource<'_>) -> String {
+    let mut text = String::new();
+    let plan: serde_json::Value = serde_json::from_str(source.plan).unwrap_or_default();
+    if let Some(ramps) = plan["ramps"].as_object() {
+        text.push_str(
+            "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">ramp</th><th scope=\"col\">simulated</th>\
+             <th scope=\"col\">left out</th><th scope=\"col\">rules below touch</th><th scope=\"col\">rules above touch</th></tr></thead><tbody>\n",
+        );
+        for (ramp, told) in ramps {
+            let effects = told["effects"].as_object();
+            let list = |wanted: bool| -> String {
+                let all = effects.into_iter().flatten();
+                let kept = all.filter(|(_, state)| (state.as_str() != Some("off")) == wanted);
+                let words: Vec<String> = kept
+                    .map(|(name, state)| match state.as_str() {
+                        Some("on" | "off") | None => name.clone(),
+                        Some(state) => format!("{name} ({state})"),
+                    })
+                    .collect();
+                words.join(", ")
+            };
+            let rules = |key: &str| -> String {
+                let rules = told[key].as_array().into_iter().flatten();
+                rules
+                    .filter_map(|rule| rule.as_str())
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            };
+            let cells = [
+                list(true),
+                list(false),
+                rules("rules_below_touch"),
+                rules("rules_above_touch"),
+            ];
+            let cells = cells.map(|cell| format!("<td class=\"wrap\">{}</td>", escaped(&cell)));
+            let _ = writeln!(
+                text,
+                "<tr><th scope=\"row\">{}</th>{}</tr>",
+                escaped(ramp),
+                cells.concat()
+            );
+        }
+        text.push_str("</tbody></table></div>\n");
+    }
+    let saved = savings::lines(source.savings);
+    for line in &saved {
+        let _ = writeln!(text, "<p>{}</p>", escaped(line));
+    }
+    if text.is_empty() {
+        text.push_str("<p>The results name no effects.</p>");
+    }
+    text
+}
+
+/// A figure that the script replaces by a zoomable one.
+fn replaced(svg: &str, label: &str, plot: &str) -> String {
+    let figure = figure(svg, label).replacen("<figure>", "<figure class=\"static\">", 1);
+    format!("{figure}<div class=\"plot\" data-plot=\"{plot}\"></div>")
+}
+
 fn figure(svg: &str, label: &str) -> String {
     let svg = svg.replacen("<svg ", &format!(r#"<svg aria-label="{label}" "#), 1);
-    format!("<figure>{svg}</figure>")
+    format!("<figure>{svg}</figure>\n")
 }
 
 fn main_table(summary: &Summary) -> String {
@@ -127,6 +281,7 @@ fn main_table(summary: &Summary) -> String {
         "<p>A<sub>crit</sub>: highest surviving amplitude below the lowest failing one, \
          A<sub>fail</sub>. Error: bar of A<sub>crit</sub>. First touch: amplitude at which the disk \
          first reaches the ramp. Shaded rows carry a reservation. A click on a heading sorts.</p>\n\
+         <p><button type=\"button\" id=\"copy\">copy as CSV</button> <span id=\"copied\" role=\"status\"></span></p>\n\
          <div class=\"scroll\"><table class=\"sortable\">\n<thead><tr>",
     );
     for (column, name) in header.iter().enumerate() {
@@ -138,18 +293,22 @@ fn main_table(summary: &Summary) -> String {
         );
     }
     text.push_str("</tr></thead>\n<tbody>\n");
-    for (point, row) in summary.points.iter().zip(&rows) {
+    for (place, (point, row)) in summary.points.iter().zip(&rows).enumerate() {
         let reserved = point.status != Status::Ok || point.flags.iter().any(is_reservation);
-        text.push_str(if reserved {
-            "<tr class=\"reserved\">"
-        } else {
-            "<tr>"
-        });
+        let class = if reserved { " class=\"reserved\"" } else { "" };
+        let _ = write!(text, "<tr data-point=\"{place}\"{class}>");
         for (column, cell) in row.iter().enumerate() {
             let class = if numeric(column) { " class=\"n\"" } else { "" };
             let value = sort_value(point, column, words)
                 .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
-            let _ = write!(text, "<td{class}{value}>{}</td>", escaped(cell));
+            let cell = escaped(cell);
+            let _ = match column {
+                0 => write!(
+                    text,
+                    "<th scope=\"row\"><a href=\"#point-{place}\">{cell}</a></th>"
+                ),
+                _ => write!(text, "<td{class}{value}>{cell}</td>"),
+            };
         }
         text.push_str("</tr>\n");
     }
@@ -175,36 +334,16 @@ fn is_reservation(flag: &Flag) -> bool {
 fn reservations(summary: &Summary) -> String {
     let mut text = String::new();
     for point in &summary.points {
-        let mut said: Vec<&str> = match point.status {
-            Status::Ok => Vec::new(),
-            Status::AboveRange => vec!["no failure up to the end of the searched range"],
-            Status::BelowRange => vec!["fails at the start of the searched range already"],
-            Status::Undecided => vec!["runs without verdict left no bracket"],
-            Status::Open => vec!["the search has not ended"],
-        };
-        said.extend(
-            point
-                .flags
-                .iter()
-                .filter(|flag| is_reservation(flag))
-                .map(|flag| sentence(*flag)),
-        );
+        let said = said_of(point);
         if said.is_empty() {
             continue;
         }
-        let axes: Vec<String> = summary
-            .axes
-            .iter()
-            .zip(&point.axes)
-            .map(|(axis, value)| format!(", {axis} = {value}"))
-            .collect();
+        let place = summary.points.iter().position(|other| other == point);
         let _ = writeln!(
             text,
-            "<li>{} {} ms {}{}: {}</li>",
-            escaped(&point.ramp),
-            point.pulse_ms,
-            point.sign.as_str(),
-            escaped(&axes.concat()),
+            "<li><a href=\"#point-{}\">{}</a>: {}</li>",
+            place.unwrap_or_default(),
+            escaped(&points::name(summary, point)),
             said.join("; ")
         );
     }
@@ -213,6 +352,20 @@ fn reservations(summary: &Summary) -> String {
     } else {
         format!("<ul>\n{text}</ul>")
     }
+}
+
+/// What a reader must know of a point, in sentences.
+fn said_of(point: &PointSummary) -> Vec<&'static str> {
+    let mut said: Vec<&str> = match point.status {
+        Status::Ok => Vec::new(),
+        Status::AboveRange => vec!["no failure up to the end of the searched range"],
+        Status::BelowRange => vec!["fails at the start of the searched range already"],
+        Status::Undecided => vec!["runs without verdict left no bracket"],
+        Status::Open => vec!["the search has not ended"],
+    };
+    let flags = point.flags.iter().filter(|flag| is_reservation(flag));
+    said.extend(flags.map(|flag| sentence(*flag)));
+    said
 }
 
 fn sentence(flag: Flag) -> &'static str {
@@ -248,9 +401,6 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("program", source.program);
     entry("study", &summary.study);
     entry("digest", &summary.digest);
-    for line in savings::lines(source.savings) {
-        entry("saved", &line);
-    }
     if let Some(audit) = source.audit {
         let mut told = vec![audit.sentence()];
         told.extend(audit.differences.iter().map(ToString::to_string));

@@ -15,11 +15,13 @@
 
 mod csv_file;
 mod hdf5_file;
+mod stored;
 #[cfg(test)]
 mod tests;
 
 pub use csv_file::{fields_path, write_csv};
 pub use hdf5_file::write_hdf5;
+pub use stored::{StoredHistory, read_hdf5};
 
 use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
 

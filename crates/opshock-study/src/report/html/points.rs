@@ -1,0 +1,124 @@
+//! A page for each point: answer, bar, every simulation.
+
+use super::{escaped, said_of};
+use crate::report::outcome_map::RunDot;
+use crate::store::summary::{PointSummary, Summary};
+use std::fmt::Write as _;
+
+/// Name of a point, as in its page's heading.
+pub(super) fn name(summary: &Summary, point: &PointSummary) -> String {
+    let axes: String = summary
+        .axes
+        .iter()
+        .zip(&point.axes)
+        .map(|(axis, value)| format!(", {axis} = {value}"))
+        .collect();
+    format!(
+        "{}, {} ms, sign {}{axes}",
+        match point.ramp.as_str() {
+            "none" => "no ramp".to_owned(),
+            ramp => format!("{ramp} ramp"),
+        },
+        point.pulse_ms,
+        point.sign.as_str()
+    )
+}
+
+/// All pages; one is shown at a time, the one the address names.
+pub(super) fn pages(summary: &Summary, runs: &[RunDot]) -> String {
+    let mut text = String::new();
+    for (row, point) in summary.points.iter().enumerate() {
+        let _ = write!(
+            text,
+            "<article class=\"page\" id=\"point-{row}\" tabindex=\"-1\" aria-labelledby=\"point-{row}-name\">\n\
+             <h3 id=\"point-{row}-name\">{}</h3>\n<p><a href=\"#table\">close</a></p>\n",
+            escaped(&name(summary, point))
+        );
+        text.push_str(&facts(point));
+        text.push_str(&parts(point));
+        text.push_str(&runs_table(row, runs));
+        text.push_str("</article>\n");
+    }
+    text
+}
+
+fn facts(point: &PointSummary) -> String {
+    let mut text = String::from("<dl>");
+    let mut entry = |name: &str, value: String| {
+        let _ = write!(text, "<dt>{name}</dt><dd>{}</dd>", escaped(&value));
+    };
+    let grams = |value: Option<f64>| value.map_or("not known".to_owned(), |v| format!("{v:.1} G"));
+    entry("critical shock", grams(point.a_crit_g));
+    entry("lowest failure", grams(point.a_fail_g));
+    if let (Some(low), Some(high)) = (point.err_low_g, point.err_high_g) {
+        entry("error bar", format!("\u{2212}{low:.1} +{high:.1} G"));
+    }
+    if let Some(onset) = point.onset_g {
+        entry("first touch of the ramp", format!("{onset:.1} G"));
+    }
+    if !point.brackets_g.is_empty() {
+        let pairs = point.brackets_g.iter();
+        let pairs: Vec<String> = pairs.map(|[a, b]| format!("{a:.1} | {b:.1}")).collect();
+        entry("survivor | failure", pairs.join("; ") + " G");
+    }
+    if let Some(gap) = point.largest_gap_pct {
+        entry("largest untested step below", format!("{gap:.1} %"));
+    }
+    entry("status", point.status.as_str().to_owned());
+    let said = said_of(point);
+    if !said.is_empty() {
+        entry("reservations", said.join("; "));
+    }
+    text.push_str("</dl>\n");
+    text
+}
+
+fn parts(point: &PointSummary) -> String {
+    if point.err_parts.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "<div class=\"scroll\"><table><caption>What its error bar is made of</caption>\
+         <thead><tr><th scope=\"col\">part</th><th scope=\"col\" class=\"n\">below (G)</th>\
+         <th scope=\"col\" class=\"n\">above (G)</th><th scope=\"col\" class=\"n\">factor</th></tr></thead><tbody>\n",
+    );
+    for (name, part) in &point.err_parts {
+        let _ = writeln!(
+            text,
+            "<tr><td>{}</td><td class=\"n\">{:.2}</td><td class=\"n\">{:.2}</td><td class=\"n\">{}</td></tr>",
+            escaped(name),
+            part.low_g,
+            part.high_g,
+            part.factor
+        );
+    }
+    text.push_str("</tbody></table></div>\n");
+    text
+}
+
+fn runs_table(row: usize, runs: &[RunDot]) -> String {
+    let mut own: Vec<&RunDot> = runs.iter().filter(|run| run.point == row).collect();
+    if own.is_empty() {
+        return String::new();
+    }
+    own.sort_by(|a, b| a.amplitude_g.total_cmp(&b.amplitude_g));
+    let mut text = String::from(
+        "<div class=\"scroll\"><table><caption>Its simulations</caption>\
+         <thead><tr><th scope=\"col\" class=\"n\">amplitude (G)</th><th scope=\"col\">verdict</th>\
+         <th scope=\"col\" class=\"n\">smallest clearance (nm)</th></tr></thead><tbody>\n",
+    );
+    for run in own {
+        let clearance = run
+            .h_min_m
+            .map_or(String::new(), |h| format!("{:.3}", 1e9 * h));
+        let _ = writeln!(
+            text,
+            "<tr class=\"{}\"><td class=\"n\">{:.2}</td><td>{}</td><td class=\"n\">{clearance}</td></tr>",
+            escaped(&run.verdict),
+            run.amplitude_g,
+            escaped(&run.verdict)
+        );
+    }
+    text.push_str("</tbody></table></div>\n");
+    text
+}

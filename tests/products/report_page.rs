@@ -1,0 +1,379 @@
+//! The report in a browser: what a person sees and touches, in headless Chromium.
+//!
+//! A machine without Chromium skips these tests and says so; `make verify-report` installs it and
+//! sets `OPSHOCK_NEED_CHROMIUM`, which makes a missing one a failure.
+
+use opshock_study::report::html::html;
+use opshock_study::report::{ReportSource, RunDot, ShockFilm};
+use opshock_study::search::Sign;
+use opshock_study::store::summary::{Flag, PointSummary, Status, Summary, Totals};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const RAMPS: [&str; 3] = ["none", "rigid", "deformable"];
+const WIDTHS_MS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+
+fn chromium() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let found = std::env::split_paths(&path)
+        .flat_map(|folder| names.map(|name| folder.join(name)))
+        .find(|candidate| candidate.is_file());
+    if found.is_none() {
+        assert!(
+            std::env::var_os("OPSHOCK_NEED_CHROMIUM").is_none(),
+            "no Chromium on PATH: scripts/bootstrap --verify installs it"
+        );
+        // Past the test harness, which keeps what a passing test prints.
+        use std::io::Write as _;
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: no Chromium on PATH, the report was not opened in a browser (make verify-report)"
+        );
+    }
+    found
+}
+
+/// Three ramps, two signs, four widths: values that rise with the width and differ with all.
+fn summary() -> Summary {
+    let mut points = Vec::new();
+    for (k, ramp) in RAMPS.into_iter().enumerate() {
+        for sign in [Sign::Plus, Sign::Minus] {
+            for ms in WIDTHS_MS {
+                let crit = 150.0 + 90.0 * k as f64 + 60.0 * ms + 12.0 * sign.factor();
+                points.push(PointSummary {
+                    ramp: ramp.into(),
+                    pulse_ms: ms,
+                    sign,
+                    axes: vec![],
+                    a_crit_g: Some(crit),
+                    a_fail_g: Some(1.01 * crit),
+                    err_low_g: Some(0.05 * crit),
+                    err_high_g: Some(0.06 * crit),
+                    err_parts: vec![],
+                    onset_g: (ramp != "none").then_some(0.8 * crit),
+                    runs: 3,
+                    status: Status::Ok,
+                    flags: if ms < 1.0 { vec![Flag::Window] } else { vec![] },
+                    brackets_g: vec![[crit, 1.01 * crit]],
+                    certified_from_g: None,
+                    largest_gap_pct: None,
+                });
+            }
+        }
+    }
+    Summary {
+        study: "A drive & its <ramp>".into(),
+        digest: "0123abcd".repeat(8),
+        axes: vec![],
+        totals: Totals {
+            points: points.len() as u64,
+            ok: points.len() as u64,
+            ..Totals::default()
+        },
+        points,
+    }
+}
+
+fn runs(summary: &Summary) -> Vec<RunDot> {
+    let mut runs = Vec::new();
+    for (point, row) in summary.points.iter().enumerate() {
+        let crit = row.a_crit_g.unwrap_or(0.0);
+        for (share, verdict, h) in [
+            (0.7, "survives", 3.0e-9),
+            (1.0, "survives", 0.6e-9),
+            (1.01, "fails", 0.0),
+        ] {
+            runs.push(RunDot {
+                point,
+                amplitude_g: share * crit,
+                verdict: verdict.into(),
+                h_min_m: Some(h),
+            });
+        }
+    }
+    runs
+}
+
+fn film() -> ShockFilm {
+    let wave = |scale: f64| -> Vec<f64> {
+        (0..60)
+            .map(|k| scale * (0.2 * f64::from(k)).sin())
+            .collect()
+    };
+    ShockFilm {
+        label: "deformable ramp, 192.1 G, 0.5 ms, sign +: fails".into(),
+        time_ms: (0..60).map(|k| 0.1 * f64::from(k)).collect(),
+        slider_um: wave(46.0),
+        ramp_um: wave(102.0),
+        top_um: wave(3.0),
+        bottom_um: wave(-3.0),
+        force_n: wave(0.5),
+        clearance_nm: (0..60).map(|k| (k < 50).then_some(4.0)).collect(),
+        radii_mm: [10.01, 22.215, 32.15, 32.5],
+        gap_um: 100.0,
+    }
+}
+
+/// Runs after the page's own script: acts as a person would and writes down what came of it.
+const PROBE: &str = r##"<script>
+addEventListener("load", () => {
+  const told = { ready: document.documentElement.dataset.ready ?? "no" };
+  const all = (selector, of = document) => [...of.querySelectorAll(selector)];
+  const plot = name => document.querySelector(`.plot[data-plot="${name}"] svg`);
+  const marks = name => all(".mark", plot(name));
+  told.marks = Object.fromEntries(["critical", "map", "margin"].map(name => [name, marks(name).length]));
+  told.static_hidden = all("figure.static").every(f => getComputedStyle(f).display === "none");
+  // Texts of a plot must not lie on one another.
+  const cross = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+  told.text_overlaps = all(".plot svg").map(svg => {
+    const boxes = all("text", svg).map(t => t.getBoundingClientRect());
+    return boxes.reduce((n, a, i) => n + boxes.slice(i + 1).filter(b => cross(a, b)).length, 0);
+  });
+  const sections = all("main > section").map(s => s.getBoundingClientRect());
+  told.section_overlaps = sections.slice(1).filter((s, i) => s.top < sections[i].bottom - 1).length;
+  told.empty_sections = all("main > section").filter(s => s.getBoundingClientRect().height < 40).map(s => s.id);
+  told.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  told.unnamed = all("svg:not([aria-label]), button:empty, input:not([aria-label])")
+    .filter(e => !e.closest("label") && !e.closest("svg svg")).map(e => e.outerHTML.slice(0, 60).replace(/[<>&]/g, " "));
+  // Linked zoom.
+  const ticks = name => all("text", plot(name)).map(t => t.textContent).join(" ");
+  const before = ticks("critical");
+  all(".tools button", plot("map").parentElement)[0].click();
+  told.linked = ticks("critical") !== before;
+  told.fewer = marks("map").length < told.marks.map;
+  all(".tools button", plot("map").parentElement)[2].click();
+  told.back = ticks("critical") === before && marks("map").length === told.marks.map;
+  // One ramp model hidden.
+  const boxes = all("#controls input");
+  boxes[0].click();
+  told.without_first = marks("critical").length;
+  boxes[0].click();
+  // Sorting by critical shock.
+  const heads = all("#table th button"), first = () => document.querySelector("#table tbody tr").cells[3].dataset.v;
+  heads[3].click(); told.lowest = Number(first());
+  heads[3].click(); told.highest = Number(first());
+  told.sorted = heads[3].closest("th").getAttribute("aria-sort");
+  // Comparing the first point with the last.
+  const selects = all("#compare-tool select");
+  selects[1].value = String(selects[1].options.length - 1);
+  selects[1].dispatchEvent(new Event("change"));
+  told.compared = document.querySelector("#compare-tool td:last-child").textContent;
+  told.csv = document.getElementById("csv").textContent.split("\n").length;
+  // The animation.
+  const clock = document.querySelector("#film-stage input");
+  const frame = () => document.querySelector("#film-stage path").getAttribute("d");
+  const still = frame();
+  clock.value = "7"; clock.dispatchEvent(new Event("input"));
+  told.moves = frame() !== still;
+  // A click opens a point's page.
+  const mark = marks("critical")[5];
+  told.clicked = mark.dataset.point;
+  mark.dispatchEvent(new MouseEvent("click", { bubbles: true }));
+  setTimeout(() => {
+    told.open = all(".page").filter(p => getComputedStyle(p).display !== "none").map(p => p.id);
+    told.focused = document.activeElement.id;
+    const pre = document.createElement("pre");
+    pre.id = "probe";
+    pre.textContent = JSON.stringify(told);
+    document.body.append(pre);
+  }, 50);
+});
+</script>"##;
+
+struct Page {
+    browser: PathBuf,
+    folder: tempfile::TempDir,
+}
+
+impl Page {
+    fn new(browser: PathBuf) -> Page {
+        let folder = tempfile::tempdir().unwrap();
+        let summary = summary();
+        let runs = runs(&summary);
+        let film = film();
+        let page = html(&ReportSource {
+            summary: &summary,
+            runs: &runs,
+            program: "opshock 1 (abc)",
+            resolved_study: Some("name = \"<b>\"\n"),
+            audit: None,
+            savings: &[],
+            accuracy: None,
+            plan: r#"{"ramps": {"rigid": {"effects": {"disk": "on", "hub": "off"}}}}"#,
+            film: Some(&film),
+        });
+        std::fs::write(folder.path().join("report.html"), &page).unwrap();
+        let probed = page.replace("</body>", &format!("{PROBE}</body>"));
+        std::fs::write(folder.path().join("probed.html"), probed).unwrap();
+        // A policy that runs no script: what a reader without JavaScript sees.
+        let still = page.replace("script-src 'unsafe-inline'", "script-src 'none'");
+        assert_ne!(page, still);
+        std::fs::write(folder.path().join("still.html"), still).unwrap();
+        Page { browser, folder }
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Opens a file with more options; the browser ends by itself.
+    fn open(&self, file: &str, options: &[&str]) -> Output {
+        let net_log = format!("--log-net-log={}", self.at("net.json").display());
+        let profile = format!("--user-data-dir={}", self.at("profile").display());
+        let output = Command::new(&self.browser)
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--hide-scrollbars",
+            ])
+            .args([
+                "--disable-background-networking",
+                "--disable-component-update",
+                "--no-first-run",
+            ])
+            .args([
+                "--disable-dev-shm-usage",
+                "--enable-logging=stderr",
+                "--virtual-time-budget=4000",
+            ])
+            .args([&profile, &net_log])
+            .args(options)
+            .arg(format!("file://{}", self.at(file).display()))
+            .output()
+            .expect("Chromium starts");
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        output
+    }
+
+    /// What the page wrote to the console, and what it asked of the network.
+    fn assert_quiet(&self, output: &Output) {
+        let told = String::from_utf8_lossy(&output.stderr);
+        let console: Vec<&str> = told
+            .lines()
+            .filter(|line| line.contains("CONSOLE"))
+            .collect();
+        assert!(console.is_empty(), "{}", console.join("\n"));
+        let log = std::fs::read_to_string(self.at("net.json")).unwrap_or_default();
+        let origin = "\"initiator\":\"file:";
+        let asked: Vec<&str> = log
+            .lines()
+            .filter(|line| line.contains("\"url\":\"http") && line.contains(origin))
+            .collect();
+        assert!(asked.is_empty(), "{}", asked.join("\n"));
+    }
+
+    fn probe(&self, options: &[&str]) -> Value {
+        let output = self.open("probed.html", &[&["--dump-dom"], options].concat());
+        self.assert_quiet(&output);
+        let page = String::from_utf8(output.stdout).unwrap();
+        let start = page.find("<pre id=\"probe\">").expect("the probe ran") + 16;
+        let end = start + page[start..].find("</pre>").unwrap();
+        serde_json::from_str(&page[start..end]).expect("what the probe wrote down")
+    }
+
+    /// Share of pixels that are not white, in each of `bands` strips from top to bottom.
+    fn ink(&self, file: &str, options: &[&str], bands: usize) -> Vec<f64> {
+        let shot = format!("--screenshot={}", self.at("shot.png").display());
+        let output = self.open(file, &[&[shot.as_str()], options].concat());
+        if file == "report.html" {
+            self.assert_quiet(&output);
+        }
+        let (width, pixels) = decoded(&self.at("shot.png"));
+        let height = pixels.len() / width;
+        let strip = height.div_ceil(bands) * width;
+        pixels
+            .chunks(strip)
+            .map(|strip| strip.iter().filter(|&&white| !white).count() as f64 / strip.len() as f64)
+            .collect()
+    }
+}
+
+/// Width, and for every pixel whether it is white.
+fn decoded(path: &Path) -> (usize, Vec<bool>) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    let samples = info.color_type.samples();
+    let white = |pixel: &[u8]| pixel[..3].iter().all(|&v| v > 250);
+    (
+        info.width as usize,
+        bytes[..info.buffer_size()]
+            .chunks(samples)
+            .map(white)
+            .collect(),
+    )
+}
+
+#[test]
+fn the_report_works_in_a_browser_and_asks_nothing_of_the_network() {
+    let Some(browser) = chromium() else { return };
+    let page = Page::new(browser);
+    let told = page.probe(&["--window-size=1200,900"]);
+    assert_eq!(told["ready"], "yes");
+    assert_eq!(told["marks"]["critical"], 24, "{told}");
+    assert_eq!(told["marks"]["map"], 72);
+    assert_eq!(told["marks"]["margin"], 72);
+    assert_eq!(told["static_hidden"], true);
+    assert_eq!(
+        told["text_overlaps"],
+        serde_json::json!([0, 0, 0]),
+        "{told}"
+    );
+    assert_eq!(told["section_overlaps"], 0);
+    assert_eq!(told["empty_sections"], serde_json::json!([]));
+    assert_eq!(told["overflow"], 0);
+    assert_eq!(told["unnamed"], serde_json::json!([]));
+    for act in ["linked", "fewer", "back", "moves"] {
+        assert_eq!(told[act], true, "{act}: {told}");
+    }
+    assert_eq!(told["without_first"], 16);
+    // 150 + 60 * 0.5 - 12 and 150 + 180 + 180 + 12.
+    assert_eq!(told["lowest"], 168.0);
+    assert_eq!(told["highest"], 522.0);
+    assert_eq!(told["sorted"], "descending");
+    // 498 over 192.
+    assert_eq!(told["compared"], "159.4 %");
+    assert_eq!(told["csv"], 1 + 24 + 1);
+    let open = format!("point-{}", told["clicked"].as_str().unwrap());
+    assert_eq!(told["open"], serde_json::json!([open]));
+    assert_eq!(told["focused"], open.as_str());
+}
+
+#[test]
+fn the_report_is_not_blank_with_and_without_its_script() {
+    let Some(browser) = chromium() else { return };
+    let page = Page::new(browser);
+    let size = "--window-size=1200,4200";
+    let with = page.ink("report.html", &[size], 8);
+    let without = page.ink("still.html", &[size], 8);
+    for ink in [&with, &without] {
+        for share in ink {
+            assert!((0.005..0.6).contains(share), "{ink:?}");
+        }
+    }
+    // Without its script the page has its static figures, not the plots: another picture.
+    assert_ne!(with, without);
+    let narrow = page.ink("report.html", &["--window-size=500,4000"], 8);
+    assert!(
+        narrow.iter().all(|share| (0.005..0.6).contains(share)),
+        "{narrow:?}"
+    );
+    let told = page.probe(&["--window-size=500,900"]);
+    assert_eq!(
+        told["overflow"], 0,
+        "a phone needs no scrolling sideways: {told}"
+    );
+    assert_eq!(
+        told["text_overlaps"],
+        serde_json::json!([0, 0, 0]),
+        "{told}"
+    );
+}
