@@ -38,17 +38,31 @@ use super::outcome::Flag;
 /// Nodes of the bar's lattice per step of the search.
 pub const SUBNODES: i32 = 16;
 
-/// Knobs that are first turned together, with the name of their common part.
-const GROUPS: [(&str, &[Knob]); 2] = [
-    ("structure", &[Knob::DiskModes, Knob::StructureStep]),
-    (
-        "head",
-        &[
+/// Knobs that are first turned together.
+struct Group {
+    /// Name of their common part.
+    name: &'static str,
+    knobs: &'static [Knob],
+    /// A change too large for the accuracy asked is told as it is: it is the first knob's.
+    is_told_when_excessive: bool,
+}
+
+const GROUPS: [Group; 2] = [
+    Group {
+        name: "structure",
+        knobs: &[Knob::DiskModes, Knob::StructureStep],
+        is_told_when_excessive: true,
+    },
+    // So coarse at once, they may fail where none of them does.
+    Group {
+        name: "head",
+        knobs: &[
             Knob::SuspensionModes,
             Knob::HeadTolerance,
             Knob::CouplingTolerance,
         ],
-    ),
+        is_told_when_excessive: false,
+    },
 ];
 
 /// Part of what a bar holds already to which brackets of further parts are narrowed.
@@ -240,10 +254,8 @@ fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {
         coarsest = found;
         bar.add(Knob::FilmGrid.as_str(), film, input.accuracy);
     }
-    for (name, of_group) in GROUPS {
-        let is_turned = |knob: &Knob| input.knobs.contains(knob);
-        let knobs: Vec<Knob> = of_group.iter().copied().filter(is_turned).collect();
-        group(walk, (&margin, coarsest), (name, &knobs), &mut bar)?;
+    for group in GROUPS {
+        group.add(walk, (&margin, coarsest), &mut bar)?;
     }
     if !input.knobs.is_empty() && bar.half_length() > input.accuracy {
         bar.flags.insert(Flag::BarExceeds);
@@ -260,46 +272,54 @@ struct Limits {
     little: f64,
 }
 
-/// Adds the part of knobs turned together, or those of each of them where that may bring the bar
-/// below what was asked.
-fn group(
-    walk: &mut Walk<'_>,
-    (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
-    (name, knobs): (&'static str, &[Knob]),
-    bar: &mut Bar,
-) -> Result<(), Ask> {
-    let accuracy = walk.input.accuracy;
-    // Beside what is in the bar already it need not be told which of them it is.
-    let limits = Limits {
-        grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1),
-        little: judge::NEGLIGIBLE * accuracy.max(bar.half_length()),
-    };
-    let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
-        let by_margin = match margin {
-            Some(reference) => reference.knobs(walk, knobs, limits.little)?,
-            None => None,
+impl Group {
+    /// Adds the part of its knobs turned together, or those of each of them where that may bring
+    /// the bar below what was asked.
+    fn add(
+        &self,
+        walk: &mut Walk<'_>,
+        (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
+        bar: &mut Bar,
+    ) -> Result<(), Ask> {
+        let accuracy = walk.input.accuracy;
+        let limits = Limits {
+            grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1),
+            little: judge::NEGLIGIBLE * accuracy.max(bar.half_length()),
         };
-        match by_margin {
-            Some(estimate) => Ok(Some(estimate)),
-            None => verdicts::knobs(walk, knobs, coarsest, limits),
+        let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
+            let by_margin = match margin {
+                Some(reference) => reference.knobs(walk, knobs, limits.little)?,
+                None => None,
+            };
+            match by_margin {
+                Some(estimate) => Ok(Some(estimate)),
+                None => verdicts::knobs(walk, knobs, coarsest, limits),
+            }
+        };
+        let is_turned = |knob: &Knob| walk.input.knobs.contains(knob);
+        let knobs: Vec<Knob> = self.knobs.iter().copied().filter(is_turned).collect();
+        let joint = match knobs.len() {
+            0 => return Ok(()),
+            1 => None,
+            _ => turned(walk, &knobs)?,
+        };
+        // Where the bar exceeds what was asked in any case, it need not be told which of them it is.
+        let is_told = |joint: &Estimate| {
+            joint.error() <= limits.little
+                || bar.half_length() > 2.0 * accuracy
+                || self.is_told_when_excessive && joint.is_excessive(accuracy)
+        };
+        if let Some(estimate) = joint.filter(is_told) {
+            bar.add(self.name, Some(estimate), accuracy);
+            return Ok(());
         }
-    };
-    let joint = match knobs.len() {
-        0 => return Ok(()),
-        1 => None,
-        _ => turned(walk, knobs)?,
-    };
-    let is_told = |joint: &Estimate| joint.error() <= limits.little || joint.is_excessive(accuracy);
-    if let Some(estimate) = joint.filter(is_told) {
-        bar.add(name, Some(estimate), accuracy);
-        return Ok(());
+        let mut alone = Vec::new();
+        for knob in knobs {
+            alone.push((knob, turned(walk, &[knob])?));
+        }
+        for (knob, estimate) in alone {
+            bar.add(knob.as_str(), estimate, accuracy);
+        }
+        Ok(())
     }
-    let mut alone = Vec::new();
-    for &knob in knobs {
-        alone.push((knob, turned(walk, &[knob])?));
-    }
-    for (knob, estimate) in alone {
-        bar.add(knob.as_str(), estimate, accuracy);
-    }
-    Ok(())
 }

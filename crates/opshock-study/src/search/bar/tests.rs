@@ -100,12 +100,12 @@ fn part(bar: &Bar, name: &str) -> Part {
 
 #[test]
 fn a_knob_of_formal_order_gives_its_error_times_the_narrow_factor() {
-    // Film 2 %, modes -1 %, by margin: the laws are linear in 1/A, not in A, hence 5 %.
-    let law = Law::formal([0.02, -0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    // Film 1 %, modes -1 %, by margin: the laws are linear in 1/A, not in A, hence 5 %.
+    let law = Law::formal([0.01, -0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (bar, _, _) = law.bar();
     let film = part(&bar, "film_grid");
     assert_eq!(film.factor, 1.25);
-    assert!((film.high / (1.25 * 0.02) - 1.0).abs() < 0.05, "{film:?}");
+    assert!((film.high / (1.25 * 0.01) - 1.0).abs() < 0.05, "{film:?}");
     let modes = part(&bar, "disk_modes");
     assert_eq!(modes.factor, 1.25);
     assert!((modes.high / (1.25 * 0.01) - 1.0).abs() < 0.10, "{modes:?}");
@@ -115,12 +115,12 @@ fn a_knob_of_formal_order_gives_its_error_times_the_narrow_factor() {
 
 #[test]
 fn an_abrupt_end_of_survival_is_read_from_verdicts() {
-    let law = Law::formal([0.02, -0.01, 0.0, 0.0, 0.0, 0.0], None);
+    let law = Law::formal([0.01, -0.01, 0.0, 0.0, 0.0, 0.0], None);
     let (bar, _, _) = law.bar();
     // Brackets of 1/16 % and of a quarter of a distance leave a third of the parts open.
     let film = part(&bar, "film_grid");
     assert!(
-        (0.8..1.4).contains(&(film.high / (1.25 * 0.02))),
+        (0.8..1.4).contains(&(film.high / (1.25 * 0.01))),
         "{film:?}"
     );
     let modes = part(&bar, "disk_modes");
