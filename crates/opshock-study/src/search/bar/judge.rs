@@ -52,20 +52,24 @@ pub(super) fn coarser(levels: Levels, knobs: &[Knob]) -> Levels {
     knobs.iter().fold(levels, turn)
 }
 
+/// Slowest formal ratio of some knobs.
+fn slowest(knobs: &[Knob]) -> f64 {
+    let ratios = knobs.iter().map(|knob| knob.formal_ratio());
+    ratios.fold(f64::INFINITY, f64::min)
+}
+
 /// Error of knobs turned together by one step, from the change of the answer: no order was
 /// observed. The slowest of them counts.
 pub(super) fn one_step(knobs: &[Knob], change: f64) -> Estimate {
-    let ratios = knobs.iter().map(|knob| knob.formal_ratio());
-    let slowest = ratios.fold(f64::INFINITY, f64::min);
     Estimate {
-        share: change.abs() / (slowest - 1.0),
+        share: change.abs() / (slowest(knobs) - 1.0),
         factor: WIDE,
     }
 }
 
 /// Error from two steps: `near` is level -1 minus the scene, `far` level -2 minus level -1.
-pub(super) fn two_steps(knob: Knob, near: f64, far: f64) -> Estimate {
-    let formal = knob.formal_ratio();
+pub(super) fn two_steps(knobs: &[Knob], near: f64, far: f64) -> Estimate {
+    let formal = slowest(knobs);
     let observed = far / near;
     if is_formal(observed, formal) {
         Estimate {

@@ -7,7 +7,7 @@
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
-use super::{Ask, Known, Seen, Walk};
+use super::{Ask, Known, Limits, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.
@@ -104,7 +104,7 @@ impl Reference {
             return Ok(None);
         };
         let near = (half_m - self.at.h_min_m) / slope_m;
-        Ok(Some(judge::two_steps(Knob::FilmGrid, near, both - near)))
+        Ok(Some(judge::two_steps(&[Knob::FilmGrid], near, both - near)))
     }
 
     /// Error of other knobs turned together by one step on the proxy, of one knob by two where that
@@ -114,7 +114,7 @@ impl Reference {
         &self,
         walk: &mut Walk<'_>,
         knobs: &[Knob],
-        little: f64,
+        limits: Limits,
     ) -> Result<Option<Estimate>, Ask> {
         let once = judge::coarser(walk.proxy(), knobs);
         let accuracy = walk.input.accuracy;
@@ -130,10 +130,7 @@ impl Reference {
                 continue;
             }
             let estimate = judge::one_step(knobs, first);
-            let &[knob] = knobs else {
-                return Ok(Some(estimate));
-            };
-            if estimate.error() <= little || estimate.is_excessive(accuracy) {
+            if limits.is_enough(knobs, estimate, accuracy) {
                 return Ok(Some(estimate));
             }
             let seen = walk.see(judge::coarser(once, knobs), index)?;
@@ -141,7 +138,7 @@ impl Reference {
                 .map(|second_m| (second_m - first_m) / self.slope_m[1])
                 .filter(|second| second.abs() <= REACH);
             return Ok(Some(match second {
-                Some(second) => judge::two_steps(knob, first, second),
+                Some(second) => judge::two_steps(knobs, first, second),
                 None => estimate,
             }));
         }

@@ -10,7 +10,7 @@
 //! * *margin* (`margin`): where the smallest clearance falls steadily to zero at the instant at
 //!   which the lowest failure touches, δA = δh / |dh/dA|, a run per group;
 //! * *verdicts* (`verdicts`): where survival ends abruptly (a dimple opens, the slider is thrown),
-//!   the critical amplitude of each turned scene itself, bracketed to a sixteenth of the tolerance
+//!   the critical amplitude of each turned scene itself, bracketed to an eighth of the tolerance
 //!   or to a 32nd of what is in the bar already.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
@@ -43,15 +43,15 @@ struct Group {
     /// Name of their common part.
     name: &'static str,
     knobs: &'static [Knob],
-    /// A change too large for the accuracy asked is told as it is: it is the first knob's.
-    is_told_when_excessive: bool,
+    /// Never turned alone: they have one order, so that two steps of them together show it.
+    is_one: bool,
 }
 
 const GROUPS: [Group; 2] = [
     Group {
         name: "structure",
         knobs: &[Knob::DiskModes, Knob::StructureStep],
-        is_told_when_excessive: true,
+        is_one: true,
     },
     // So coarse at once, they may fail where none of them does.
     Group {
@@ -61,12 +61,15 @@ const GROUPS: [Group; 2] = [
             Knob::HeadTolerance,
             Knob::CouplingTolerance,
         ],
-        is_told_when_excessive: false,
+        is_one: false,
     },
 ];
 
 /// Part of what a bar holds already to which brackets of further parts are narrowed.
 const GRAIN: f64 = 1.0 / 32.0;
+
+/// Narrowest bracket of turned knobs, nodes.
+const FINEST: i32 = 2;
 
 /// A survivor that the search has met.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -270,6 +273,17 @@ struct Limits {
     grain: i32,
     /// Error that needs no closer look, a share.
     little: f64,
+    /// Knobs turned together are turned a second step, as one alone is.
+    has_order: bool,
+}
+
+impl Limits {
+    /// A second step would not change what the bar says.
+    fn is_enough(self, knobs: &[Knob], estimate: Estimate, accuracy: f64) -> bool {
+        estimate.error() <= self.little
+            || estimate.is_excessive(accuracy)
+            || knobs.len() > 1 && !self.has_order
+    }
 }
 
 impl Group {
@@ -283,12 +297,13 @@ impl Group {
     ) -> Result<(), Ask> {
         let accuracy = walk.input.accuracy;
         let limits = Limits {
-            grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(1),
+            grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(FINEST),
             little: judge::NEGLIGIBLE * accuracy.max(bar.half_length()),
+            has_order: self.is_one,
         };
         let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
             let by_margin = match margin {
-                Some(reference) => reference.knobs(walk, knobs, limits.little)?,
+                Some(reference) => reference.knobs(walk, knobs, limits)?,
                 None => None,
             };
             match by_margin {
@@ -305,20 +320,15 @@ impl Group {
         };
         // Where the bar exceeds what was asked in any case, it need not be told which of them it is.
         let is_told = |joint: &Estimate| {
-            joint.error() <= limits.little
-                || bar.half_length() > 2.0 * accuracy
-                || self.is_told_when_excessive && joint.is_excessive(accuracy)
+            self.is_one || joint.error() <= limits.little || bar.half_length() > 2.0 * accuracy
         };
         if let Some(estimate) = joint.filter(is_told) {
             bar.add(self.name, Some(estimate), accuracy);
             return Ok(());
         }
-        let mut alone = Vec::new();
         for knob in knobs {
-            alone.push((knob, turned(walk, &[knob])?));
-        }
-        for (knob, estimate) in alone {
-            bar.add(knob.as_str(), estimate, accuracy);
+            let alone = turned(walk, &[knob])?;
+            bar.add(knob.as_str(), alone, accuracy);
         }
         Ok(())
     }

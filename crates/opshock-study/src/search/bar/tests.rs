@@ -106,7 +106,7 @@ fn a_knob_of_formal_order_gives_its_error_times_the_narrow_factor() {
     let film = part(&bar, "film_grid");
     assert_eq!(film.factor, 1.25);
     assert!((film.high / (1.25 * 0.01) - 1.0).abs() < 0.05, "{film:?}");
-    let modes = part(&bar, "disk_modes");
+    let modes = part(&bar, "structure");
     assert_eq!(modes.factor, 1.25);
     assert!((modes.high / (1.25 * 0.01) - 1.0).abs() < 0.10, "{modes:?}");
     assert!(!bar.flags.contains(&Flag::BarPartial));
@@ -123,7 +123,7 @@ fn an_abrupt_end_of_survival_is_read_from_verdicts() {
         (0.8..1.4).contains(&(film.high / (1.25 * 0.01))),
         "{film:?}"
     );
-    let modes = part(&bar, "disk_modes");
+    let modes = part(&bar, "structure");
     assert!(modes.high >= 0.01, "{modes:?}");
     // The head's knobs move nothing: together they are within a node.
     let still = part(&bar, "head");
@@ -137,7 +137,7 @@ fn disorder_is_marked_and_carries_the_wide_factor() {
     let mut law = Law::formal([0.0, 0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     law.ratios[Knob::DiskModes as usize] = 1.3;
     let (bar, _, _) = law.bar();
-    let modes = part(&bar, "disk_modes");
+    let modes = part(&bar, "structure");
     assert_eq!(modes.factor, 3.0);
     assert!(modes.high > 0.0099, "{modes:?}");
     law.errors[Knob::DiskModes as usize] = 0.5;

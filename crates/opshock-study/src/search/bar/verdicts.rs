@@ -143,15 +143,15 @@ pub(super) fn knobs(
     walk: &mut Walk<'_>,
     knobs: &[Knob],
     known: Option<OnFilm>,
-    Limits { grain, little }: Limits,
+    limits: Limits,
 ) -> Result<Option<Estimate>, Ask> {
     let plain = Width {
-        nodes: grain,
+        nodes: limits.grain,
         distance_over: 0,
         farthest: OF_FILM.farthest,
     };
     let quarter = Width {
-        nodes: grain,
+        nodes: limits.grain,
         distance_over: 4,
         farthest: FARTHEST,
     };
@@ -163,7 +163,7 @@ pub(super) fn knobs(
         return Ok(None);
     };
     let film = halved(found.halvings);
-    let Some(base) = narrowed(walk, film, found.bracket, grain)? else {
+    let Some(base) = narrowed(walk, film, found.bracket, limits.grain)? else {
         return Ok(None);
     };
     let once = judge::coarser(film, knobs);
@@ -176,17 +176,14 @@ pub(super) fn knobs(
     }
     let first = shift(walk, base, one);
     let estimate = judge::one_step(knobs, first);
-    let &[knob] = knobs else {
-        return Ok(Some(estimate));
-    };
-    if estimate.error() <= little || estimate.is_excessive(walk.input.accuracy) {
+    if limits.is_enough(knobs, estimate, walk.input.accuracy) {
         return Ok(Some(estimate));
     }
     let Some(two) = locate(walk, judge::coarser(once, knobs), one, quarter)? else {
         return Ok(Some(estimate));
     };
     let second = shift(walk, one, two);
-    Ok(Some(judge::two_steps(knob, first, second)))
+    Ok(Some(judge::two_steps(knobs, first, second)))
 }
 
 /// Error of the film's grid from the answers on a quarter and an eighth of the cells.
