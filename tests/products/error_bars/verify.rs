@@ -2,7 +2,8 @@
 //! and ramp alone) and 40 whole shocks against ten times finer ones. Every answer is a line of
 //! `results/accuracy/coverage.csv`; run again with the same program it goes on from there. A random
 //! study without a critical shock in its range, or whose finer one has no verdict, is a line without
-//! figures, and the next seed stands in.
+//! figures; a bar that says that a part is missing (`bar_partial`) makes no claim. In both cases the
+//! next seed stands in.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -17,7 +18,7 @@ use opshock_solver::simulation::{
     Model, Outcome, Request, Scope, Verdict as SolverVerdict, Workspace, simulate,
 };
 use opshock_study::provenance;
-use opshock_study::search::{Probe, ProbeResult, RunCost, Verdict};
+use opshock_study::search::{Flag, Probe, ProbeResult, RunCost, Verdict};
 use opshock_study::store::summary::Status;
 use opshock_study::study::Study;
 use opshock_study::sweep::{BarPlan, Onset, Physics, Simulator, SweepInput};
@@ -37,6 +38,8 @@ struct Covered {
     low_g: f64,
     high_g: f64,
     truth_g: f64,
+    /// A part could not be found and is missing in the bar, which says so by its flag.
+    is_partial: bool,
 }
 
 impl Covered {
@@ -55,7 +58,7 @@ struct Log {
     rows: BTreeMap<(String, u64), Option<Covered>>,
 }
 
-const HEADER: &str = "kind,seed,a_crit_g,err_low_g,err_high_g,truth_g,inside";
+const HEADER: &str = "kind,seed,a_crit_g,err_low_g,err_high_g,truth_g,inside,partial";
 
 impl Log {
     /// What this program has measured so far.
@@ -74,6 +77,7 @@ impl Log {
                         low_g: number(3)?,
                         high_g: number(4)?,
                         truth_g: number(5)?,
+                        is_partial: cells[7] == "true",
                     })
                 };
                 let seed = cells[1].parse().expect("a seed");
@@ -90,7 +94,8 @@ impl Log {
     /// Answers of a kind.
     fn answered(&self, kind: &str) -> usize {
         let of = self.rows.iter().filter(|((known, _), _)| known == kind);
-        of.filter(|(_, covered)| covered.is_some()).count()
+        of.filter(|(_, covered)| covered.is_some_and(|covered| !covered.is_partial))
+            .count()
     }
 
     fn put(&mut self, kind: &str, seed: u64, covered: Option<Covered>) {
@@ -98,30 +103,32 @@ impl Log {
         let mut text = format!("{}\n{HEADER}\n", provenance_line());
         for ((kind, seed), covered) in &self.rows {
             let Some(c) = covered else {
-                let _ = writeln!(text, "{kind},{seed},,,,,");
+                let _ = writeln!(text, "{kind},{seed},,,,,,");
                 continue;
             };
             let _ = writeln!(
                 text,
-                "{kind},{seed},{:.4},{:.4},{:.4},{:.4},{}",
+                "{kind},{seed},{:.4},{:.4},{:.4},{:.4},{},{}",
                 c.a_crit_g,
                 c.low_g,
                 c.high_g,
                 c.truth_g,
-                c.inside()
+                c.inside(),
+                c.is_partial
             );
         }
         std::fs::create_dir_all(self.path.parent().expect("a folder")).expect("a folder");
         std::fs::write(&self.path, text).expect("written");
     }
 
-    /// Share inside and median ratio of some kinds, printed.
+    /// Share inside and median ratio of the whole bars of some kinds, printed.
     fn judge(&self, kinds: &[&str]) -> (f64, f64) {
         let of: Vec<&Covered> = self
             .rows
             .iter()
             .filter(|((kind, _), _)| kinds.contains(&kind.as_str()))
             .filter_map(|(_, covered)| covered.as_ref())
+            .filter(|covered| !covered.is_partial)
             .collect();
         let inside = of.iter().filter(|one| one.inside()).count();
         let mut ratios: Vec<f64> = of.iter().map(|one| one.ratio()).collect();
@@ -361,6 +368,7 @@ fn covered(row: &Row, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Cove
         low_g: row.err_low_g?,
         high_g: row.err_high_g?,
         truth_g: truth_g(a_crit_g, fails)?,
+        is_partial: row.flags.contains(&Flag::BarPartial),
     })
 }
 
@@ -401,6 +409,7 @@ fn laws(log: &Mutex<Log>) {
             low_g: row.err_low_g.expect("a bar"),
             high_g: row.err_high_g.expect("a bar"),
             truth_g: law.exact_g,
+            is_partial: row.flags.contains(&Flag::BarPartial),
         };
         log.put("law", seed as u64, Some(covered));
     }

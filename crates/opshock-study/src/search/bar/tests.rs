@@ -46,6 +46,10 @@ impl Law {
 
     /// The bar of this law on a lattice of one per cent, and the runs it took.
     fn bar(&self) -> (Bar, f64, usize) {
+        self.bar_with(3)
+    }
+
+    fn bar_with(&self, film_halvings: i8) -> (Bar, f64, usize) {
         let search = Lattice::for_tolerance(0.01).expect("lattice");
         let lattice = search.finer(SUBNODES);
         let survivor = search.at_or_below(self.critical_g(Levels::NONE) * (1.0 - 1e-12));
@@ -71,7 +75,7 @@ impl Law {
             t_fail_s: Some(1e-3),
             survivors: [4, 2, 0].map(|below| known(survivor - below)).to_vec(),
             knobs: Knob::ALL.to_vec(),
-            film_halvings: 3,
+            film_halvings,
             accuracy: 0.01,
         };
         let (log, progress) = bar(&input, &|ask| Some(self.see(lattice, ask)));
@@ -167,6 +171,20 @@ fn a_difference_beyond_the_reach_of_the_slope_is_bracketed_instead() {
     assert!((-film.low..=film.high).contains(&truth), "{film:?} {truth}");
     assert!(film.high < 4.0 * truth.abs(), "{film:?} {truth}");
     assert!(bar.flags.contains(&Flag::BarExceeds));
+}
+
+#[test]
+fn one_coarse_film_alone_shows_no_order() {
+    // Two halvings at most: the quarter film is 9 % off, thrice the 3 % of the scene.
+    let law = Law::formal([0.03, 0.0, 0.0, 0.0, 0.0, 0.0], None);
+    let (bar, reported_g, _) = law.bar_with(2);
+    let film = part(&bar, "film_grid");
+    let truth = (law.exact_g / reported_g - 1.0).abs();
+    assert_eq!(film.factor, 3.0);
+    assert!(
+        film.high > 6.0 * truth && film.high < 15.0 * truth,
+        "{film:?} {truth}"
+    );
 }
 
 #[test]

@@ -203,11 +203,13 @@ pub(super) fn film(walk: &mut Walk<'_>) -> Result<(Option<Estimate>, Option<OnFi
         .abs()
         .max(walk.share(near.bracket.low - own.high).abs());
     let rise = formal.powi(i32::from(near.halvings));
+    // One coarse film alone shows no order, and films so coarse have none: one halving counts.
+    let has_two = near.halvings == 2 && walk.input.film_halvings >= 3;
     let coarse = Estimate {
-        share: farthest / (rise - 1.0),
+        share: farthest / if has_two { rise - 1.0 } else { formal - 1.0 },
         factor: judge::WIDE,
     };
-    if near.halvings < 2 || walk.input.film_halvings < 3 {
+    if !has_two {
         return Ok((Some(coarse), Some(near)));
     }
     let Some(far) = locate(walk, halved(3), near.bracket, OF_FILM)? else {
