@@ -232,6 +232,9 @@ impl Row {
     }
 }
 
+/// What the runs of one variant gave: its shocks and, where they were searched, its critical shocks.
+pub type Given = (Shocks, Option<Summary>);
+
 /// Every claim over all parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensitivity {
@@ -252,7 +255,7 @@ impl Sensitivity {
         study: &Study,
         program: &str,
         base: (&Shocks, Option<&Summary>),
-        variants: &[(Variant, Option<(Shocks, Option<Summary>)>)],
+        variants: &[(Variant, Option<Given>)],
     ) -> Sensitivity {
         let table = resolved(study);
         let own = findings(base.0, base.1);
