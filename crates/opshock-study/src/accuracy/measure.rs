@@ -42,8 +42,10 @@ pub struct Measured {
 
 /// First step of the gallop for the bracket, as a ratio.
 const STEP: f64 = 1.01;
+/// Largest step of the gallop.
+const LONGEST_STEP: f64 = 1.5;
 /// A setting whose answer lies farther away than this ratio has none.
-const FARTHEST: f64 = 3.0;
+const FARTHEST: f64 = 10.0;
 
 /// A model with scratch, ready for shocks of one sign.
 pub struct Bench {
@@ -144,11 +146,11 @@ impl Bench {
                 (Some(low), Some(high)) => at = (low * high).sqrt(),
                 (Some(low), None) => {
                     at = low * stride;
-                    stride *= stride;
+                    stride = (stride * stride).min(LONGEST_STEP);
                 }
                 (None, high) => {
                     at = high.unwrap_or(at) / stride;
-                    stride *= stride;
+                    stride = (stride * stride).min(LONGEST_STEP);
                 }
             }
         }
