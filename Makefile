@@ -17,7 +17,7 @@ build: bootstrap ## build the optimised program
 
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
 	$(OPSHOCK) sweep studies/fig13/study.toml --store results/fig13/fig13.opshock -j $(JOBS)
-	$(OPSHOCK) report results/fig13/fig13.opshock --out results/fig13
+	$(OPSHOCK) report results/fig13/fig13.opshock --out results/fig13 --accuracy results/accuracy/accuracy.json
 
 accuracy: build ## what accuracy costs on Fig. 13: ladders, plots and table in results/accuracy/
 	$(OPSHOCK) accuracy studies/fig13/study.toml --at none:2:- --at deformable:2:- --out results/accuracy
