@@ -189,7 +189,7 @@ fn two_threads_are_kept_busy_in_spite_of_the_hints() {
     let input = fig13();
     let folder = tempfile::tempdir().expect("folder");
     let mut simulator = MockSimulator::new(&input);
-    simulator.sleep = Duration::from_millis(15);
+    simulator.sleep = Duration::from_millis(25);
     let recorder = Recorder::default();
     let end = sweep(
         &input,
@@ -199,10 +199,12 @@ fn two_threads_are_kept_busy_in_spite_of_the_hints() {
         &recorder,
     )
     .expect("sweeps");
-    // Counted, not timed: a run that finds the other thread idle at both its ends is a lone one.
+    // Counted, not timed: a run that finds the other thread idle at both its ends is a lone one. On an
+    // idle machine it is one in fifty; other tests that take the cores keep a thread from starting its
+    // next run in time, which made it one in seven. One thread alone would make it all.
     let lone = simulator.calls() - simulator.accompanied();
     assert!(
-        lone * 10 <= simulator.calls(),
+        lone * 4 <= simulator.calls(),
         "{lone} of {} runs had no other beside them",
         simulator.calls()
     );
