@@ -200,8 +200,8 @@ fn two_threads_are_kept_busy_in_spite_of_the_hints() {
     )
     .expect("sweeps");
     // Counted, not timed: a run that finds the other thread idle at both its ends is a lone one. On an
-    // idle machine it is one in fifty; other tests that take the cores keep a thread from starting its
-    // next run in time, which made it one in seven. One thread alone would make it all.
+    // idle machine fewer than one in ten are; other tests that take the cores keep a thread from
+    // starting its next run in time, which made it one in seven. With one thread all would be.
     let lone = simulator.calls() - simulator.accompanied();
     assert!(
         lone * 4 <= simulator.calls(),
