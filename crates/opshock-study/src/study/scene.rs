@@ -70,11 +70,12 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
     };
     let number = |path: &str, base: f64| view.maybe_si(path).unwrap_or(base);
     // What the solve leaves must stay small beside the error of a step.
-    let coupling_tolerance = view
-        .maybe_si("solver.head_tolerance")
-        .map_or(base.head.coupling_tolerance, |tolerance| {
-            COUPLING_SHARE * tolerance
-        });
+    let coupling_tolerance =
+        view.maybe_si("solver.head_tolerance")
+            .map_or(base.head.coupling_tolerance, |tolerance| {
+                // The smallest tolerance of all has no hundredth but 0, which is none.
+                (COUPLING_SHARE * tolerance).max(f64::MIN_POSITIVE)
+            });
     Resolutions {
         disk: DiskResolution {
             n_harmonics: count("solver.disk_harmonics", base.disk.n_harmonics),
