@@ -7,7 +7,11 @@ fn every_module_is_on_the_map_and_every_path_on_it_exists() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let page = std::fs::read_to_string(root.join("ARCHITECTURE.md")).expect("ARCHITECTURE.md");
     let mut wrong = Vec::new();
-    for folder in ["crates/opshock-solver/src", "crates/opshock-study/src"] {
+    for folder in [
+        "crates/opshock-solid/src",
+        "crates/opshock-solver/src",
+        "crates/opshock-study/src",
+    ] {
         for entry in std::fs::read_dir(root.join(folder)).expect("a source folder") {
             let path = entry.expect("an entry").path();
             let stem = path

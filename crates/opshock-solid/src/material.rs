@@ -1,0 +1,194 @@
+//! Isotropic linear elastic materials, by name or by value.
+//!
+//! Moduli are those of the data sheets at 23 °C and slow loading. Polymers are stiffer at
+//! shock rates by 5 to 20 % and moulded fibre grades are not isotropic: a study that rests on the
+//! modulus gives its own.
+
+/// An isotropic linear elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus, Pa.
+    pub youngs_modulus_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density, kg/m³.
+    pub density_kg_per_m3: f64,
+}
+
+/// A material with its name and the source of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedMaterial {
+    /// Name in study files.
+    pub name: &'static str,
+    /// The numbers.
+    pub material: Material,
+    /// Where they come from.
+    pub source: &'static str,
+}
+
+/// What is wrong with a material.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{name} = {value:e} is outside its range ({allowed})")]
+pub struct MaterialError {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Value found.
+    pub value: f64,
+    /// Allowed range in words.
+    pub allowed: &'static str,
+}
+
+const fn named(
+    name: &'static str,
+    youngs_modulus_gpa: f64,
+    poisson: f64,
+    density_kg_per_m3: f64,
+    source: &'static str,
+) -> NamedMaterial {
+    NamedMaterial {
+        name,
+        material: Material {
+            youngs_modulus_pa: youngs_modulus_gpa * 1e9,
+            poisson,
+            density_kg_per_m3,
+        },
+        source,
+    }
+}
+
+/// Materials known by name. The polymers are those that ramps are moulded from (US patent
+/// 6 903 902 names acetal, polyetherimide, polyphenylene sulfide; liquid crystal polymer is used
+/// as well). Poisson's ratios of the fibre grades are usual values, not from the sheets.
+pub const MATERIALS: &[NamedMaterial] = &[
+    named(
+        "POM",
+        2.85,
+        0.37,
+        1410.0,
+        "acetal copolymer, Ticona Hostaform C 9021 data sheet (ISO 527, ISO 1183)",
+    ),
+    named(
+        "LCP",
+        15.0,
+        0.40,
+        1620.0,
+        "30 % glass, Ticona Vectra A130 data sheet (ISO 527 along the flow, ISO 1183)",
+    ),
+    named(
+        "PEEK",
+        4.0,
+        0.40,
+        1300.0,
+        "unfilled, Victrex PEEK 450G data sheet (ISO 527, ISO 1183)",
+    ),
+    named(
+        "PEI",
+        3.2,
+        0.36,
+        1270.0,
+        "unfilled, SABIC Ultem 1000 data sheet (ISO 527, ISO 1183)",
+    ),
+    named(
+        "PPS",
+        14.7,
+        0.35,
+        1650.0,
+        "40 % glass, Ticona Fortron 1140L4 data sheet (ISO 527, ISO 1183)",
+    ),
+    named(
+        "aluminium",
+        68.9,
+        0.33,
+        2700.0,
+        "alloy 6061-T6, ASM Metals Handbook, volume 2",
+    ),
+    named(
+        "steel",
+        193.0,
+        0.29,
+        8000.0,
+        "stainless AISI 304, ASM Metals Handbook, volume 1",
+    ),
+];
+
+impl Material {
+    /// The material of that name, letters of either case.
+    pub fn by_name(name: &str) -> Option<Self> {
+        let same = |known: &&NamedMaterial| known.name.eq_ignore_ascii_case(name);
+        MATERIALS.iter().find(same).map(|known| known.material)
+    }
+
+    /// Lamé's λ and μ, Pa.
+    pub fn lame_pa(&self) -> [f64; 2] {
+        let (e, nu) = (self.youngs_modulus_pa, self.poisson);
+        [
+            e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            e / (2.0 * (1.0 + nu)),
+        ]
+    }
+
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn validate(&self) -> Result<(), MaterialError> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        for (name, value, ok, allowed) in [
+            (
+                "youngs_modulus",
+                self.youngs_modulus_pa,
+                positive(self.youngs_modulus_pa),
+                "finite and above 0",
+            ),
+            (
+                "poisson",
+                self.poisson,
+                self.poisson > -1.0 && self.poisson < 0.5,
+                "above -1 and below 0.5",
+            ),
+            (
+                "density",
+                self.density_kg_per_m3,
+                positive(self.density_kg_per_m3),
+                "finite and above 0",
+            ),
+        ] {
+            if !ok {
+                return Err(MaterialError {
+                    name,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_named_material_is_valid_and_found_in_either_case() {
+        for known in MATERIALS {
+            known.material.validate().unwrap();
+            let lower = known.name.to_lowercase();
+            assert_eq!(Material::by_name(&lower), Some(known.material));
+        }
+        assert_eq!(Material::by_name("cheese"), None);
+    }
+
+    #[test]
+    fn lame_constants_of_a_known_case() {
+        // E = 10, ν = 1/4: λ = μ = 4.
+        let material = Material {
+            youngs_modulus_pa: 10.0,
+            poisson: 0.25,
+            density_kg_per_m3: 1.0,
+        };
+        for constant in material.lame_pa() {
+            assert!((constant - 4.0).abs() < 1e-14);
+        }
+    }
+}

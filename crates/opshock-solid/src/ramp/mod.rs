@@ -1,0 +1,187 @@
+//! A ramp from its dimensions and material to the oscillators of its contact points.
+
+mod geometry;
+mod mesh;
+
+pub use geometry::{GeometryError, MOST_ELEMENTS, RampGeometry};
+pub use mesh::{Extent, RampMesh};
+
+use crate::assembly::{AssemblyError, ElasticFaces, SolidSystem, Support};
+use crate::material::Material;
+use crate::reduction::{PointMode, ReducedSolid, reduce};
+use crate::sparse::SparseError;
+
+/// How the mount's face stands on the base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mount {
+    /// Held still.
+    Bolted,
+    /// On springs spread evenly over the face.
+    Elastic {
+        /// Stiffness of the whole face against its plane, N/m.
+        normal_n_per_m: f64,
+        /// Stiffness of the whole face within its plane, N/m.
+        tangential_n_per_m: f64,
+    },
+}
+
+/// A deformable ramp from geometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidRamp {
+    /// Dimensions.
+    pub geometry: RampGeometry,
+    /// Material.
+    pub material: Material,
+    /// Mount.
+    pub mount: Mount,
+    /// Longest edge of an element, m.
+    pub mesh_size_m: f64,
+    /// Fixed-interface modes below this frequency are kept, Hz.
+    pub cut_hz: f64,
+}
+
+/// The ramp's oscillators and what they came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RampModes {
+    /// Oscillators; shapes at the top and the bottom contact.
+    pub modes: Vec<PointMode>,
+    /// Elements.
+    pub n_elements: usize,
+    /// Unknowns.
+    pub n_unknowns: usize,
+    /// Mass of the whole ramp, kg.
+    pub mass_kg: f64,
+    /// Static stiffness of the top contact with the bottom one free, N/m.
+    pub top_stiffness_n_per_m: f64,
+}
+
+/// Why a ramp has no oscillators.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolidRampError {
+    /// Geometry.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+    /// Mesh or material.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    /// Equations.
+    #[error(transparent)]
+    Sparse(#[from] SparseError),
+    /// A number of the model out of its range.
+    #[error("{name} = {value:e} is outside its range ({allowed})")]
+    Parameter {
+        /// Name of the field.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Allowed range in words.
+        allowed: &'static str,
+    },
+}
+
+impl SolidRamp {
+    /// Meshes, assembles, reduces and diagonalises.
+    ///
+    /// # Errors
+    /// See [`SolidRampError`].
+    pub fn modes(&self) -> Result<RampModes, SolidRampError> {
+        let (mesh, system) = self.system(Extent::Half)?;
+        let reduced = self.reduce(&mesh, &system)?;
+        let compliance = |modes: &[PointMode]| -> f64 {
+            let of =
+                |m: &PointMode| (m.shape[0] / (std::f64::consts::TAU * m.frequency_hz)).powi(2);
+            modes.iter().map(of).sum()
+        };
+        let modes = reduced.point_modes()?;
+        Ok(RampModes {
+            top_stiffness_n_per_m: compliance(&modes).recip(),
+            modes,
+            n_elements: mesh.mesh.n_elements(),
+            n_unknowns: system.order(),
+            mass_kg: system.total_mass_kg,
+        })
+    }
+
+    /// Mesh and equations of motion on the base. Those of a half are doubled: the other half moves
+    /// alike, and forces on the contacts are shared by both.
+    ///
+    /// # Errors
+    /// See [`SolidRampError`].
+    pub fn system(&self, extent: Extent) -> Result<(RampMesh, SolidSystem), SolidRampError> {
+        self.validate()?;
+        let mesh = self.geometry.mesh(self.mesh_size_m, extent)?;
+        let sides = match extent {
+            Extent::Half => 2.0,
+            Extent::Whole => 1.0,
+        };
+        let mut support = Support {
+            held: mesh.symmetric.iter().map(|&a| (a, 1)).collect(),
+            elastic: Vec::new(),
+        };
+        let area_m2 = mesh.mesh.face_weights(&mesh.bolted).area_m2;
+        match self.mount {
+            Mount::Bolted => {
+                let nodes = mesh.bolted.iter().flatten();
+                support
+                    .held
+                    .extend(nodes.flat_map(|&a| [(a, 0), (a, 1), (a, 2)]));
+            }
+            Mount::Elastic {
+                normal_n_per_m,
+                tangential_n_per_m,
+            } => support.elastic.push(ElasticFaces {
+                faces: &mesh.bolted,
+                stiffness_n_per_m3: [tangential_n_per_m, tangential_n_per_m, normal_n_per_m]
+                    .map(|k| k / (sides * area_m2)),
+            }),
+        }
+        let system = SolidSystem::assemble(&mesh.mesh, &self.material, &support)?;
+        Ok((mesh, system.times(sides)))
+    }
+
+    /// Craig-Bampton reduction to the two contacts, top first.
+    ///
+    /// # Errors
+    /// See [`SolidRampError`].
+    pub fn reduce(
+        &self,
+        mesh: &RampMesh,
+        system: &SolidSystem,
+    ) -> Result<ReducedSolid, SolidRampError> {
+        Ok(reduce(system, contact_columns(mesh, system), self.cut_hz)?)
+    }
+
+    fn validate(&self) -> Result<(), SolidRampError> {
+        let mut checks = vec![("mesh_size", self.mesh_size_m), ("cut", self.cut_hz)];
+        if let Mount::Elastic {
+            normal_n_per_m,
+            tangential_n_per_m,
+        } = self.mount
+        {
+            checks.push(("mount normal stiffness", normal_n_per_m));
+            checks.push(("mount tangential stiffness", tangential_n_per_m));
+        }
+        match checks.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
+            Some(&(name, value)) => Err(SolidRampError::Parameter {
+                name,
+                value,
+                allowed: "finite and above 0",
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Columns that read the mean displacement along z of the top and the bottom contact.
+pub fn contact_columns(mesh: &RampMesh, system: &SolidSystem) -> Vec<Vec<f64>> {
+    [&mesh.top, &mesh.bottom]
+        .map(|contact| {
+            let shares: Vec<(usize, f64)> = contact
+                .nodes
+                .iter()
+                .map(|&(a, weight)| (a, weight / contact.area_m2))
+                .collect();
+            system.column(&shares, 2)
+        })
+        .into()
+}
