@@ -6,11 +6,19 @@ fn named(id: &str) -> &'static Case {
     CASES.iter().find(|case| case.id == id).expect("a case")
 }
 
+/// Cases that no method cures: ambient pressure solves a flat film's equations whatever the scheme.
+const PROPERTIES: [&str; 1] = ["C8"];
+
 /// Every figure within its bound; and the naive method, where there is one, beyond it, or the
 /// check would not show what the method in use is for.
 fn assert_holds(id: &str) {
     let case = named(id);
-    for check in case.run() {
+    let checks = case.run();
+    assert!(
+        checks.iter().any(|check| check.naive.is_some()) || PROPERTIES.contains(&id),
+        "{id}: no fault is shown"
+    );
+    for check in checks {
         assert!(
             check.holds(),
             "{id} {}: {}: {:e} > {:e}",

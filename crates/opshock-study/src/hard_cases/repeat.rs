@@ -1,12 +1,14 @@
 //! F: the same bits again.
 
 use super::Check;
+use super::naive;
 use super::scenes::drive::small_scene;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1, s1_arms};
 use super::verdict::search;
 use crate::search::{Certify, Flag, SearchSettings, Status, UndecidedCause, Verdict as Told};
 use nalgebra::Complex;
+use opshock_solver::fixed_point::{FixedPoint, Method};
 use opshock_solver::modal::Oscillator;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::RampModel;
@@ -54,7 +56,7 @@ pub(super) fn f1() -> Vec<Check> {
     let points = points();
     let alone = run_all(&points, 0..points.len());
     let mut wrong = 0;
-    for threads in [2, 3, 8] {
+    for threads in [2, 3, 8, 64] {
         let together: Vec<_> = std::thread::scope(|scope| {
             let workers: Vec<_> = (0..threads)
                 .map(|w| {
@@ -69,10 +71,27 @@ pub(super) fn f1() -> Vec<Check> {
         });
         wrong += differing(&alone, &together);
     }
-    vec![Check::none(
-        "points that differ on 2, 3 and 8 threads",
-        wrong,
-    )]
+    // The force of every contact, a number a node, as it would be gathered.
+    let forces: Vec<f64> = alone
+        .iter()
+        .flat_map(|(_, run)| {
+            run.columns
+                .as_ref()
+                .expect("recorded")
+                .contact_top_n
+                .clone()
+        })
+        .collect();
+    let sum = naive::search::summed_by_workers(&forces, 1);
+    let moved = [2, 3, 8, 64]
+        .into_iter()
+        .filter(|&n| naive::search::summed_by_workers(&forces, n).to_bits() != sum.to_bits());
+    vec![
+        Check::none("points that differ on 2, 3, 8 and 64 threads", wrong).against(
+            "contact forces summed in order of arrival: numbers of threads that change it",
+            moved.count() as f64,
+        ),
+    ]
 }
 
 fn settings() -> SearchSettings {
@@ -119,8 +138,19 @@ pub(super) fn f2() -> Vec<Check> {
         wrong += usize::from(resumed.log() != whole.log());
         wrong += usize::from(resumed.findings().failure != whole.findings().failure);
     }
+    // A bisection begun anew between half and twice the last amplitude asked.
+    let fails = |a: f64| a >= 233.0;
+    let answer = naive::search::bisected(20.0, 2000.0, fails);
+    let restarted = whole.log().iter().filter(|asked| {
+        let last = settings.lattice.amplitude_g(asked.probe.index);
+        let again = naive::search::bisected(0.5 * last, 2.0 * last, fails);
+        again.to_bits() != answer.to_bits()
+    });
     vec![
-        Check::none("stops after which a search goes another way", wrong),
+        Check::none("stops after which a search goes another way", wrong).against(
+            "bisection begun anew around the last amplitude",
+            restarted.count() as f64,
+        ),
         Check::new("probes short of 8", 8.0 - whole.log().len() as f64, 0.0),
     ]
 }
@@ -131,10 +161,24 @@ pub(super) fn f3() -> Vec<Check> {
     let forward = run_all(&points, 0..n);
     let backward = run_all(&points, (0..n).rev());
     let mixed = run_all(&points, (0..n).map(|k| (5 * k + 3) % n));
-    vec![Check::none(
-        "points that differ in another order",
-        differing(&forward, &backward) + differing(&forward, &mixed),
-    )]
+    let criticals = [426.987_658, 256.282_637, 232.422_642, 317.463_645];
+    let reversed: Vec<f64> = criticals.iter().rev().copied().collect();
+    let one_way = naive::search::each_from_the_last(300.0, &criticals);
+    let other_way = naive::search::each_from_the_last(300.0, &reversed);
+    let moved = one_way
+        .iter()
+        .zip(other_way.iter().rev())
+        .filter(|(a, b)| a != b);
+    vec![
+        Check::none(
+            "points that differ in another order",
+            differing(&forward, &backward) + differing(&forward, &mixed),
+        )
+        .against(
+            "bisections that start from the answer before: of four",
+            moved.count() as f64,
+        ),
+    ]
 }
 
 fn outcome(model: &Model, amplitude_g: f64, workspace: &mut Workspace) -> Outcome {
@@ -144,6 +188,16 @@ fn outcome(model: &Model, amplitude_g: f64, workspace: &mut Workspace) -> Outcom
         record: true,
     };
     simulate(model, &request, workspace)
+}
+
+/// Fixed point of a contraction from the state that a run before left, by the solver's own iteration.
+fn carried_over(left: f64) -> f64 {
+    let mut x = [left];
+    FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-12], 20, |x, image| {
+        image[0] = 0.5 * x[0] + 1.0;
+        true
+    });
+    x[0]
 }
 
 pub(super) fn f4() -> Vec<Check> {
@@ -183,13 +237,17 @@ pub(super) fn f4() -> Vec<Check> {
         Check::none(
             "numbers changed by a poisoned run before",
             usize::from(clean != after),
+        )
+        .against(
+            "iteration started from the state of the run before: not a number",
+            f64::from(u8::from(carried_over(f64::NAN).is_nan())),
         ),
         Check::none("causes not told apart", untold),
     ]
 }
 
 pub(super) fn f5() -> Vec<Check> {
-    let decay = || {
+    let decay = |keep: fn(f64) -> f64| {
         let oscillator = Oscillator::fixed(6000.0, 0.02);
         let flow = oscillator.flow(1e-4);
         let (mut q, mut r) = (Complex::from(1e-4), Complex::from(0.0));
@@ -197,13 +255,18 @@ pub(super) fn f5() -> Vec<Check> {
         let mut wrong = 0;
         for _ in 0..80_000 {
             (q, r) = flow.apply(q, r);
+            (q, r) = (
+                Complex::new(keep(q.re), keep(q.im)),
+                Complex::new(keep(r.re), keep(r.im)),
+            );
             wrong += usize::from(!(q.re.is_finite() && r.re.is_finite()));
             sum = sum.rotate_left(7) ^ q.re.to_bits();
         }
         (sum, wrong, q.norm())
     };
-    let (first, wrong, left) = decay();
-    let (again, _, _) = decay();
+    let (first, wrong, left) = decay(|x| x);
+    let (again, _, _) = decay(|x| x);
+    let (other, _, _) = decay(naive::time::flushed);
     vec![
         Check::new(
             "what is left of 0.1 mm after 960 time constants, m",
@@ -214,6 +277,10 @@ pub(super) fn f5() -> Vec<Check> {
         Check::none(
             "decays that end with other bits",
             usize::from(first != again),
+        )
+        .against(
+            "numbers below 2.2e-308 put to zero: other bits",
+            f64::from(u8::from(other != first)),
         ),
     ]
 }

@@ -1,29 +1,4 @@
-//! Methods that were left for better ones, as short as they can be written: what they do to the
-//! hard cases is measured with them.
-
-/// ω² x(t) under a unit half-sine by the closed form, which divides by 1 − r².
-pub fn closed_form(omega: f64, width_s: f64, t_s: f64) -> f64 {
-    let p = std::f64::consts::PI / width_s;
-    let r = p / omega;
-    ((p * t_s).sin() - r * (omega * t_s).sin()) / (1.0 - r * r)
-}
-
-/// |x − 1| of a stiff mode, ω Δt = `angle`, pushed to 1 from rest by the trapezoidal rule.
-pub fn trapezoidal_ringing(angle: f64, steps: usize) -> f64 {
-    let (mut x, mut v) = (-1.0, 0.0);
-    let quarter = 0.25 * angle * angle;
-    for _ in 0..steps {
-        let next = ((1.0 - quarter) * x + v) / (1.0 + quarter);
-        v -= 0.5 * angle * angle * (x + next);
-        x = next;
-    }
-    f64::abs(x)
-}
-
-/// Growth of the energy of an oscillator under explicit Euler, ω Δt = `angle`.
-pub fn euler_energy_gain(angle: f64, steps: i32) -> f64 {
-    (1.0 + angle * angle).powi(steps) - 1.0
-}
+//! Contact: impacts, resting, restraints on two sides.
 
 /// Largest error of 100 impact times when a step that ends behind the stop is turned round there;
 /// oscillator of period 1 on a stop at its rest position, `step` long steps.
@@ -156,61 +131,6 @@ pub fn event_driven_time(e: f64, impacts: i32) -> f64 {
     (1..=impacts).fold(first, |t, k| t + 2.0 * first * e.powi(k))
 }
 
-/// Load and peak errors of the exact slider H = 2 − x, Kn = 0 on `n` equal cells by central
-/// differences in P, Newton's method from P = 1.
-pub fn central_slider(bearing_number: f64, n: usize, load: f64, peak: f64) -> (f64, f64) {
-    let d = 1.0 / n as f64;
-    let height = |x: f64| 2.0 - x;
-    let mut p = vec![1.0; n + 1];
-    // Continuation in the bearing number keeps Newton on the branch.
-    for part in 1..=20 {
-        let lambda = bearing_number * f64::from(part) / 20.0;
-        for _ in 0..30 {
-            let mut rows = vec![[0.0; 3]; n - 1];
-            let mut rhs = vec![0.0; n - 1];
-            for i in 1..n {
-                let x = i as f64 * d;
-                let (west, east) = (height(x - 0.5 * d).powi(3), height(x + 0.5 * d).powi(3));
-                let flux = |a: f64, b: f64, cube: f64| cube * 0.5 * (b * b - a * a) / d;
-                let wind = 0.5 * lambda * (p[i + 1] * height(x + d) - p[i - 1] * height(x - d));
-                rhs[i - 1] = flux(p[i], p[i + 1], east) - flux(p[i - 1], p[i], west) - wind;
-                rows[i - 1] = [
-                    west * p[i - 1] / d + 0.5 * lambda * height(x - d),
-                    -(west + east) * p[i] / d,
-                    east * p[i + 1] / d - 0.5 * lambda * height(x + d),
-                ];
-            }
-            let delta = tridiagonal(&mut rows, &mut rhs);
-            let size = delta.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-            p[1..n].iter_mut().zip(delta).for_each(|(p, d)| *p -= d);
-            if size < 1e-12 {
-                break;
-            }
-        }
-    }
-    let sum: f64 = p.windows(2).map(|w| 0.5 * (w[0] + w[1]) - 1.0).sum();
-    let most = p.iter().copied().fold(0.0, f64::max);
-    ((sum * d / load - 1.0).abs(), (most / peak - 1.0).abs())
-}
-
-/// Solves a tridiagonal system of rows [lower, diagonal, upper] in place.
-fn tridiagonal<'a>(rows: &mut [[f64; 3]], rhs: &'a mut [f64]) -> &'a [f64] {
-    for i in 1..rows.len() {
-        let factor = rows[i][0] / rows[i - 1][1];
-        rows[i][1] -= factor * rows[i - 1][2];
-        rhs[i] -= factor * rhs[i - 1];
-    }
-    for i in (0..rows.len()).rev() {
-        let right = if i + 1 < rows.len() {
-            rows[i][2] * rhs[i + 1]
-        } else {
-            0.0
-        };
-        rhs[i] = (rhs[i] - right) / rows[i][1];
-    }
-    rhs
-}
-
 /// Largest pull, N s in a step of `step` s, of a stop that holds a mode of 1 kg at 1 kHz on itself
 /// by an equation, whichever way a force of 1 N at 100 Hz points: what holds it is minus the force.
 pub fn held_by_an_equation(step: f64) -> f64 {
@@ -220,34 +140,46 @@ pub fn held_by_an_equation(step: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Aitken's factor ω r₀ / (r₀ − r₁) as printed, for two equal residuals and for residuals of zero.
-pub fn aitken_as_printed() -> [f64; 2] {
-    [1.0_f64, 0.0].map(|residual| {
-        let (before, now) = (residual, residual);
-        -0.5 * before / (now - before)
-    })
-}
-
-/// A clearance as a verdict: whether it is below zero.
-pub fn is_below_zero(clearance: f64) -> bool {
-    clearance < 0.0
-}
-
-/// Critical amplitude by bisection that takes the ends of its range for a survivor and a failure.
-pub fn bisected(low: f64, high: f64, fails: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (low, high);
-    while high / low > 1.01 {
-        let middle = (low * high).sqrt();
-        if fails(middle) {
-            high = middle
-        } else {
-            low = middle
-        }
+/// Variation of the force over that of a rise and a fall, when a mode of 1 kg at 1 kHz, 1 μm from a
+/// stop, is pushed onto it by a half-sine of 40 ms: Newmark's rule (1/4, 1/2) with the stop as a
+/// condition on displacements, steps of 2 μs.
+pub fn leaning_under_newmark() -> f64 {
+    let (h, omega, gap) = (2e-6, std::f64::consts::TAU * 1000.0, 1e-6);
+    let beta = 0.25 * h * h;
+    let inertia = 1.0 + beta * omega * omega;
+    let (mut u, mut v, mut a) = (0.0, 0.0, 0.0);
+    let (mut last, mut variation, mut peak) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for k in 1..=20_000 {
+        let push = 800.0 * (std::f64::consts::PI * f64::from(k) / 20_000.0).sin();
+        let guess = u + h * v + beta * a;
+        let mut next = (push - omega * omega * guess) / inertia;
+        // What keeps the end of the step in front of the stop.
+        let force = ((guess + beta * next - gap) * inertia / beta).max(0.0);
+        next -= force / inertia;
+        (u, v, a) = (guess + beta * next, v + 0.5 * h * (a + next), next);
+        variation += (force - last).abs();
+        peak = peak.max(force);
+        last = force;
     }
-    high
+    variation / (2.0 * peak)
 }
 
-/// Q_P of Fukui and Kaneko's fit for D < 0.15, at any D (1990, table 1).
-pub fn thin_gap_fit(d: f64) -> f64 {
-    -2.229_19 * d + 2.106_73 + 0.016_53 / d - 0.000_069_4 / (d * d)
+/// Impulses on a disk of mobility `disk` held at rest between two rigid arms, from one equation an
+/// arm and by elimination: the rows are each other's negative.
+pub fn held_from_both_sides(disk: f64, closing: f64) -> [f64; 2] {
+    let mut rows = [[disk, -disk, closing], [-disk, disk, -closing]];
+    let factor = rows[1][0] / rows[0][0];
+    for k in 0..3 {
+        rows[1][k] -= factor * rows[0][k];
+    }
+    let bottom = rows[1][2] / rows[1][1];
+    [(rows[0][2] - rows[0][1] * bottom) / disk, bottom]
+}
+
+/// Impulses of both arms by one sweep, top before bottom: mobilities of disk and arms, closing speeds.
+pub fn one_after_the_other(disk: f64, arm: f64, closing: [f64; 2]) -> [f64; 2] {
+    let top = (closing[0] / (disk + arm)).max(0.0);
+    // What the top arm gives the disk drives it into the bottom one.
+    let bottom = ((closing[1] + disk * top) / (disk + arm)).max(0.0);
+    [top, bottom]
 }
