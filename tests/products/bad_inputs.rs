@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::{Done, opshock, study};
+use opshock_study::study::memory::{check_memory, film_bytes};
 use opshock_study::study::{SetArg, Severity, Study, StudyErrors, check_threads};
 
 /// Files in the order of their names. Paths are relative, so that messages are the same anywhere.
@@ -239,6 +240,42 @@ fn threads_are_limited() {
     for threads in [0, -1, 4097, i64::MAX] {
         assert_eq!(check_threads(threads).unwrap_err().code, "E185");
     }
+}
+
+/// 10000 film cells: 8 x 31 n log2 n bytes, beside 60 MB, are 93 MB a worker.
+#[test]
+fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
+    let worker = 60e6 + film_bytes(10_000.0);
+    assert!((worker - 92.95e6).abs() < 0.01e6, "{worker}");
+    assert!(check_memory(5, worker, 5.0 * worker).is_ok());
+    let fault = check_memory(6, worker, 5.0 * worker).unwrap_err();
+    assert_eq!(fault.code, "E186");
+    assert_eq!(fault.hint, "-j 5 fits");
+    let folder = tempfile::tempdir().unwrap();
+    let path = study("fig13").canonicalize().unwrap();
+    let sweep = |gigabytes: &str| {
+        let file = path.to_str().unwrap();
+        let size = "solver.film_cells=10000";
+        let asked = [
+            "sweep",
+            file,
+            "--set",
+            size,
+            "-j",
+            "3",
+            "--memory-gb",
+            gigabytes,
+            "--json",
+        ];
+        Done::of(folder.path(), &asked)
+    };
+    for gigabytes in ["0.2", "0.01"] {
+        let refused = sweep(gigabytes);
+        assert_eq!(refused.code, 3, "{}", refused.stderr);
+        assert_eq!(refused.errors()[0]["code"], "E186");
+    }
+    assert_eq!(sweep("none").code, 2);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod export_vtu;
 mod failure;
 mod figures;
 mod hard_cases;
+mod memory;
 mod merge;
 mod modes;
 mod new;

@@ -6,7 +6,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::report::{Told, exit_of};
-use super::{stored, study_file, thresholds};
+use super::{memory, stored, study_file, thresholds};
 use crate::report::table;
 use crate::search::Order;
 use crate::store::{Audit, Summary};
@@ -41,6 +41,9 @@ pub struct SweepArgs {
     /// exit code 7
     #[arg(long, value_name = "SHARE", value_parser = share)]
     audit: Option<f64>,
+    /// Memory that all workers together may take; without it, what the machine has available
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    memory_gb: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -55,6 +58,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     if !study.asks_for(Output::CriticalShock) {
         return thresholds::run(&study, console);
     }
+    memory::check(&study, global.threads(), arguments.memory_gb)?;
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;
@@ -190,6 +194,14 @@ fn share(text: &str) -> Result<f64, String> {
     value
         .filter(|value| *value > 0.0 && *value <= 1.0)
         .ok_or_else(|| allowed.to_owned())
+}
+
+/// Memory in GB.
+fn gigabytes(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse::<f64>().ok();
+    value
+        .filter(|value| *value > 0.0 && value.is_finite())
+        .ok_or_else(|| "must be a number above 0, in GB".to_owned())
 }
 
 /// A time as `7h30m`, `90s` or `1.5h`: numbers with units that descend, each at most once.

@@ -23,6 +23,7 @@ pub mod fault;
 mod included;
 pub mod key;
 pub mod keys;
+pub mod memory;
 mod overlay;
 mod points;
 mod polygon;

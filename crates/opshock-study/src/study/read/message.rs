@@ -3,6 +3,7 @@
 use super::Reader;
 use crate::study::fault::StudyError;
 use crate::study::key::{Key, Kind};
+use crate::study::memory::film_bytes;
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};
 
@@ -91,8 +92,7 @@ pub(super) fn not_a_word(
 
 pub(super) fn memory_hint(path: &str, count: f64) -> String {
     let bytes = match path {
-        // Sparse factors by nested dissection: about 31 n log2 n entries.
-        "solver.film_cells" => 8.0 * 31.0 * count * count.max(2.0).log2(),
+        "solver.film_cells" => film_bytes(count),
         // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
         "solver.disk_harmonics" => count * 2.0 * 82.0 * 82.0 * 8.0,
         "solver.disk_elements" => 8.0 * (2.0 * count + 2.0).powi(2),

@@ -1,0 +1,54 @@
+//! Memory that simulations need, and whether a machine has it.
+
+use super::{Study, StudyError};
+
+/// Bytes that a worker keeps besides the film: disk modes, histories, program.
+const BASE_BYTES: f64 = 60e6;
+
+/// Bytes of the film's factors by nested dissection: about 31 n log₂ n entries for n cells.
+pub fn film_bytes(cells: f64) -> f64 {
+    8.0 * 31.0 * cells * cells.max(2.0).log2()
+}
+
+/// Bytes that one worker needs for the finest film of a study.
+pub fn worker_bytes(study: &Study) -> f64 {
+    let cells = study
+        .points
+        .iter()
+        .map(|point| point.scene.film_resolution.cells);
+    BASE_BYTES + film_bytes(cells.max().unwrap_or(0) as f64)
+}
+
+/// Checks that `workers` workers of `worker_bytes` each fit into `available_bytes`.
+///
+/// # Errors
+/// E186 with the estimate and a number of workers that fits.
+pub fn check_memory(
+    workers: usize,
+    worker_bytes: f64,
+    available_bytes: f64,
+) -> Result<(), Box<StudyError>> {
+    let fitting = (available_bytes / worker_bytes).floor();
+    if workers as f64 <= fitting {
+        return Ok(());
+    }
+    let hint = if fitting >= 1.0 {
+        format!("-j {fitting} fits")
+    } else {
+        "not even one fits: take fewer film_cells, or a machine with more memory".to_string()
+    };
+    let message = format!(
+        "the sweep needs more memory than there is: about {} in each of {workers} workers",
+        gigabytes(worker_bytes)
+    );
+    Err(Box::new(
+        StudyError::in_file("E186", "-j", message)
+            .value(gigabytes(worker_bytes * workers as f64))
+            .allowed(format!("at most {}", gigabytes(available_bytes)))
+            .hint(hint),
+    ))
+}
+
+fn gigabytes(bytes: f64) -> String {
+    format!("{:.2} GB", bytes / 1e9)
+}
