@@ -22,6 +22,7 @@
 //! the cubic dense output.
 
 mod control;
+mod extrapolation;
 pub mod hermite;
 mod stepper;
 mod tableau;

@@ -1,6 +1,7 @@
 //! One trial step of an ESDIRK scheme on any system that can solve its stage equation.
 
 use super::Tableau;
+use super::extrapolation::{self, KNOWN};
 
 /// A stiff system y' = f(t, y) that solves its own implicit stages.
 pub trait StageSystem {
@@ -31,8 +32,8 @@ pub struct Stepper {
     known: Vec<f64>,
     stage: Vec<f64>,
     error: Vec<f64>,
-    /// Rate at the start of the last accepted step.
-    last_rate: Vec<f64>,
+    /// Rates at the start and at the first implicit stage of the last accepted step.
+    last_rates: [Vec<f64>; 2],
     /// Length of the last accepted step; `None` when the step before says nothing about the next.
     last_dt_s: Option<f64>,
 }
@@ -46,14 +47,16 @@ impl Stepper {
             known: vec![0.0; n],
             stage: vec![0.0; n],
             error: vec![0.0; n],
-            last_rate: vec![0.0; n],
+            last_rates: [vec![0.0; n], vec![0.0; n]],
             last_dt_s: None,
         }
     }
 
     /// Remembers the trial step of `dt_s` just taken as accepted: its rates help guess the next.
     pub fn accept(&mut self, dt_s: f64) {
-        self.last_rate.copy_from_slice(&self.rates[0]);
+        for (last, rate) in self.last_rates.iter_mut().zip(&self.rates) {
+            last.copy_from_slice(rate);
+        }
         self.last_dt_s = Some(dt_s);
     }
 
@@ -122,24 +125,26 @@ impl Stepper {
         Ok(())
     }
 
-    /// Guess of stage `i`: y' taken linear in time through two known rates, integrated over the step
-    /// so far. The rates are those at the ends of the last step for the first implicit stage, and
-    /// those of the start and of the stage before for the others.
+    /// Guess of stage `i`: y' taken as the parabola through the three latest rates (the line through
+    /// two, where there are no more), integrated over the step so far.
     fn guess(&mut self, i: usize, dt_s: f64, y: &[f64]) {
         let c = self.tableau.c;
-        let reach = c[i] * dt_s;
-        let now = &self.rates[0];
-        let (other, apart_s) = if i > 1 {
-            (&self.rates[i - 1], c[i - 1] * dt_s)
-        } else {
-            (
-                &self.last_rate,
-                self.last_dt_s.map_or(f64::INFINITY, |dt| -dt),
-            )
-        };
-        let slope = 0.5 * reach * reach / apart_s;
-        for (((s, y), k0), k1) in self.stage.iter_mut().zip(y).zip(now).zip(other) {
-            *s = y + (reach - slope) * k0 + slope * k1;
+        let [start, middle] = &self.last_rates;
+        let before = self
+            .last_dt_s
+            .map(|last| [(-last, start), ((c[1] - 1.0) * last, middle)]);
+        let present = c.iter().map(|c| c * dt_s).zip(&self.rates).take(i);
+        let latest = present.rev().chain(before.into_iter().flatten().rev());
+
+        let (mut times_s, mut rates, mut n) = ([0.0; KNOWN], [&self.rates[0]; KNOWN], 0);
+        for (time_s, rate) in latest.take(KNOWN) {
+            (times_s[n], rates[n]) = (time_s, rate);
+            n += 1;
+        }
+        let w = extrapolation::integral_weights(times_s, n, c[i] * dt_s);
+        let [k0, k1, k2] = rates;
+        for ((((s, y), k0), k1), k2) in self.stage.iter_mut().zip(y).zip(k0).zip(k1).zip(k2) {
+            *s = y + (w[0] * k0 + w[1] * k1 + w[2] * k2);
         }
     }
 }
