@@ -96,7 +96,7 @@ fn hard_c7_suction_keeps_pressure_positive_and_mass_closed() {
     let mut psi = fixed_attitude(&film, &attitude).unwrap().psi;
     let mut lin = film.linearisation();
     let mut scratch = film.scratch();
-    let mut lu = BandedLu::new(n, lin.by_psi.band());
+    let mut lu = BandedLu::<f64>::new(n, lin.by_psi.band());
     let step_s = 1e-7;
     let mut pressure = vec![0.0; n];
     for _ in 0..100 {

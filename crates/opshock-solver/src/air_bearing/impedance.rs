@@ -50,7 +50,8 @@ pub struct SmallMotion<'a> {
     /// A + s M with real and imaginary part of every cell side by side.
     matrix: BandMatrix,
     lu: BandedLu,
-    columns: Vec<[f64; 3]>,
+    /// Real and imaginary part of every cell side by side, column by column.
+    columns: [Vec<f64>; 3],
     zero: Vec<f64>,
 }
 
@@ -73,7 +74,7 @@ impl<'a> SmallMotion<'a> {
             film,
             matrix: BandMatrix::zeros(2 * n, band),
             lu: BandedLu::new(2 * n, band),
-            columns: vec![[0.0; 3]; 2 * n],
+            columns: [0; 3].map(|_| vec![0.0; 2 * n]),
             zero: vec![0.0; 2 * n],
             by_psi: linearisation.by_psi,
             by_attitude: linearisation.by_attitude,
@@ -105,18 +106,19 @@ impl<'a> SmallMotion<'a> {
             self.matrix.add(2 * i + 1, 2 * i, s.im * capacity);
         }
         self.lu.factor(&self.matrix, 0.0, &self.zero)?;
-        for (i, pair) in self.columns.chunks_exact_mut(2).enumerate() {
-            pair[0] = std::array::from_fn(|q| self.by_attitude[q][i]);
-            pair[1] = [0.0; 3];
+        for (column, by) in self.columns.iter_mut().zip(&self.by_attitude) {
+            for (pair, by) in column.chunks_exact_mut(2).zip(by) {
+                pair.copy_from_slice(&[*by, 0.0]);
+            }
+            self.lu.solve(column);
         }
-        self.lu.solve_columns(&mut self.columns);
         Ok(Matrix3::from_fn(|f, q| {
             let mut sum = Complex::new(-self.force_by_attitude[f][q], 0.0);
             for (gradient, pair) in self.force_by_psi[f]
                 .iter()
-                .zip(self.columns.chunks_exact(2))
+                .zip(self.columns[q].chunks_exact(2))
             {
-                sum += Complex::new(gradient * pair[0][q], gradient * pair[1][q]);
+                sum += Complex::new(gradient * pair[0], gradient * pair[1]);
             }
             sum
         }))

@@ -91,7 +91,7 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
     let mut adjoint = newton.clearance_goal(&attitude)?;
     let transposed = newton.linearisation.by_psi.transposed();
     let n = film.n_cells();
-    let mut lu = BandedLu::new(n, transposed.band());
+    let mut lu = BandedLu::<f64>::new(n, transposed.band());
     lu.factor(&transposed, 0.0, &vec![0.0; n]).ok()?;
     lu.solve(&mut adjoint);
 

@@ -13,6 +13,7 @@
 use super::Attitude;
 use super::film::Film;
 use super::{FilmLinearisation, FilmScratch};
+use crate::lanes::product;
 use crate::linalg::banded::{BandedError, BandedLu};
 use nalgebra::{Matrix3, Vector3};
 
@@ -31,8 +32,8 @@ pub(super) struct Newton<'a> {
     scratch: FilmScratch,
     pub(super) linearisation: FilmLinearisation,
     pub(super) lu: BandedLu,
-    /// A⁻¹ [C, R].
-    pub(super) columns: Vec<[f64; 4]>,
+    /// A⁻¹ [C, R], column by column.
+    pub(super) columns: [Vec<f64>; 4],
     zero: Vec<f64>,
     pub(super) n_factored: usize,
 }
@@ -44,9 +45,9 @@ impl<'a> Newton<'a> {
         Self {
             film,
             scratch: film.scratch(),
-            lu: BandedLu::new(n, linearisation.by_psi.band()),
+            lu: BandedLu::<f64>::new(n, linearisation.by_psi.band()),
             linearisation,
-            columns: vec![[0.0; 4]; n],
+            columns: [0; 4].map(|_| vec![0.0; n]),
             zero: vec![0.0; n],
             n_factored: 0,
         }
@@ -63,19 +64,16 @@ impl<'a> Newton<'a> {
     /// Fills `columns`; returns force, K and F_ψ A⁻¹ R.
     pub(super) fn schur(&mut self) -> (Vector3<f64>, Matrix3<f64>, Vector3<f64>) {
         let lin = &self.linearisation;
-        for (k, row) in self.columns.iter_mut().enumerate() {
-            let [a, b, c] = &lin.by_attitude;
-            *row = [a[k], b[k], c[k], lin.residual[k]];
+        let [by_h, by_pitch, by_roll] = &lin.by_attitude;
+        let sources = [by_h, by_pitch, by_roll, &lin.residual];
+        for (column, source) in self.columns.iter_mut().zip(sources) {
+            column.copy_from_slice(source);
+            self.lu.solve(column);
         }
-        self.lu.solve_columns(&mut self.columns);
-        let mut product = [[0.0; 4]; 3];
-        for (row, gradient) in product.iter_mut().zip(&lin.force_by_psi) {
-            for (g, column) in gradient.iter().zip(&self.columns) {
-                for (sum, c) in row.iter_mut().zip(column) {
-                    *sum += g * c;
-                }
-            }
-        }
+        let product = lin
+            .force_by_psi
+            .each_ref()
+            .map(|gradient| self.columns.each_ref().map(|c| product(gradient, c)));
         let stiffness = Matrix3::from_fn(|i, j| product[i][j] - lin.force_by_attitude[i][j]);
         let pending = Vector3::from_fn(|i, _| product[i][3]);
         (Vector3::from(lin.force), stiffness, pending)
@@ -102,18 +100,14 @@ impl<'a> Newton<'a> {
 
     /// −F_ψ A⁻¹ M A⁻¹ C with the capacities M, from the columns [`Newton::schur`] left behind.
     pub(super) fn damping(&mut self) -> Matrix3<f64> {
-        for (row, capacity) in self.columns.iter_mut().zip(self.film.capacity()) {
-            row.iter_mut().for_each(|v| *v *= capacity);
+        for column in &mut self.columns[..3] {
+            for (v, capacity) in column.iter_mut().zip(self.film.capacity()) {
+                *v *= capacity;
+            }
+            self.lu.solve(column);
         }
-        self.lu.solve_columns(&mut self.columns);
         let gradients = &self.linearisation.force_by_psi;
-        Matrix3::from_fn(|i, j| {
-            -gradients[i]
-                .iter()
-                .zip(&self.columns)
-                .map(|(g, row)| g * row[j])
-                .sum::<f64>()
-        })
+        Matrix3::from_fn(|i, j| -product(&gradients[i], &self.columns[j]))
     }
 
     /// Newton on ψ alone, in place; returns iterations and the last relative step.
@@ -209,8 +203,11 @@ impl<'a> Newton<'a> {
         let share = self.admissible_share(attitude, full);
         let change = full * share;
         let mut step = (1.0 - share).max(relative_change(self.film, attitude, &change));
-        for (psi, row) in psi.iter_mut().zip(&self.columns) {
-            let delta = row[3] + row[0] * change[0] + row[1] * change[1] + row[2] * change[2];
+        let [by_h, by_pitch, by_roll, own] = &self.columns;
+        for (k, psi) in psi.iter_mut().enumerate() {
+            let by_attitude =
+                by_h[k] * change[0] + by_pitch[k] * change[1] + by_roll[k] * change[2];
+            let delta = own[k] + by_attitude;
             let new = (*psi - delta).max(PSI_KEPT * *psi);
             step = step.max((new - *psi).abs() / *psi);
             *psi = new;

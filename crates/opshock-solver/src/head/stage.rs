@@ -30,10 +30,17 @@ use crate::linalg::pivoted::PivotedLu;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
-/// Contraction above which the Jacobian is renewed.
-const SLOW: f64 = 0.35;
-/// Range of d over which factors made for another d are used.
-const REUSE: f64 = 1.3;
+/// Contraction above which the Jacobian is renewed; a renewal costs what fifteen iterations cost.
+const SLOW: f64 = 0.1;
+/// Power of the contraction taken for the next stage when this one's first iterate told nothing of it:
+/// what was measured long ago counts for less and less, until a second iterate measures again.
+const AGEING: f64 = 0.9;
+/// Range of d over which factors made for another d are used; slow contraction ends it sooner.
+const REUSE: f64 = 2.0;
+/// Stages solved with factors made for another d before they are made for the present one. Such
+/// factors contract by no more than |1 − d/d'| where the film is slow, and what they leave undone
+/// can build up over many steps.
+const MOST_BORROWED: u32 = 32;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;
 
@@ -51,9 +58,12 @@ pub(super) enum StageFailure {
 pub(super) struct StageScratch {
     pub film: FilmScratch,
     linearisation: FilmLinearisation,
-    lu: BandedLu,
+    /// Rounded: the stage's iteration corrects what it solves for.
+    lu: BandedLu<f32>,
     /// d for which the factors were made; `None`: there are none.
     factored_d_s: Option<f64>,
+    /// Stages solved since then with another d.
+    n_borrowed: u32,
     /// Z, column by column.
     z: [Vec<f64>; 3],
     /// F_ψ Z − F_q.
@@ -101,6 +111,7 @@ impl StageScratch {
             lu: BandedLu::new(n_cells, band),
             linearisation,
             factored_d_s: None,
+            n_borrowed: 0,
             z: [0, 1, 2].map(|_| vec![0.0; n_cells]),
             film_matrix: [[0.0; 3]; 3],
             residual: vec![0.0; n_cells],
@@ -204,6 +215,7 @@ impl Stages<'_> {
             s.film_matrix[f] = std::array::from_fn(|q| sum[q] - by_attitude[q]);
         }
         s.factored_d_s = Some(d_s);
+        s.n_borrowed = 0;
         s.small_key = None;
         s.contraction = 0.1;
         Ok(())
@@ -216,8 +228,13 @@ impl Stages<'_> {
         attitude: &Attitude,
         d_s: f64,
     ) -> Result<bool, StageFailure> {
-        match self.scratch.factored_d_s {
-            Some(d) if d < d_s * REUSE && d_s < d * REUSE => Ok(false),
+        let s = &mut *self.scratch;
+        match s.factored_d_s {
+            Some(d) if d == d_s => Ok(false),
+            Some(d) if s.n_borrowed < MOST_BORROWED && d < d_s * REUSE && d_s < d * REUSE => {
+                s.n_borrowed += 1;
+                Ok(false)
+            }
             Some(_) => self.factor(d_s).map(|()| false),
             None => self.renew(psi, attitude, d_s).map(|()| true),
         }
@@ -362,9 +379,11 @@ impl Stages<'_> {
             } else {
                 self.scratch.contraction
             };
-            if previous.is_finite() {
-                self.scratch.contraction = contraction.min(0.9);
-            }
+            self.scratch.contraction = if previous.is_finite() {
+                contraction.min(0.9)
+            } else {
+                contraction.powf(AGEING)
+            };
             estimate = if contraction < 1.0 {
                 size * contraction / (1.0 - contraction)
             } else {

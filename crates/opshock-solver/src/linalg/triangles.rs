@@ -1,54 +1,172 @@
 //! Banded triangular factors laid out for solving.
 //!
-//! A solution by rows waits for every row before the next. Here eight rows go together: with L and U
-//! cut into blocks of eight rows,
+//! A solution by rows waits for every row before the next. Here sixteen rows go together: with L and
+//! U cut into blocks of sixteen rows,
 //!
 //! ```text
 //! y_I = L_II⁻¹ (r_I − Σ_j L_Ij y_j),      x_I = U_II⁻¹ (y_I − Σ_j U_Ij x_j)
 //! ```
 //!
-//! every column of a block is eight numbers side by side, times one number of the solution, and the
-//! inverses of the small triangles are made once. Sums have a fixed order whatever the registers.
+//! every column of a block is sixteen numbers side by side, times one number of the solution, and the
+//! inverses of the small triangles are made once. The columns next to a block, which it has to wait
+//! for, come last in its sum. Sums have a fixed order whatever the registers.
+//!
+//! What a solution costs is the reading of the factors, so they may be kept rounded ([`Entry`]).
 
 use super::banded::Band;
 use crate::lanes::{Simd, WithSimd, widest};
 
 /// Rows solved together.
-const ROWS: usize = 8;
+const ROWS: usize = 16;
 
 /// Sums a block's columns are spread over.
 const SUMS: usize = 4;
 
-/// Eight numbers of a column.
-type Column = [f64; ROWS];
+/// Sixteen numbers of a column.
+type Column<E> = [E; ROWS];
+
+/// A number as factors are kept: in full, or rounded to half the memory where the solution is itself
+/// corrected by iteration.
+pub trait Entry: Copy + std::fmt::Debug + 'static {
+    /// Several of them in a register.
+    type Register<S: Simd>: Copy;
+    /// 0.
+    const ZERO: Self;
+
+    /// The nearest such number.
+    fn nearest(value: f64) -> Self;
+    /// The same number in double precision.
+    fn widen(self) -> f64;
+    /// a − b.
+    fn subtract(a: Self, b: Self) -> Self;
+    /// A register full of one number.
+    fn splat<S: Simd>(self, simd: S) -> Self::Register<S>;
+    /// a + b.
+    fn add<S: Simd>(simd: S, a: Self::Register<S>, b: Self::Register<S>) -> Self::Register<S>;
+    /// a b.
+    fn multiply<S: Simd>(simd: S, a: Self::Register<S>, b: Self::Register<S>) -> Self::Register<S>;
+    /// A column's registers.
+    fn registers<S: Simd>(column: &Column<Self>) -> &[Self::Register<S>];
+    /// The same, to write.
+    fn registers_mut<S: Simd>(column: &mut Column<Self>) -> &mut [Self::Register<S>];
+    /// How many of them there are in a register.
+    fn lanes<S: Simd>() -> usize;
+}
+
+macro_rules! entry {
+    ($number:ty, $register:ident, $splat:ident, $add:ident, $mul:ident, $cut:ident, $cut_mut:ident, $lanes:ident) => {
+        impl Entry for $number {
+            type Register<S: Simd> = S::$register;
+            const ZERO: Self = 0.0;
+
+            #[inline(always)]
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "rounding is what it is for"
+            )]
+            fn nearest(value: f64) -> Self {
+                value as $number
+            }
+
+            #[inline(always)]
+            fn widen(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline(always)]
+            fn subtract(a: Self, b: Self) -> Self {
+                a - b
+            }
+
+            #[inline(always)]
+            fn splat<S: Simd>(self, simd: S) -> S::$register {
+                simd.$splat(self)
+            }
+
+            #[inline(always)]
+            fn add<S: Simd>(simd: S, a: S::$register, b: S::$register) -> S::$register {
+                simd.$add(a, b)
+            }
+
+            #[inline(always)]
+            fn multiply<S: Simd>(simd: S, a: S::$register, b: S::$register) -> S::$register {
+                simd.$mul(a, b)
+            }
+
+            #[inline(always)]
+            fn registers<S: Simd>(column: &Column<Self>) -> &[S::$register] {
+                S::$cut(column).0
+            }
+
+            #[inline(always)]
+            fn registers_mut<S: Simd>(column: &mut Column<Self>) -> &mut [S::$register] {
+                S::$cut_mut(column).0
+            }
+
+            #[inline(always)]
+            fn lanes<S: Simd>() -> usize {
+                S::$lanes
+            }
+        }
+    };
+}
+
+entry!(
+    f64,
+    f64s,
+    splat_f64s,
+    add_f64s,
+    mul_f64s,
+    as_simd_f64s,
+    as_mut_simd_f64s,
+    F64_LANES
+);
+entry!(
+    f32,
+    f32s,
+    splat_f32s,
+    add_f32s,
+    mul_f32s,
+    as_simd_f32s,
+    as_mut_simd_f32s,
+    F32_LANES
+);
 
 /// Both triangles of a banded factorisation.
 #[derive(Clone, Debug)]
-pub(super) struct Triangles {
+pub(super) struct Triangles<E> {
     n: usize,
     band: Band,
     /// Per block of rows: the columns before it, then the inverse of its own triangle.
-    lower: Vec<Column>,
+    lower: Vec<Column<E>>,
     /// Per block of rows: the inverse of its own triangle, then the columns behind it.
-    upper: Vec<Column>,
+    upper: Vec<Column<E>>,
+    /// The solution as it comes, in whole blocks.
+    x: Vec<E>,
 }
 
-impl Triangles {
+impl<E: Entry> Triangles<E> {
     /// Storage for matrices of `n` rows with entries in `band`.
     pub(super) fn new(n: usize, band: Band) -> Self {
         let blocks = n.div_ceil(ROWS);
         Self {
             n,
             band,
-            lower: vec![[0.0; ROWS]; blocks * (band.below + ROWS)],
-            upper: vec![[0.0; ROWS]; blocks * (band.above + ROWS)],
+            lower: vec![[E::ZERO; ROWS]; blocks * (band.below + ROWS)],
+            upper: vec![[E::ZERO; ROWS]; blocks * (band.above + ROWS)],
+            x: vec![E::ZERO; blocks * ROWS],
         }
     }
 
     /// Takes over factors: `row(i)` holds the columns of row i in the band, L without its diagonal of
     /// ones and U; the diagonal of U is given inverted.
     #[inline(always)]
-    pub(super) fn take<'r>(&mut self, row: impl Fn(usize) -> &'r [f64], inverse_pivots: &[f64]) {
+    pub(super) fn take<'r, S: Simd>(
+        &mut self,
+        simd: S,
+        row: impl Fn(usize) -> &'r [f64],
+        inverse_pivots: &[f64],
+    ) {
         let n = self.n;
         let Band { below, above } = self.band;
         for (block, (lower, upper)) in self
@@ -58,17 +176,19 @@ impl Triangles {
             .enumerate()
         {
             let first = block * ROWS;
-            lower.fill([0.0; ROWS]);
-            upper.fill([0.0; ROWS]);
+            let (before, lower_own) = lower.split_at_mut(below);
+            let (upper_own, behind) = upper.split_at_mut(ROWS);
+            before.fill([E::ZERO; ROWS]);
+            behind.fill([E::ZERO; ROWS]);
             let mut unit = [[0.0; ROWS]; ROWS];
             let mut full = [[0.0; ROWS]; ROWS];
             let mut inverse = [1.0; ROWS];
             for r in 0..ROWS.min(n - first) {
+                // Entry k is column first + r − below + k.
                 let entries = row(first + r);
-                // Entry k is column first + r − below + k. Before the block: below − r of them.
-                let before = below.saturating_sub(r);
-                for (k, value) in entries[..before].iter().enumerate() {
-                    lower[r + k][r] = *value;
+                let n_before = below.saturating_sub(r);
+                for (column, value) in before[r.min(below)..].iter_mut().zip(&entries[..n_before]) {
+                    column[r] = E::nearest(*value);
                 }
                 for c in r.saturating_sub(below)..r {
                     unit[r][c] = entries[c + below - r];
@@ -76,182 +196,201 @@ impl Triangles {
                 for c in r + 1..ROWS.min(r + above + 1) {
                     full[r][c] = entries[c + below - r];
                 }
-                // Behind the block: columns first + ROWS ... first + r + above.
-                let width = self.band.width();
-                for k in (ROWS + below - r).min(width)..width {
-                    upper[r + k - below][r] = entries[k];
+                // Columns first + ROWS ... first + r + above.
+                let own_end = (ROWS + below - r).min(self.band.width());
+                for (column, value) in behind.iter_mut().zip(&entries[own_end..]) {
+                    column[r] = E::nearest(*value);
                 }
                 inverse[r] = inverse_pivots[first + r];
             }
-            invert_unit_lower(&unit, &mut lower[below..]);
-            invert_upper(&full, &inverse, &mut upper[..ROWS]);
+            round_into(&inverse_of_unit_lower(simd, &unit), lower_own);
+            round_into(&inverse_of_upper(simd, &full, &inverse), upper_own);
         }
     }
 
     /// Solves in place.
-    pub(super) fn solve(&self, rhs: &mut [f64]) {
+    pub(super) fn solve(&mut self, rhs: &mut [f64]) {
         assert_eq!(rhs.len(), self.n);
-        widest(Solve::<1> {
-            triangles: self,
-            rhs: rhs.as_chunks_mut().0,
-        });
-    }
-
-    /// Solves for `K` right-hand sides in place.
-    pub(super) fn solve_columns<const K: usize>(&self, rhs: &mut [[f64; K]]) {
-        assert_eq!(rhs.len(), self.n);
-        widest(Solve {
-            triangles: self,
-            rhs,
-        });
-    }
-}
-
-/// Columns of the inverse of a lower triangle with a diagonal of ones.
-#[inline(always)]
-fn invert_unit_lower(l: &[Column; ROWS], out: &mut [Column]) {
-    for (c, out) in out[..ROWS].iter_mut().enumerate() {
-        let mut x = [0.0; ROWS];
-        x[c] = 1.0;
-        for r in c + 1..ROWS {
-            let mut sum = 0.0;
-            for k in c..r {
-                sum += l[r][k] * x[k];
-            }
-            x[r] = -sum;
+        // Rows behind the last are those of the identity.
+        self.x[self.n..].fill(E::ZERO);
+        for (x, r) in self.x.iter_mut().zip(&*rhs) {
+            *x = E::nearest(*r);
         }
-        *out = x;
-    }
-}
-
-/// Columns of the inverse of an upper triangle whose diagonal is given inverted.
-#[inline(always)]
-fn invert_upper(u: &[Column; ROWS], inverse_diagonal: &Column, out: &mut [Column]) {
-    for (c, out) in out[..ROWS].iter_mut().enumerate() {
-        let mut x = [0.0; ROWS];
-        x[c] = inverse_diagonal[c];
-        for r in (0..c).rev() {
-            let mut sum = 0.0;
-            for k in r + 1..=c {
-                sum += u[r][k] * x[k];
-            }
-            x[r] = -sum * inverse_diagonal[r];
+        widest(Solve { triangles: self });
+        for (r, x) in rhs.iter_mut().zip(&self.x) {
+            *r = x.widen();
         }
-        *out = x;
     }
 }
 
-struct Solve<'a, const K: usize> {
-    triangles: &'a Triangles,
-    rhs: &'a mut [[f64; K]],
+/// Columns of the inverse of a lower triangle with a diagonal of ones, found together as the rows of
+/// the inverse of Lᵀ.
+#[inline(always)]
+fn inverse_of_unit_lower<S: Simd>(simd: S, l: &[Column<f64>; ROWS]) -> [Column<f64>; ROWS] {
+    let mut out = identity();
+    for c in (1..ROWS).rev() {
+        let source = out[c];
+        for (r, row) in out[..c].iter_mut().enumerate() {
+            subtract(simd, row, l[c][r], &source);
+        }
+    }
+    out
 }
 
-impl<const K: usize> WithSimd for Solve<'_, K> {
+/// Columns of the inverse of an upper triangle whose diagonal is given inverted, likewise.
+#[inline(always)]
+fn inverse_of_upper<S: Simd>(
+    simd: S,
+    u: &[Column<f64>; ROWS],
+    inverse_diagonal: &Column<f64>,
+) -> [Column<f64>; ROWS] {
+    let mut out = identity();
+    for c in 0..ROWS {
+        let source = out[c].map(|v| v * inverse_diagonal[c]);
+        out[c] = source;
+        for (r, row) in out.iter_mut().enumerate().skip(c + 1) {
+            subtract(simd, row, u[c][r], &source);
+        }
+    }
+    out
+}
+
+fn identity() -> [Column<f64>; ROWS] {
+    std::array::from_fn(|r| std::array::from_fn(|c| if c == r { 1.0 } else { 0.0 }))
+}
+
+/// `row` − `factor` `source`.
+#[inline(always)]
+fn subtract<S: Simd>(simd: S, row: &mut Column<f64>, factor: f64, source: &Column<f64>) {
+    let factor = simd.splat_f64s(factor);
+    let source = S::as_simd_f64s(source).0;
+    for (row, source) in S::as_mut_simd_f64s(row).0.iter_mut().zip(source) {
+        *row = simd.sub_f64s(*row, simd.mul_f64s(factor, *source));
+    }
+}
+
+#[inline(always)]
+fn round_into<E: Entry>(columns: &[Column<f64>], out: &mut [Column<E>]) {
+    for (out, column) in out.iter_mut().zip(columns) {
+        *out = column.map(E::nearest);
+    }
+}
+
+struct Solve<'a, E> {
+    triangles: &'a mut Triangles<E>,
+}
+
+impl<E: Entry> WithSimd for Solve<'_, E> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        match S::F64_LANES {
-            8 => self.run::<S, 1>(simd),
-            4 => self.run::<S, 2>(simd),
-            2 => self.run::<S, 4>(simd),
-            _ => self.run::<S, 8>(simd),
+        match E::lanes::<S>() {
+            16 => self.run::<S, 1>(simd),
+            8 => self.run::<S, 2>(simd),
+            4 => self.run::<S, 4>(simd),
+            2 => self.run::<S, 8>(simd),
+            _ => self.run::<S, 16>(simd),
         }
     }
 }
 
-impl<const K: usize> Solve<'_, K> {
+impl<E: Entry> Solve<'_, E> {
     /// The solution with a column in `V` registers.
     #[inline(always)]
     fn run<S: Simd, const V: usize>(self, simd: S) {
         let Triangles {
-            n,
-            band,
+            band: Band { below, above },
             lower,
             upper,
+            x,
+            ..
         } = self.triangles;
-        let (n, Band { below, above }, rhs) = (*n, *band, self.rhs);
+        let (below, above) = (*below, *above);
         for (block, columns) in lower.chunks_exact(below + ROWS).enumerate() {
             let first = block * ROWS;
-            let end = n.min(first + ROWS);
             let known = first.saturating_sub(below);
             let (before, own) = columns.split_at(below);
-            for k in 0..K {
-                let before = &before[below - (first - known)..];
-                let sum = product::<S, V, K>(simd, before, &rhs[known..first], k);
-                settle::<S, V, K>(simd, own, sum, &mut rhs[first..end], k);
+            let before = &before[below - (first - known)..];
+            let (solved, rest) = x.split_at_mut(first);
+            let solved = &solved[known..];
+            let (far, near) = before.split_at(before.len() % SUMS);
+            let (x_far, x_near) = solved.split_at(far.len());
+            let mut sum = BlockSum::<E, S, V>::of_far(simd, far, x_far);
+            for (columns, x) in near.chunks_exact(SUMS).zip(x_near.chunks_exact(SUMS)) {
+                sum.add(simd, columns, x);
             }
+            sum.settle(simd, own, &mut rest[..ROWS]);
         }
         for (block, columns) in upper.chunks_exact(above + ROWS).enumerate().rev() {
             let first = block * ROWS;
-            let end = n.min(first + ROWS);
-            let known = n.min(end + above);
             let (own, behind) = columns.split_at(ROWS);
-            for k in 0..K {
-                let behind = &behind[..known - end];
-                let sum = product::<S, V, K>(simd, behind, &rhs[end..known], k);
-                settle::<S, V, K>(simd, own, sum, &mut rhs[first..end], k);
+            let (rest, solved) = x.split_at_mut(first + ROWS);
+            let solved = &solved[..above.min(solved.len())];
+            let near = behind[..solved.len()].chunks_exact(SUMS);
+            let x_near = solved.chunks_exact(SUMS);
+            let mut sum = BlockSum::<E, S, V>::of_far(simd, near.remainder(), x_near.remainder());
+            for (columns, x) in near.zip(x_near).rev() {
+                sum.add(simd, columns, x);
             }
+            sum.settle(simd, own, &mut rest[first..]);
         }
     }
 }
 
-/// Σ_j column_j x_j of right-hand side k.
-#[inline(always)]
-fn product<S: Simd, const V: usize, const K: usize>(
-    simd: S,
-    columns: &[Column],
-    x: &[[f64; K]],
-    k: usize,
-) -> [S::f64s; V] {
-    let zero = simd.splat_f64s(0.0);
-    let mut sums = [[zero; V]; SUMS];
-    let add = |sum: &mut [S::f64s; V], column: &Column, x: f64| {
-        let x = simd.splat_f64s(x);
-        for (sum, part) in sum.iter_mut().zip(S::as_simd_f64s(column).0) {
-            *sum = simd.add_f64s(*sum, simd.mul_f64s(*part, x));
+/// Columns times numbers as they are summed up for a block, in `V` registers each sum.
+struct BlockSum<E: Entry, S: Simd, const V: usize>([[E::Register<S>; V]; SUMS]);
+
+impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
+    /// The columns that fill no set of sums; they are the farthest.
+    #[inline(always)]
+    fn of_far(simd: S, columns: &[Column<E>], x: &[E]) -> Self {
+        let mut sum = Self([[E::ZERO.splat(simd); V]; SUMS]);
+        for (column, x) in columns.iter().zip(x) {
+            sum.add_one(simd, 0, column, *x);
         }
-    };
-    let (column_sets, x_sets) = (columns.chunks_exact(SUMS), x.chunks_exact(SUMS));
-    let rest = column_sets.remainder().iter().zip(x_sets.remainder());
-    for (columns, x) in column_sets.zip(x_sets) {
+        sum
+    }
+
+    /// Adds a column times a number to sum `s`.
+    #[inline(always)]
+    fn add_one(&mut self, simd: S, s: usize, column: &Column<E>, x: E) {
+        let x = x.splat(simd);
+        for (sum, part) in self.0[s].iter_mut().zip(E::registers::<S>(column)) {
+            *sum = E::add(simd, *sum, E::multiply(simd, *part, x));
+        }
+    }
+
+    /// Adds a column to every sum.
+    #[inline(always)]
+    fn add(&mut self, simd: S, columns: &[Column<E>], x: &[E]) {
         for s in 0..SUMS {
-            add(&mut sums[s], &columns[s], x[s][k]);
+            self.add_one(simd, s, &columns[s], x[s]);
         }
     }
-    for (column, x) in rest {
-        add(&mut sums[0], column, x[k]);
-    }
-    let [mut a, b, c, d] = sums;
-    for v in 0..V {
-        a[v] = simd.add_f64s(simd.add_f64s(a[v], b[v]), simd.add_f64s(c[v], d[v]));
-    }
-    a
-}
 
-/// x = own (x − sum) for the rows of one block and right-hand side k.
-#[inline(always)]
-fn settle<S: Simd, const V: usize, const K: usize>(
-    simd: S,
-    own: &[Column],
-    sum: [S::f64s; V],
-    x: &mut [[f64; K]],
-    k: usize,
-) {
-    let mut left = [[0.0]; ROWS];
-    let mut known = [0.0; ROWS];
-    for (out, part) in S::as_mut_simd_f64s(&mut known).0.iter_mut().zip(sum) {
-        *out = part;
+    /// The total.
+    #[inline(always)]
+    fn total(self, simd: S) -> Column<E> {
+        let [a, b, c, d] = self.0;
+        let mut out = [E::ZERO; ROWS];
+        for (v, out) in E::registers_mut::<S>(&mut out).iter_mut().enumerate() {
+            *out = E::add(simd, E::add(simd, a[v], b[v]), E::add(simd, c[v], d[v]));
+        }
+        out
     }
-    for ((left, x), known) in left.iter_mut().zip(&*x).zip(known) {
-        left[0] = x[k] - known;
-    }
-    let solved = product::<S, V, 1>(simd, &own[..ROWS], &left, 0);
-    let mut out = [0.0; ROWS];
-    for (out, part) in S::as_mut_simd_f64s(&mut out).0.iter_mut().zip(solved) {
-        *out = part;
-    }
-    for (x, out) in x.iter_mut().zip(out) {
-        x[k] = out;
+
+    /// The block's rows: `own` times what the sum leaves of their right-hand sides.
+    #[inline(always)]
+    fn settle(self, simd: S, own: &[Column<E>], rows: &mut [E]) {
+        let mut left = self.total(simd);
+        for (left, row) in left.iter_mut().zip(&*rows) {
+            *left = E::subtract(*row, *left);
+        }
+        let mut sum = Self::of_far(simd, &[], &[]);
+        for (own, left) in own.chunks_exact(SUMS).zip(left.chunks_exact(SUMS)) {
+            sum.add(simd, own, left);
+        }
+        rows.copy_from_slice(&sum.total(simd));
     }
 }

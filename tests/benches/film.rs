@@ -1,0 +1,203 @@
+//! The film's kernels on the default grid, and its linear algebra against a general sparse solver.
+//!
+//! The matrix is that of a stage: capacity/d + R_ψ at steady flight of the drive of `fig13`, d that of
+//! a step of 0.2 µs. Both solvers factor anew on a known pattern and solve once.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use faer::prelude::Solve;
+use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Mat, Par};
+use opshock_solver::air_bearing::steady::fly;
+use opshock_solver::air_bearing::{Attitude, Film, FilmLinearisation, FilmScratch};
+use opshock_solver::linalg::banded::BandedLu;
+use opshock_solver::scene::Scene;
+use opshock_tests::scenes;
+
+/// d of TR-BDF2 with a step of 0.2 µs, s.
+const D_S: f64 = 0.293 * 0.2e-6;
+
+/// Cells asked for in the table of cost against size.
+const SIZES: [usize; 7] = [500, 1000, 2000, 5000, 10_000, 20_000, 50_000];
+
+/// A film in steady flight.
+struct Flying {
+    film: Film,
+    psi: Vec<f64>,
+    attitude: Attitude,
+    scratch: FilmScratch,
+    lin: FilmLinearisation,
+}
+
+impl Flying {
+    /// On the scene's layout of some `cells` cells.
+    fn of(scene: &Scene, cells: usize) -> Self {
+        let mut scene = scene.clone();
+        scene.film_resolution.cells = cells;
+        let film = scene.film().expect("a film");
+        let load = [scene.suspension.gram_load_n, 0.0, 0.0];
+        let steady = fly(&film, load).expect("flies");
+        let (scratch, lin) = (film.scratch(), film.linearisation());
+        let mut flying = Self {
+            psi: steady.psi,
+            attitude: steady.attitude,
+            film,
+            scratch,
+            lin,
+        };
+        flying.linearise();
+        flying
+    }
+
+    fn linearise(&mut self) {
+        self.film
+            .linearise(&self.psi, &self.attitude, &mut self.lin, &mut self.scratch);
+    }
+
+    fn residual(&mut self, out: &mut [f64]) -> [f64; 3] {
+        self.film
+            .flux_residual_and_force(&self.psi, &self.attitude, out, &mut self.scratch)
+    }
+
+    /// The matrix of a stage as a general sparse one.
+    fn sparse(&self) -> SparseColMat<usize, f64> {
+        let (matrix, n) = (&self.lin.by_psi, self.film.n_cells());
+        let band = matrix.band();
+        let mut entries = Vec::new();
+        for i in 0..n {
+            for j in i.saturating_sub(band.below)..=(i + band.above).min(n - 1) {
+                let mass = if i == j {
+                    self.film.capacity()[i] / D_S
+                } else {
+                    0.0
+                };
+                let value = matrix.get(i, j) + mass;
+                if value != 0.0 {
+                    entries.push(Triplet::new(i, j, value));
+                }
+            }
+        }
+        SparseColMat::try_new_from_triplets(n, n, &entries).expect("a pattern")
+    }
+}
+
+/// Median time of a call, s.
+fn median(mut call: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..9)
+        .map(|_| {
+            let start = Instant::now();
+            call();
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[4]
+}
+
+fn kernels(c: &mut Criterion) {
+    faer::set_global_parallelism(Par::Seq);
+    let scene = scenes::scene("fig13", "none", 0.5, &[]);
+    let mut flying = Flying::of(&scene, scene.film_resolution.cells);
+    let n = flying.film.n_cells();
+    let band = flying.lin.by_psi.band();
+    println!(
+        "{n} cells, {} entries below and {} above the diagonal",
+        band.below, band.above
+    );
+    let mut residual = vec![0.0; n];
+    let rhs: Vec<f64> = (0..n).map(|i| (0.7 * i as f64).sin()).collect();
+    let mut lu = BandedLu::<f64>::new(n, band);
+    let mut rounded = BandedLu::<f32>::new(n, band);
+
+    let mut group = c.benchmark_group("film");
+    group.bench_function("residual", |b| b.iter(|| flying.residual(&mut residual)));
+    group.bench_function("linearise", |b| b.iter(|| flying.linearise()));
+    let (matrix, capacity) = (&flying.lin.by_psi, flying.film.capacity());
+    group.bench_function("factor", |b| {
+        b.iter(|| lu.factor(matrix, 1.0 / D_S, capacity));
+    });
+    group.bench_function("factor_rounded", |b| {
+        b.iter(|| rounded.factor(matrix, 1.0 / D_S, capacity));
+    });
+    let mut x = rhs.clone();
+    group.bench_function("solve", |b| {
+        b.iter(|| {
+            x.copy_from_slice(&rhs);
+            lu.solve(&mut x);
+        });
+    });
+    group.bench_function("solve_rounded", |b| {
+        b.iter(|| {
+            x.copy_from_slice(&rhs);
+            rounded.solve(&mut x);
+        });
+    });
+    let sparse = flying.sparse();
+    let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern");
+    group.bench_function("faer_factor_and_solve", |b| {
+        b.iter(|| {
+            let lu = Lu::try_new_with_symbolic(symbolic.clone(), sparse.as_ref()).expect("factors");
+            black_box(lu.solve(column(&rhs)))
+        });
+    });
+    group.finish();
+}
+
+fn column(rhs: &[f64]) -> Mat<f64> {
+    Mat::from_fn(rhs.len(), 1, |i, _| rhs[i])
+}
+
+/// What the kernels cost as the grid grows, faer beside them; exponents between the ends.
+fn against_size(_: &mut Criterion) {
+    faer::set_global_parallelism(Par::Seq);
+    let scene = scenes::scene("fig13", "none", 0.5, &[]);
+    println!("| cells | residual, us | factor, us | solve, us | faer factor + solve, us | ratio |");
+    println!("|---|---|---|---|---|---|");
+    let mut rows = Vec::new();
+    for cells in SIZES {
+        let mut flying = Flying::of(&scene, cells);
+        let n = flying.film.n_cells();
+        let mut x = vec![1.0; n];
+        let residual = median(|| {
+            black_box(flying.residual(&mut x));
+        });
+        let mut lu = BandedLu::<f64>::new(n, flying.lin.by_psi.band());
+        let (matrix, capacity) = (&flying.lin.by_psi, flying.film.capacity());
+        let factor = median(|| lu.factor(matrix, 1.0 / D_S, capacity).expect("factors"));
+        let rhs: Vec<f64> = (0..n).map(|i| (0.7 * i as f64).sin()).collect();
+        x.copy_from_slice(&rhs);
+        let solve = median(|| lu.solve(&mut x));
+        x.copy_from_slice(&rhs);
+        lu.solve(&mut x);
+        let sparse = flying.sparse();
+        let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern");
+        let mut other = column(&rhs);
+        let faer = median(|| {
+            let lu = Lu::try_new_with_symbolic(symbolic.clone(), sparse.as_ref()).expect("factors");
+            other = lu.solve(column(&rhs));
+        });
+        for (a, b) in x.iter().zip(other.col_as_slice(0)) {
+            assert!((a - b).abs() <= 1e-8 * b.abs().max(1e-12), "{a} {b}");
+        }
+        println!(
+            "| {n} | {:.1} | {:.0} | {:.1} | {:.0} | {:.2} |",
+            1e6 * residual,
+            1e6 * factor,
+            1e6 * solve,
+            1e6 * faer,
+            faer / (factor + solve)
+        );
+        rows.push((n as f64, [residual, factor, solve, faer]));
+    }
+    let [(n0, first), .., (n1, last)] = rows[..] else {
+        return;
+    };
+    let exponents: [f64; 4] = std::array::from_fn(|k| (last[k] / first[k]).ln() / (n1 / n0).ln());
+    println!("exponents from {n0} to {n1} cells: residual, factor, solve, faer: {exponents:.2?}");
+}
+
+criterion_group!(benches, kernels, against_size);
+criterion_main!(benches);
