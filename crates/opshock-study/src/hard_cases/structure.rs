@@ -578,7 +578,8 @@ pub(super) fn a13() -> Vec<Check> {
             of(0).max(of(1)),
             0.8,
         )
-        .against("left out", plain[0] / plain[0]),
+        // The figure is a share of the naive error.
+        .against("left out", 1.0),
         Check::new(
             "error with modes to 20 kHz, of to 5 kHz",
             corrected[1] / corrected[0],

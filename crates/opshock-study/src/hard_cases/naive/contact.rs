@@ -167,13 +167,11 @@ pub fn leaning_under_newmark() -> f64 {
 /// Impulses on a disk of mobility `disk` held at rest between two rigid arms, from one equation an
 /// arm and by elimination: the rows are each other's negative.
 pub fn held_from_both_sides(disk: f64, closing: f64) -> [f64; 2] {
-    let mut rows = [[disk, -disk, closing], [-disk, disk, -closing]];
-    let factor = rows[1][0] / rows[0][0];
-    for k in 0..3 {
-        rows[1][k] -= factor * rows[0][k];
-    }
-    let bottom = rows[1][2] / rows[1][1];
-    [(rows[0][2] - rows[0][1] * bottom) / disk, bottom]
+    let (row, below) = ([disk, -disk, closing], [-disk, disk, -closing]);
+    let factor = below[0] / row[0];
+    let left: [f64; 3] = std::array::from_fn(|k| below[k] - factor * row[k]);
+    let bottom = left[2] / left[1];
+    [(row[2] - row[1] * bottom) / disk, bottom]
 }
 
 /// Impulses of both arms by one sweep, top before bottom: mobilities of disk and arms, closing speeds.

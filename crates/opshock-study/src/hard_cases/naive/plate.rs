@@ -13,28 +13,12 @@ pub fn harmonics_of_a_uniform_load(n: usize) -> usize {
 /// Whether the mass matrix of the powers 1, r, … r^(n − 1) on a disk from `inner` to 1 is positive
 /// definite in double precision.
 pub fn powers_of_the_radius_are_definite(inner: f64, n: usize) -> bool {
-    // ∫ r^(i+j) r dr, factorised in place.
-    let mut m: Vec<Vec<f64>> = (0..n)
-        .map(|i| {
-            let power = |j: usize| (i + j + 2) as i32;
-            (0..n)
-                .map(|j| (1.0 - inner.powi(power(j))) / f64::from(power(j)))
-                .collect()
-        })
-        .collect();
-    for k in 0..n {
-        // A pivot that is no number is not positive either.
-        if m[k][k].is_nan() || m[k][k] <= 0.0 {
-            return false;
-        }
-        for i in k + 1..n {
-            let factor = m[i][k] / m[k][k];
-            for j in k..n {
-                m[i][j] -= factor * m[k][j];
-            }
-        }
-    }
-    true
+    // ∫ r^(i+j) r dr
+    let entry = |i: usize, j: usize| {
+        let power = (i + j + 2) as i32;
+        (1.0 - inner.powi(power)) / f64::from(power)
+    };
+    nalgebra::DMatrix::from_fn(n, n, entry).cholesky().is_some()
 }
 
 /// Static deflection under a load fixed in space, of the deflection at rest, by the stiffness
