@@ -1,8 +1,10 @@
 //! Rails of the slider's surface.
 
+use opshock_solver::quantity;
+
 use super::{Check, trim};
+use crate::study::polygon;
 use crate::study::settings::Datum;
-use crate::study::{polygon, unit};
 
 impl Check<'_, '_> {
     pub(super) fn rails(&mut self) {
@@ -15,7 +17,7 @@ impl Check<'_, '_> {
         let (length_um, width_um) = (length_m * 1e6, width_m * 1e6);
         let inside = |corner: [f64; 2]| {
             let slack = 1e-12;
-            let [x, y] = corner.map(|value| unit::si("x_um", value));
+            let [x, y] = corner.map(quantity::m_from_um);
             (-slack..=length_m + slack).contains(&x) && (-slack..=width_m + slack).contains(&y)
         };
         let allowed = format!(
