@@ -9,7 +9,7 @@ use super::cli::{Done, study};
 /// decides do not change with it, and the reference is the most certain of all.
 #[test]
 fn a_ladder_is_held_against_its_reference() {
-    let scene = scene(
+    let mut scene = scene(
         "fig13",
         "rigid",
         0.5,
@@ -19,6 +19,8 @@ fn a_ladder_is_held_against_its_reference() {
             ("solver.disk_cut_khz", "10"),
         ],
     );
+    // A hard contact: with a spring the slow steps of this ladder would slow it.
+    scene.ramp.contact_stiffness_n_per_m = None;
     let measured: Vec<_> = ladders(&scene)
         .into_iter()
         .filter(|setting| setting.ladder == "structure_step_us")
@@ -67,6 +69,10 @@ fn the_clearance_of_a_shock_is_within_a_tenth_of_the_heads_tolerance() {
         let rungs = PointLadders::of("none".into(), near_g, &measured).rungs;
         assert!(rungs.len() > 4);
         for (rung, (setting, _)) in rungs.iter().zip(&measured) {
+            // The reference's own row says how uncertain it is, not how far off a shock.
+            if rung.is_reference {
+                continue;
+            }
             let error = rung.errors[1].expect("a clearance");
             let allowed = 0.1 * setting.scene.head_resolution.tolerance;
             assert!(error < allowed, "{ladder} {}: {error}", rung.value);

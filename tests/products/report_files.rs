@@ -20,6 +20,7 @@ fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary 
         err_low_g: known.then_some(1.5),
         err_high_g: known.then_some(3.25),
         err_parts: vec![],
+        levels: String::new(),
         onset_g: (ramp != "none").then_some(195.5),
         runs: 12,
         status,

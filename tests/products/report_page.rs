@@ -52,6 +52,7 @@ fn summary() -> Summary {
                     err_low_g: Some(0.05 * crit),
                     err_high_g: Some(0.06 * crit),
                     err_parts: vec![],
+                    levels: String::new(),
                     onset_g: (ramp != "none").then_some(0.8 * crit),
                     runs: 3,
                     status: Status::Ok,

@@ -484,7 +484,7 @@ fn a_single_shock_needs_every_axis_chosen() {
         );
     }
     let short = Choice {
-        pulse_ms: Some(0.003),
+        pulse_ms: Some(0.0015),
         ..choice.clone()
     };
     match study.select(&short) {
@@ -541,7 +541,7 @@ fn rungs_set_the_resolutions_and_single_keys_override_them() {
     let fine = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=500"]).unwrap();
     let scene = &fine.points[0].scene;
     assert_eq!(scene.film_resolution.cells, 500);
-    assert_eq!(scene.structure_resolution.step_s, 0.25e-6);
+    assert_eq!(scene.structure_resolution.step_s, 0.125e-6);
     let spelt = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=5e2"]).unwrap();
     assert_eq!(spelt.digest, fine.digest);
     for rung in ["5%", "1%", "0.1%"] {

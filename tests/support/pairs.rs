@@ -219,6 +219,10 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
     scene.ramp.clearance_top_m = *seeded.one_of(&[0.0, 2e-5, 1e-4]);
     scene.ramp.clearance_bottom_m = *seeded.one_of(&[2e-5, 1e-4]);
     scene.ramp.restitution = *seeded.one_of(&[0.0, 0.0, 0.3, 0.9]);
+    // A contact with a stiffness has no restitution.
+    if scene.ramp.restitution != 0.0 {
+        scene.ramp.contact_stiffness_n_per_m = None;
+    }
     scene.slider.angle_rad = seeded.between(0.05, 6.0);
     scene
 }

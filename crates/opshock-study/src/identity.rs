@@ -290,6 +290,7 @@ impl Digester {
             radius_m,
             angle_rad,
             restitution,
+            contact_stiffness_n_per_m,
         } = ramp;
         self.numbers(&[
             *clearance_top_m,
@@ -298,6 +299,11 @@ impl Digester {
             *angle_rad,
             *restitution,
         ]);
+        // A hard contact keeps the identity that it had before the stiffness was a parameter.
+        if let Some(stiffness) = contact_stiffness_n_per_m {
+            self.text("contact stiffness");
+            self.numbers(&[*stiffness]);
+        }
         match model {
             RampModel::None => self.text("none"),
             RampModel::Rigid => self.text("rigid"),

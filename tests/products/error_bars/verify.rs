@@ -217,6 +217,7 @@ fn small_study(kind: &str, seed: u64) -> Study {
             format!("{:.3}", random.between(0.9, 1.4)),
         ),
         ("search.certify", "\"off\"".to_owned()),
+        ("search.climbs", "0".to_owned()),
         ("search.tolerance_pct", "2.0".to_owned()),
         ("solver.accuracy", "\"5%\"".to_owned()),
         ("solver.film_cells", "240".to_owned()),
@@ -307,6 +308,7 @@ fn structure(seed: u64) -> Option<Covered> {
         knobs: vec![Knob::DiskModes, Knob::StructureStep],
         film_halvings: 0,
         accuracy: 0.05,
+        climbs: 0,
     });
     let row = swept(&input, &simulator);
     let fine = ten_times_finer(&scene);

@@ -44,6 +44,9 @@ pub struct RampParameters {
     pub angle_rad: f64,
     /// Coefficient of restitution of an impact, 0 <= e <= 1 (Newton's law).
     pub restitution: f64,
+    /// Local stiffness between each arm and its contact point, N/m; `None`: hard. The spring has
+    /// hardly a mass, so restitution has no meaning beside it.
+    pub contact_stiffness_n_per_m: Option<f64>,
 }
 
 /// What is wrong with a ramp.
@@ -109,6 +112,22 @@ impl RampParameters {
                 value: self.restitution,
                 allowed: "0 to 1",
             });
+        }
+        if let Some(stiffness) = self.contact_stiffness_n_per_m {
+            if !(stiffness > 0.0 && stiffness.is_finite()) {
+                return Err(RampError::Parameter {
+                    name: "contact stiffness",
+                    value: stiffness,
+                    allowed: "above 0",
+                });
+            }
+            if self.restitution != 0.0 {
+                return Err(RampError::Parameter {
+                    name: "restitution",
+                    value: self.restitution,
+                    allowed: "0 with a contact stiffness",
+                });
+            }
         }
         if let RampModel::Deformable { top, bottom } = &self.model {
             for (side, arm) in [("top", top), ("bottom", bottom)] {

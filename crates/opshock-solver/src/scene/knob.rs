@@ -18,6 +18,7 @@
 
 use super::Scene;
 use crate::ramp::RampModel;
+use crate::suspension::ReducedSuspension;
 
 /// Something that trades time for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -93,6 +94,15 @@ impl Levels {
         self
     }
 
+    /// These levels turned by `more`.
+    #[must_use]
+    pub fn plus(mut self, more: Levels) -> Levels {
+        for (level, steps) in self.0.iter_mut().zip(more.0) {
+            *level += steps;
+        }
+        self
+    }
+
     /// Level of a knob.
     pub fn of(self, knob: Knob) -> i8 {
         self.0[knob.place()]
@@ -151,9 +161,13 @@ impl Scene {
         let waves = disk.sqrt();
         scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
         scene.disk_resolution.n_elements = scaled(self.disk_resolution.n_elements, waves, 2);
-        let modes = power(2.0, Knob::SuspensionModes);
-        scene.head_resolution.suspension_modes =
-            scaled(self.head_resolution.suspension_modes, modes, 1);
+        if levels.of(Knob::SuspensionModes) != 0 {
+            let modes = power(2.0, Knob::SuspensionModes);
+            let wanted = scaled(self.head_resolution.suspension_modes, modes, 1);
+            // A beam has no more; with all of them nothing is cut.
+            let most = ReducedSuspension::most_bending_modes(&self.suspension);
+            scene.head_resolution.suspension_modes = wanted.min(most.unwrap_or(wanted));
+        }
         scene.structure_resolution.step_s /= power(2.0, Knob::StructureStep);
         scene.head_resolution.tolerance /= power(8.0, Knob::HeadTolerance);
         scene.head_resolution.approach_share /= power(2.0, Knob::HeadTolerance);

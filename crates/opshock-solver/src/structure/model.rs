@@ -260,7 +260,11 @@ impl StructureModel {
             RampModel::None | RampModel::Rigid => [&[], &[]],
             RampModel::Deformable { top, bottom } => [&top[..], &bottom[..]],
         };
-        let arms = arms.map(|modes| bank.add_arm(modes, step_s));
+        let stiffness = match ramp.model {
+            RampModel::None => None,
+            RampModel::Rigid | RampModel::Deformable { .. } => ramp.contact_stiffness_n_per_m,
+        };
+        let arms = arms.map(|modes| bank.add_arm(modes, stiffness, step_s));
         bank.pad();
 
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());

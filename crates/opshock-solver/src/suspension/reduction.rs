@@ -99,6 +99,15 @@ impl ReducedSuspension {
         })
     }
 
+    /// Most pinned bending modes that the beam's elements carry: with all of them nothing is cut.
+    ///
+    /// # Errors
+    /// Geometry that cannot be.
+    pub fn most_bending_modes(parameters: &SuspensionParameters) -> Result<usize, SuspensionError> {
+        let beam = BeamMatrices::assemble(parameters)?;
+        Ok(beam.bending_mass.nrows() - 1)
+    }
+
     /// Stiffness against a vertical force at the dimple, N/m.
     pub fn dimple_stiffness_n_per_m(&self) -> f64 {
         self.bending.stiffness[0]

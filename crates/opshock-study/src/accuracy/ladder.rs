@@ -4,6 +4,7 @@ use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::{Resolutions, Rung, resolutions};
 use opshock_solver::scene::knob::Knob;
+use opshock_solver::suspension::ReducedSuspension;
 
 /// Relative width to which critical shocks are bracketed, but on the ladder of that width itself.
 pub const BRACKET: f64 = 2.0e-3;
@@ -108,12 +109,24 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
         }
     }
     let modes = small.head_resolution.suspension_modes;
-    for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 2.0, 4.0], 10.0) {
+    // No beam has ten times as many: all that it has are the reference.
+    let most = ReducedSuspension::most_bending_modes(&small.suspension).unwrap_or(modes);
+    for factor in [0.0625, 0.125, 0.25, 0.5, 1.0] {
         let mut at = small.clone();
-        at.head_resolution.suspension_modes = count(modes, factor);
+        at.head_resolution.suspension_modes = count(modes, factor).min(most);
         let value = at.head_resolution.suspension_modes.to_string();
-        all.push(setting("suspension_modes", value, factor, is_reference, at));
+        all.push(setting("suspension_modes", value, factor, false, at));
     }
+    let mut whole = small.clone();
+    whole.head_resolution.suspension_modes = most;
+    let fineness = most as f64 / modes as f64;
+    all.push(setting(
+        "suspension_modes",
+        most.to_string(),
+        fineness,
+        true,
+        whole,
+    ));
     for (factor, is_reference) in rungs([0.2, 0.5, 1.0, 2.0, 4.0], 100.0) {
         let mut at = small.clone();
         at.head_resolution.tolerance /= factor;

@@ -44,8 +44,11 @@ pub struct LadderOrder {
     pub ladder: String,
     /// Quantity it is read on.
     pub quantity: String,
-    /// Order in the ladder's fineness, as the errors fall.
+    /// Order in the ladder's fineness, as the errors fall; `None` where they show none.
     pub observed: Option<f64>,
+    /// Three errors and more are known and scatter too much about any order.
+    #[serde(default)]
+    pub is_disordered: bool,
     /// Formal order.
     pub formal: Option<f64>,
 }
@@ -201,12 +204,29 @@ fn order(ladder: &str, rungs: &[RungRow]) -> LadderOrder {
         .filter(|&(_, error)| error > 3.0 * floor && error > 1e-12)
         .map(|(fineness, error)| (fineness, error.ln()))
         .collect();
+    let fit = slope(&known);
+    let is_disordered = fit.is_some_and(|slope| scatter(&known, slope) > SCATTER.ln());
     LadderOrder {
         ladder: ladder.to_owned(),
         quantity: quantity.to_owned(),
-        observed: slope(&known).map(|slope| -slope),
+        observed: fit.filter(|_| !is_disordered).map(|slope| -slope),
+        is_disordered,
         formal: formal_order(ladder),
     }
+}
+
+/// Factor by which an error may lie off the fitted order: more, and the fit means nothing.
+const SCATTER: f64 = 1.5;
+
+/// Largest distance of the points from the line of this slope through their middle.
+fn scatter(points: &[(f64, f64)], slope: f64) -> f64 {
+    let n = points.len() as f64;
+    let middle = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (mx, my) = (middle(|point| point.0), middle(|point| point.1));
+    let off = points
+        .iter()
+        .map(|(x, y)| (y - my - slope * (x - mx)).abs());
+    off.fold(0.0, f64::max)
 }
 
 /// Least squares through at least three points.
@@ -236,5 +256,10 @@ mod tests {
             .collect();
         assert_eq!(slope(&line), Some(-2.0));
         assert_eq!(slope(&line[..2]), None);
+        assert!(scatter(&line, -2.0) < 1e-12);
+        // Errors 1, 2, 1 lie on no line: the middle one is two thirds of ln 2 off.
+        let bent = [(0.0, 0.0), (1.0, 2.0_f64.ln()), (2.0, 0.0)];
+        let slope = slope(&bent).expect("three points");
+        assert!((scatter(&bent, slope) - 2.0 / 3.0 * 2.0_f64.ln()).abs() < 1e-12);
     }
 }

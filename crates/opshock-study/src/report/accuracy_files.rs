@@ -195,7 +195,10 @@ pub fn markdown(accuracy: &Accuracy) -> String {
                 "| {} | {} | {} | {} |",
                 order.ladder,
                 order.quantity,
-                number(order.observed),
+                match order.is_disordered {
+                    true => "no order".to_owned(),
+                    false => number(order.observed),
+                },
                 number(order.formal)
             );
         }

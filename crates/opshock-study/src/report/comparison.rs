@@ -424,6 +424,7 @@ mod tests {
             err_low_g: err_g,
             err_high_g: err_g,
             err_parts: vec![],
+            levels: String::new(),
             onset_g: None,
             runs: 9,
             status: Status::Ok,

@@ -188,6 +188,10 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
     header.extend(summary.axes.iter().cloned());
     header.push("half bar (%)".into());
     header.extend(names.iter().map(|name| format!("{name} (%)")));
+    let has_climbed = summary.points.iter().any(|point| !point.levels.is_empty());
+    if has_climbed {
+        header.push("knobs turned finer".into());
+    }
     let mut rows = Vec::new();
     for point in &summary.points {
         let Some(a_crit_g) = point.a_crit_g else {
@@ -211,6 +215,9 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
                 format!("{}{wide}", per_cent(part.high_g))
             })
         }));
+        if has_climbed {
+            row.push(point.levels.clone());
+        }
         rows.push(row);
     }
     Some((header, rows))

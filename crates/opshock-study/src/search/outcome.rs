@@ -80,10 +80,14 @@ pub enum Flag {
     BarPartial,
     /// Half the error bar is more than the accuracy asked for.
     BarExceeds,
+    /// So it is on the finest rung that the point may climb to.
+    BarFloor,
+    /// The answer is that of finer knobs than the study's, named in `levels`.
+    Climbed,
 }
 
 impl Flag {
-    const ALL: [Flag; 15] = [
+    const ALL: [Flag; 17] = [
         Flag::NonMonotone,
         Flag::Window,
         Flag::WindowUndecided,
@@ -99,6 +103,8 @@ impl Flag {
         Flag::BarWide,
         Flag::BarPartial,
         Flag::BarExceeds,
+        Flag::BarFloor,
+        Flag::Climbed,
     ];
 
     /// Word in products.
@@ -119,6 +125,8 @@ impl Flag {
             Flag::BarWide => "bar_wide",
             Flag::BarPartial => "bar_partial",
             Flag::BarExceeds => "bar_exceeds",
+            Flag::BarFloor => "bar_floor",
+            Flag::Climbed => "climbed",
         }
     }
 

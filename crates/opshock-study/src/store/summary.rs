@@ -1,7 +1,7 @@
 //! Critical shocks of a study as rows: what tables, curves and JSON are made from.
 //!
 //! The JSON is `{"study", "digest", "points": [{"ramp", "pulse_ms", "sign", ...axes, "a_crit_g",
-//! "a_fail_g", "err_low_g", "err_high_g", "err_parts", "onset_g", "runs", "status", "flags",
+//! "a_fail_g", "err_low_g", "err_high_g", "err_parts", "levels", "onset_g", "runs", "status", "flags",
 //! "brackets_g", "certified_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
 //! null. Nothing in it depends on the machine, the number of threads or the time of day, so that
 //! equal results are equal bytes.
@@ -81,6 +81,8 @@ pub struct PointSummary {
     pub err_high_g: Option<f64>,
     /// What the bar is made of, by name; the parts add up.
     pub err_parts: Vec<(String, ErrorPart)>,
+    /// Knobs turned finer than the study has them for this answer; empty: none.
+    pub levels: String,
     /// Amplitude at which the disk first touches the ramp within the window, G.
     pub onset_g: Option<f64>,
     /// Simulations of the canonical sequence.
@@ -198,6 +200,7 @@ impl Serialize for Row<'_> {
         map.serialize_entry("err_low_g", &point.err_low_g)?;
         map.serialize_entry("err_high_g", &point.err_high_g)?;
         map.serialize_entry("err_parts", &Parts(&point.err_parts))?;
+        map.serialize_entry("levels", &point.levels)?;
         map.serialize_entry("onset_g", &point.onset_g)?;
         map.serialize_entry("runs", &point.runs)?;
         map.serialize_entry("status", &point.status)?;
@@ -256,6 +259,7 @@ mod tests {
                 err_low_g: None,
                 err_high_g: None,
                 err_parts: vec![],
+                levels: String::new(),
                 onset_g: None,
                 runs: 3,
                 status: Status::AboveRange,
@@ -268,7 +272,7 @@ mod tests {
         };
         let text = serde_json::to_string(&summary).expect("serialises");
         assert!(text.starts_with(
-            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"err_parts":{},"onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
+            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"err_parts":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
         ), "{text}");
     }
 }

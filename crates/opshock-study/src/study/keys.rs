@@ -101,7 +101,8 @@ pub static KEYS: &[Key] = &[
     Key::optional("ramp.clearance_bottom_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance below the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
     Key::or("ramp.radius_mm", LENGTH, "32.15", "Radius of the contact points.").usual(5.0, 70.0).code("E141"),
     Key::or("ramp.angle_deg", Number(closed(-360.0, 360.0)), "0.0", "Angle of the contact points in the disk's sense of rotation."),
-    Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact."),
+    Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact; 0 with a contact stiffness.").code("E136"),
+    Key::optional("ramp.contact_stiffness_n_per_m", LENGTH, "a hard contact", "1.0e6", "Local stiffness between each arm and its contact point.").usual(1e4, 1e9).code("E136"),
     Key::or("ramp.deformable.modes", Tables, "[{ frequency_hz = 888.0, mass_mg = 57.9, participation = 0.199 }, { frequency_hz = 17500.0, mass_mg = 35.1, participation = 0.789 }]", "Modes of each arm, scaled to 1 at the contact point; both arms alike.").code("E135"),
     Key::required("ramp.deformable.modes[].frequency_hz", LENGTH, "888.0", "Undamped natural frequency.").usual(10.0, 1e6),
     Key::required("ramp.deformable.modes[].mass_mg", LENGTH, "57.9", "Modal mass.").usual(0.01, 1e5),
@@ -174,6 +175,7 @@ pub static KEYS: &[Key] = &[
     Key::or("search.certify", Word(&["staggered", "off", "full"]), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
     Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156"),
     Key::or("search.error_bars", Flag, "true", "Adds to each critical shock what the resolution contributes to its error."),
+    Key::or("search.climbs", Integer(0, 100), "2", "Times that a point whose error bar exceeds the accuracy is answered anew on finer knobs."),
     // solver
     Key::or("solver.accuracy", Word(RUNGS), "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157"),
     Key::or("solver.effects", Word(&["auto", "full"]), "\"auto\"", "auto simulates only what the outputs need."),

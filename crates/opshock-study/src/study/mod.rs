@@ -115,6 +115,8 @@ pub struct SearchSettings {
     pub max_gap_pct: f64,
     /// Whether what the resolution contributes is estimated.
     pub error_bars: bool,
+    /// Times that a point whose bar exceeds the accuracy asked is turned finer.
+    pub climbs: u8,
 }
 
 /// Settings of the store.
@@ -211,6 +213,7 @@ impl Study {
                 certify: Certify::from_word(view.word("search.certify")),
                 max_gap_pct: view.number("search.max_gap_pct"),
                 error_bars: view.maybe_flag("search.error_bars").unwrap_or(true),
+                climbs: view.maybe_integer("search.climbs").unwrap_or(0) as u8,
             },
             output: OutputSettings {
                 keep_histories: match view.word("output.keep_histories") {

@@ -222,6 +222,7 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
         radius_m: view.si("ramp.radius_mm"),
         angle_rad: view.si("ramp.angle_deg"),
         restitution: view.si("ramp.restitution"),
+        contact_stiffness_n_per_m: view.maybe_si("ramp.contact_stiffness_n_per_m"),
     }
 }
 

@@ -49,7 +49,7 @@ impl SweepInput {
             points: study
                 .table_order()
                 .into_iter()
-                .map(|place| sweep_point(&study.points[place], search.error_bars))
+                .map(|place| sweep_point(&study.points[place], search))
                 .collect(),
             settings,
             start_s: study.start_s,
@@ -82,7 +82,7 @@ fn plan_json(study: &Study) -> String {
     json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes}).to_string()
 }
 
-fn sweep_point(point: &Point, error_bars: bool) -> SweepPoint {
+fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {
     let sign = match point.sign {
         study::Sign::Plus => Sign::Plus,
         study::Sign::Minus => Sign::Minus,
@@ -105,14 +105,14 @@ fn sweep_point(point: &Point, error_bars: bool) -> SweepPoint {
         },
         axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
         digest: digest(&point.scene, sign),
-        bar: error_bars.then(|| bar_plan(point)),
+        bar: search.error_bars.then(|| bar_plan(point, search.climbs)),
     }
 }
 
 /// Films below this many cells resolve no rail and say nothing about finer ones.
 const COARSEST_FILM: usize = 60;
 
-fn bar_plan(point: &Point) -> BarPlan {
+fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
     let cells = point.scene.film_resolution.cells;
     BarPlan {
         knobs: point.scene.knobs(),
@@ -121,6 +121,7 @@ fn bar_plan(point: &Point) -> BarPlan {
             .find(|&halvings| cells >> halvings >= COARSEST_FILM)
             .unwrap_or(0),
         accuracy: point.accuracy.share(),
+        climbs,
     }
 }
 
@@ -134,6 +135,7 @@ fn digest(scene: &Scene, sign: Sign) -> PointDigest {
         bare.ramp.clearance_top_m = 0.0;
         bare.ramp.clearance_bottom_m = 0.0;
         bare.ramp.restitution = 0.0;
+        bare.ramp.contact_stiffness_n_per_m = None;
         identity::head_key(&bare, PHYSICS_STRUCTURE, PHYSICS_HEAD)
     } else {
         identity::head_key(scene, PHYSICS_STRUCTURE, PHYSICS_HEAD)

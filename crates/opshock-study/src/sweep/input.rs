@@ -18,6 +18,8 @@ pub struct BarPlan {
     pub film_halvings: i8,
     /// Accuracy asked for, a share.
     pub accuracy: f64,
+    /// Times that the point may be turned finer where its bar exceeds that.
+    pub climbs: u8,
 }
 
 /// A point of the study.

@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
+use opshock_solver::scene::knob::Levels;
 
 use super::input::SweepInput;
 use super::rows;
@@ -87,7 +88,7 @@ enum BarStage {
     Begun {
         input: Box<bar::BarInput>,
         log: Vec<bar::Ask>,
-        progress: bar::Progress,
+        progress: bar::Progress<bar::Answer>,
     },
 }
 
@@ -224,7 +225,8 @@ impl<'a> Ledger<'a> {
                 let record = self.runs.get(&self.key(point, bar_probe(ask)))?;
                 Some(seen(&record.result))
             };
-            let (now, progress) = bar::bar(input, &lookup);
+            let climbs = self.climbs(point);
+            let (now, progress) = bar::answer(input, climbs, &lookup);
             told.extend(now[log.len()..].iter().map(|&ask| Told {
                 point,
                 asked: bar_asked(ask),
@@ -251,12 +253,22 @@ impl<'a> Ledger<'a> {
         }
         match self.bar_input(point) {
             None => BarStage::Without,
-            Some(input) => BarStage::Begun {
-                input: Box::new(input),
-                log: Vec::new(),
-                progress: bar::Progress::Done(bar::Bar::default()),
-            },
+            Some(input) => {
+                // Its first look: nothing is known yet of what it will ask.
+                let (_, progress) = bar::answer(&input, self.climbs(point), &|_| None);
+                BarStage::Begun {
+                    input: Box::new(input),
+                    log: Vec::new(),
+                    progress,
+                }
+            }
         }
+    }
+
+    /// Times that a point may be turned finer.
+    fn climbs(&self, point: usize) -> u8 {
+        let plan = self.input.points[point].bar.as_ref();
+        plan.map_or(0, |plan| plan.climbs)
     }
 
     /// What the bar of a point with a final search starts from; `None` without a bracket of its
@@ -295,6 +307,7 @@ impl<'a> Ledger<'a> {
             }
         }
         Some(bar::BarInput {
+            base: Levels::NONE,
             lattice: self.input.settings.lattice.finer(bar::SUBNODES),
             survivor: survivor * bar::SUBNODES,
             failure: failure * bar::SUBNODES,
@@ -490,15 +503,15 @@ impl<'a> Ledger<'a> {
         )
     }
 
-    /// Bar of a point, once it is finished, and the runs it took.
-    fn finished_bar(&self, point: usize) -> Option<(&bar::Bar, u64)> {
+    /// Answer of a point with its bar, once it is finished, and the runs it took.
+    fn finished_bar(&self, point: usize) -> Option<(&bar::Answer, u64)> {
         match &self.bars[point] {
             BarStage::Taken { companion } => Some((self.finished_bar(*companion)?.0, 0)),
             BarStage::Begun {
                 log,
-                progress: bar::Progress::Done(bar),
+                progress: bar::Progress::Done(answer),
                 ..
-            } => Some((bar, log.len() as u64)),
+            } => Some((answer, log.len() as u64)),
             _ => None,
         }
     }

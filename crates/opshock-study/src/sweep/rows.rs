@@ -1,28 +1,37 @@
 //! Rows of the table from what the searches found.
 
 use super::input::SweepPoint;
-use crate::search::{Bar, Findings, Lattice, Status};
+use crate::search::bar::{Answer, SUBNODES};
+use crate::search::{Bar, Findings, Flag, Lattice, Status};
 use crate::store::summary::{ErrorPart, PointSummary};
 
 /// Row of a point.
 ///
 /// The answer lies between the highest survivor, which is reported, and the lowest failure above
-/// it: the bracket adds nothing below the reported value and its width above.
+/// it: the bracket adds nothing below the reported value and its width above. Where the bar climbed,
+/// both are those of the finer knobs; brackets and scan stay those of the study's own.
 pub(super) fn row(
     point: &SweepPoint,
     findings: &Findings,
-    bar: Option<(&Bar, u64)>,
+    bar: Option<(&Answer, u64)>,
     onset_g: Option<f64>,
     lattice: &Lattice,
 ) -> PointSummary {
     let amplitude = |node: i32| lattice.amplitude_g(node);
-    let (a_crit_g, a_fail_g) = (
-        findings.survivor.map(amplitude),
-        findings.failure.map(amplitude),
-    );
+    let fine = lattice.finer(SUBNODES);
+    let (a_crit_g, a_fail_g) = match (findings.status, bar) {
+        (Status::Ok, Some((answer, _))) => (
+            Some(fine.amplitude_g(answer.survivor)),
+            Some(fine.amplitude_g(answer.failure)),
+        ),
+        _ => (
+            findings.survivor.map(amplitude),
+            findings.failure.map(amplitude),
+        ),
+    };
     let err_parts = match (findings.status, a_crit_g, a_fail_g) {
         (Status::Ok, Some(a_crit_g), Some(a_fail_g)) => {
-            parts(bar.map(|bar| bar.0), a_crit_g, a_fail_g)
+            parts(bar.map(|(answer, _)| &answer.bar), a_crit_g, a_fail_g)
         }
         _ => Vec::new(),
     };
@@ -30,7 +39,21 @@ pub(super) fn row(
         (!err_parts.is_empty()).then(|| err_parts.iter().map(|(_, part)| of(part)).sum())
     };
     let mut flags = findings.flags.clone();
-    flags.extend(bar.iter().flat_map(|(bar, _)| &bar.flags));
+    let mut levels = String::new();
+    if let Some((answer, _)) = bar {
+        flags.extend(&answer.bar.flags);
+        levels = answer.levels.label();
+        // The ramp takes the answer without ramp only below first touch.
+        if let (Some(crit_g), Some(onset_g)) = (a_crit_g, onset_g)
+            && flags.contains(&Flag::NoTouch)
+            && crit_g > onset_g
+        {
+            flags.insert(Flag::BarPartial);
+        }
+    }
+    if !levels.is_empty() {
+        flags.insert(Flag::Climbed);
+    }
     PointSummary {
         ramp: point.coordinates.ramp.clone(),
         pulse_ms: point.coordinates.pulse_ms,
@@ -41,6 +64,7 @@ pub(super) fn row(
         err_low_g: sum(|part| part.low_g),
         err_high_g: sum(|part| part.high_g),
         err_parts,
+        levels,
         onset_g,
         runs: findings.runs + bar.map_or(0, |(_, runs)| runs),
         status: findings.status,

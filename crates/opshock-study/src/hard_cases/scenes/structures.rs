@@ -176,6 +176,7 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
             radius_m: 0.032,
             angle_rad: 0.0,
             restitution: 0.0,
+            contact_stiffness_n_per_m: None,
         },
         slider: SliderPlace {
             radius_m: 0.02125,

@@ -389,6 +389,8 @@ fn sentence(flag: Flag) -> &'static str {
         }
         Flag::BarPartial => "a part of the error bar could not be estimated",
         Flag::BarExceeds => "half the error bar is more than the accuracy asked for",
+        Flag::BarFloor => "and no finer rung was allowed",
+        Flag::Climbed => "answered on finer knobs than the study's",
     }
 }
 

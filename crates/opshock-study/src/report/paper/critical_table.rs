@@ -126,6 +126,7 @@ fn point(
         err_low_g: maybe(2)?,
         err_high_g: maybe(3)?,
         err_parts: Vec::new(),
+        levels: String::new(),
         onset_g: maybe(4)?,
         runs: after[5]
             .parse()

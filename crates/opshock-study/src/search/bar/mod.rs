@@ -20,6 +20,7 @@
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.
 
+mod climb;
 mod judge;
 mod margin;
 #[cfg(test)]
@@ -30,6 +31,7 @@ use std::collections::BTreeSet;
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
+pub use self::climb::{Answer, FLOOR, answer};
 use self::judge::Estimate;
 use super::evidence::NodeVerdict;
 use super::lattice::Lattice;
@@ -85,6 +87,8 @@ pub struct Known {
 /// A bracket with what surrounds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarInput {
+    /// Knobs turned already: every other turn is made from here.
+    pub base: Levels,
     /// Lattice of the bar: [`SUBNODES`] nodes for each of the search.
     pub lattice: Lattice,
     /// Highest survivor, node of that lattice.
@@ -165,6 +169,11 @@ impl Bar {
         }
     }
 
+    fn extend(&mut self, other: &Bar) {
+        self.parts.extend(&other.parts);
+        self.flags.extend(&other.flags);
+    }
+
     /// Half the bar's length over the reported value: what is compared with the accuracy asked.
     pub fn half_length(&self) -> f64 {
         0.5 * self
@@ -177,36 +186,41 @@ impl Bar {
 
 /// How far a bar has got.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Progress {
+pub enum Progress<T = Bar> {
     /// This run is needed next.
     Wants(Ask),
-    /// The bar.
-    Done(Bar),
+    /// All is known.
+    Done(T),
 }
 
 /// The bar of `input` as far as `lookup` knows the runs it needs, with the runs looked at.
 pub fn bar(input: &BarInput, lookup: &dyn Fn(Ask) -> Option<Seen>) -> (Vec<Ask>, Progress) {
-    let mut walk = Walk {
-        input,
-        lookup,
-        log: Vec::new(),
-    };
-    let progress = match parts(&mut walk) {
+    let mut log = Vec::new();
+    let progress = match parts(&mut Walk::new(input, lookup, &mut log)) {
         Ok(bar) => Progress::Done(bar),
         Err(ask) => Progress::Wants(ask),
     };
-    (walk.log, progress)
+    (log, progress)
 }
 
 /// Looks runs up in order; the first that is not known ends the walk.
 struct Walk<'a> {
     input: &'a BarInput,
     lookup: &'a dyn Fn(Ask) -> Option<Seen>,
-    log: Vec<Ask>,
+    log: &'a mut Vec<Ask>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    fn new(
+        input: &'a BarInput,
+        lookup: &'a dyn Fn(Ask) -> Option<Seen>,
+        log: &'a mut Vec<Ask>,
+    ) -> Self {
+        Self { input, lookup, log }
+    }
+
     fn see(&mut self, levels: Levels, index: i32) -> Result<Seen, Ask> {
+        let levels = self.input.base.plus(levels);
         let ask = Ask { levels, index };
         let seen = (self.lookup)(ask).ok_or(ask)?;
         if !self.log.contains(&ask) {
@@ -231,39 +245,80 @@ impl Walk<'_> {
     }
 }
 
-fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {
-    let input = walk.input;
-    let mut bar = Bar::default();
-    bar.parts.push(Part {
+/// What the bracket alone adds.
+fn search_part(walk: &Walk<'_>) -> Bar {
+    let search = Part {
         name: "search",
         low: 0.0,
-        high: walk.share(input.failure - input.survivor),
+        high: walk.share(walk.input.failure - walk.input.survivor),
         factor: 1.0,
-    });
+    };
+    Bar {
+        parts: vec![search],
+        flags: BTreeSet::new(),
+    }
+}
+
+/// What each source of error adds: the film's grid, then [`GROUPS`].
+type Pieces = [Bar; 1 + GROUPS.len()];
+
+/// Looks at every source that is not `kept` from before.
+fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<Pieces, Ask> {
+    let input = walk.input;
     let margin = match input.knobs.is_empty() {
         true => None,
         false => margin::Reference::find(walk)?,
     };
+    let [film, groups @ ..] = kept;
     let mut coarsest = None;
-    if input.knobs.contains(&Knob::FilmGrid) {
-        let by_margin = match &margin {
-            Some(reference) => reference.film(walk)?,
-            None => None,
+    let mut sum = search_part(walk);
+    let film = match film {
+        Some(film) => film,
+        None => {
+            let mut film = Bar::default();
+            if input.knobs.contains(&Knob::FilmGrid) {
+                let by_margin = match &margin {
+                    Some(reference) => reference.film(walk)?,
+                    None => None,
+                };
+                let (estimate, found) = match by_margin {
+                    Some(estimate) => (Some(estimate), None),
+                    None => verdicts::film(walk)?,
+                };
+                coarsest = found;
+                film.add(Knob::FilmGrid.as_str(), estimate, input.accuracy);
+            }
+            film
+        }
+    };
+    sum.extend(&film);
+    let mut found = [film, Bar::default(), Bar::default()];
+    for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate() {
+        let piece = match kept {
+            Some(piece) => piece,
+            None => group.look(walk, (&margin, coarsest), &sum)?,
         };
-        let (film, found) = match by_margin {
-            Some(estimate) => (Some(estimate), None),
-            None => verdicts::film(walk)?,
-        };
-        coarsest = found;
-        bar.add(Knob::FilmGrid.as_str(), film, input.accuracy);
+        sum.extend(&piece);
+        found[place + 1] = piece;
     }
-    for group in GROUPS {
-        group.add(walk, (&margin, coarsest), &mut bar)?;
+    Ok(found)
+}
+
+/// The bar that these pieces make.
+fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Bar {
+    let mut bar = search_part(walk);
+    for piece in pieces {
+        bar.extend(piece);
     }
-    if !input.knobs.is_empty() && bar.half_length() > input.accuracy {
+    if !walk.input.knobs.is_empty() && bar.half_length() > walk.input.accuracy {
         bar.flags.insert(Flag::BarExceeds);
     }
-    Ok(bar)
+    bar
+}
+
+fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {
+    let pieces = pieces(walk, Default::default())?;
+    Ok(whole(walk, &pieces))
 }
 
 /// How closely knobs are looked at.
@@ -287,18 +342,19 @@ impl Limits {
 }
 
 impl Group {
-    /// Adds the part of its knobs turned together, or those of each of them where that may bring
-    /// the bar below what was asked.
-    fn add(
+    /// The part of its knobs turned together, or those of each of them where that may bring
+    /// the bar, which holds `sum` without it, below what was asked.
+    fn look(
         &self,
         walk: &mut Walk<'_>,
         (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
-        bar: &mut Bar,
-    ) -> Result<(), Ask> {
+        sum: &Bar,
+    ) -> Result<Bar, Ask> {
+        let mut bar = Bar::default();
         let accuracy = walk.input.accuracy;
         let limits = Limits {
-            grain: walk.nodes(GRAIN * 2.0 * bar.half_length()).max(FINEST),
-            little: judge::NEGLIGIBLE * accuracy.max(bar.half_length()),
+            grain: walk.nodes(GRAIN * 2.0 * sum.half_length()).max(FINEST),
+            little: judge::NEGLIGIBLE * accuracy.max(sum.half_length()),
             has_order: self.is_one,
         };
         let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
@@ -314,22 +370,22 @@ impl Group {
         let is_turned = |knob: &Knob| walk.input.knobs.contains(knob);
         let knobs: Vec<Knob> = self.knobs.iter().copied().filter(is_turned).collect();
         let joint = match knobs.len() {
-            0 => return Ok(()),
+            0 => return Ok(bar),
             1 => None,
             _ => turned(walk, &knobs)?,
         };
         // Where the bar exceeds what was asked in any case, it need not be told which of them it is.
         let is_told = |joint: &Estimate| {
-            self.is_one || joint.error() <= limits.little || bar.half_length() > 2.0 * accuracy
+            self.is_one || joint.error() <= limits.little || sum.half_length() > 2.0 * accuracy
         };
         if let Some(estimate) = joint.filter(is_told) {
             bar.add(self.name, Some(estimate), accuracy);
-            return Ok(());
+            return Ok(bar);
         }
         for knob in knobs {
             let alone = turned(walk, &[knob])?;
             bar.add(knob.as_str(), alone, accuracy);
         }
-        Ok(())
+        Ok(bar)
     }
 }

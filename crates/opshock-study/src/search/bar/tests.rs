@@ -49,7 +49,7 @@ impl Law {
         self.bar_with(3)
     }
 
-    fn bar_with(&self, film_halvings: i8) -> (Bar, f64, usize) {
+    fn input(&self, film_halvings: i8) -> (BarInput, f64) {
         let search = Lattice::for_tolerance(0.01).expect("lattice");
         let lattice = search.finer(SUBNODES);
         let survivor = search.at_or_below(self.critical_g(Levels::NONE) * (1.0 - 1e-12));
@@ -69,6 +69,7 @@ impl Law {
             }
         };
         let input = BarInput {
+            base: Levels::NONE,
             lattice,
             survivor: survivor * SUBNODES,
             failure: (survivor + 1) * SUBNODES,
@@ -78,11 +79,29 @@ impl Law {
             film_halvings,
             accuracy: 0.01,
         };
+        (input, search.amplitude_g(survivor))
+    }
+
+    fn bar_with(&self, film_halvings: i8) -> (Bar, f64, usize) {
+        let (input, reported_g) = self.input(film_halvings);
+        let lattice = input.lattice;
         let (log, progress) = bar(&input, &|ask| Some(self.see(lattice, ask)));
         let Progress::Done(bar) = progress else {
             panic!("{progress:?}")
         };
-        (bar, search.amplitude_g(survivor), log.len())
+        (bar, reported_g, log.len())
+    }
+
+    /// The answer after at most so many climbs, its amplitude and the runs it took.
+    fn climbed(&self, climbs: u8) -> (Answer, f64, usize) {
+        let (input, _) = self.input(3);
+        let lattice = input.lattice;
+        let (log, progress) = answer(&input, climbs, &|ask| Some(self.see(lattice, ask)));
+        let Progress::Done(answer) = progress else {
+            panic!("{progress:?}")
+        };
+        let reported_g = lattice.amplitude_g(answer.survivor);
+        (answer, reported_g, log.len())
     }
 
     fn formal(errors: [f64; 6], slope_m: Option<f64>) -> Law {
@@ -208,6 +227,7 @@ fn what_cannot_be_read_is_said() {
     let law = Law::formal([0.0; 6], Some(1e-7));
     let search = Lattice::for_tolerance(0.01).expect("lattice");
     let input = BarInput {
+        base: Levels::NONE,
         lattice: search.finer(SUBNODES),
         survivor: 8000,
         failure: 8000 + SUBNODES,
@@ -244,6 +264,7 @@ fn a_bar_asks_the_same_runs_whether_it_knows_many_or_few() {
     };
     let survivor = node(law.critical_g(Levels::NONE)) * SUBNODES;
     let input = BarInput {
+        base: Levels::NONE,
         lattice,
         survivor,
         failure: survivor + SUBNODES,
@@ -265,4 +286,46 @@ fn a_bar_asks_the_same_runs_whether_it_knows_many_or_few() {
         }
     }
     assert_eq!(known, whole);
+}
+
+#[test]
+fn a_bar_that_exceeds_climbs_on_the_knob_that_dominates() {
+    // The film is 3 % off and the rest exact: one doubling leaves 1.5 %, a second 0.75 %.
+    let law = Law::formal([0.03, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let (plain, reported_g, _) = law.bar();
+    assert!(plain.half_length() > 0.03 && (reported_g / law.exact_g - 1.0).abs() > 0.02);
+    let (answer, climbed_g, _) = law.climbed(2);
+    assert_eq!(answer.levels.of(Knob::FilmGrid), FLOOR);
+    assert_eq!(answer.levels.of(Knob::DiskModes), 0);
+    assert_eq!(answer.levels.of(Knob::HeadTolerance), 0);
+    let off = (law.exact_g / climbed_g - 1.0).abs();
+    assert!(off < 0.011, "{off}");
+    assert!(answer.bar.half_length() > off, "{answer:?}");
+    assert!(answer.bar.half_length() < 0.45 * plain.half_length());
+}
+
+#[test]
+fn a_floor_is_said_and_no_climb_is_made_unasked() {
+    let law = Law::formal([0.05, 0.0, 0.0, 0.0, 0.0, 0.0], None);
+    let (answer, ..) = law.climbed(2);
+    assert!(answer.bar.flags.contains(&Flag::BarFloor), "{answer:?}");
+    assert!(answer.bar.flags.contains(&Flag::BarExceeds));
+    let (still, still_g, asked) = law.climbed(0);
+    let (bar, reported_g, log) = law.bar();
+    assert_eq!((still.bar, still_g, asked), (bar, reported_g, log));
+    assert!(still.levels.is_none());
+    let (met, ..) = Law::formal([0.0; 6], Some(1e-7)).climbed(2);
+    assert!(met.levels.is_none() && !met.bar.flags.contains(&Flag::BarFloor));
+}
+
+#[test]
+fn a_bracket_a_quarter_as_wide_is_tried_before_a_climb() {
+    // 0.5 % of the bracket and 0.6 % of the film exceed 1 %; a quarter of the former does not.
+    let law = Law::formal([0.0048, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let (plain, ..) = law.bar();
+    assert!(plain.flags.contains(&Flag::BarExceeds), "{plain:?}");
+    let (answer, ..) = law.climbed(2);
+    assert!(answer.levels.is_none(), "{answer:?}");
+    assert_eq!(answer.failure - answer.survivor, SUBNODES / 4);
+    assert!(!answer.bar.flags.contains(&Flag::BarExceeds));
 }

@@ -13,9 +13,9 @@ const GROWTH: i32 = 4;
 
 /// Survivor and failure of a turned scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Bracket {
-    low: i32,
-    high: i32,
+pub(super) struct Bracket {
+    pub low: i32,
+    pub high: i32,
 }
 
 /// How narrow a bracket is made: a large shift is known well enough.
@@ -80,8 +80,22 @@ fn locate(
     }
 }
 
+/// Brackets the answer of the scene as it is, beginning at `from`, down to `nodes`.
+pub(super) fn located(
+    walk: &mut Walk<'_>,
+    from: Bracket,
+    nodes: i32,
+) -> Result<Option<Bracket>, Ask> {
+    let width = Width {
+        nodes,
+        distance_over: 0,
+        farthest: FARTHEST,
+    };
+    locate(walk, Levels::NONE, from, width)
+}
+
 /// Halves a bracket down to `nodes`. `None` without verdicts.
-fn narrowed(
+pub(super) fn narrowed(
     walk: &mut Walk<'_>,
     levels: Levels,
     mut bracket: Bracket,

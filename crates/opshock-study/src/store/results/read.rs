@@ -210,7 +210,13 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .map(|name| axis(&group.group("axes")?, name))
         .collect::<hdf5::Result<Vec<_>>>()?;
     let n = ramp.len();
+    // Files from before points climbed have no such column.
+    let levels = match group.link_exists("levels") {
+        true => get_texts(group, "levels")?,
+        false => vec![String::new(); n],
+    };
     let lengths = [
+        levels.len(),
         sign.len(),
         status.len(),
         flags.len(),
@@ -250,6 +256,7 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 err_low_g: number(3),
                 err_high_g: number(4),
                 err_parts: parts.iter().filter_map(part).collect(),
+                levels: levels[i].clone(),
                 onset_g: number(5),
                 runs: runs[i],
                 status: Status::parse(&status[i]).ok_or_else(|| unknown("status", &status[i]))?,

@@ -95,6 +95,7 @@ fn point_columns(summary: &Summary) -> Vec<Column> {
         numbers("a_fail_g", "G", rows, |row| row.a_fail_g),
         numbers("err_low_g", "G", rows, |row| row.err_low_g),
         numbers("err_high_g", "G", rows, |row| row.err_high_g),
+        texts("levels", rows, |row| row.levels.clone()),
         numbers("onset_g", "G", rows, |row| row.onset_g),
         counts("runs", rows, |row| row.runs),
         texts("status", rows, |row| row.status.as_str().to_owned()),

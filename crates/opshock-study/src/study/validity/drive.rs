@@ -38,6 +38,15 @@ impl Check<'_, '_> {
                 fault.allowed = format!("> {inner} and <= {outer} mm");
             }
         }
+        let contact = ["ramp.restitution", "ramp.contact_stiffness_n_per_m"];
+        if self.sound(&contact)
+            && self.view.maybe_number(contact[1]).is_some()
+            && self.view.number(contact[0]) > 0.0
+        {
+            let message = "a contact with a stiffness has hardly a mass that could bounce";
+            let fault = self.fault("E136", &contact, message);
+            fault.allowed = "restitution = 0, or no contact_stiffness_n_per_m".to_string();
+        }
         for path in [
             "ramp.clearance_um",
             "ramp.clearance_top_um",

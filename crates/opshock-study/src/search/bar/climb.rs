@@ -1,0 +1,219 @@
+//! Climbing: where a bar exceeds what was asked, the knobs with the largest parts are turned finer
+//! and the answer is bracketed anew.
+//!
+//! A climb keeps what it did not touch: only the parts of turned knobs are looked at again, around
+//! the new answer. It ends when the bar meets what was asked, when the last climb allowed is made,
+//! or at the floor: every knob whose part counts is [`FLOOR`] steps above the study.
+
+use opshock_solver::scene::knob::{Knob, Levels};
+
+use super::verdicts::{self, Bracket};
+use super::{Ask, Bar, BarInput, GROUPS, Known, Pieces, Progress, SUBNODES, Seen, Walk};
+use crate::search::evidence::NodeVerdict;
+use crate::search::outcome::Flag;
+
+/// Most steps by which a knob is turned finer than the study has it.
+pub const FLOOR: i8 = 2;
+/// Parts above this share of what was asked are turned finer: there are three sources.
+const COUNTS: f64 = 1.0 / 3.0;
+/// Width to which a climbed answer is bracketed, nodes: a quarter of the search's tolerance.
+const WIDTH: i32 = SUBNODES / 4;
+
+/// A critical shock with its bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// Knobs turned finer than the study has them.
+    pub levels: Levels,
+    /// Highest survivor, node of the bar's lattice.
+    pub survivor: i32,
+    /// Lowest failure.
+    pub failure: i32,
+    /// Its bar.
+    pub bar: Bar,
+}
+
+/// The answer of `input` with its bar, as far as `lookup` knows the runs it needs, after at most
+/// `climbs` climbs; with the runs looked at.
+pub fn answer(
+    input: &BarInput,
+    climbs: u8,
+    lookup: &dyn Fn(Ask) -> Option<Seen>,
+) -> (Vec<Ask>, Progress<Answer>) {
+    let mut log = Vec::new();
+    let progress = match climbed(input, climbs, lookup, &mut log) {
+        Ok(answer) => Progress::Done(answer),
+        Err(ask) => Progress::Wants(ask),
+    };
+    (log, progress)
+}
+
+fn climbed(
+    input: &BarInput,
+    climbs: u8,
+    lookup: &dyn Fn(Ask) -> Option<Seen>,
+    log: &mut Vec<Ask>,
+) -> Result<Answer, Ask> {
+    let mut at = input.clone();
+    let mut kept = Default::default();
+    for left in (0..=climbs).rev() {
+        let mut walk = Walk::new(&at, lookup, log);
+        let pieces = super::pieces(&mut walk, kept)?;
+        let bar = super::whole(&walk, &pieces);
+        let exceeds = bar.flags.contains(&Flag::BarExceeds);
+        let stay = |bar| Ok(Answer::of(&at, bar));
+        if !exceeds || climbs == 0 {
+            return stay(bar);
+        }
+        // A narrower bracket alone may do.
+        if let Some(narrow) = narrowed(&mut walk, &bar)? {
+            at.survivor = narrow.low;
+            at.failure = narrow.high;
+            let bar = super::whole(&Walk::new(&at, lookup, log), &pieces);
+            return Ok(Answer::of(&at, bar));
+        }
+        let turned = match left {
+            0 => Vec::new(),
+            _ => turned(&at, &bar),
+        };
+        let finer = turned.iter().fold(Levels::NONE, |levels, &(knob, steps)| {
+            levels.turned(knob, steps)
+        });
+        if finer.is_none() {
+            return Ok(Answer::of(&at, floored(bar)));
+        }
+        let next = BarInput {
+            base: at.base.plus(finer),
+            film_halvings: at.film_halvings + finer.of(Knob::FilmGrid),
+            ..at.clone()
+        };
+        let Some(next) = bracketed(next, lookup, log)? else {
+            return Ok(Answer::of(&at, floored(bar)));
+        };
+        at = next;
+        kept = still(&pieces, &turned);
+    }
+    unreachable!("the last round returns")
+}
+
+impl Answer {
+    fn of(at: &BarInput, bar: Bar) -> Answer {
+        Answer {
+            levels: at.base,
+            survivor: at.survivor,
+            failure: at.failure,
+            bar,
+        }
+    }
+}
+
+/// This bar exceeds what was asked and no climb is left.
+fn floored(mut bar: Bar) -> Bar {
+    bar.flags.insert(Flag::BarFloor);
+    bar
+}
+
+/// The bracket as narrow as a climb would make it, where that alone meets what was asked.
+fn narrowed(walk: &mut Walk<'_>, bar: &Bar) -> Result<Option<Bracket>, Ask> {
+    let input = walk.input;
+    let own = Bracket {
+        low: input.survivor,
+        high: input.failure,
+    };
+    let saved = walk.share(own.high - own.low) - walk.share(WIDTH);
+    if bar.half_length() - 0.5 * saved > input.accuracy {
+        return Ok(None);
+    }
+    verdicts::narrowed(walk, Levels::NONE, own, WIDTH)
+}
+
+/// Knobs to turn, with the steps that their parts call for: those whose part counts, the largest
+/// where none does. A knob on the floor stays, so that nothing may be left.
+fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
+    let most = COUNTS * at.accuracy;
+    let knobs = |name: &str| -> Vec<Knob> {
+        let group = GROUPS.iter().find(|group| group.name == name);
+        let alone = Knob::from_word(name);
+        let all = group.map_or_else(|| alone.into_iter().collect(), |g| g.knobs.to_vec());
+        all.into_iter()
+            .filter(|knob| at.knobs.contains(knob))
+            .collect()
+    };
+    let mut parts: Vec<(f64, Vec<Knob>)> = bar
+        .parts
+        .iter()
+        .map(|part| (0.5 * (part.low + part.high), knobs(part.name)))
+        .filter(|(_, knobs)| !knobs.is_empty())
+        .collect();
+    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let counts = parts.iter().filter(|(half, _)| *half > most).count();
+    let mut turned = Vec::new();
+    for (half, knobs) in parts.into_iter().take(counts.max(1)) {
+        for knob in knobs {
+            let called = if half > most * knob.formal_ratio() {
+                2
+            } else {
+                1
+            };
+            let steps = called.min(FLOOR - at.base.of(knob));
+            if steps > 0 {
+                turned.push((knob, steps));
+            }
+        }
+    }
+    turned
+}
+
+/// The answer of a scene turned finer, beginning at the one before. `None` without verdicts.
+fn bracketed(
+    mut at: BarInput,
+    lookup: &dyn Fn(Ask) -> Option<Seen>,
+    log: &mut Vec<Ask>,
+) -> Result<Option<BarInput>, Ask> {
+    let from = Bracket {
+        low: at.survivor,
+        high: at.failure,
+    };
+    let mut walk = Walk::new(&at, lookup, log);
+    let Some(found) = verdicts::located(&mut walk, from, WIDTH)? else {
+        return Ok(None);
+    };
+    let t_fail_s = walk.see(Levels::NONE, found.high)?.t_min_s;
+    // What was seen on the way are the survivors of this rung.
+    let base = at.base;
+    let own: Vec<Ask> = walk
+        .log
+        .iter()
+        .copied()
+        .filter(|ask| ask.levels == base)
+        .collect();
+    let mut survivors = Vec::new();
+    for ask in own {
+        let seen = walk.see(Levels::NONE, ask.index)?;
+        if let (NodeVerdict::Survives, Some(h_min_m), Some(t_min_s)) =
+            (seen.verdict, seen.h_min_m, seen.t_min_s)
+        {
+            survivors.push(Known {
+                index: ask.index,
+                h_min_m,
+                t_min_s,
+            });
+        }
+    }
+    at.survivor = found.low;
+    at.failure = found.high;
+    at.t_fail_s = t_fail_s;
+    at.survivors = survivors;
+    Ok(Some(at))
+}
+
+/// Pieces of knobs that were not turned.
+fn still(pieces: &Pieces, turned: &[(Knob, i8)]) -> [Option<Bar>; 1 + GROUPS.len()] {
+    let is_turned = |knobs: &[Knob]| turned.iter().any(|(knob, _)| knobs.contains(knob));
+    std::array::from_fn(|place| {
+        let knobs = match place {
+            0 => &[Knob::FilmGrid][..],
+            _ => GROUPS[place - 1].knobs,
+        };
+        (!is_turned(knobs)).then(|| pieces[place].clone())
+    })
+}
