@@ -14,6 +14,7 @@ mod compare;
 mod error_bars;
 mod hdf5_readers;
 mod identity;
+mod imports;
 mod real_sweep;
 mod report_files;
 mod report_page;

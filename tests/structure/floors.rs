@@ -42,6 +42,9 @@ const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[
     ),
 ];
 
+/// Module of the crate of importers, its floor.
+const IMPORT: &[(&str, u8)] = &[("fault", 0), ("text", 1), ("matrix", 2), ("cml", 2)];
+
 /// Module of the crate of solid elements, its floor.
 const SOLID: &[(&str, u8)] = &[
     ("material", 0),
@@ -182,6 +185,11 @@ fn check(crate_folder: &str, floors: &[(&str, u8)], exceptions: &[(&str, &str, &
 #[test]
 fn solver_modules_import_lower_floors_only() {
     check("opshock-solver", SOLVER, SOLVER_EXCEPTIONS);
+}
+
+#[test]
+fn import_modules_import_lower_floors_only() {
+    check("opshock-import", IMPORT, &[]);
 }
 
 #[test]

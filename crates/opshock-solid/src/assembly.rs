@@ -115,6 +115,30 @@ impl SolidSystem {
         Ok(system)
     }
 
+    /// Equations of matrices that another program assembled, both of one pattern.
+    ///
+    /// `base_load_kg` is M times a unit displacement of all along x, y, z. Nodes are not known here:
+    /// [`SolidSystem::unknown`] has none.
+    ///
+    /// # Panics
+    /// When a load has another length than the matrices.
+    pub fn of_matrices(
+        stiffness: SymmetricMatrix,
+        mass: SymmetricMatrix,
+        base_load_kg: [Vec<f64>; 3],
+        total_mass_kg: f64,
+    ) -> Self {
+        let n = mass.order();
+        assert!(base_load_kg.iter().all(|load| load.len() == n) && stiffness.order() == n);
+        Self {
+            stiffness,
+            mass,
+            base_load_kg,
+            total_mass_kg,
+            unknown: Vec::new(),
+        }
+    }
+
     /// The same motion of `copies` equal solids side by side.
     #[must_use]
     pub fn times(mut self, copies: f64) -> Self {
@@ -135,7 +159,8 @@ impl SolidSystem {
 
     /// Index of a displacement in the equations; `None` when it is held.
     pub fn unknown(&self, node: usize, direction: usize) -> Option<usize> {
-        Some(self.unknown[node][direction]).filter(|&i| i != HELD)
+        let unknown = self.unknown.get(node)?;
+        Some(unknown[direction]).filter(|&i| i != HELD)
     }
 
     /// The column that reads Σ weight × displacement, and loads with the same shares.

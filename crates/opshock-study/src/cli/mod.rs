@@ -15,6 +15,7 @@ mod export_vtu;
 mod failure;
 mod figures;
 mod hard_cases;
+mod import;
 mod memory;
 mod merge;
 mod modes;
@@ -147,6 +148,7 @@ enum Command {
     Status(status::StatusArgs),
     Compare(compare::CompareArgs),
     Export(export::ExportArgs),
+    Import(import::ImportArgs),
     Doctor(doctor::DoctorArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
@@ -195,6 +197,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Status(arguments) => status::run(arguments, &cli.global, console),
         Command::Compare(arguments) => compare::run(arguments, &cli.global, console),
         Command::Export(arguments) => export::run(arguments, &cli.global, console),
+        Command::Import(arguments) => import::run(arguments, &cli.global, console),
         Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
         Command::Completions(arguments) => completions::run(arguments, console),

@@ -1,0 +1,168 @@
+//! Text files of the CMLAir family: air-bearing surfaces ([`rail`]) and static runs ([`run`]).
+//!
+//! All values are SI. Versions other than 7.0 and 8.0 are refused by name: their layouts differ.
+//! [`study`] writes what they say as a study file and a surface file.
+
+pub mod rail;
+pub mod run;
+pub mod study;
+
+#[cfg(test)]
+mod tests;
+
+use crate::fault::{Fault, Faults};
+use crate::text::{Line, NotANumber, Source, Word};
+
+/// Versions whose layout is read.
+pub const VERSIONS: [&str; 2] = ["7.0", "8.0"];
+
+/// Largest number of anything that a file of this family counts.
+const MAX_COUNT: usize = 1000;
+
+/// Lines of a file, taken one after the other, blank ones left out.
+struct Reader<'a> {
+    file: &'a str,
+    lines: std::iter::Peekable<std::vec::IntoIter<Line<'a>>>,
+    faults: Faults,
+    n_bytes: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// Checks the header and goes behind it.
+    ///
+    /// # Errors
+    /// E160 for another header, E173 for another version.
+    fn of(source: &'a Source) -> Result<(Self, String), Faults> {
+        let mut lines = source.lines();
+        let first = lines.next();
+        let text = first.map_or("", |line| line.text);
+        let Some(rest) = text.trim_start().strip_prefix("CML") else {
+            return Err(
+                Fault::of("E160", &source.name, "not a file of the CMLAir family")
+                    .line(1)
+                    .value(text)
+                    .allowed("a first line that starts with CML and names a version")
+                    .into(),
+            );
+        };
+        let version = version(rest);
+        if !VERSIONS.contains(&version.as_str()) {
+            let (message, told) = if version.is_empty() {
+                ("the first line names no version", text)
+            } else {
+                ("files of this version are not read", version.as_str())
+            };
+            return Err(Fault::of("E173", &source.name, message)
+                .line(1)
+                .what("version")
+                .value(told)
+                .allowed(VERSIONS.join(", "))
+                .hint("save it as version 8.0")
+                .into());
+        }
+        let lines: Vec<Line<'a>> = lines
+            .skip(1)
+            .filter(|line| !line.text.trim().is_empty())
+            .collect();
+        let reader = Self {
+            file: &source.name,
+            lines: lines.into_iter().peekable(),
+            faults: Faults::default(),
+            n_bytes: source.n_bytes(),
+        };
+        Ok((reader, version))
+    }
+
+    /// E160: the file ends where `what` should stand.
+    fn cut_short(&self, what: &str) -> Faults {
+        Fault::of("E160", self.file, format!("the file ends before {what}"))
+            .value(format!("{} bytes", self.n_bytes))
+            .hint("is it cut short?")
+            .into()
+    }
+
+    /// Words of the next line.
+    fn words(&mut self, what: &str) -> Result<(usize, Vec<Word<'a>>), Faults> {
+        let Some(line) = self.lines.next() else {
+            return Err(self.cut_short(what));
+        };
+        Ok((line.number, line.words().collect()))
+    }
+
+    /// Exactly `names.len()` real numbers on the next line; what follows them is a comment.
+    fn reals<const N: usize>(&mut self, names: [&str; N]) -> Result<[f64; N], Faults> {
+        let (line, words) = self.words(names[0])?;
+        if words.len() < N {
+            return Err(
+                Fault::of("E175", self.file, "values are missing on the line")
+                    .line(line)
+                    .value(format!("{} values", words.len()))
+                    .allowed(names.join(", "))
+                    .into(),
+            );
+        }
+        let mut values = [0.0; N];
+        for ((value, word), name) in values.iter_mut().zip(&words).zip(names) {
+            *value = real(self.file, word, name, &mut self.faults);
+        }
+        Ok(values)
+    }
+
+    /// Counts on the next line, each at most [`MAX_COUNT`].
+    fn counts<const N: usize>(&mut self, names: [&str; N]) -> Result<[usize; N], Faults> {
+        let (line, words) = self.words(names[0])?;
+        let mut counts = [0; N];
+        for (k, name) in names.into_iter().enumerate() {
+            let found = words.get(k).and_then(Word::count);
+            let Some(count) = found.filter(|count| *count <= MAX_COUNT) else {
+                let fault = Fault::of("E174", self.file, "not a count").what(name);
+                let fault = match words.get(k) {
+                    Some(word) => fault.at(word.place()).value(word.text),
+                    None => fault.line(line).value("nothing"),
+                };
+                return Err(fault
+                    .allowed(format!("a whole number up to {MAX_COUNT}"))
+                    .into());
+            };
+            counts[k] = count;
+        }
+        Ok(counts)
+    }
+}
+
+/// Number behind "Version", or the first number with a point.
+fn version(rest: &str) -> String {
+    let numbers = rest.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    let mut versions = numbers.map(|text| text.trim_matches('.'));
+    versions
+        .find(|text| text.contains('.'))
+        .unwrap_or_default()
+        .to_owned()
+}
+
+/// A number for a message.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A real number; a fault and 0 for what is none.
+fn real(file: &str, word: &Word<'_>, name: &str, faults: &mut Faults) -> f64 {
+    let message = match word.real() {
+        Ok(value) => return value,
+        Err(NotANumber::Comma) => "a comma in a number",
+        Err(NotANumber::NotFinite) => "the value is not finite, or 1e300 and more",
+        Err(NotANumber::Word) => "the value is no number",
+    };
+    faults.push(
+        Fault::of("E174", file, message)
+            .at(word.place())
+            .what(name)
+            .value(word.text)
+            .allowed("a number with a decimal point"),
+    );
+    0.0
+}

@@ -1,0 +1,385 @@
+//! `run.dat`: the settings of static runs.
+//!
+//! Two lines of header, then sections that a line of asterisks opens. In a section a line of names is
+//! followed by a line of values; behind `irad irpm ialt` come the radii, their skews, the speeds
+//! and the altitudes, a line each. What is read here: places and speeds, the gas, the load, the
+//! slip model; the rest are settings of another solver.
+
+use super::{Reader, short};
+use crate::fault::{Fault, Faults};
+use crate::text::{Line, NotANumber, Source, Word};
+use std::collections::HashMap;
+
+/// Flights that a file asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunFile {
+    /// Version of the format.
+    pub version: String,
+    /// Radii, m.
+    pub radii_m: Vec<f64>,
+    /// Skew at each radius, deg.
+    pub skews_deg: Vec<f64>,
+    /// Speeds, rev/min.
+    pub speeds_rpm: Vec<f64>,
+    /// Altitudes, m.
+    pub altitudes_m: Vec<f64>,
+    /// Ambient pressure, Pa.
+    pub pressure_pa: f64,
+    /// Mean free path, m.
+    pub mean_free_path_m: f64,
+    /// Viscosity, Pa s.
+    pub viscosity_pa_s: f64,
+    /// Load, kg of force.
+    pub load_kgf: f64,
+    /// Point of the load from the slider's centre, m, as far as told.
+    pub load_point_m: [f64; 2],
+    /// Static pitch and roll angles of the suspension, rad, as far as told.
+    pub static_angles_rad: [f64; 2],
+    /// Slip model.
+    pub slip: Slip,
+    /// Contact model; 0 for none.
+    pub contact_model: usize,
+}
+
+/// How the flow is rarefied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// First-order slip.
+    First,
+    /// Second-order slip.
+    Second,
+    /// Fukui and Kaneko.
+    FukuiKaneko,
+}
+
+/// Names with the words that stand for them.
+type Settings<'a> = HashMap<String, (Word<'a>, usize)>;
+
+/// Reads a file.
+///
+/// # Errors
+/// E160, E173 as [`super::rail::read`]; E174 for words that are no numbers; E175 for names without a
+/// value, settings that are missing, and values outside what is allowed.
+pub fn read(source: &Source) -> Result<RunFile, Faults> {
+    let (mut reader, version) = Reader::of(source)?;
+    let sections = sections(&mut reader)?;
+    let mut settings = Settings::new();
+    let mut lists: Option<(usize, Vec<Line<'_>>)> = None;
+    for section in &sections {
+        let behind = name_values(&reader, section, &mut settings)?;
+        if let Some(line) = behind {
+            lists = Some((
+                line,
+                section
+                    .iter()
+                    .copied()
+                    .filter(|l| l.number > line)
+                    .collect(),
+            ));
+        }
+    }
+    let mut faults = std::mem::take(&mut reader.faults);
+    let file = flights(&reader, &settings, lists, version, &mut faults);
+    match file {
+        Ok(file) => faults.or(file),
+        Err(last) => {
+            faults.append(last);
+            Err(faults)
+        }
+    }
+}
+
+/// Lines between lines of asterisks.
+fn sections<'a>(reader: &mut Reader<'a>) -> Result<Vec<Vec<Line<'a>>>, Faults> {
+    let mut sections: Vec<Vec<Line<'a>>> = Vec::new();
+    for line in reader.lines.by_ref() {
+        if line.text.trim_start().starts_with("**") {
+            sections.push(Vec::new());
+        } else if let Some(section) = sections.last_mut() {
+            section.push(line);
+        }
+    }
+    if sections.is_empty() {
+        return Err(reader.cut_short("its first section, a line of asterisks"));
+    }
+    Ok(sections)
+}
+
+fn is_numeric(word: &Word<'_>) -> bool {
+    !matches!(word.real(), Err(NotANumber::Word))
+        || word
+            .text
+            .starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+}
+
+/// A name without its unit.
+fn plain(word: &Word<'_>) -> String {
+    word.text
+        .split('(')
+        .next()
+        .unwrap_or_default()
+        .to_lowercase()
+}
+
+/// Puts names and values together. The number of the line of values of `irad`, where it is here.
+fn name_values<'a>(
+    reader: &Reader<'_>,
+    section: &[Line<'a>],
+    settings: &mut Settings<'a>,
+) -> Result<Option<usize>, Faults> {
+    let mut behind = None;
+    let mut lines = section.iter().peekable();
+    while let Some(line) = lines.next() {
+        let names: Vec<Word<'a>> = line.words().collect();
+        // Numbers behind a line of values: lists, grids.
+        if names.first().is_none_or(is_numeric) {
+            continue;
+        }
+        let wanted = names
+            .iter()
+            .any(|name| WANTED.contains(&plain(name).as_str()));
+        let Some(values) =
+            lines.next_if(|next| next.words().next().is_some_and(|w| is_numeric(&w)))
+        else {
+            if wanted {
+                return Err(
+                    Fault::of("E175", reader.file, "names without a line of values")
+                        .line(line.number)
+                        .value(line.text.trim())
+                        .allowed("a line of values behind a line of names")
+                        .into(),
+                );
+            }
+            continue;
+        };
+        let words: Vec<Word<'a>> = values.words().collect();
+        if wanted && words.len() < names.len() {
+            return Err(Fault::of("E175", reader.file, "fewer values than names")
+                .line(values.number)
+                .value(format!("{} values", words.len()))
+                .allowed(format!("{}: {}", names.len(), line.text.trim()))
+                .into());
+        }
+        for (name, word) in names.iter().zip(words) {
+            let name = plain(name);
+            if name == "irad" {
+                behind = Some(values.number);
+            }
+            settings.entry(name).or_insert((word, values.number));
+        }
+    }
+    Ok(behind)
+}
+
+/// Names that are read.
+const WANTED: [&str; 14] = [
+    "irad", "irpm", "ialt", "p0", "al", "vis", "f0", "xf0", "yf0", "psa", "rsa", "imodel",
+    "icmodel", "usestiff",
+];
+
+fn flights(
+    reader: &Reader<'_>,
+    settings: &Settings<'_>,
+    lists: Option<(usize, Vec<Line<'_>>)>,
+    version: String,
+    faults: &mut Faults,
+) -> Result<RunFile, Faults> {
+    let file = reader.file;
+    let missing = |name: &str| {
+        Faults::from(
+            Fault::of("E175", file, "the setting is missing")
+                .what(name)
+                .allowed("a value"),
+        )
+    };
+    let Some((line, lists)) = lists else {
+        return Err(missing("irad"));
+    };
+    let count = |name: &str| -> Result<usize, Faults> {
+        let (word, _) = settings.get(name).ok_or_else(|| missing(name))?;
+        word.count().filter(|n| *n <= 100).ok_or_else(|| {
+            let fault = Fault::of("E174", file, "not a count")
+                .at(word.place())
+                .what(name);
+            fault
+                .value(word.text)
+                .allowed("a whole number up to 100")
+                .into()
+        })
+    };
+    let [n_radii, n_speeds, n_altitudes] = [count("irad")?, count("irpm")?, count("ialt")?];
+    for (name, n) in [("irad", n_radii), ("irpm", n_speeds)] {
+        if n == 0 {
+            return Err(Fault::of("E175", file, "no flight is asked for")
+                .line(line)
+                .what(name)
+                .value("0")
+                .allowed("1 or more")
+                .into());
+        }
+    }
+    // Lines of names between the lists are titles.
+    let mut rows = lists
+        .iter()
+        .map(|line| line.words().collect::<Vec<_>>())
+        .filter(|words| words.first().is_some_and(is_numeric));
+    let mut list =
+        |name: &str, n: usize, unit: &str, range: (f64, f64)| -> Result<Vec<f64>, Faults> {
+            if n == 0 {
+                return Ok(Vec::new());
+            }
+            let words = rows.next().unwrap_or_default();
+            if words.len() != n {
+                let at = words.first().map_or(line, |word| word.line);
+                return Err(
+                    Fault::of("E175", file, "another number of values than told")
+                        .line(at)
+                        .what(name)
+                        .value(format!("{} values", words.len()))
+                        .allowed(n.to_string())
+                        .into(),
+                );
+            }
+            let values = words
+                .iter()
+                .map(|word| within(file, word, name, unit, range, faults));
+            Ok(values.collect())
+        };
+    let radii_m = list("radii", n_radii, "m", (1e-3, 0.2))?;
+    let skews_deg = list("skews", n_radii, "deg", (-89.0, 89.0))?;
+    let speeds_rpm = list("speeds", n_speeds, "rpm", (1.0, 1e5))?;
+    let altitudes_m = list("altitudes", n_altitudes, "m", (-500.0, 12_000.0))?;
+    let mut number =
+        |name: &str, unit: &str, range: (f64, f64), needed: bool| -> Result<f64, Faults> {
+            match settings.get(name) {
+                Some((word, _)) => Ok(within(file, word, name, unit, range, faults)),
+                None if needed => Err(missing(name)),
+                None => Ok(0.0),
+            }
+        };
+    let any = (-1e9, 1e9);
+    let pressure_pa = number("p0", "Pa", (1e3, 1e6), true)?;
+    let mean_free_path_m = number("al", "m", (1e-9, 1e-5), true)?;
+    let viscosity_pa_s = number("vis", "Pa s", (1e-6, 1e-3), true)?;
+    let load_kgf = number("f0", "kg", (1e-6, 0.02), true)?;
+    let load_point_m = [
+        number("xf0", "m", any, false)?,
+        number("yf0", "m", any, false)?,
+    ];
+    let static_angles_rad = [
+        number("psa", "rad", any, false)?,
+        number("rsa", "rad", any, false)?,
+    ];
+    let slip = match count("imodel")? {
+        1 => Slip::First,
+        2 => Slip::Second,
+        3 => Slip::FukuiKaneko,
+        other => {
+            let (word, _) = settings["imodel"];
+            return Err(Fault::of("E175", file, "no such slip model")
+                .at(word.place())
+                .what("imodel")
+                .value(other.to_string())
+                .allowed("1 first order, 2 second order, 3 Fukui-Kaneko")
+                .into());
+        }
+    };
+    let contact_model = if settings.contains_key("icmodel") {
+        count("icmodel")?
+    } else {
+        0
+    };
+    Ok(RunFile {
+        version,
+        radii_m,
+        skews_deg,
+        speeds_rpm,
+        altitudes_m,
+        pressure_pa,
+        mean_free_path_m,
+        viscosity_pa_s,
+        load_kgf,
+        load_point_m,
+        static_angles_rad,
+        slip,
+        contact_model,
+    })
+}
+
+/// A number within a range; a fault where it is none or outside.
+fn within(
+    file: &str,
+    word: &Word<'_>,
+    name: &str,
+    unit: &str,
+    (low, high): (f64, f64),
+    faults: &mut Faults,
+) -> f64 {
+    let before = faults.listed.len() + faults.unlisted;
+    let value = super::real(file, word, name, faults);
+    let sound = before == faults.listed.len() + faults.unlisted;
+    if sound && !(low..=high).contains(&value) {
+        let fault = Fault::of("E175", file, "the value is not allowed");
+        faults.push(
+            fault
+                .at(word.place())
+                .what(name)
+                .value(format!("{} {unit}", short(value)))
+                .allowed(format!("{} to {} {unit}", short(low), short(high))),
+        );
+    }
+    value
+}
+
+/// The file with what is read here, every digit.
+pub fn write(file: &RunFile) -> String {
+    let row = |values: &[f64]| {
+        let words: Vec<String> = values.iter().map(|value| format!("{value:e}")).collect();
+        words.join(" ")
+    };
+    let stars = "*".repeat(40);
+    let model = match file.slip {
+        Slip::First => 1,
+        Slip::Second => 2,
+        Slip::FukuiKaneko => 3,
+    };
+    let mut lines = vec![
+        format!("CML Version {} run file", file.version),
+        "written by opshock".to_owned(),
+        stars.clone(),
+        "irad irpm ialt sort".to_owned(),
+        format!(
+            "{} {} {} 0",
+            file.radii_m.len(),
+            file.speeds_rpm.len(),
+            file.altitudes_m.len()
+        ),
+    ];
+    for list in [
+        &file.radii_m,
+        &file.skews_deg,
+        &file.speeds_rpm,
+        &file.altitudes_m,
+    ] {
+        if !list.is_empty() {
+            lines.push(row(list));
+        }
+    }
+    let gas = [file.pressure_pa, file.mean_free_path_m, file.viscosity_pa_s];
+    let ([x, y], [pitch, roll]) = (file.load_point_m, file.static_angles_rad);
+    lines.extend([
+        stars.clone(),
+        "p0(Pa) al(m) vis(Pa.s)".to_owned(),
+        row(&gas),
+        stars.clone(),
+        "f0(kg) xf0(m) yf0(m) psa(rad) rsa(rad)".to_owned(),
+        row(&[file.load_kgf, x, y, pitch, roll]),
+        stars.clone(),
+        "imodel".to_owned(),
+        model.to_string(),
+        stars,
+        "icmodel".to_owned(),
+        file.contact_model.to_string(),
+    ]);
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,237 @@
+//! What the files say, as a study file and a surface file of opshock (TOML).
+
+use super::rail::{RailFile, Recess};
+use super::run::{RunFile, Slip};
+use crate::fault::{Fault, Faults};
+use std::fmt::Write as _;
+
+/// A file's text, and what of its source it could not take along.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// TOML.
+    pub text: String,
+    /// N207 for each thing left out.
+    pub left_out: Vec<Fault>,
+}
+
+/// A number in another unit with the fewest digits that give it back.
+fn shortest(value: f64, per: f64) -> String {
+    let scaled = value * per;
+    for digits in 0..17 {
+        let text = format!("{scaled:.digits$e}");
+        let short: f64 = text.parse().unwrap_or(scaled);
+        if (short / per - value).abs() <= 2.0 * f64::EPSILON * value.abs() {
+            return format!("{short}");
+        }
+    }
+    format!("{scaled}")
+}
+
+/// The surface file of a `rail.dat`.
+///
+/// # Errors
+/// E176 for rails that are ramps: opshock's rails are of one depth.
+pub fn surface(file: &RailFile, name: &str) -> Result<Written, Faults> {
+    let mut faults = Faults::default();
+    let um = |value: f64| shortest(value, 1e6);
+    let nm = |value: f64| shortest(value, 1e9);
+    let mut text = format!("# From a CMLAir {} rail file.\n", file.version);
+    let _ = writeln!(text, "base_recess_um = {}", um(file.base_recess_m));
+    let _ = writeln!(text, "crown_nm = {}", nm(file.crown_m));
+    let _ = writeln!(text, "camber_nm = {}", nm(file.camber_m));
+    let _ = writeln!(text, "twist_nm = {}", nm(file.twist_m));
+    if file.taper_length_m > 0.0 {
+        let _ = writeln!(text, "taper_length_um = {}", um(file.taper_length_m));
+        let _ = writeln!(
+            text,
+            "taper_angle_deg = {}",
+            file.taper_angle_rad.to_degrees()
+        );
+    }
+    let mut n_walled = 0;
+    for (k, rail) in (1..).zip(&file.rails) {
+        let depth = match rail.recess {
+            Recess::Step(depth) => depth,
+            // A ramp of one height is a step.
+            Recess::Ramp([a, b, c]) if a == b && b == c => a,
+            Recess::Ramp(depths) => {
+                let fault = Fault::of("E176", name, "rails that slope are not simulated");
+                faults.push(
+                    fault
+                        .line(rail.line)
+                        .what(format!("rail {k}"))
+                        .value(format!("depths {depths:?} m"))
+                        .allowed("one depth a rail (style 1)")
+                        .hint("replace it by steps"),
+                );
+                continue;
+            }
+        };
+        n_walled += usize::from(rail.walls.iter().any(|wall| *wall > 0));
+        let corners: Vec<String> = rail
+            .corners_m
+            .iter()
+            .map(|[x, y]| {
+                // Rounding beyond the edges of the slider is taken back.
+                let (x, y) = (x.clamp(0.0, file.length_m), y.clamp(0.0, file.width_m));
+                format!("[{}, {}]", um(x), um(y))
+            })
+            .collect();
+        let _ = write!(
+            text,
+            "\n[[rail]]\nkind = \"polygon\"\npoints_um = [{}]\nrecess_um = {}\n",
+            corners.join(", "),
+            um(depth)
+        );
+    }
+    let mut left_out = Vec::new();
+    if n_walled > 0 {
+        left_out.push(
+            Fault::of("N207", name, "wall profiles are replaced by vertical walls")
+                .what("walls")
+                .value(format!("{n_walled} rails with sloping walls")),
+        );
+    }
+    if !file.points_m.is_empty() {
+        left_out.push(
+            Fault::of("N207", name, "points of interest are not taken along")
+                .what("points")
+                .value(file.points_m.len().to_string()),
+        );
+    }
+    faults.or(Written { text, left_out })
+}
+
+/// Where files are, and what is taken of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// Name of the study.
+    pub name: &'a str,
+    /// Surface file, beside the study.
+    pub surface_file: &'a str,
+    /// Name of `run.dat`, for faults.
+    pub run_file: &'a str,
+    /// Which radius, counted from 1.
+    pub radius: usize,
+    /// Which speed, counted from 1.
+    pub speed: usize,
+}
+
+/// The study of a surface flown as `run.dat` says; without one, on the default drive.
+///
+/// # Errors
+/// E175 when there is no such radius or speed.
+pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result<Written, Faults> {
+    let mut left_out = Vec::new();
+    let mut text = format!(
+        "study_format = 1\nname = {}\noutputs = [\"critical_shock\"]\n\n\
+         [pulse]\nwidths_ms = [0.5, 1.0, 2.0]\nsigns = [\"+\", \"-\"]\n\n\
+         [ramp]\nmodels = [\"none\"]\n\n",
+        quoted(asked.name)
+    );
+    let mut slider = String::from("[slider]\n");
+    if let Some(run) = run {
+        let of = |list: &[f64], k: usize, what: &str| {
+            let found = k.checked_sub(1).and_then(|k| list.get(k)).copied();
+            found.ok_or_else(|| {
+                let fault = Fault::of("E175", asked.run_file, format!("there is no such {what}"));
+                Faults::from(
+                    fault
+                        .what(what)
+                        .value(k.to_string())
+                        .allowed(format!("1 to {}", list.len())),
+                )
+            })
+        };
+        let radius = of(&run.radii_m, asked.radius, "radius")?;
+        let skew = of(&run.skews_deg, asked.radius, "radius")?;
+        let speed = of(&run.speeds_rpm, asked.speed, "speed")?;
+        let _ = write!(text, "[disk]\nrpm = {speed}\n\n");
+        let _ = writeln!(
+            slider,
+            "radius_mm = {}\nskew_deg = {skew}",
+            shortest(radius, 1e3)
+        );
+        let model = match run.slip {
+            Slip::First => "slip_1",
+            Slip::Second => "slip_2",
+            Slip::FukuiKaneko => "fukui_kaneko",
+        };
+        let _ = write!(
+            text,
+            "[gas]\npressure_pa = {}\nviscosity_pa_s = {}\nmean_free_path_nm = {}\nmodel = \"{model}\"\n\n\
+             [suspension]\ngram_load_gf = {}\n\n",
+            run.pressure_pa,
+            run.viscosity_pa_s,
+            shortest(run.mean_free_path_m, 1e9),
+            shortest(run.load_kgf, 1e3),
+        );
+        left_out = run_left_out(run, asked.run_file);
+    }
+    let _ = write!(
+        slider,
+        "length_mm = {}\nwidth_mm = {}\nheight_mm = {}\nsurface = {{ file = {} }}\n",
+        shortest(rail.length_m, 1e3),
+        shortest(rail.width_m, 1e3),
+        shortest(rail.thickness_m, 1e3),
+        quoted(asked.surface_file)
+    );
+    text += &slider;
+    Ok(Written { text, left_out })
+}
+
+fn run_left_out(run: &RunFile, file: &str) -> Vec<Fault> {
+    let mut left_out = Vec::new();
+    let mut note = |what: &str, value: String, message: &str| {
+        left_out.push(Fault::of("N207", file, message).what(what).value(value));
+    };
+    for (what, list) in [("radii", &run.radii_m), ("speeds", &run.speeds_rpm)] {
+        if list.len() > 1 {
+            note(what, list.len().to_string(), "one of them is taken");
+        }
+    }
+    if run.altitudes_m.iter().any(|altitude| *altitude != 0.0) {
+        let value = format!("{:?} m", run.altitudes_m);
+        note(
+            "altitudes",
+            value,
+            "the gas is taken as given and not changed with altitude",
+        );
+    }
+    if run.load_point_m != [0.0; 2] {
+        let value = format!("{:?} m", run.load_point_m);
+        note("xf0, yf0", value, "the load acts at the slider's centre");
+    }
+    if run.static_angles_rad != [0.0; 2] {
+        let value = format!("{:?} rad", run.static_angles_rad);
+        note(
+            "psa, rsa",
+            value,
+            "static angles of the suspension are not taken along",
+        );
+    }
+    if run.contact_model != 0 {
+        let value = run.contact_model.to_string();
+        note(
+            "icmodel",
+            value,
+            "a touch is a failure and not simulated further",
+        );
+    }
+    left_out
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
+}

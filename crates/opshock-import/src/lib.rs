@@ -1,0 +1,15 @@
+//! Readers of other programs' files: mass and stiffness matrices (Matrix Market, CalculiX, dense
+//! text), and the text files of the CMLAir family.
+//!
+//! Readers take text and give plain numbers in SI units, or every fault they found with its place.
+//! They know no study and no solver. What a file can declare never decides how much memory is
+//! taken: only what it holds does.
+
+#![forbid(unsafe_code)]
+
+pub mod cml;
+pub mod fault;
+pub mod matrix;
+pub mod text;
+
+pub use fault::{Fault, Faults};

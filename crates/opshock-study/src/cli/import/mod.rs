@@ -1,0 +1,88 @@
+//! `opshock import`: other programs' files as files of opshock.
+
+mod cmlair;
+mod matrices;
+mod ramp;
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::{Failure, Fault};
+use crate::study::{StudyError, StudyErrors};
+use anyhow::Context as _;
+use clap::{Args, Subcommand};
+use opshock_import::Faults;
+use std::path::{Path, PathBuf};
+
+/// Turn other programs' files into files of opshock
+#[derive(Args, Debug)]
+pub struct ImportArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand, Debug)]
+enum What {
+    Cmlair(cmlair::CmlairArgs),
+    Matrices(matrices::MatricesArgs),
+    Ramp(ramp::RampArgs),
+}
+
+/// Runs the command.
+pub fn run(
+    arguments: &ImportArgs,
+    global: &GlobalArgs,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    match &arguments.what {
+        What::Cmlair(arguments) => cmlair::run(arguments, console),
+        What::Matrices(arguments) => matrices::run(arguments, global, console),
+        What::Ramp(arguments) => ramp::run(arguments, global, console),
+    }
+}
+
+/// Faults of files as faults of a study: one place tells them all.
+fn refused(faults: Faults) -> Failure {
+    let errors = faults.listed.into_iter().map(study_error);
+    let mut errors = StudyErrors::new(errors.collect());
+    errors.unlisted += faults.unlisted;
+    Failure::Study(errors)
+}
+
+fn study_error(fault: opshock_import::Fault) -> StudyError {
+    let mut error = StudyError::in_file(fault.code, &fault.file, fault.message)
+        .value(&fault.value)
+        .allowed(fault.allowed)
+        .hint(fault.hint);
+    (error.line, error.column) = (fault.line, fault.column);
+    error.key = fault.what;
+    error
+}
+
+/// Writes files into a folder that is made where there is none; nothing that is there is replaced.
+fn write_new(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<PathBuf>, Failure> {
+    let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+    if let Some(there) = paths.iter().find(|path| path.exists()) {
+        let fault = Fault {
+            key: Some("--out".to_owned()),
+            value: Some(there.display().to_string()),
+            hint: Some("give another folder; nothing that is there is replaced".to_owned()),
+            ..Fault::new("usage", format!("{} exists already", there.display()))
+        };
+        return Err(Failure::Usage(vec![fault]));
+    }
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    for (path, (_, text)) in paths.iter().zip(files) {
+        std::fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(paths)
+}
+
+/// Paths as text.
+fn shown(paths: &[PathBuf]) -> Vec<String> {
+    paths
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect()
+}
