@@ -12,6 +12,7 @@
 
 use super::harmonic::{self, RadialMesh};
 use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
+use crate::linalg::dense::dot;
 use crate::linalg::{DenseError, lowest};
 
 /// Fewest modes kept for n = 0.
@@ -310,8 +311,4 @@ fn validate(disk: &DiskParameters, resolution: &DiskResolution) -> Result<(), Di
         }
     }
     Ok(())
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

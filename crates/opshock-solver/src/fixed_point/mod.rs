@@ -15,6 +15,8 @@
 //! converges is the residual, never the relaxed change: a relaxation that shrinks cannot feign
 //! convergence. Equal successive residuals give no secant and leave the relaxation as it was.
 
+use crate::linalg::dense::dot;
+
 /// How the next iterate is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
@@ -225,10 +227,6 @@ impl FixedPoint {
         }
         held
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn norm(a: &[f64]) -> f64 {

@@ -15,6 +15,7 @@
 //! suspension's root lies beyond the leading edge). The contact pushes only; its force is
 //! continuous with a kink where the dimple opens.
 
+use crate::linalg::dense::dot;
 use crate::linalg::pivoted::PivotedLu;
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
@@ -269,9 +270,4 @@ fn multiply(matrix: &[f64], x: &[f64], out: &mut [f64]) {
     for (out, row) in out.iter_mut().zip(matrix.chunks_exact(x.len())) {
         *out = dot(row, x);
     }
-}
-
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
