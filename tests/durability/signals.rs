@@ -6,22 +6,11 @@ use std::process::{Child, Command, Output, Stdio};
 
 use opshock_study::store::{Status, results};
 use opshock_study::sweep::{Silent, SweepOptions, stored, sweep};
+use opshock_tests::coarse;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
 
 const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
 const OPSHOCK: &str = env!("CARGO_BIN_EXE_opshock-under-test");
-
-/// Figure 13 at one width without ramp, coarse: two points in a second.
-const FAST: [&str; 8] = [
-    "pulse.widths_ms=[0.5]",
-    "ramp.models=[\"none\"]",
-    "pulse.window_ms=0.8",
-    "search.tolerance_pct=20",
-    "search.certify=off",
-    "search.error_bars=false",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
-];
 
 fn study() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies/fig13/study.toml")
@@ -32,7 +21,7 @@ fn program(folder: &Path) -> Command {
     let mut command = Command::new(OPSHOCK);
     command.current_dir(folder).arg("sweep").arg(study());
     command.args(["--store", "s.opshock", "-j1"]);
-    for set in FAST {
+    for set in coarse::TWO_POINTS.iter().chain(&coarse::SEARCH) {
         command.args(["--set", set]);
     }
     command

@@ -4,25 +4,14 @@
 use std::path::Path;
 
 use crate::cli::{Done, study};
+use opshock_tests::coarse;
 use opshock_tests::hdf5_dump::dump;
-
-/// Figure 13 at one width without ramp, coarse: two points in a second.
-const FAST: [&str; 8] = [
-    "pulse.widths_ms=[0.5]",
-    "ramp.models=[\"none\"]",
-    "pulse.window_ms=0.8",
-    "search.tolerance_pct=20",
-    "search.certify=off",
-    "search.error_bars=false",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
-];
 
 fn sweep(folder: &Path, store: &str, more: &[&str]) -> Done {
     let file = study("fig13");
     let mut words = vec!["sweep", file.to_str().unwrap(), "--store", store, "-j1"];
     words.push("--quiet");
-    for set in FAST {
+    for set in coarse::TWO_POINTS.iter().chain(&coarse::SEARCH) {
         let key = set.split('=').next().unwrap();
         if !more.iter().any(|other| other.starts_with(key)) {
             words.extend(["--set", set]);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::cli::{Done, study};
+use opshock_tests::coarse;
 use opshock_tests::hdf5_dump::dump;
 
 /// Prints a line per dataset: path, units, number of entries.
@@ -30,18 +31,13 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         "s.opshock",
         "--quiet",
     ];
-    for set in [
+    let swept = [
         "pulse.widths_ms=[0.5]",
         "ramp.models=[\"none\", \"rigid\"]",
         "ramp.clearance_um=[80, 100]",
-        "pulse.window_ms=0.8",
-        "search.tolerance_pct=20",
-        "search.certify=off",
-        "search.error_bars=false",
-        "solver.film_cells=200",
-        "solver.disk_cut_khz=10",
         "output.keep_histories=\"bracket\"",
-    ] {
+    ];
+    for set in swept.iter().chain(&coarse::SEARCH) {
         words.extend(["--set", set]);
     }
     let done = Done::of(folder, &words);

@@ -8,6 +8,8 @@ use opshock_study::store::summary::{
     AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals,
 };
 
+const PROGRAM: &str = "opshock 1 (abc)";
+
 fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary {
     let known = status == Status::Ok;
     PointSummary {
@@ -179,15 +181,8 @@ fn the_figure_is_nested_svg_and_a_png_three_times_its_size() {
 fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
     let (summary, runs) = (summary(), runs());
     let page = html(&ReportSource {
-        summary: &summary,
-        runs: &runs,
-        program: "opshock 1 (abc)",
         resolved_study: Some("name = \"<b>\"\n"),
-        audit: None,
-        savings: &[],
-        accuracy: None,
-        plan: "",
-        film: None,
+        ..ReportSource::of_table(&summary, &runs, PROGRAM)
     });
     assert_nested(&page, &["meta", "br"]);
     assert!(page.contains("default-src 'none'"));
@@ -249,15 +244,9 @@ fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
     ];
     let accuracy = accuracy();
     let source = ReportSource {
-        summary: &summary,
-        runs: &[],
-        program: "opshock 1 (abc)",
-        resolved_study: None,
-        audit: None,
-        savings: &[],
         accuracy: Some(&accuracy),
         plan: r#"{"ramps": {"rigid": {"effects": {"disk": "on", "hub": "off"}, "rules_below_touch": ["R4"]}}}"#,
-        film: None,
+        ..ReportSource::of_table(&summary, &[], PROGRAM)
     };
     let page = html(&source);
     assert_nested(&page, &["meta", "br"]);
@@ -282,17 +271,7 @@ fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
 #[test]
 fn a_report_is_the_same_bytes_twice() {
     let (summary, runs) = (summary(), runs());
-    let source = ReportSource {
-        summary: &summary,
-        runs: &runs,
-        program: "opshock 1 (abc)",
-        resolved_study: None,
-        audit: None,
-        savings: &[],
-        accuracy: None,
-        plan: "",
-        film: None,
-    };
+    let source = ReportSource::of_table(&summary, &runs, PROGRAM);
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
         let written = write_report(&folder.path().join("new/folder"), &source).unwrap();
@@ -319,17 +298,7 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
     let mut empty = summary();
     empty.points.clear();
     for summary in [open, empty] {
-        let source = ReportSource {
-            summary: &summary,
-            runs: &[],
-            program: "",
-            resolved_study: None,
-            audit: None,
-            savings: &[],
-            accuracy: None,
-            plan: "",
-            film: None,
-        };
+        let source = ReportSource::of_table(&summary, &[], "");
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);
     }

@@ -195,15 +195,10 @@ impl Page {
         let runs = runs(&summary);
         let film = film();
         let page = html(&ReportSource {
-            summary: &summary,
-            runs: &runs,
-            program: "opshock 1 (abc)",
             resolved_study: Some("name = \"<b>\"\n"),
-            audit: None,
-            savings: &[],
-            accuracy: None,
             plan: r#"{"ramps": {"rigid": {"effects": {"disk": "on", "hub": "off"}}}}"#,
             film: Some(&film),
+            ..ReportSource::of_table(&summary, &runs, "opshock 1 (abc)")
         });
         std::fs::write(folder.path().join("report.html"), &page).unwrap();
         let probed = page.replace("</body>", &format!("{PROBE}</body>"));

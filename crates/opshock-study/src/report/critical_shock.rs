@@ -82,6 +82,30 @@ pub(super) fn series_names(summary: &Summary) -> Vec<String> {
     )
 }
 
+/// The panels of figures that keep both signs apart: every series with every sign the table has, each
+/// with its title.
+pub(super) fn signed_series(summary: &Summary) -> Vec<(String, Sign, String)> {
+    let names = series_names(summary);
+    let signs = signs(summary);
+    let panels = names
+        .iter()
+        .flat_map(|name| signs.iter().map(move |sign| (name, *sign)));
+    panels
+        .map(|(name, sign)| {
+            let sign_text = sign.as_str().replace('-', "\u{2212}");
+            (name.clone(), sign, format!("{name}, sign {sign_text}"))
+        })
+        .collect()
+}
+
+/// Signs that the table has, plus first.
+pub(super) fn signs(summary: &Summary) -> Vec<Sign> {
+    [Sign::Plus, Sign::Minus]
+        .into_iter()
+        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
+        .collect()
+}
+
 /// Name of the series a row belongs to.
 pub(super) fn series_name(summary: &Summary, point: &PointSummary) -> String {
     let mut name = match point.ramp.as_str() {

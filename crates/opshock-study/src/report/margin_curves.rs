@@ -1,9 +1,8 @@
 //! Margin curves: smallest clearance against amplitude, at every point of a study.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
-use super::critical_shock::{series_name, series_names};
+use super::critical_shock::{series_name, signed_series, signs};
 use super::outcome_map::RunDot;
-use crate::search::Sign;
 use crate::store::summary::Summary;
 
 const MARKERS: [Marker; 4] = [
@@ -16,53 +15,45 @@ const MARKERS: [Marker; 4] = [
 /// A panel for every ramp model (and further axis value) and sign, a curve for every pulse width;
 /// open marks touched. Runs without a clearance are left out.
 pub fn margin_curves(summary: &Summary, runs: &[RunDot]) -> Figure {
-    let names = series_names(summary);
-    let signs: Vec<Sign> = [Sign::Plus, Sign::Minus]
-        .into_iter()
-        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
-        .collect();
     let mut panels = Vec::new();
-    for name in &names {
-        for sign in &signs {
-            let mut series = Vec::new();
-            let rows = summary.points.iter().enumerate();
-            let of_panel =
-                rows.filter(|(_, p)| p.sign == *sign && series_name(summary, p) == *name);
-            for (place, (row, point)) in of_panel.enumerate() {
-                let mut samples: Vec<Sample> = runs
-                    .iter()
-                    .filter(|run| run.point == row)
-                    .filter_map(sample)
-                    .collect();
-                samples.sort_by(|a, b| a.x.total_cmp(&b.x));
-                if samples.is_empty() {
-                    continue;
-                }
-                series.push(Series {
-                    marker_px: 3.0,
-                    ..Series::marked(
-                        &format!("{} ms", point.pulse_ms),
-                        colour::CYCLE[place % colour::CYCLE.len()],
-                        Some(Dash::Solid),
-                        (MARKERS[place % MARKERS.len()], Fill::Full),
-                        samples,
-                    )
-                });
+    for (name, sign, title) in signed_series(summary) {
+        let mut series = Vec::new();
+        let rows = summary.points.iter().enumerate();
+        let of_panel = rows.filter(|(_, p)| p.sign == sign && series_name(summary, p) == name);
+        for (place, (row, point)) in of_panel.enumerate() {
+            let mut samples: Vec<Sample> = runs
+                .iter()
+                .filter(|run| run.point == row)
+                .filter_map(sample)
+                .collect();
+            samples.sort_by(|a, b| a.x.total_cmp(&b.x));
+            if samples.is_empty() {
+                continue;
             }
-            panels.push(Panel {
-                title: format!("{name}, sign {}", sign.as_str().replace('-', "\u{2212}")),
-                x: Axis::log("Amplitude (G)"),
-                y: Axis::linear("Smallest clearance (nm)"),
-                series,
-                rules: Vec::new(),
-                shaded: None,
+            series.push(Series {
+                marker_px: 3.0,
+                ..Series::marked(
+                    &format!("{} ms", point.pulse_ms),
+                    colour::CYCLE[place % colour::CYCLE.len()],
+                    Some(Dash::Solid),
+                    (MARKERS[place % MARKERS.len()], Fill::Full),
+                    samples,
+                )
             });
         }
+        panels.push(Panel {
+            title,
+            x: Axis::log("Amplitude (G)"),
+            y: Axis::linear("Smallest clearance (nm)"),
+            series,
+            rules: Vec::new(),
+            shaded: None,
+        });
     }
     Figure {
         title: "Margin".into(),
         subtitle: "smallest clearance of every simulation; open marks touch".into(),
-        columns: signs.len().max(1),
+        columns: signs(summary).len().max(1),
         panel_px: (470.0, 300.0),
         panels,
     }

@@ -1,7 +1,7 @@
 //! Outcome map: every simulation of a study in the plane of pulse width and amplitude.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
-use super::critical_shock::{series_name, series_names};
+use super::critical_shock::{series_name, signed_series, signs};
 use crate::search::Sign;
 use crate::store::summary::Summary;
 
@@ -21,38 +21,31 @@ pub struct RunDot {
 /// A panel for every series (ramp model and further axis values) and sign; every simulation a
 /// dot, the critical shock as a line, the amplitude of first touch as a dotted line.
 pub fn outcome_map(summary: &Summary, runs: &[RunDot]) -> Figure {
-    let names = series_names(summary);
     let amplitudes = || {
         let touches = summary.points.iter().filter_map(|point| point.onset_g);
         runs.iter().map(|run| run.amplitude_g).chain(touches)
     };
     let low = amplitudes().fold(f64::INFINITY, f64::min);
     let high = amplitudes().fold(f64::NEG_INFINITY, f64::max);
-    let signs: Vec<Sign> = [Sign::Plus, Sign::Minus]
-        .into_iter()
-        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
-        .collect();
     let mut panels = Vec::new();
-    for name in &names {
-        for sign in &signs {
-            let mut y = Axis::log("Amplitude (G)");
-            if low < high {
-                y = y.between(low / 1.12, high * 1.12);
-            }
-            panels.push(Panel {
-                title: format!("{name}, sign {}", sign.as_str().replace('-', "\u{2212}")),
-                x: Axis::linear("Pulse width (ms)"),
-                y,
-                series: panel_series(summary, runs, name, *sign),
-                rules: Vec::new(),
-                shaded: None,
-            });
+    for (name, sign, title) in signed_series(summary) {
+        let mut y = Axis::log("Amplitude (G)");
+        if low < high {
+            y = y.between(low / 1.12, high * 1.12);
         }
+        panels.push(Panel {
+            title,
+            x: Axis::linear("Pulse width (ms)"),
+            y,
+            series: panel_series(summary, runs, &name, sign),
+            rules: Vec::new(),
+            shaded: None,
+        });
     }
     Figure {
         title: "Every simulation".into(),
         subtitle: String::new(),
-        columns: signs.len().max(1),
+        columns: signs(summary).len().max(1),
         panel_px: (470.0, 330.0),
         panels,
     }

@@ -44,7 +44,22 @@ pub struct ReportSource<'a> {
     pub film: Option<&'a ShockFilm>,
 }
 
-impl ReportSource<'_> {
+impl<'a> ReportSource<'a> {
+    /// A report of the table and its simulations alone.
+    pub fn of_table(summary: &'a Summary, runs: &'a [RunDot], program: &'a str) -> Self {
+        Self {
+            summary,
+            runs,
+            program,
+            resolved_study: None,
+            audit: None,
+            savings: &[],
+            accuracy: None,
+            plan: "",
+            film: None,
+        }
+    }
+
     /// The line under a table: program, study, audit.
     pub fn provenance(&self) -> String {
         let audit = self
