@@ -54,7 +54,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-accuracy verify-report ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -74,6 +74,11 @@ verify-slurm: ## a job array with a killed task on a real Slurm on the loopback 
 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
+
+.PHONY: verify-solid
+verify-solid: ## frequencies of a ramp's finite elements against CalculiX on the same mesh
+	@scripts/bootstrap --verify
+	cargo test --locked -p opshock-solid --test calculix -- --ignored --nocapture
 
 verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow

@@ -149,8 +149,10 @@ impl ReducedSolid {
             .map(|(value, vector)| {
                 let mut shape = vector[..self.n_points].to_vec();
                 let mut participation = dot(vector, &self.base_load);
-                // The sign of a mode is free: the same whatever the processor.
-                if participation < 0.0 {
+                // The sign of a mode is free: that of a number which is not rounding alone.
+                let largest = shape.iter().fold(0.0_f64, |most, s| s.abs().max(most));
+                let sign = shape.iter().find(|s| s.abs() > 1e-3 * largest);
+                if sign.is_some_and(|s| *s < 0.0) {
                     participation = -participation;
                     shape.iter_mut().for_each(|s| *s = -*s);
                 }

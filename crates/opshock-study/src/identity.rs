@@ -8,7 +8,7 @@
 use opshock_solver::air_bearing::{FilmResolution, FlowModel};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
 use opshock_solver::gas::GasParameters;
-use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
+use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
@@ -320,6 +320,25 @@ impl Digester {
                     {
                         self.numbers(&[*frequency_hz, *mass_kg, *participation, *damping_ratio]);
                     }
+                }
+            }
+            RampModel::Coupled { modes } => {
+                self.text("coupled");
+                self.integer(modes.len() as u64);
+                for CoupledMode {
+                    frequency_hz,
+                    shape_per_sqrt_kg: [top, bottom],
+                    participation_sqrt_kg,
+                    damping_ratio,
+                } in modes
+                {
+                    self.numbers(&[
+                        *frequency_hz,
+                        *top,
+                        *bottom,
+                        *participation_sqrt_kg,
+                        *damping_ratio,
+                    ]);
                 }
             }
         }

@@ -58,7 +58,7 @@ pub struct RampGeometry {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// A dimension out of its range.
-    #[error("{name} = {value:e} is outside its range ({allowed})")]
+    #[error("{name} = {} mm is outside its range ({allowed})", mm(*value))]
     Dimension {
         /// Name of the field.
         name: &'static str,
@@ -68,7 +68,10 @@ pub enum GeometryError {
         allowed: String,
     },
     /// Elements larger than a part, or more than a machine holds.
-    #[error("mesh size {size_m:e} m asks for {elements} elements (1 to {MOST_ELEMENTS} allowed)")]
+    #[error(
+        "a mesh size of {} mm asks for {elements} cells, 1 to {MOST_ELEMENTS} elements are allowed",
+        mm(*size_m)
+    )]
     MeshSize {
         /// Size asked for, m.
         size_m: f64,
@@ -77,8 +80,13 @@ pub enum GeometryError {
     },
 }
 
-/// Most elements of a ramp: some gigabytes of factors.
-pub const MOST_ELEMENTS: usize = 60_000;
+/// Most elements of a ramp: a gigabyte and a minute.
+pub const MOST_ELEMENTS: usize = 10_000;
+
+/// Millimetres without the digits of rounding.
+fn mm(length_m: f64) -> f64 {
+    (1e9 * length_m).round() / 1e6
+}
 
 impl RampGeometry {
     /// A ramp of a 2.5-inch drive with one disk, opshock's own: fingers that overlap the rim by
@@ -144,7 +152,7 @@ impl RampGeometry {
         }
         let at_most = |name, value, bound: f64, of: &str| {
             if value > bound {
-                let allowed = format!("at most {bound:e} m, {of}");
+                let allowed = format!("at most {} mm, {of}", mm(bound));
                 return Err(fault(name, value, allowed));
             }
             Ok(())
@@ -199,8 +207,8 @@ impl RampGeometry {
         }
         if self.body_depth_m < lowest + mount {
             let allowed = format!(
-                "at least {:e} m, half the slot, the lower finger and the mount",
-                lowest + mount
+                "at least {} mm, half the slot, the lower finger and the mount",
+                mm(lowest + mount)
             );
             return Err(fault("body_depth", self.body_depth_m, allowed));
         }

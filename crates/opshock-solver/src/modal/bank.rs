@@ -174,6 +174,12 @@ impl BankFlow {
     pub fn compliance(&self, shape: &[f64]) -> f64 {
         shape.iter().zip(&self.qr.re).map(|(b, s)| b * b * s).sum()
     }
+
+    /// Displacement of `to` after the flow per unit impulse on `from` at its start.
+    pub fn compliance_across(&self, from: &[f64], to: &[f64]) -> f64 {
+        let pairs = from.iter().zip(to).zip(&self.qr.re);
+        pairs.map(|((a, b), s)| a * b * s).sum()
+    }
 }
 
 impl Readout {

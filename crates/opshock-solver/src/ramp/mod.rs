@@ -1,4 +1,4 @@
-//! Load/unload ramp: none, rigid, or deformable arms given as modes.
+//! Load/unload ramp: none, rigid, deformable arms given as modes each, or both arms as one body.
 
 /// One mode of a ramp arm, scaled to shape 1 at the contact point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,23 @@ pub struct ArmMode {
     pub mass_kg: f64,
     /// Base participation: inertia load = mass x participation x a(t).
     pub participation: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+}
+
+/// One mode of a ramp of which both arms are one body, of unit modal mass.
+///
+/// ```text
+/// q'' + 2 ζ ω q' + ω² q = φ_top λ_top − φ_bottom λ_bottom + p a(t),    x_arm = Σ φ_arm q
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoupledMode {
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Displacement φ of the top and the bottom contact point per unit of the mode, 1/√kg.
+    pub shape_per_sqrt_kg: [f64; 2],
+    /// Base participation p: load per inertia load per mass a(t), √kg.
+    pub participation_sqrt_kg: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
 }
@@ -26,6 +43,11 @@ pub enum RampModel {
         top: Vec<ArmMode>,
         /// Modes of the bottom arm.
         bottom: Vec<ArmMode>,
+    },
+    /// Contact points on one flexible body: what pushes one arm moves the other as well.
+    Coupled {
+        /// Modes of the body.
+        modes: Vec<CoupledMode>,
     },
 }
 
@@ -69,6 +91,12 @@ pub enum RampError {
         value: f64,
         /// Allowed range in words.
         allowed: &'static str,
+    },
+    /// No mode of the body moves a contact point.
+    #[error("no mode of the ramp moves its {side} contact point: use a rigid ramp")]
+    CannotMove {
+        /// Which arm.
+        side: &'static str,
     },
     /// A deformable arm without a mode cannot move at its contact point.
     #[error("the {side} arm has no mode: use a rigid ramp")]
@@ -137,7 +165,67 @@ impl RampParameters {
                 arm.iter().try_for_each(ArmMode::validate)?;
             }
         }
+        if let RampModel::Coupled { modes } = &self.model {
+            modes.iter().try_for_each(CoupledMode::validate)?;
+            for (at, side) in ["top", "bottom"].into_iter().enumerate() {
+                if modes.iter().all(|mode| mode.shape_per_sqrt_kg[at] == 0.0) {
+                    return Err(RampError::CannotMove { side });
+                }
+            }
+        }
         Ok(())
+    }
+}
+
+impl CoupledMode {
+    /// The mode as one arm sees it, scaled to shape 1 at its contact point; `None` where that point
+    /// rests.
+    pub fn at_contact(&self, arm: usize) -> Option<ArmMode> {
+        let shape = self.shape_per_sqrt_kg[arm];
+        (shape != 0.0).then(|| ArmMode {
+            frequency_hz: self.frequency_hz,
+            mass_kg: (shape * shape).recip(),
+            participation: self.participation_sqrt_kg * shape,
+            damping_ratio: self.damping_ratio,
+        })
+    }
+
+    fn validate(&self) -> Result<(), RampError> {
+        let [top, bottom] = self.shape_per_sqrt_kg;
+        let participation = self.participation_sqrt_kg;
+        let checks = [
+            (
+                "frequency_hz",
+                self.frequency_hz,
+                self.frequency_hz > 0.0,
+                "finite and above 0",
+            ),
+            ("shape at the top contact", top, true, "finite"),
+            ("shape at the bottom contact", bottom, true, "finite"),
+            ("participation", participation, true, "finite"),
+            (
+                "damping_ratio",
+                self.damping_ratio,
+                self.damping_ratio >= 0.0,
+                "finite and at least 0",
+            ),
+        ];
+        first_fault(&checks)
+    }
+}
+
+/// Name, value, whether it is in range, the range in words: the first that is not.
+fn first_fault(checks: &[(&'static str, f64, bool, &'static str)]) -> Result<(), RampError> {
+    let fault = checks
+        .iter()
+        .find(|(_, value, ok, _)| !(*ok && value.is_finite()));
+    match fault {
+        Some(&(name, value, _, allowed)) => Err(RampError::Parameter {
+            name,
+            value,
+            allowed,
+        }),
+        None => Ok(()),
     }
 }
 
@@ -160,15 +248,6 @@ impl ArmMode {
                 "finite and at least 0",
             ),
         ];
-        for (name, value, ok, allowed) in checks {
-            if !ok || !value.is_finite() {
-                return Err(RampError::Parameter {
-                    name,
-                    value,
-                    allowed,
-                });
-            }
-        }
-        Ok(())
+        first_fault(&checks)
     }
 }

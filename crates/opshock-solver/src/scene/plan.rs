@@ -322,7 +322,7 @@ impl Plan {
                 _ => sleeps("ramp.contact", "R3"),
             },
             match scene.ramp.model {
-                RampModel::Deformable { .. } => on("ramp.arms"),
+                RampModel::Deformable { .. } | RampModel::Coupled { .. } => on("ramp.arms"),
                 _ => effect("ramp.arms", State::Off, None),
             },
             needs("head.steady_flight", Needs::Flight),
@@ -487,6 +487,10 @@ pub fn is_mirrored(scene: &Scene) -> bool {
         RampModel::None => return true,
         RampModel::Rigid => true,
         RampModel::Deformable { top, bottom } => top == bottom,
+        // Turned over, a body with arms that move alike is itself.
+        RampModel::Coupled { modes } => modes
+            .iter()
+            .all(|mode| mode.shape_per_sqrt_kg[0] == mode.shape_per_sqrt_kg[1]),
     };
     arms && scene.ramp.clearance_top_m == scene.ramp.clearance_bottom_m
 }
@@ -509,5 +513,6 @@ fn mirror_words(scene: &Scene) -> String {
             format!("{clearances}, arms equal")
         }
         RampModel::Deformable { .. } => format!("{clearances}, arms differ"),
+        RampModel::Coupled { .. } => format!("{clearances}, arms of one body"),
     }
 }

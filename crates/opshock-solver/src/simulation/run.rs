@@ -184,7 +184,7 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     match model.scene.ramp.model {
         RampModel::None => {}
         RampModel::Rigid => names.extend(["ramp.contact", "disk.travelling_waves"]),
-        RampModel::Deformable { .. } => {
+        RampModel::Deformable { .. } | RampModel::Coupled { .. } => {
             names.extend(["ramp.contact", "ramp.arms", "disk.travelling_waves"]);
         }
     }

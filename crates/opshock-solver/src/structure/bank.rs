@@ -5,7 +5,7 @@ use super::model::{Arm, SliderPlace};
 use crate::disk::{DiskBasis, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
-use crate::ramp::ArmMode;
+use crate::ramp::{ArmMode, CoupledMode};
 
 /// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
 const FASTEST_ARM_ANGLE: f64 = 1.5;
@@ -175,6 +175,54 @@ impl Bank {
         }
     }
 
+    /// Appends the modes of a body that holds both arms. One too fast for the step is slowed as in
+    /// [`Self::add_arm`]: φ/ω and p/ω stay. A contact stiffness is one more mode per arm.
+    pub fn add_coupled(
+        &mut self,
+        modes: &[CoupledMode],
+        stiffness: Option<f64>,
+        step_s: f64,
+    ) -> [Arm; 2] {
+        let start = self.oscillators.len();
+        let springs = stiffness.into_iter().flat_map(|stiffness_n_per_m| {
+            let shape = std::f64::consts::TAU * SPRING_HZ / stiffness_n_per_m.sqrt();
+            [[shape, 0.0], [0.0, shape]].map(|shape_per_sqrt_kg| CoupledMode {
+                frequency_hz: SPRING_HZ,
+                shape_per_sqrt_kg,
+                participation_sqrt_kg: 0.0,
+                damping_ratio: SPRING_DAMPING,
+            })
+        });
+        for mode in modes.iter().copied().chain(springs) {
+            let fastest_hz = FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s);
+            let share = (fastest_hz / mode.frequency_hz).min(1.0);
+            self.n_slowed += usize::from(share < 1.0);
+            let omega = std::f64::consts::TAU * mode.frequency_hz * share;
+            let o = Oscillator::fixed(omega, mode.damping_ratio);
+            self.forced_index.push(self.oscillators.len());
+            self.forced.oscillators.push(o);
+            self.forced
+                .participation
+                .push(share * mode.participation_sqrt_kg);
+            self.oscillators.push(o);
+            let before = self.forced.oscillators.len() - 1;
+            for (side, column) in [&mut self.shapes.top, &mut self.shapes.bottom]
+                .into_iter()
+                .enumerate()
+            {
+                let shape = share * mode.shape_per_sqrt_kg[side];
+                self.arm_shape[side].push(shape);
+                column.resize(before, 0.0);
+                column.push(shape);
+            }
+        }
+        self.n_arms += 2;
+        let modes = start..self.oscillators.len();
+        [0, 1].map(|_| Arm {
+            modes: modes.clone(),
+        })
+    }
+
     pub fn pad(&mut self) {
         let n = padded(self.oscillators.len());
         self.oscillators.resize(n, Oscillator::default());
@@ -188,13 +236,18 @@ impl Bank {
 
     /// Σ shape² weight of the modes under both contacts: mobility for a weight of 1.
     pub fn contact_matrix(&self, weight: impl Fn(&Oscillator) -> f64) -> [[f64; 2]; 2] {
-        let sum = |shape: &[f64]| -> f64 {
-            let pairs = shape.iter().zip(&self.oscillators);
-            pairs.map(|(b, o)| b * b * weight(o)).sum()
+        let sum = |a: &[f64], b: &[f64]| -> f64 {
+            let pairs = a.iter().zip(b).zip(&self.oscillators);
+            pairs.map(|((a, b), o)| a * b * weight(o)).sum()
         };
-        let disk = sum(&self.contact);
-        let [top, bottom] = [0, 1].map(|i| sum(&self.arm_shape[i]));
-        [[disk + top, -disk], [-disk, disk + bottom]]
+        let disk = sum(&self.contact, &self.contact);
+        let [top, bottom] = [0, 1].map(|i| sum(&self.arm_shape[i], &self.arm_shape[i]));
+        // One body: a push on one arm moves the other.
+        let across = sum(&self.arm_shape[0], &self.arm_shape[1]);
+        [
+            [disk + top, -disk - across],
+            [-disk - across, disk + bottom],
+        ]
     }
 
     pub fn slider_jump(&self) -> DiskPose {

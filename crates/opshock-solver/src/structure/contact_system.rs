@@ -419,8 +419,15 @@ impl UnilateralSystem for ContactSystem<'_> {
             &self.state.part_flow
         };
         let disk = flow.compliance(&shared.contact);
-        let arm = |side: usize| flow.compliance(&shared.arm_shape[side]);
-        [[disk + arm(0), -disk], [-disk, disk + arm(1)]]
+        let [top, bottom] = &shared.arm_shape;
+        let across = match shared.coupled {
+            true => disk + flow.compliance_across(top, bottom),
+            false => disk,
+        };
+        [
+            [disk + flow.compliance(top), -across],
+            [-across, disk + flow.compliance(bottom)],
+        ]
     }
 
     fn ripple_loss(&self) -> [[f64; 2]; 2] {

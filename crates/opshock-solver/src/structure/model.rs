@@ -169,6 +169,8 @@ pub(super) struct Shared {
     /// Bank index of each forced mode.
     pub forced_index: Vec<usize>,
     pub arms: [Arm; 2],
+    /// Whether both arms are one body with the same modes.
+    pub coupled: bool,
     /// Shape of the disk at the contact point, over the bank (zero on arms).
     pub contact: Vec<f64>,
     /// Nodal diameters times `contact`: −Im of it reads w_θ.
@@ -256,15 +258,16 @@ impl StructureModel {
 
         let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
         let n_steps = count_steps(window, step_s)?;
-        let arms: [&[ArmMode]; 2] = match &ramp.model {
-            RampModel::None | RampModel::Rigid => [&[], &[]],
-            RampModel::Deformable { top, bottom } => [&top[..], &bottom[..]],
-        };
         let stiffness = match ramp.model {
             RampModel::None => None,
-            RampModel::Rigid | RampModel::Deformable { .. } => ramp.contact_stiffness_n_per_m,
+            _ => ramp.contact_stiffness_n_per_m,
         };
-        let arms = arms.map(|modes| bank.add_arm(modes, stiffness, step_s));
+        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, stiffness, step_s);
+        let arms = match &ramp.model {
+            RampModel::None | RampModel::Rigid => [add(&[]), add(&[])],
+            RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
+            RampModel::Coupled { modes } => bank.add_coupled(modes, stiffness, step_s),
+        };
         bank.pad();
 
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());
@@ -301,6 +304,7 @@ impl StructureModel {
                 n_disk: bank.n_disk,
                 oscillators: bank.oscillators,
                 forced_index: bank.forced_index,
+                coupled: arms[0].modes == arms[1].modes && !arms[0].modes.is_empty(),
                 arms,
                 contact: bank.contact,
                 contact_turn: bank.contact_turn,
@@ -352,7 +356,10 @@ impl StructureModel {
 
     /// Number of modes of both arms.
     pub fn n_arm_modes(&self) -> usize {
-        self.shared.arms.iter().map(|arm| arm.modes.len()).sum()
+        match self.shared.coupled {
+            true => self.shared.arms[0].modes.len(),
+            false => self.shared.arms.iter().map(|arm| arm.modes.len()).sum(),
+        }
     }
 
     /// Number of modes carried: disk (with static corrections) and arms.

@@ -2,7 +2,7 @@
 
 use super::StructureError;
 use crate::disk::{DiskBasis, DiskParameters, DiskResolution, Harmonics};
-use crate::ramp::{RampModel, RampParameters};
+use crate::ramp::{CoupledMode, RampModel, RampParameters};
 use std::f64::consts::TAU;
 
 /// One mode of the disk; n >= 1 stands for a pair.
@@ -45,6 +45,8 @@ pub struct StructureModes {
     pub disk: Vec<DiskModeRow>,
     /// Ramp arms.
     pub ramp: Vec<ArmModeRow>,
+    /// Modes of a ramp whose arms are one body.
+    pub coupled_ramp: Vec<CoupledMode>,
 }
 
 /// Modes of the disk below the cut and of the arms.
@@ -89,8 +91,13 @@ pub fn modes(
             }));
         }
     }
+    let coupled_ramp = match &ramp.model {
+        RampModel::Coupled { modes } => modes.clone(),
+        _ => Vec::new(),
+    };
     Ok(StructureModes {
         disk: rows,
         ramp: arms,
+        coupled_ramp,
     })
 }

@@ -70,6 +70,17 @@ fn as_json(structure: &StructureModes, suspension: &ReducedSuspension, head: &[M
             })
         })
         .collect();
+    let coupled = structure.coupled_ramp.iter().map(|mode| {
+        json!({
+            "arm": "both",
+            "frequency_hz": mode.frequency_hz,
+            "top_shape_per_sqrt_kg": mode.shape_per_sqrt_kg[0],
+            "bottom_shape_per_sqrt_kg": mode.shape_per_sqrt_kg[1],
+            "participation_sqrt_kg": mode.participation_sqrt_kg,
+            "damping_ratio": mode.damping_ratio,
+        })
+    });
+    let ramp: Vec<Value> = ramp.into_iter().chain(coupled).collect();
     json!({
         "disk": disk,
         "ramp": ramp,
@@ -118,6 +129,21 @@ fn as_text(
             mode.frequency_hz,
             1e6 * mode.mass_kg,
             mode.participation,
+            mode.damping_ratio
+        );
+    }
+    if !structure.coupled_ramp.is_empty() {
+        text.push_str(
+            "ramp, both arms one body (modes of unit mass)\n  frequency (Hz)  top (1/sqrt kg)  bottom (1/sqrt kg)  participation (sqrt mg)  damping ratio\n",
+        );
+    }
+    for mode in &structure.coupled_ramp {
+        let [top, bottom] = mode.shape_per_sqrt_kg;
+        let _ = writeln!(
+            text,
+            "  {:>14.2}  {top:>15.2}  {bottom:>18.2}  {:>23.4}  {:>13.5}",
+            mode.frequency_hz,
+            1e3 * mode.participation_sqrt_kg,
             mode.damping_ratio
         );
     }

@@ -28,7 +28,7 @@ pub struct Location {
 /// key's default, or the rails of the surface's preset or file.
 pub fn base_list(root: &Node, sets: &[SetArg], path: &str, location: &Location) -> Option<Node> {
     let key = super::keys::find(path)?;
-    if let Presence::Default(literal) = key.presence {
+    if let Presence::Default(literal) | Presence::Together(literal) = key.presence {
         return (key.kind == Kind::Tables).then(|| tree::literal(literal));
     }
     let rail = path.strip_prefix("slider.surface.")?;

@@ -55,6 +55,8 @@ pub const OUTPUTS: &[&str] = &[
 ];
 /// Effects that can be left out by hand.
 pub const LEAVE_OUT: &[&str] = &["air_bearing"];
+/// Named materials of a ramp.
+pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
 /// Named surfaces.
 pub const SURFACES: &[&str] = &["femto-2.5in"];
 
@@ -103,7 +105,7 @@ pub static KEYS: &[Key] = &[
     Key::or("ramp.angle_deg", Number(closed(-360.0, 360.0)), "0.0", "Angle of the contact points in the disk's sense of rotation."),
     Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact; 0 with a contact stiffness.").code("E136"),
     Key::optional("ramp.contact_stiffness_n_per_m", LENGTH, "a hard contact", "1.0e6", "Local stiffness between each arm and its contact point.").usual(1e4, 1e9).code("E136"),
-    Key::or("ramp.deformable.modes", Tables, "[{ frequency_hz = 888.0, mass_mg = 57.9, participation = 0.199 }, { frequency_hz = 17500.0, mass_mg = 35.1, participation = 0.789 }]", "Modes of each arm, scaled to 1 at the contact point; both arms alike.").code("E135"),
+    Key::together("ramp.deformable.modes", Tables, "[{ frequency_hz = 888.0, mass_mg = 57.9, participation = 0.199 }, { frequency_hz = 17500.0, mass_mg = 35.1, participation = 0.789 }]", "Modes of each arm, scaled to 1 at the contact point; both arms alike.").code("E135"),
     Key::required("ramp.deformable.modes[].frequency_hz", LENGTH, "888.0", "Undamped natural frequency.").usual(10.0, 1e6),
     Key::required("ramp.deformable.modes[].mass_mg", LENGTH, "57.9", "Modal mass.").usual(0.01, 1e5),
     Key::required("ramp.deformable.modes[].participation", Number(ANY), "0.199", "Base participation: inertia load = mass x participation x acceleration.").usual(-5.0, 5.0),
@@ -113,6 +115,27 @@ pub static KEYS: &[Key] = &[
     Key::required("ramp.deformable.bottom_modes[].mass_mg", LENGTH, "57.9", "Modal mass.").usual(0.01, 1e5),
     Key::required("ramp.deformable.bottom_modes[].participation", Number(ANY), "0.199", "Base participation: inertia load = mass x participation x acceleration.").usual(-5.0, 5.0),
     Key::optional("ramp.deformable.bottom_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132"),
+    Key::optional("ramp.deformable.geometry.material", Word(RAMP_MATERIALS), "a ramp given by modes", "\"POM\"", "Material; with it the ramp is given by its geometry instead of modes."),
+    Key::optional("ramp.deformable.geometry.youngs_modulus_gpa", LENGTH, "the material's", "2.85", "Young's modulus, instead of the material's.").usual(0.5, 700.0),
+    Key::optional("ramp.deformable.geometry.poisson", Number(open(-1.0, 0.5)), "the material's", "0.37", "Poisson's ratio, instead of the material's.").usual(0.0, 0.45).code("E131"),
+    Key::optional("ramp.deformable.geometry.density_kg_per_m3", LENGTH, "the material's", "1410.0", "Density, instead of the material's.").usual(500.0, 12000.0),
+    Key::optional("ramp.deformable.geometry.finger_length_mm", LENGTH, "3.2", "3.2", "Fingers, from their tips to the body.").usual(0.5, 20.0),
+    Key::optional("ramp.deformable.geometry.finger_width_mm", LENGTH, "1.6", "1.6", "Width of the fingers.").usual(0.2, 10.0),
+    Key::optional("ramp.deformable.geometry.tip_thickness_mm", LENGTH, "0.3", "0.3", "Thickness of a finger at its tip.").usual(0.05, 3.0),
+    Key::optional("ramp.deformable.geometry.root_thickness_mm", LENGTH, "0.9", "0.9", "Thickness of a finger behind its slope.").usual(0.1, 5.0),
+    Key::optional("ramp.deformable.geometry.slope_length_mm", LENGTH, "1.8", "1.8", "Length of the slope, over which a finger grows from tip to root thickness.").usual(0.1, 20.0),
+    Key::optional("ramp.deformable.geometry.body_length_mm", LENGTH, "3.0", "3.0", "Body, along the fingers.").usual(0.5, 20.0),
+    Key::optional("ramp.deformable.geometry.body_width_mm", LENGTH, "4.0", "4.0", "Width of body and mount.").usual(0.5, 20.0),
+    Key::optional("ramp.deformable.geometry.body_depth_mm", LENGTH, "2.6", "2.6", "From the middle of the disk down to the lower face of body and mount.").usual(0.5, 20.0),
+    Key::optional("ramp.deformable.geometry.neck_length_mm", Number(FROM_ZERO), "0.8", "0.8", "Free part of the mount behind the body; 0 for none.").usual(0.0, 10.0),
+    Key::optional("ramp.deformable.geometry.pad_length_mm", Number(FROM_ZERO), "2.8", "2.8", "Bolted part of the mount; 0 for a body bolted itself.").usual(0.0, 20.0),
+    Key::optional("ramp.deformable.geometry.mount_thickness_mm", LENGTH, "0.8", "0.8", "Thickness of the mount.").usual(0.1, 10.0),
+    Key::optional("ramp.deformable.geometry.contact_mm", LENGTH, "0.35", "0.35", "From the tips to the middle of the contact with the disk.").usual(0.05, 10.0),
+    Key::optional("ramp.deformable.geometry.contact_length_mm", LENGTH, "0.3", "0.3", "Length of the contact along the finger, over which its force is spread.").usual(0.02, 5.0),
+    Key::optional("ramp.deformable.geometry.mount_normal_n_per_m", LENGTH, "bolted", "2.0e6", "Stiffness of the mount's face against its plane, spread evenly; without it the face is held.").usual(1e3, 1e10),
+    Key::optional("ramp.deformable.geometry.mount_tangential_n_per_m", LENGTH, "as mount_normal_n_per_m", "1.0e6", "Stiffness of the mount's face within its plane.").usual(1e3, 1e10),
+    Key::optional("ramp.deformable.geometry.mesh_size_mm", LENGTH, "1.0", "0.7", "Longest edge of a finite element; elements at re-entrant corners are a quarter of it.").usual(0.2, 5.0).code("E174"),
+    Key::optional("ramp.deformable.geometry.cut_khz", LENGTH, "100.0", "100.0", "Modes with the contact points held, below this frequency, are kept; responses are good to half of it.").usual(5.0, 1000.0).code("E174"),
     Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132"),
     // slider
     Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0),
@@ -211,6 +234,13 @@ pub static CHOICES: &[Choice] = &[
                 "disk.damping.rayleigh.beta_s",
             ],
             &["disk.damping.modal_ratio"],
+        ],
+    },
+    Choice {
+        what: "the deformable ramp",
+        alternatives: &[
+            &["ramp.deformable.modes"],
+            &["ramp.deformable.geometry.material"],
         ],
     },
     Choice {

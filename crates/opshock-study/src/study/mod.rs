@@ -27,6 +27,7 @@ pub mod memory;
 mod overlay;
 mod points;
 mod polygon;
+mod ramp_geometry;
 mod read;
 mod resolved;
 pub mod samples;

@@ -15,6 +15,7 @@ use opshock_solver::suspension::{
     Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
 };
 
+use super::ramp_geometry;
 use super::settings::{Datum, View};
 use super::unit;
 use super::words::{self, Ramp};
@@ -204,6 +205,9 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
         model: match ramp {
             Ramp::None => RampModel::None,
             Ramp::Rigid => RampModel::Rigid,
+            Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
+                modes: ramp_geometry::coupled_modes(view),
+            },
             Ramp::Deformable => {
                 let top = arm("ramp.deformable.modes");
                 let bottom = match view.entries("ramp.deformable.bottom_modes") {

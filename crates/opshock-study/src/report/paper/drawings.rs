@@ -95,9 +95,14 @@ pub fn rigid_ramp_drawing(scene: &Scene, program: &str) -> PaperFigure {
 pub fn deformable_ramp_drawing(scene: &Scene, program: &str) -> PaperFigure {
     let section = Section::of(scene);
     let mut outlines = section.disk();
-    let modes = match &scene.ramp.model {
-        RampModel::Deformable { top, bottom } => [top.as_slice(), bottom.as_slice()],
-        RampModel::None | RampModel::Rigid => [&[][..]; 2],
+    let modes: [Vec<ArmMode>; 2] = match &scene.ramp.model {
+        RampModel::Deformable { top, bottom } => [top.clone(), bottom.clone()],
+        // Each arm as it moves alone; more springs would not be told apart.
+        RampModel::Coupled { modes } => [0, 1].map(|arm| {
+            let own = modes.iter().filter_map(|mode| mode.at_contact(arm));
+            own.take(3).collect()
+        }),
+        RampModel::None | RampModel::Rigid => [Vec::new(), Vec::new()],
     };
     for side in SIDES {
         outlines.push(section.block(side, section.arm_end(), "arm (schematic)"));

@@ -3,7 +3,8 @@
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
 use super::Check;
-use crate::study::{scene, unit};
+use crate::study::{ramp_geometry, scene, unit};
+use opshock_solid::ramp::{GeometryError, SolidRampError};
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
@@ -55,6 +56,82 @@ impl Check<'_, '_> {
             if self.sound(&[path]) && self.view.maybe_number(path) == Some(0.0) {
                 let fault = self.fault("N143", &[path], "disk and ramp touch at rest");
                 fault.hint = "allowed; contact begins with the shock".to_string();
+            }
+        }
+    }
+
+    /// Parts of a ramp's geometry fit together, and its model can be solved.
+    pub(super) fn ramp_geometry(&mut self) {
+        let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();
+        looked_at.extend([
+            "disk.thickness_mm",
+            "ramp.clearance_um",
+            "ramp.clearance_top_um",
+            "ramp.clearance_bottom_um",
+        ]);
+        let is_wanted = self
+            .view
+            .words("ramp.models")
+            .iter()
+            .any(|m| m == "deformable");
+        if !is_wanted || !self.sound(&looked_at) {
+            return;
+        }
+        if !ramp_geometry::is_given(self.view) {
+            let lonely: Vec<&str> = ramp_geometry::paths()
+                .filter(|path| self.view.settings.has(path))
+                .collect();
+            if !lonely.is_empty() {
+                let message = "a ramp's geometry without its material";
+                let fault = self.fault("E112", &lonely, message);
+                fault.allowed = "a material beside the dimensions".to_string();
+                fault.hint = "add material, or leave the geometry out".to_string();
+            }
+            return;
+        }
+        if self.view.entries("ramp.deformable.bottom_modes") > 0 {
+            let paths = ["ramp.deformable.bottom_modes"];
+            let message = "modes of the bottom arm beside a geometry, which gives both arms";
+            let fault = self.fault("E115", &paths, message);
+            fault.allowed = "one of the two".to_string();
+            fault.hint = "leave one out".to_string();
+        }
+        let Err(error) = ramp_geometry::modes(&ramp_geometry::solid_ramp(self.view)) else {
+            return;
+        };
+        let mesh = [
+            ramp_geometry::path("mesh_size_mm"),
+            ramp_geometry::path("cut_khz"),
+        ];
+        match error {
+            SolidRampError::Geometry(GeometryError::Dimension {
+                name,
+                value,
+                allowed,
+            }) => {
+                let path = ramp_geometry::path(&format!("{name}_mm"));
+                let is_key = looked_at.contains(&path.as_str());
+                // A default that does not fit is the fault of what was written.
+                let blamed: Vec<&str> = match is_key && self.view.place(&path).is_some() {
+                    true => vec![path.as_str()],
+                    false => looked_at,
+                };
+                let message = format!(
+                    "the ramp's parts do not fit: {name} is {} mm",
+                    super::trim(1e3 * value)
+                );
+                self.fault("E173", &blamed, message).allowed = allowed;
+            }
+            SolidRampError::Geometry(fault @ GeometryError::MeshSize { .. }) => {
+                let fault = self.fault("E174", &[&mesh[0]], fault.to_string());
+                fault.allowed = "a size of at most 10000 elements".to_string();
+                fault.hint = "a larger mesh_size_mm".to_string();
+            }
+            other => {
+                let message = format!("the ramp has no modes: {other}");
+                let fault = self.fault("E175", &looked_at, message);
+                fault.allowed = "a ramp that can be solved".to_string();
+                fault.hint = "another cut_khz or mesh_size_mm".to_string();
             }
         }
     }

@@ -34,6 +34,7 @@ impl Check<'_, '_> {
     /// Every rule about a point.
     pub fn point(&mut self, widths_ms: &[f64]) {
         self.disk_and_ramp();
+        self.ramp_geometry();
         self.gas();
         self.slider_place();
         self.rails();

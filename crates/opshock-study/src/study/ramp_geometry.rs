@@ -1,0 +1,212 @@
+//! A deformable ramp given by its geometry: settings to oscillators.
+//!
+//! The oscillators are rounded to nine digits: those of two machines differ by the rounding of
+//! different vector instructions, and the same study must be the same study on both.
+
+use opshock_solid::material::{MATERIALS, Material};
+use opshock_solid::ramp::{Mount, RampGeometry, RampModes, SolidRamp, SolidRampError};
+use opshock_solver::ramp::CoupledMode;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::keys::KEYS;
+use super::settings::View;
+
+/// Table of the geometry.
+pub const TABLE: &str = "ramp.deformable.geometry";
+/// Default of `mesh_size_mm`, m.
+pub const MESH_SIZE_M: f64 = 1e-3;
+/// Default of `cut_khz`, Hz.
+pub const CUT_HZ: f64 = 100e3;
+
+/// A ramp's length in a study: its key below [`TABLE`] and its field.
+pub type Length = (&'static str, fn(&mut RampGeometry) -> &mut f64);
+
+/// Every length a study may set.
+pub const LENGTHS: &[Length] = &[
+    ("finger_length_mm", |g| &mut g.finger_length_m),
+    ("finger_width_mm", |g| &mut g.finger_width_m),
+    ("tip_thickness_mm", |g| &mut g.tip_thickness_m),
+    ("root_thickness_mm", |g| &mut g.root_thickness_m),
+    ("slope_length_mm", |g| &mut g.slope_length_m),
+    ("body_length_mm", |g| &mut g.body_length_m),
+    ("body_width_mm", |g| &mut g.body_width_m),
+    ("body_depth_mm", |g| &mut g.body_depth_m),
+    ("neck_length_mm", |g| &mut g.neck_length_m),
+    ("pad_length_mm", |g| &mut g.pad_length_m),
+    ("mount_thickness_mm", |g| &mut g.mount_thickness_m),
+    ("contact_mm", |g| &mut g.contact_m),
+    ("contact_length_mm", |g| &mut g.contact_length_m),
+];
+
+/// Path of a key of the table.
+pub fn path(name: &str) -> String {
+    format!("{TABLE}.{name}")
+}
+
+/// Every key of the table.
+pub fn paths() -> impl Iterator<Item = &'static str> {
+    let below = |path: &&str| path.strip_prefix(TABLE).is_some_and(|r| r.starts_with('.'));
+    KEYS.iter().map(|key| key.path).filter(below)
+}
+
+/// Whether the study gives the ramp by its geometry: whether it names a material.
+pub fn is_given(view: &View<'_>) -> bool {
+    view.settings.has(&path("material"))
+}
+
+/// The ramp of a view.
+pub fn solid_ramp(view: &View<'_>) -> SolidRamp {
+    let given = |name: &str| view.maybe_si(&path(name));
+    let mut geometry = RampGeometry::mobile_drive();
+    for (name, field) in LENGTHS {
+        if let Some(length_m) = given(name) {
+            *field(&mut geometry) = length_m;
+        }
+    }
+    // The rim stands in the middle of the slot.
+    let half_disk_m = 0.5 * view.si("disk.thickness_mm");
+    let clearance_m = |side: &str| {
+        view.maybe_si(side)
+            .unwrap_or_else(|| view.si("ramp.clearance_um"))
+    };
+    geometry.slot_above_m = half_disk_m + clearance_m("ramp.clearance_top_um");
+    geometry.slot_below_m = half_disk_m + clearance_m("ramp.clearance_bottom_um");
+    let name = view.word(&path("material")).to_string();
+    // The table of keys allows known names only.
+    let known = Material::by_name(&name).unwrap_or(MATERIALS[0].material);
+    SolidRamp {
+        geometry,
+        material: Material {
+            youngs_modulus_pa: given("youngs_modulus_gpa").unwrap_or(known.youngs_modulus_pa),
+            poisson: given("poisson").unwrap_or(known.poisson),
+            density_kg_per_m3: given("density_kg_per_m3").unwrap_or(known.density_kg_per_m3),
+        },
+        mount: match given("mount_normal_n_per_m") {
+            None => Mount::Bolted,
+            Some(normal_n_per_m) => Mount::Elastic {
+                normal_n_per_m,
+                tangential_n_per_m: given("mount_tangential_n_per_m").unwrap_or(normal_n_per_m),
+            },
+        },
+        mesh_size_m: given("mesh_size_mm").unwrap_or(MESH_SIZE_M),
+        cut_hz: given("cut_khz").unwrap_or(CUT_HZ),
+    }
+}
+
+/// What a ramp was reduced to.
+type Answer = Result<Arc<RampModes>, SolidRampError>;
+
+/// The ramp's oscillators; each ramp is meshed once per process.
+///
+/// # Errors
+/// See [`SolidRampError`].
+pub fn modes(ramp: &SolidRamp) -> Answer {
+    static KNOWN: OnceLock<Mutex<HashMap<String, Answer>>> = OnceLock::new();
+    let known = KNOWN.get_or_init(Mutex::default);
+    // Debug prints every field with all its digits.
+    let key = format!("{ramp:?}");
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    known
+        .entry(key)
+        .or_insert_with(|| ramp.modes().map(Arc::new))
+        .clone()
+}
+
+/// The oscillators as the solver takes them; none for a ramp that the checks refuse.
+pub fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
+    let damping_ratio = view.si("ramp.deformable.damping_ratio");
+    let Ok(answer) = modes(&solid_ramp(view)) else {
+        return Vec::new();
+    };
+    let modes = answer.modes.iter();
+    modes
+        .map(|mode| CoupledMode {
+            frequency_hz: rounded(mode.frequency_hz),
+            shape_per_sqrt_kg: [mode.shape[0], mode.shape[1]].map(rounded),
+            participation_sqrt_kg: rounded(mode.participation),
+            damping_ratio,
+        })
+        .collect()
+}
+
+/// Nine digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Study;
+    use crate::study::key::Presence;
+    use opshock_solver::ramp::RampModel;
+
+    fn study(lines: &str) -> Study {
+        let text = format!(
+            "study_format = 1\nname = \"a\"\noutputs = [\"contact_force\"]\n\
+             [pulse]\nwidths_ms = [1.0]\nsigns = [\"+\"]\n\
+             [ramp]\nmodels = [\"deformable\"]\n{lines}"
+        );
+        Study::from_text(&text, &[]).unwrap()
+    }
+
+    fn lowest_hz(study: &Study, point: usize) -> f64 {
+        match &study.points[point].scene.ramp.model {
+            RampModel::Coupled { modes } => modes[0].frequency_hz,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn what_the_table_of_keys_says_is_the_default_is_it() {
+        let default = RampGeometry::mobile_drive();
+        for (name, field) in LENGTHS {
+            let key = KEYS.iter().find(|key| key.path == path(name)).unwrap();
+            let Presence::Optional(absent) = key.presence else {
+                panic!("{name}")
+            };
+            let value: f64 = absent.parse().unwrap();
+            let mut geometry = default;
+            assert!(
+                (1e-3 * value / *field(&mut geometry) - 1.0).abs() < 1e-12,
+                "{name}"
+            );
+        }
+        for (name, expected) in [
+            ("mesh_size_mm", 1e3 * MESH_SIZE_M),
+            ("cut_khz", 1e-3 * CUT_HZ),
+        ] {
+            let key = KEYS.iter().find(|key| key.path == path(name)).unwrap();
+            let Presence::Optional(absent) = key.presence else {
+                panic!("{name}")
+            };
+            assert_eq!(absent.parse(), Ok(expected), "{name}");
+        }
+        let names: Vec<&str> = MATERIALS.iter().map(|known| known.name).collect();
+        assert_eq!(names, crate::study::keys::RAMP_MATERIALS);
+    }
+
+    /// Frequencies of one shape go with the square root of modulus over density.
+    #[test]
+    fn a_stiffer_material_raises_every_frequency_by_the_root_of_its_modulus() {
+        let ramp = study(
+            "[ramp.deformable.geometry]\nmesh_size_mm = 3.0\nmaterial = \"PEEK\"\n\
+             youngs_modulus_gpa = [4.0, 16.0]\n",
+        );
+        assert_eq!(ramp.points.len(), 2);
+        let ratio = lowest_hz(&ramp, 1) / lowest_hz(&ramp, 0);
+        assert!((ratio - 2.0).abs() < 1e-7, "{ratio}");
+    }
+
+    #[test]
+    fn the_slot_follows_the_clearances() {
+        let ramp = study(
+            "clearance_um = 60.0\nclearance_top_um = 150.0\n[ramp.deformable.geometry]\nmaterial = \"POM\"\nmesh_size_mm = 3.0\n",
+        );
+        let view = View::first(&ramp.settings);
+        let solid = solid_ramp(&view).geometry;
+        assert!((solid.slot_above_m - (0.3175e-3 + 150e-6)).abs() < 1e-15);
+        assert!((solid.slot_below_m - (0.3175e-3 + 60e-6)).abs() < 1e-15);
+    }
+}
