@@ -16,6 +16,7 @@ mod hdf5_readers;
 mod identity;
 mod imports;
 mod real_sweep;
+mod refine;
 mod report_files;
 mod report_page;
 mod report_run;

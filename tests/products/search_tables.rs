@@ -77,7 +77,7 @@ fn ten_thousand_tables_with_windows_of_failure() {
             }
             let settings = settings(certify);
             let found = table.search(certify, &mut Seeded::new(seed));
-            if seed % 5 == 0 {
+            if seed % 20 == 0 {
                 let other = table.search(certify, &mut Seeded::new(seed ^ 0xbeef));
                 assert_eq!(found, other, "seed {seed}: the order of answers shows");
             }
@@ -245,6 +245,7 @@ fn runs_per_point_on_figure_13() {
                     pulse_ms: number(1).expect("a width"),
                     sign,
                     axes: Vec::new(),
+                    round: 0,
                 },
                 critical_g: number(4).expect("a failure") * (1.0 - 1e-9),
                 onset_g: number(7),
@@ -306,5 +307,5 @@ fn runs_per_point_on_figure_13() {
     println!("plain bisection: {plain} runs a point");
     assert!(plain >= 11);
     // What is reached; `docs/verification.md` says what the goals are.
-    assert!(most[0] < 9.0 && most[3] < 5.5, "{most:?}");
+    assert!(most[0] < 8.0 && most[3] < 5.5, "{most:?}");
 }

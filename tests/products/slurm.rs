@@ -22,8 +22,8 @@ const SMALL: [&str; 8] = [
     "output.keep_histories=\"none\"",
 ];
 
-/// Waits for something that takes seconds.
-const PATIENCE: Duration = Duration::from_secs(240);
+/// Longest time in which nothing at all happens. Work that goes on is waited for, however slowly.
+const STANDSTILL: Duration = Duration::from_secs(240);
 
 fn words<'a>(command: &'a str, file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let mut words = vec![command, file, "--store", "s.opshock", "--quiet"];
@@ -96,12 +96,28 @@ impl Drop for Slurm {
     }
 }
 
-fn wait(what: &str, mut is_there: impl FnMut() -> bool) {
-    let began = Instant::now();
+/// Waits while the shards of `store` make progress.
+fn wait(what: &str, store: &Path, mut is_there: impl FnMut() -> bool) {
+    let done = || -> usize {
+        let shards = (1..=4).map(|number| runs(&store.join(format!("shards/{number}-of-4"))));
+        shards.sum()
+    };
+    let (mut last, mut since) = (done(), Instant::now());
     while !is_there() {
-        assert!(began.elapsed() < PATIENCE, "{what} did not come");
-        std::thread::sleep(Duration::from_millis(50));
+        let now = done();
+        if now != last {
+            (last, since) = (now, Instant::now());
+        }
+        assert!(since.elapsed() < STANDSTILL, "{what} did not come");
+        std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// Sends a signal; whether the process was there to get it.
+fn signal(name: &str, process: &str) -> bool {
+    let kill = format!("kill -{name} {process}");
+    let status = Command::new("sh").args(["-c", &kill]).status();
+    status.expect("a shell").success()
 }
 
 fn runs(store: &Path) -> usize {
@@ -112,14 +128,10 @@ fn runs(store: &Path) -> usize {
     })
 }
 
-/// Process that holds a store, from its lock.
-fn holder(store: &Path) -> String {
-    let text = std::fs::read_to_string(store.join("lock")).expect("a lock");
-    let number = text
-        .split(' ')
-        .nth(1)
-        .expect("process N on HOST since TIME");
-    number.to_owned()
+/// Process that holds a store, from its lock: process N on HOST since TIME.
+fn holder(store: &Path) -> Option<String> {
+    let text = std::fs::read_to_string(store.join("lock")).ok()?;
+    Some(text.split(' ').nth(1)?.to_owned())
 }
 
 #[test]
@@ -142,17 +154,20 @@ fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
     let job = job.trim();
 
     // One task is killed in the middle of its work, told as failed, and requeued.
-    let victim = parts.join("s.opshock/shards/2-of-4");
-    wait("the second shard", || runs(&victim) >= 3);
+    let store = parts.join("s.opshock");
+    let victim = store.join("shards/2-of-4");
+    // Stopped at every look, so that it cannot end before it is killed, however slow the looks are.
+    wait("the second shard", &store, || {
+        let Some(process) = holder(&victim).filter(|process| signal("STOP", process)) else {
+            return false;
+        };
+        if runs(&victim) >= 3 {
+            return signal("KILL", &process);
+        }
+        signal("CONT", &process);
+        false
+    });
     let before = runs(&victim);
-    let kill = format!("kill -9 {}", holder(&victim));
-    assert!(
-        Command::new("sh")
-            .args(["-c", &kill])
-            .status()
-            .unwrap()
-            .success()
-    );
     let task = format!("{job}_2");
     let state = || {
         slurm.ask(
@@ -160,7 +175,9 @@ fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
             &["squeue", "-h", "-t", "all", "-j", &task, "-o", "%T"],
         )
     };
-    wait("the end of the killed task", || state().trim() == "FAILED");
+    wait("the end of the killed task", &store, || {
+        state().trim() == "FAILED"
+    });
     slurm.ask(&parts, &["scontrol", "requeue", &task]);
     // Slurm would let it wait for two minutes.
     slurm.ask(
@@ -172,7 +189,7 @@ fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
             "StartTime=now",
         ],
     );
-    wait("the end of the array", || {
+    wait("the end of the array", &store, || {
         slurm.ask(&parts, &["squeue", "-h", "-j", job]).is_empty()
     });
     let ended = slurm.ask(

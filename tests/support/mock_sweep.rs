@@ -35,6 +35,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
                         pulse_ms,
                         sign,
                         axes: Vec::new(),
+                        round: 0,
                     },
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),

@@ -112,6 +112,7 @@ impl Table {
                         pulse_ms,
                         sign: Sign::Plus,
                         axes: Vec::new(),
+                        round: 0,
                     },
                     critical_g,
                     onset_g,
@@ -137,12 +138,23 @@ impl Table {
         for (place, point) in self.0.iter().enumerate() {
             campaign.set_touch(place, point.touch());
         }
-        while !campaign.is_done() {
-            let asking: Vec<usize> = (0..self.0.len())
-                .filter(|&place| campaign.ask(place).is_some())
-                .collect();
-            let place = *seeded.one_of(&asking);
-            let probe = campaign.ask(place).expect("asks").probe;
+        let mut asking: Vec<usize> = Vec::new();
+        loop {
+            for place in campaign.take_changed() {
+                if !asking.contains(&place) && campaign.ask(place).is_some() {
+                    asking.push(place);
+                }
+            }
+            if asking.is_empty() {
+                break;
+            }
+            let turn = seeded.below(asking.len());
+            let place = asking[turn];
+            let Some(asked) = campaign.ask(place) else {
+                asking.swap_remove(turn);
+                continue;
+            };
+            let probe = asked.probe;
             let amplitude_g = settings.lattice.amplitude_g(probe.index);
             let point = &self.0[place];
             if point.fails(amplitude_g) {
@@ -152,6 +164,7 @@ impl Table {
                 campaign.tell_margin(place, &Verdict::Survives, margin);
             }
         }
+        assert!(campaign.is_done(), "nobody asks");
         (0..self.0.len())
             .map(|place| Searched {
                 findings: campaign.findings(place),

@@ -10,6 +10,7 @@ use crate::report::table;
 use crate::store::folder::session;
 use crate::store::{StoreError, StudyTexts};
 use crate::study::{Study, difference};
+use crate::sweep::refine::refined;
 use crate::sweep::{MergeEnd, SweepInput, merge, shard};
 use anyhow::Context as _;
 use clap::Args;
@@ -46,12 +47,26 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
         same_study(first, &texts, other)?;
     }
     let study = Study::from_text(&texts.resolved, &[])?;
-    let mut input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
+    let no_range = "the study has no amplitudes to search";
+    let mut input = SweepInput::of(&study).context(no_range)?;
     input.texts = StudyTexts {
         name: study.name.clone(),
         ..texts
     };
-    match merge(&input, &folder, &from, &session(1))? {
+    let mut end = merge(&input, &folder, &from, &session(1))?;
+    if study.search.refine.is_some() && matches!(end, MergeEnd::Merged(_)) {
+        // The answers say which widths were added; with these the table is whole.
+        let refined = refined(&study, &stored::finished(&folder)?);
+        let whole = SweepInput {
+            texts: input.texts.clone(),
+            ..SweepInput::of(&refined.context(no_range)?).context(no_range)?
+        };
+        let again = merge(&whole, &folder, &from, &session(1))?;
+        if let (MergeEnd::Merged(first), MergeEnd::Merged(again)) = (&mut end, again) {
+            first.results = again.results;
+        }
+    }
+    match end {
         MergeEnd::Disagree(found) => {
             for disagreement in &found {
                 console.tell(&disagreement.to_string());

@@ -5,10 +5,10 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::{slurm, stored, study_file};
-use crate::store::{self, Loaded, StoreError};
 use crate::study::Study;
 use crate::study::difference::{self, SettingDifference};
 use crate::sweep::forecast::{Forecast, Spread, forecast};
+use crate::sweep::refine::refined;
 use crate::sweep::{Physics, SweepInput};
 use anyhow::Context as _;
 use clap::Args;
@@ -34,19 +34,23 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
     let study = study_file::read(&arguments.study, global, console)?;
     study_file::refuse_unaccepted(&study, global)?;
     let folder = stored::folder_of_study(&arguments.study, global);
-    let loaded = match store::load(&folder) {
-        Ok((loaded, _)) => loaded,
-        Err(StoreError::Empty { .. }) => Loaded::default(),
-        Err(error) => return Err(error.into()),
-    };
-    let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
+    let loaded = stored::finished(&folder)?;
+    let no_range = "the study has no amplitudes to search";
+    let study = refined(&study, &loaded).context(no_range)?;
+    let added = study.points.iter().filter(|point| point.round > 0).count();
+    let to_add = study
+        .search
+        .refine
+        .map_or(0, |refine| refine.most_points.saturating_sub(added));
+    let input = SweepInput::of(&study).context(no_range)?;
     let threads = if arguments.slurm {
         global.jobs.map_or(1, usize::from)
     } else {
         global.threads()
     };
     let nodes = history_nodes(&study);
-    let forecast = forecast(&input, &Physics::of(&study), loaded, threads, nodes);
+    let mut forecast = forecast(&input, &Physics::of(&study), loaded, threads, nodes);
+    forecast.may_add(to_add as u64);
     if arguments.slurm {
         let shards = arguments
             .shards
@@ -119,6 +123,15 @@ fn as_text(name: &str, told: &Told) -> String {
             forecast.points, forecast.answered
         ),
     );
+    if forecast.added_points > 0 {
+        line(
+            "refinement",
+            format!(
+                "adds {} points at most, in every number below that is a maximum",
+                forecast.added_points
+            ),
+        );
+    }
     line(
         "reuse",
         format!("{} finished simulations stay valid", forecast.reused_runs),

@@ -8,6 +8,7 @@ use crate::store::folder::session;
 use crate::store::history::read_hdf5;
 use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
 use crate::study::Study;
+use crate::sweep::refine::refined;
 use crate::sweep::{SweepInput, replay};
 use std::path::{Path, PathBuf};
 
@@ -144,6 +145,19 @@ pub fn film(folder: &Path, resolved_study: &str) -> Option<ShockFilm> {
     shown
 }
 
+/// What is finished in a store; nothing for one that is empty or missing.
+///
+/// # Errors
+///
+/// A store that is damaged or newer.
+pub fn finished(folder: &Path) -> Result<Loaded, Failure> {
+    match store::load(folder) {
+        Ok((loaded, _)) => Ok(loaded),
+        Err(StoreError::Empty { .. }) => Ok(Loaded::default()),
+        Err(error) => Err(error.into()),
+    }
+}
+
 fn resolved_study(folder: &Path) -> Option<String> {
     std::fs::read_to_string(folder.join("study.resolved.toml")).ok()
 }
@@ -151,6 +165,6 @@ fn resolved_study(folder: &Path) -> Option<String> {
 /// The table from finished simulations; `None` when this program does not read the study.
 fn replayed(resolved_study: &str, loaded: Loaded) -> Option<Results> {
     let study = Study::from_text(resolved_study, &[]).ok()?;
-    let input = SweepInput::of(&study).ok()?;
+    let input = SweepInput::of(&refined(&study, &loaded).ok()?).ok()?;
     Some(replay(&input, loaded, &session(1)))
 }

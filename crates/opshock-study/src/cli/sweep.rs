@@ -10,14 +10,15 @@ use super::{memory, stored, study_file, thresholds};
 use crate::report::table;
 use crate::search::Order;
 use crate::store::{Audit, Summary};
+use crate::study::{Point, Study};
 use crate::sweep::{
-    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, sweep,
+    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, refine, sweep,
 };
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use opshock_solver::scene::plan::Output;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Find the critical shock of every point of a study; run again, it resumes
 #[derive(Args, Debug)]
@@ -62,7 +63,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;
-    let options = SweepOptions {
+    let mut options = SweepOptions {
         stop,
         budget: arguments.budget,
         retry_undecided: arguments.only == Some(Only::Undecided),
@@ -75,16 +76,43 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     } else {
         global.progress.into()
     };
-    let progress = kind.start(&study.name);
-    let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
-    let physics = Physics::of(&study);
-    let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
-    drop(progress);
+    let began = Instant::now();
+    let no_range = "the study has no amplitudes to search";
+    // A shard answers the study's own widths; what the others found is not its to know.
+    let is_refined = study.search.refine.is_some() && arguments.shard.is_none();
+    // Without their undecided runs the study's own answers may call for other widths.
+    let mut study = if is_refined && !options.retry_undecided {
+        refine::refined(&study, &stored::finished(&folder)?).context(no_range)?
+    } else {
+        study
+    };
+    let (mut computed_runs, mut reused_runs) = (0, 0);
+    let (input, end) = loop {
+        let progress = kind.start(&study.name);
+        let input = SweepInput::of(&study).context(no_range)?;
+        let physics = Physics::of(&study);
+        let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
+        drop(progress);
+        computed_runs += end.computed_runs;
+        reused_runs += end.reused_runs;
+        let next = (is_refined && end.ending == Ending::Complete)
+            .then(|| refine::next_round(&study, &end.summary))
+            .flatten();
+        let Some(next) = next else {
+            break (input, end);
+        };
+        console.tell(&added(&study, &next));
+        study = next;
+        options.retry_undecided = false;
+        options.budget = arguments
+            .budget
+            .map(|budget| budget.saturating_sub(began.elapsed()));
+    };
 
     if !arguments.reuse.is_empty() {
         console.tell(&format!(
             "{} simulations taken from other stores, {} made",
-            end.reused_runs, end.computed_runs
+            reused_runs, computed_runs
         ));
     }
     let mut summary = end.summary;
@@ -126,6 +154,13 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             Ok(Exit::Budget)
         }
     }
+}
+
+/// The widths that a round of refinement adds.
+fn added(study: &Study, next: &Study) -> String {
+    let new = &next.points[study.points.len()..];
+    let labels: Vec<String> = new.iter().map(Point::label).collect();
+    format!("{} points added: {}", new.len(), labels.join(", "))
 }
 
 /// Tells what an audit showed.

@@ -336,19 +336,19 @@ impl Campaign {
         }
         let spacing = (self.settings.scan_gap / 3).max(1);
         let mut gifts = Vec::new();
-        for &source in &widths {
-            let Some(search) = self.search(source) else {
+        for &neighbour in &widths {
+            let Some(other) = self.search(neighbour) else {
                 continue;
             };
-            let Some(window) = follow::lower_window(search) else {
-                continue;
-            };
-            for neighbour in self.order.relations[source]
+            for source in self.order.relations[neighbour]
                 .neighbours
                 .into_iter()
                 .flatten()
             {
-                let Some(other) = self.search(neighbour) else {
+                let Some(search) = self.search(source) else {
+                    continue;
+                };
+                let Some(window) = follow::lower_window(search) else {
                     continue;
                 };
                 let gift = (source, window.0, neighbour);

@@ -7,7 +7,7 @@
 //! * at the amplitude of first touch, below which the no-ramp answer holds and needs no run, or
 //! * where nothing is known from elsewhere, at the low end of the range; then the gap is kept down to
 //!   0.71 of the bracket and doubled at every step below that. Windows of failure come with ramp
-//!   contact: without a ramp the gap is doubled at every step below the first. The row says how
+//!   contact: without a ramp the gap is quadrupled at every step below the first. The row says how
 //!   coarse the scan was (`largest_gap_pct`).
 //!
 //! Scanned nodes are those congruent to a phase modulo the gap; the phases of neighbouring widths
@@ -16,6 +16,11 @@
 
 use super::evidence::{Evidence, NodeVerdict};
 
+/// A step counts as done that is missed by rounding alone.
+const ROUNDING: f64 = 1e-9;
+/// No range holds more nodes than this.
+const WIDEST: i32 = 1 << 28;
+
 /// Scan of one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Scan {
@@ -23,9 +28,9 @@ pub(super) struct Scan {
     pub gap: i32,
     /// Residue of the scanned nodes modulo the gap.
     pub phase: i32,
-    /// Nodes over which the gap is kept when nothing bounds the scan from below; `None` keeps it
-    /// everywhere.
-    pub keep: Option<i32>,
+    /// Nodes over which the gap is kept when nothing bounds the scan from below, and the factor by
+    /// which every step below grows; `None` keeps the gap everywhere.
+    pub keep: Option<(i32, i32)>,
     /// Lowest node that may be tested.
     pub floor: i32,
 }
@@ -59,9 +64,13 @@ impl Scan {
 
     fn gap_at(&self, depth: i32) -> i32 {
         match self.keep {
-            Some(keep) if depth >= keep => {
-                let doublings = (f64::from(depth - keep) / f64::from(2 * self.gap) + 1.0).log2();
-                self.gap << (doublings as i32 + 1).min(20)
+            // The steps below `keep` are a geometric series; the depth says which comes next.
+            Some((keep, growth)) if depth >= keep => {
+                let first = f64::from(self.gap * growth);
+                let grown = f64::from(depth - keep) * f64::from(growth - 1) / first + 1.0;
+                let steps = grown.log(f64::from(growth)) + ROUNDING;
+                let share = f64::from(growth).powi(steps as i32);
+                (first * share).min(f64::from(WIDEST)) as i32
             }
             _ => self.gap,
         }

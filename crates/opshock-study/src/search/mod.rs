@@ -22,6 +22,7 @@ pub mod order;
 pub mod outcome;
 pub mod point;
 pub mod probe;
+pub mod refine;
 pub mod settings;
 #[cfg(test)]
 mod tests;
@@ -34,4 +35,5 @@ pub use order::{Coordinates, Order, RampClass};
 pub use outcome::{Flag, Status};
 pub use point::{Asked, PointSearch, Start};
 pub use probe::{Probe, ProbeResult, Purpose, Retry, RunCost, Sign, UndecidedCause, Verdict};
+pub use refine::Refine;
 pub use settings::{Certify, SearchSettings};

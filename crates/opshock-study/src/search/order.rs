@@ -13,6 +13,9 @@
 //!
 //! With a ramp all amplitudes are taken relative to first touch (`hint`).
 //!
+//! Widths that refinement added come after all of the rounds before: their neighbours, answered, are
+//! those of earlier rounds, which learn nothing from them.
+//!
 //! A point with a ramp also has a *companion*: the same point without ramp. Below the amplitude of
 //! first touch its answers are the companion's.
 
@@ -42,6 +45,8 @@ pub struct Coordinates {
     pub sign: Sign,
     /// Further axes as sortable text; equal text = equal values.
     pub axes: Vec<String>,
+    /// Round of refinement that added the width, 0 for the study's own.
+    pub round: u32,
 }
 
 /// A point's relations.
@@ -55,9 +60,9 @@ pub struct Relations {
     pub companion: Option<usize>,
     /// Next smaller and next larger width of the same ramp, sign and axes.
     pub neighbours: [Option<usize>; 2],
-    /// Points of the same ramp, sign and axes, by width: a number naming the group.
+    /// Points of the same ramp, sign, axes and round, by width: a number naming the group.
     pub chain: usize,
-    /// Place of the width in its chain.
+    /// Place of the width in its chain, counted on from the chains of earlier rounds.
     pub width_rank: usize,
 }
 
@@ -119,8 +124,9 @@ impl Order {
         let mut by_value: Vec<usize> = (0..points.len()).collect();
         by_value.sort_by(|&a, &b| {
             let (a, b) = (&points[a], &points[b]);
-            a.axes
-                .cmp(&b.axes)
+            a.round
+                .cmp(&b.round)
+                .then_with(|| a.axes.cmp(&b.axes))
                 .then(a.ramp_class.cmp(&b.ramp_class))
                 .then_with(|| a.ramp.cmp(&b.ramp))
                 .then(a.sign.cmp(&b.sign))
@@ -134,7 +140,8 @@ impl Order {
                 .and_then(|chain| chain.first())
                 .is_some_and(|&first| {
                     let (a, b) = (&points[first], &points[place]);
-                    a.axes == b.axes
+                    a.round == b.round
+                        && a.axes == b.axes
                         && a.ramp_class == b.ramp_class
                         && a.ramp == b.ramp
                         && a.sign == b.sign
@@ -160,26 +167,34 @@ impl Order {
         for (number, chain) in chains.iter().enumerate() {
             if number > 0 {
                 let (a, b) = (&points[chains[number - 1][0]], &points[chain[0]]);
-                if a.axes != b.axes {
+                if a.round != b.round || a.axes != b.axes {
                     group += 1;
                     ramp_rank = 0;
                 } else if a.ramp != b.ramp || a.ramp_class != b.ramp_class {
                     ramp_rank += 1;
                 }
             }
+            let own = chain_before(points, &chains[..number], chain[0]);
             for (rank, (place, below, above)) in ends_first(chain.len()).into_iter().enumerate() {
                 let point = chain[place];
                 let at = &points[point];
+                let (answered, neighbours) = if own.is_empty() {
+                    let neighbours = [place.checked_sub(1), Some(place + 1)];
+                    (
+                        [below, above].map(|place| place.map(|place| chain[place])),
+                        neighbours.map(|place| chain.get(place?).copied()),
+                    )
+                } else {
+                    let beside = beside(points, &own, at.pulse_ms);
+                    (beside, beside)
+                };
                 relations[point] = Relations {
-                    answered: [below, above].map(|place| place.map(|place| chain[place])),
+                    answered,
                     reference: reference(points, &chains[..number], at),
                     companion: companion(points, at),
-                    neighbours: [
-                        place.checked_sub(1).map(|place| chain[place]),
-                        chain.get(place + 1).copied(),
-                    ],
+                    neighbours,
                     chain: number,
-                    width_rank: place,
+                    width_rank: own.len() + place,
                 };
                 let sign = usize::from(at.sign == Sign::Minus);
                 keys[point] = (group, rank, ramp_rank, sign);
@@ -193,6 +208,29 @@ impl Order {
             chains,
         }
     }
+}
+
+/// Points of the same ramp, sign and axes as `point` in chains of earlier rounds.
+fn chain_before(points: &[Coordinates], earlier: &[Vec<usize>], point: usize) -> Vec<usize> {
+    let at = &points[point];
+    let same = |other: &Coordinates| {
+        other.axes == at.axes && other.ramp == at.ramp && other.sign == at.sign
+    };
+    let all = earlier.iter().flatten().copied();
+    all.filter(|&other| same(&points[other])).collect()
+}
+
+/// Next smaller and next larger width among `known`.
+fn beside(points: &[Coordinates], known: &[usize], pulse_ms: f64) -> [Option<usize>; 2] {
+    let width = |point: &usize| points[*point].pulse_ms;
+    let smaller = known.iter().filter(|point| width(point) < pulse_ms);
+    let larger = known.iter().filter(|point| width(point) > pulse_ms);
+    [
+        smaller
+            .max_by(|a, b| width(a).total_cmp(&width(b)))
+            .copied(),
+        larger.min_by(|a, b| width(a).total_cmp(&width(b))).copied(),
+    ]
 }
 
 /// The reference of a point among the chains before its own.
@@ -251,6 +289,7 @@ mod tests {
                         pulse_ms,
                         sign,
                         axes: vec![],
+                        round: 0,
                     });
                 }
             }

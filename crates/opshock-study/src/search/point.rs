@@ -83,7 +83,7 @@ impl PointSearch {
                 gap,
                 phase: Scan::phase_of(start.width_rank, gap),
                 keep: (own.is_none() && settings.certify == Certify::Staggered)
-                    .then_some(lattice.nodes_per_octave / 2),
+                    .then_some((lattice.nodes_per_octave / 2, 2)),
                 floor: nodes.low,
             },
             evidence: Evidence::default(),
@@ -101,7 +101,7 @@ impl PointSearch {
     /// The same search of a point without ramp, scanned more coarsely (`certify`).
     #[must_use]
     pub fn without_ramp(mut self) -> PointSearch {
-        self.scan.keep = self.scan.keep.map(|_| self.scan.gap);
+        self.scan.keep = self.scan.keep.map(|_| ((self.scan.gap + 1) / 2, 4));
         self
     }
 

@@ -309,6 +309,7 @@ fn study(ramps: &[(RampClass, &str)], widths: &[f64]) -> Vec<Coordinates> {
                     pulse_ms,
                     sign,
                     axes: Vec::new(),
+                    round: 0,
                 });
             }
         }

@@ -118,6 +118,21 @@ pub struct SearchSettings {
     pub error_bars: bool,
     /// Times that a point whose bar exceeds the accuracy asked is turned finer.
     pub climbs: u8,
+    /// How widths are added; `None`: not at all.
+    pub refine: Option<RefineSettings>,
+}
+
+/// How widths are added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RefineSettings {
+    /// Straight lines between neighbouring answers are to be this good, per cent.
+    pub tolerance_pct: Option<f64>,
+    /// Widths between which two ramp models change places are to be this close, per cent.
+    pub crossing_pct: Option<f64>,
+    /// No widths are added closer than this, per cent.
+    pub closest_pct: f64,
+    /// Points added at most.
+    pub most_points: usize,
 }
 
 /// Settings of the store.
@@ -215,6 +230,7 @@ impl Study {
                 max_gap_pct: view.number("search.max_gap_pct"),
                 error_bars: view.maybe_flag("search.error_bars").unwrap_or(true),
                 climbs: view.maybe_integer("search.climbs").unwrap_or(0) as u8,
+                refine: refine(&view),
             },
             output: OutputSettings {
                 keep_histories: match view.word("output.keep_histories") {
@@ -293,6 +309,20 @@ impl Study {
         points::table_order(&self.points, &self.axes)
     }
 
+    /// The study with points added at other widths, each like one of [`Study::points`], in the
+    /// round after the last.
+    #[must_use]
+    pub fn with_widths(mut self, added: impl IntoIterator<Item = (usize, f64)>) -> Self {
+        let last = self.points.iter().map(|point| point.round).max();
+        let round = last.unwrap_or(0) + 1;
+        let like = |(place, pulse_ms): (usize, f64)| {
+            points::at_width(&self.settings, &self.points[place], pulse_ms, round)
+        };
+        let new: Vec<Point> = added.into_iter().map(like).collect();
+        self.points.extend(new);
+        self
+    }
+
     /// Warnings whose code is not among the accepted ones; they stop a batch run.
     pub fn unaccepted(&self, accepted: &[String]) -> Vec<&StudyError> {
         self.remarks
@@ -301,6 +331,22 @@ impl Study {
             .filter(|remark| !accepted.iter().any(|code| code.trim() == remark.code))
             .collect()
     }
+}
+
+/// How widths are added, if they are.
+fn refine(view: &View<'_>) -> Option<RefineSettings> {
+    let most_points = view.maybe_integer("search.refine.most_points");
+    let refine = RefineSettings {
+        tolerance_pct: view.maybe_number("search.refine.tolerance_pct"),
+        crossing_pct: view.maybe_number("search.refine.crossing_pct"),
+        closest_pct: view
+            .maybe_number("search.refine.closest_pct")
+            .unwrap_or(2.0),
+        most_points: most_points
+            .and_then(|count| usize::try_from(count).ok())
+            .unwrap_or(60),
+    };
+    (refine.tolerance_pct.is_some() || refine.crossing_pct.is_some()).then_some(refine)
 }
 
 /// Checks a number of worker threads.

@@ -90,6 +90,8 @@ pub struct Point {
     pub axes: Vec<(String, AxisValue)>,
     /// The scene.
     pub scene: Scene,
+    /// Round of refinement that added the width, 0 for the study's own.
+    pub round: u32,
 }
 
 impl Point {
@@ -281,7 +283,23 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
             })
             .collect(),
         scene,
+        round: 0,
     }
+}
+
+/// The point `like` at another width, added in a round of refinement.
+pub fn at_width(settings: &Settings, like: &Point, pulse_ms: f64, round: u32) -> Point {
+    let axes = axes(settings);
+    let mut found = None;
+    combinations(settings, |view| {
+        let has = |axis: &Axis| view.get(&axis.path).map(AxisValue::from_datum);
+        let values = axes.iter().map(has);
+        if found.is_none() && values.eq(like.axes.iter().map(|(_, value)| Some(value.clone()))) {
+            let point = point(view, &axes, like.ramp, pulse_ms, like.sign);
+            found = Some(Point { round, ..point });
+        }
+    });
+    found.expect("a point of the study lies on its axes")
 }
 
 /// Positions of the points in the order of tables: further axes, ramps, signs, widths ascending.

@@ -4,7 +4,7 @@
 //! search asks, the point with the longest chain of successors first; else what a search will
 //! probably ask. Answers come back in any order and change nothing but when a probe is answered.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -125,10 +125,8 @@ pub fn sweep(
         others.extend(store::load(other)?.0.runs);
     }
     if options.retry_undecided {
-        others.retain(|_, run| !matches!(run.result.verdict, Verdict::Undecided { .. }));
-        loaded
-            .runs
-            .retain(|_, run| !matches!(run.result.verdict, Verdict::Undecided { .. }));
+        forget_undecided(&mut others);
+        forget_undecided(&mut loaded.runs);
     }
     progress.event(&Event::Started {
         study: input.texts.name.clone(),
@@ -150,6 +148,19 @@ pub fn sweep(
             Err(panic) => std::panic::resume_unwind(panic),
         }
     })
+}
+
+/// Forgets runs without verdict, except those of a node that a later retry decided: made again
+/// they would end as before, and the retry is known.
+fn forget_undecided(runs: &mut HashMap<RunKey, RunRecord>) {
+    let node = |key: &RunKey| (key.point, key.amplitude_bits, key.window_factor);
+    let is_undecided = |run: &RunRecord| matches!(run.result.verdict, Verdict::Undecided { .. });
+    let decided: HashSet<_> = runs
+        .values()
+        .filter(|run| !is_undecided(run))
+        .map(|run| node(&run.key))
+        .collect();
+    runs.retain(|key, run| !is_undecided(run) || decided.contains(&node(key)));
 }
 
 /// Table and runs from what is stored, without simulating.

@@ -62,6 +62,9 @@ pub struct Forecast {
     pub points: u64,
     /// Points whose answer the store has.
     pub answered: u64,
+    /// Points that refinement may add; counted in every maximum, and in nothing else.
+    #[serde(skip_serializing_if = "is_none")]
+    pub added_points: u64,
     /// Finished simulations in the store that stay valid.
     pub reused_runs: u64,
     /// Simulations of the searches.
@@ -80,6 +83,35 @@ pub struct Forecast {
     pub threads: usize,
     /// Bytes of the store in the end.
     pub disk_bytes: u64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_none(count: &u64) -> bool {
+    *count == 0
+}
+
+impl Forecast {
+    /// Counts `points` of refinement in every maximum, at the price of the study's own: twice the
+    /// likely number of runs of a point, at the pace of a long one.
+    pub fn may_add(&mut self, points: u64) {
+        let open = self.points - self.answered;
+        if open == 0 {
+            // Everything is answered, and nothing was left to add.
+            return;
+        }
+        self.added_points = points;
+        let share = points as f64 / open as f64;
+        for spread in [
+            &mut self.search_runs,
+            &mut self.bar_runs,
+            &mut self.runs,
+            &mut self.core_h,
+            &mut self.wall_h,
+        ] {
+            spread.max *= 1.0 + share;
+        }
+        self.disk_bytes = (self.disk_bytes as f64 * (1.0 + share)) as u64;
+    }
 }
 
 /// Made-up tables.
@@ -198,6 +230,7 @@ pub fn forecast(
     Forecast {
         points: input.points.len() as u64,
         answered: open.iter().filter(|open| !**open).count() as u64,
+        added_points: 0,
         reused_runs,
         search_runs,
         bar_runs,

@@ -102,6 +102,7 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
                 .iter()
                 .map(|(_, value)| sortable(value))
                 .collect(),
+            round: point.round,
         },
         axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
         digest: digest(&point.scene, sign),

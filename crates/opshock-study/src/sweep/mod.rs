@@ -18,6 +18,7 @@ mod ledger;
 mod merge;
 pub mod physics;
 pub mod progress;
+pub mod refine;
 mod rows;
 pub mod shard;
 mod shelf;

@@ -2,7 +2,7 @@
 
 use super::input::SweepPoint;
 use crate::search::bar::{Answer, SUBNODES};
-use crate::search::{Bar, Findings, Flag, Lattice, Status};
+use crate::search::{Bar, Coordinates, Findings, Flag, Lattice, RampClass, Status};
 use crate::store::summary::{ErrorPart, PointSummary};
 
 /// Row of a point.
@@ -79,6 +79,22 @@ pub(super) fn row(
             let octaves = f64::from(nodes) / f64::from(lattice.nodes_per_octave);
             100.0 * (octaves.exp2() - 1.0)
         }),
+    }
+}
+
+/// Coordinates of a row; its axes as they are shown.
+pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
+    Coordinates {
+        ramp_class: match row.ramp.as_str() {
+            "none" => RampClass::None,
+            "rigid" => RampClass::Rigid,
+            _ => RampClass::Deformable,
+        },
+        ramp: row.ramp.clone(),
+        pulse_ms: row.pulse_ms,
+        sign: row.sign,
+        axes: row.axes.iter().map(ToString::to_string).collect(),
+        round: 0,
     }
 }
 

@@ -90,7 +90,24 @@ impl Check<'_, '_> {
                 })
             })
         };
-        let rules: [(bool, &str, &[&str]); 5] = [
+        let refines = ["search.refine.tolerance_pct", "search.refine.crossing_pct"];
+        let refines = refines.iter().any(|path| self.view.settings.has(path));
+        let rules: [(bool, &str, &[&str]); 8] = [
+            (
+                refines,
+                "neither tolerance_pct nor crossing_pct is given",
+                &["search.refine.closest_pct", "search.refine.most_points"],
+            ),
+            (
+                self.view.numbers("pulse.widths_ms").len() != 1,
+                "pulse.widths_ms has one width, and widths are added between two",
+                &["search.refine.tolerance_pct", "search.refine.crossing_pct"],
+            ),
+            (
+                self.view.words("ramp.models").len() != 1,
+                "ramp.models has one model",
+                &["search.refine.crossing_pct"],
+            ),
             (
                 any("pulse.shape", "trapezoid"),
                 "pulse.shape is not trapezoid",
@@ -147,6 +164,7 @@ impl Check<'_, '_> {
                 fault.allowed = "min < max".to_string();
             }
         }
+        self.refine();
         for (path, what) in [("ramp.models", "ramp models"), ("pulse.signs", "signs")] {
             if !self.sound(&[path]) {
                 continue;
@@ -187,6 +205,22 @@ impl Check<'_, '_> {
                 );
                 fault.allowed = "values that differ".to_string();
             }
+        }
+    }
+}
+
+impl Check<'_, '_> {
+    /// Lines cannot be told better than brackets.
+    fn refine(&mut self) {
+        let tolerance = "search.refine.tolerance_pct";
+        if self.sound(&[tolerance, "search.tolerance_pct"])
+            && let Some(lines) = self.view.maybe_number(tolerance)
+            && lines < self.view.number("search.tolerance_pct")
+        {
+            let bracket = self.view.number("search.tolerance_pct");
+            let what = format!("{lines} % is less than the bracket of every answer, {bracket} %");
+            let fault = self.fault("E156", &[tolerance, "search.tolerance_pct"], what);
+            fault.allowed = format!(">= {bracket} %");
         }
     }
 }
