@@ -3,6 +3,7 @@
 mod bodies;
 mod contact;
 mod contact_method;
+mod contact_stiffness;
 mod coupled_ramp;
 mod effects;
 mod effects_hard_cases;

@@ -73,6 +73,11 @@ pub fn parameters() -> Vec<Parameter> {
             Range::Times(0.5, 2.0),
         ),
         parameter(
+            "contact stiffness",
+            &["ramp.contact_stiffness_n_per_m"],
+            Range::Times(0.5, 2.0),
+        ),
+        parameter(
             "gram load",
             &["suspension.gram_load_gf"],
             Range::Times(0.9, 1.1),
