@@ -52,12 +52,12 @@ fn tetrahedra(hexahedra: &Mesh) -> Mesh {
     }
 }
 
-/// CalculiX's input in mm, t, s, MPa.
+/// CalculiX's input in mm, t, s, MPa; it reads at most twenty characters a number.
 fn input(mesh: &Mesh, material: &Material, held: &[usize]) -> String {
     let mut text = String::from("*NODE, NSET=ALL\n");
     for (a, x) in mesh.nodes_m.iter().enumerate() {
         let [x, y, z] = x.map(|c| 1e3 * c);
-        let _ = writeln!(text, "{}, {x:.15e}, {y:.15e}, {z:.15e}", a + 1);
+        let _ = writeln!(text, "{}, {x:.11e}, {y:.11e}, {z:.11e}", a + 1);
     }
     let kind = match mesh.shape {
         Shape::Hexahedron20 => "C3D20",
@@ -75,7 +75,7 @@ fn input(mesh: &Mesh, material: &Material, held: &[usize]) -> String {
     }
     let _ = writeln!(
         text,
-        "*MATERIAL, NAME=POLYMER\n*ELASTIC\n{:e}, {}\n*DENSITY\n{:e}\n\
+        "*MATERIAL, NAME=POLYMER\n*ELASTIC\n{:.6e}, {}\n*DENSITY\n{:.6e}\n\
          *SOLID SECTION, ELSET=SOLID, MATERIAL=POLYMER\n*BOUNDARY",
         1e-6 * material.youngs_modulus_pa,
         material.poisson,
