@@ -165,7 +165,7 @@ fn no_failing_system_call_costs_a_finished_simulation() {
     let (input, all, table) = undisturbed();
     assert!(all.len() >= 30, "{} records", all.len());
     let mut cases = 0_u64;
-    for scenario in 0..25_u64 {
+    for scenario in 0..28_u64 {
         // Counts the calls of a life without faults, broken off once in the middle.
         let dry = SimFiles::new(scenario);
         let calls = {
