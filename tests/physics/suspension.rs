@@ -142,6 +142,38 @@ fn static_response_to_inertia_is_exact_after_reduction() {
     assert_close("static dimple deflection", reduced, deflection, 1e-9);
 }
 
+/// With all modes a reduction is a change of coordinates, of bending and of torsion: the sum of all
+/// squared frequencies, trace(M⁻¹ K), is that of the elements.
+#[test]
+fn with_all_modes_nothing_is_cut() {
+    for parameters in [default_suspension(), paper_suspension()] {
+        let beam = BeamMatrices::assemble(&parameters).expect("assembles");
+        let most = ReducedSuspension::most_bending_modes(&parameters).expect("a beam");
+        let model = ReducedSuspension::build(&parameters, most).expect("builds");
+        for (what, reduced, stiffness, mass) in [
+            (
+                "bending",
+                &model.bending,
+                &beam.bending_stiffness,
+                &beam.bending_mass,
+            ),
+            (
+                "torsion",
+                &model.torsion,
+                &beam.torsion_stiffness,
+                &beam.torsion_mass,
+            ),
+        ] {
+            assert_eq!(reduced.len(), mass.nrows(), "{what}");
+            let factor = mass.clone().cholesky().expect("positive definite");
+            let all = factor.solve(stiffness).trace();
+            let factor = reduced.mass.clone().cholesky().expect("positive definite");
+            let kept = factor.solve(&nalgebra::DMatrix::from_diagonal(&reduced.stiffness));
+            assert_close(what, kept.trace(), all, 1e-9);
+        }
+    }
+}
+
 #[test]
 fn impossible_geometry_is_named() {
     let mut parameters = default_suspension();

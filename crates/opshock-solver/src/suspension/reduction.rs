@@ -63,7 +63,7 @@ pub struct ReducedSuspension {
 
 impl ReducedSuspension {
     /// Builds and reduces a suspension, keeping `bending_modes` pinned bending modes and half as
-    /// many (rounded up) pinned torsion modes, which lie twice as far apart.
+    /// many (rounded up, at most all) pinned torsion modes, which lie twice as far apart.
     ///
     /// # Errors
     /// Geometry that cannot be, or more modes than elements carry.
@@ -83,13 +83,14 @@ impl ReducedSuspension {
             zeta,
         )?;
         let no_load = DVector::zeros(beam.torsion_mass.nrows());
+        let all_torsion = beam.torsion_mass.nrows() - 1;
         let torsion = reduce(
             &beam.torsion_stiffness,
             &beam.torsion_mass,
             &no_load,
             beam.dimple_torsion,
             None,
-            bending_modes.div_ceil(2),
+            bending_modes.div_ceil(2).min(all_torsion),
             zeta,
         )?;
         Ok(Self {
