@@ -226,7 +226,7 @@ fn duration(seconds: f64) -> String {
     let whole = seconds.ceil().max(1.0) as u64;
     match whole {
         0..90 => format!("{whole} s"),
-        90..5400 => format!("{} min", whole.div_ceil(60)),
+        90..5400 => format!("{} min", (whole + 30) / 60),
         _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
     }
 }
