@@ -27,6 +27,9 @@ const ROUNDING: f64 = 1e-13;
 /// Most steps per wanted pair, and besides.
 const MOST_STEPS: [usize; 2] = [4, 120];
 
+/// The basis grows by this part of it between two looks at its pairs.
+const LOOK_SHARE: usize = 20;
+
 /// Natural modes, lowest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SolidModes {
@@ -110,6 +113,19 @@ impl StaticSolver {
     /// A limit that is an eigenvalue, or no convergence.
     pub fn modes_below(&self, system: &SolidSystem, limit: f64) -> Result<SolidModes, SparseError> {
         let count = self.count_below(system, limit)?;
+        self.counted(system, count, limit)
+    }
+
+    /// The `count` modes that [`StaticSolver::count_below`] found below `limit`.
+    ///
+    /// # Errors
+    /// No convergence.
+    pub fn counted(
+        &self,
+        system: &SolidSystem,
+        count: usize,
+        limit: f64,
+    ) -> Result<SolidModes, SparseError> {
         self.find(system, count, |value| value < limit)
     }
 
@@ -169,6 +185,7 @@ impl StaticSolver {
         let mut projected: Vec<Vec<f64>> = Vec::new();
         let mut block = self.first_block(system);
         let most = (MOST_STEPS[0] * count + MOST_STEPS[1]).min(free);
+        let mut next_look = count;
         loop {
             let before = basis.len();
             for vector in block {
@@ -186,7 +203,9 @@ impl StaticSolver {
             }
             images.extend(next.iter().cloned());
             let size = basis.len();
-            if size >= count.min(free) {
+            if size >= next_look.min(most) {
+                // A look costs size³: with a large basis, not after every block.
+                next_look = size + size / LOOK_SHARE;
                 let (values, vectors) = dense_eigen(&projected)?;
                 let largest = (0..count).map(|k| size - 1 - k);
                 let found = self.pairs(system, &basis, &images, &values, &vectors, largest);

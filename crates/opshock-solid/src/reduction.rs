@@ -49,6 +49,10 @@ pub struct ReducedSolid {
     pub basis: Vec<Vec<f64>>,
 }
 
+/// Most modes with the points held that a reduction keeps: far more than a ramp has below any cut
+/// that its contact excites, and what bounds time and memory of a shape that is all wrong.
+pub const MOST_MODES: usize = 100;
+
 /// An oscillator of the reduced solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointMode {
@@ -63,7 +67,8 @@ pub struct PointMode {
 /// Reduces a system to the points read by `columns`, with fixed-interface modes below `cut_hz`.
 ///
 /// # Errors
-/// A solid that is not held, points that move together only, no convergence.
+/// A solid that is not held, points that move together only, more than [`MOST_MODES`] modes below
+/// the cut, no convergence.
 pub fn reduce(
     system: &SolidSystem,
     columns: Vec<Vec<f64>>,
@@ -71,7 +76,14 @@ pub fn reduce(
 ) -> Result<ReducedSolid, SparseError> {
     let statics = StaticSolver::new(system, columns, 0.0)?;
     let limit = (std::f64::consts::TAU * cut_hz).powi(2);
-    let modes = statics.modes_below(system, limit)?;
+    let count = statics.count_below(system, limit)?;
+    if count > MOST_MODES {
+        return Err(SparseError::TooManyModes {
+            count,
+            most: MOST_MODES,
+        });
+    }
+    let modes = statics.counted(system, count, limit)?;
     let n_points = statics.constraint_modes().len();
     let corrections = corrections(system, &statics, &modes);
     let n_modes = modes.shapes.len();

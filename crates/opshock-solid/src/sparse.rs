@@ -39,6 +39,14 @@ pub enum SparseError {
         /// Order of the matrix.
         order: usize,
     },
+    /// More modes below a frequency than are looked for.
+    #[error("{count} modes lie below the cut; at most {most} are kept")]
+    TooManyModes {
+        /// Modes counted.
+        count: usize,
+        /// Most that are kept.
+        most: usize,
+    },
     /// The eigenvalue iteration did not converge.
     #[error("eigenvalue iteration of order {order} did not converge")]
     NotConverged {

@@ -5,6 +5,7 @@ use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 use super::Check;
 use crate::study::{ramp_geometry, scene, unit};
 use opshock_solid::ramp::{GeometryError, SolidRampError};
+use opshock_solid::sparse::SparseError;
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
@@ -126,6 +127,13 @@ impl Check<'_, '_> {
                 let fault = self.fault("E174", &[&mesh[0]], fault.to_string());
                 fault.allowed = "a size of at most 10000 elements".to_string();
                 fault.hint = "a larger mesh_size_mm".to_string();
+            }
+            SolidRampError::Sparse(fault @ SparseError::TooManyModes { most, .. }) => {
+                let mut keys = looked_at;
+                keys.insert(0, &mesh[1]);
+                let fault = self.fault("E174", &keys, fault.to_string());
+                fault.allowed = format!("a cut with at most {most} modes below it");
+                fault.hint = "a lower cut_khz, or a smaller or stiffer ramp".to_string();
             }
             other => {
                 let message = format!("the ramp has no modes: {other}");
