@@ -80,8 +80,8 @@ pub enum GeometryError {
     },
 }
 
-/// Most elements of a ramp: a gigabyte and a minute.
-pub const MOST_ELEMENTS: usize = 10_000;
+/// Most elements of a ramp: two gigabytes and ten seconds.
+pub const MOST_ELEMENTS: usize = 5_000;
 
 /// Millimetres without the digits of rounding.
 fn mm(length_m: f64) -> f64 {

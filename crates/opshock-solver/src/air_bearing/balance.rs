@@ -9,7 +9,7 @@
 )]
 
 use super::Attitude;
-use super::faces::{BLOCK, Block, Interior, Places, block};
+use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
 use super::film::Film;
 use super::flux::is_steep;
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
@@ -128,7 +128,7 @@ impl Kernel for Balance<'_> {
         let columns = &film.columns;
         scratch.fill(film, psi, attitude);
         let mut moments = Moments::default();
-        let (front, n) = (columns.front, columns.n_cells);
+        let front = columns.front;
 
         for first in (0..columns.area.len()).step_by(BLOCK) {
             let psi = block(&scratch.psi, front + first);
@@ -182,15 +182,7 @@ impl Kernel for Balance<'_> {
             scratch.flux[d] = through;
         }
         let [x, y] = &scratch.flux;
-        let (x_stride, y_stride) = (columns.interior[0].stride, columns.interior[1].stride);
-        let x_out = &x[front..front + n];
-        let x_in = &x[front - x_stride..front - x_stride + n];
-        let y_out = &y[front..front + n];
-        let y_in = &y[front - y_stride..front - y_stride + n];
-        let out = &mut out[..n];
-        for k in 0..n {
-            out[k] = (x_out[k] - x_in[k]) + (y_out[k] - y_in[k]);
-        }
+        net([x, y], columns, out);
 
         for faces in &columns.edges {
             for first in (0..faces.length.len()).step_by(BLOCK) {
@@ -213,6 +205,22 @@ impl Kernel for Balance<'_> {
             }
         }
         moments.total()
+    }
+}
+
+/// What flows out of every cell: through the face of its own number, less through the one before.
+#[inline(always)]
+pub(super) fn net(of: [&[f64]; 2], columns: &Columns, out: &mut [f64]) {
+    let (front, n) = (columns.front, columns.n_cells);
+    let [x, y] = of;
+    let (x_stride, y_stride) = (columns.interior[0].stride, columns.interior[1].stride);
+    let x_out = &x[front..front + n];
+    let x_in = &x[front - x_stride..front - x_stride + n];
+    let y_out = &y[front..front + n];
+    let y_in = &y[front - y_stride..front - y_stride + n];
+    let out = &mut out[..n];
+    for k in 0..n {
+        out[k] = (x_out[k] - x_in[k]) + (y_out[k] - y_in[k]);
     }
 }
 

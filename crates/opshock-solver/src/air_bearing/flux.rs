@@ -38,7 +38,8 @@
 //!
 //! Everything here is one number in, one number out, without calls and with both sides of every
 //! choice cheap, so that loops over faces compile to vector instructions
-//! ([`crate::lanes`]). `UP` says that the wind blows towards the face, else it blows away from it.
+//! ([`crate::lanes`]); a call, be it of `map`, keeps a whole loop from
+//! them. `UP` says that the wind blows towards the face, else it blows away from it.
 
 use crate::elementary::{artanh, exp, ln};
 
@@ -318,7 +319,10 @@ impl HalfCell {
             mean_centre * inverse_mean,
             mean_face * inverse_mean,
         ];
-        let blow = log.map(|by| -flux.blow * by);
+        let mut blow = [0.0; 4];
+        for v in 0..4 {
+            blow[v] = -flux.blow * log[v];
+        }
         let pe = [
             blow[0],
             0.0,
@@ -326,9 +330,10 @@ impl HalfCell {
             blow[3] + 1.0 / self.h_face,
         ];
         let [rise_psi, rise_behind, rise_pe, rise_blow] = flux.rise_by;
-        let mut rise: Partials = [0, 1, 2, 3].map(|v| rise_pe * pe[v] + rise_blow * blow[v]);
-        rise[0] += rise_psi;
-        rise[1] += rise_behind;
+        let mut rise = [rise_psi, rise_behind, 0.0, 0.0];
+        for v in 0..4 {
+            rise[v] += rise_pe * pe[v] + rise_blow * blow[v];
+        }
 
         // α − β p = K (ψ − p h_f) + V (ψ + δ) with K = (D/Δ) B(Pe), V = w + G (h_f − h_c)/Δ.
         let g = self.g * self.inverse_distance;
@@ -336,8 +341,10 @@ impl HalfCell {
         let drive = self.psi - p * self.h_face;
         let carried = self.psi + flux.rise;
         let velocity = flux.conductance * flux.pe;
-        let k = [0, 1, 2, 3]
-            .map(|v: usize| (flux.k * log[v] + flux.k_slope * pe[v]) * drive + velocity * rise[v]);
+        let mut k = [0.0; 4];
+        for v in 0..4 {
+            k[v] = (flux.k * log[v] + flux.k_slope * pe[v]) * drive + velocity * rise[v];
+        }
         let by_flux = [
             k[0] + carried * g_slope * (self.h_face - self.h_centre) + flux.k + velocity,
             velocity * rise[1],
@@ -368,10 +375,11 @@ impl HalfCell {
             ([0.5, 0.0, 0.0, 0.5 * p], 0.5 * self.h_face)
         };
         let signed = if UP { per_blow } else { -per_blow };
-        let part = [0, 1, 2, 3].map(|v: usize| {
-            gain * (strength * per_blow_slope * pe[v] + signed * blow[v])
-                + convective * q * mean_by[v]
-        });
+        let mut part = [0.0; 4];
+        for v in 0..4 {
+            part[v] = gain * (strength * per_blow_slope * pe[v] + signed * blow[v])
+                + convective * q * mean_by[v];
+        }
         HalfPartials {
             flux: by_flux,
             excess: [

@@ -2,6 +2,7 @@
 
 mod balance;
 mod corner;
+mod derivatives;
 mod faces;
 mod film;
 mod flow_factor;

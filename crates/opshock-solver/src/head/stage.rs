@@ -30,8 +30,10 @@ use crate::linalg::pivoted::PivotedLu;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
-/// Contraction above which the Jacobian is renewed; a renewal costs what fifteen iterations cost.
+/// Contraction above which the Jacobian is renewed; a renewal costs what eleven iterations cost.
 const SLOW: f64 = 0.1;
+/// Contraction that new factors are trusted to have until a second iterate measures it.
+const FIRST_CONTRACTION: f64 = 0.1;
 /// Power of the contraction taken for the next stage when this one's first iterate told nothing of it:
 /// what was measured long ago counts for less and less, until a second iterate measures again.
 const AGEING: f64 = 0.9;
@@ -120,7 +122,7 @@ impl StageScratch {
             small: vec![0.0; n],
             lu_small: PivotedLu::new(n),
             small_key: None,
-            contraction: 0.1,
+            contraction: FIRST_CONTRACTION,
             last_closed: true,
             counters: Counters::default(),
         }
@@ -130,7 +132,7 @@ impl StageScratch {
     pub fn reset(&mut self) {
         self.factored_d_s = None;
         self.small_key = None;
-        self.contraction = 0.1;
+        self.contraction = FIRST_CONTRACTION;
         self.counters = Counters::default();
     }
 
@@ -217,7 +219,7 @@ impl Stages<'_> {
         s.factored_d_s = Some(d_s);
         s.n_borrowed = 0;
         s.small_key = None;
-        s.contraction = 0.1;
+        s.contraction = FIRST_CONTRACTION;
         Ok(())
     }
 

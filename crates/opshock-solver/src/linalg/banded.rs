@@ -122,6 +122,12 @@ impl BandMatrix {
         self.entries.fill(0.0);
     }
 
+    /// Rows one after the other: entry (i, j) stands at place j + below − i of row i. Places outside
+    /// the matrix must stay zero.
+    pub fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, f64> {
+        self.entries.chunks_exact_mut(self.band.width())
+    }
+
     /// Entry (i, j); zero outside the band.
     pub fn get(&self, i: usize, j: usize) -> f64 {
         if self.band.holds(i, j) {

@@ -6,9 +6,8 @@ use super::{Study, StudyError};
 const BASE_BYTES: f64 = 60e6;
 
 /// Bytes of the film's matrices and banded factors for n cells, at their peak while the steady flight
-/// is found: some nine bands of 3 n_y entries a cell, with n_y about √n/1.1 cells across. Peaks
-/// measured at 5145, 20 370 and 50 464 cells, less 17 MB of the program: 84, 636 and 2422 MB,
-/// 214 to 228 bytes times n^1.5.
+/// is found. Measured peaks at 5145, 20 370 and 50 464 cells, less the 16 MB of a process with 16
+/// cells: 87, 653 and 2482 MB, which are 236, 225 and 219 bytes times n^1.5, as of bands √n wide.
 pub fn film_bytes(cells: f64) -> f64 {
     224.0 * cells.powf(1.5)
 }

@@ -4,7 +4,7 @@ use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
 use super::Check;
 use crate::study::{ramp_geometry, scene, unit};
-use opshock_solid::ramp::{GeometryError, SolidRampError};
+use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;
 
 impl Check<'_, '_> {
@@ -125,7 +125,7 @@ impl Check<'_, '_> {
             }
             SolidRampError::Geometry(fault @ GeometryError::MeshSize { .. }) => {
                 let fault = self.fault("E174", &[&mesh[0]], fault.to_string());
-                fault.allowed = "a size of at most 10000 elements".to_string();
+                fault.allowed = format!("a size of at most {MOST_ELEMENTS} elements");
                 fault.hint = "a larger mesh_size_mm".to_string();
             }
             SolidRampError::Sparse(fault @ SparseError::TooManyModes { most, .. }) => {

@@ -1,0 +1,261 @@
+//! Fluxes and loads of a block of faces with their derivatives.
+//!
+//! With the face pressure eliminated, a change of one side reaches the flux through the other
+//! side's share of β, and the face pressure through 1/(β_up + β_down).
+
+use super::faces::{BLOCK, Block};
+use super::film::Film;
+use super::flux::HalfPartials;
+use super::state::SideBlock;
+
+/// x and y of a block of faces and of the cells on either side, from the slider's centre.
+pub(super) struct Arms {
+    pub(super) face: [Block; 2],
+    pub(super) up: [Block; 2],
+    pub(super) down: [Block; 2],
+}
+
+/// Derivatives of the height at (x, y) by attitude.
+#[inline(always)]
+pub(super) fn height_by_attitude([x, y]: &[Block; 2], k: usize) -> [f64; 3] {
+    [1.0, -x[k], y[k]]
+}
+
+/// Fluxes and loads of a block with their derivatives: by ψ of the up cell, of the cell behind it
+/// and of the down cell, and by attitude.
+pub(super) struct FaceDerivatives {
+    pub(super) flux: Block,
+    pub(super) flux_by_psi: [Block; 3],
+    pub(super) flux_by_attitude: [Block; 3],
+    pub(super) load: Block,
+    pub(super) load_by_psi: [Block; 3],
+    pub(super) load_by_attitude: [Block; 3],
+}
+
+impl FaceDerivatives {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self {
+            flux: [0.0; BLOCK],
+            flux_by_psi: [[0.0; BLOCK]; 3],
+            flux_by_attitude: [[0.0; BLOCK]; 3],
+            load: [0.0; BLOCK],
+            load_by_psi: [[0.0; BLOCK]; 3],
+            load_by_attitude: [[0.0; BLOCK]; 3],
+        }
+    }
+
+    /// Sets face k from its sides.
+    #[inline(always)]
+    fn set(&mut self, k: usize, [up, down]: [&SideDerivatives; 2], load_by_p: f64, arms: &Arms) {
+        let face = height_by_attitude(&arms.face, k);
+        let centres = [
+            height_by_attitude(&arms.up, k),
+            height_by_attitude(&arms.down, k),
+        ];
+        let (up_flux, up_load) = up.reaching(load_by_p);
+        let (down_flux, down_load) = down.reaching(load_by_p);
+        self.flux_by_psi[0][k] = up_flux[0];
+        self.flux_by_psi[1][k] = up_flux[1];
+        self.flux_by_psi[2][k] = down_flux[0];
+        self.load_by_psi[0][k] = up_load[0];
+        self.load_by_psi[1][k] = up_load[1];
+        self.load_by_psi[2][k] = down_load[0];
+        let height = [up.slopes, down.slopes];
+        for q in 0..3 {
+            let at = [height[0][0] * centres[0][q], height[1][0] * centres[1][q]];
+            let at_face = [height[0][1] * face[q], height[1][1] * face[q]];
+            self.flux_by_attitude[q][k] = (up_flux[2] * at[0] + up_flux[3] * at_face[0])
+                + (down_flux[2] * at[1] + down_flux[3] * at_face[1]);
+            self.load_by_attitude[q][k] = (up_load[2] * at[0] + up_load[3] * at_face[0])
+                + (down_load[2] * at[1] + down_load[3] * at_face[1]);
+        }
+    }
+}
+
+/// What a side contributes to a face's derivatives.
+struct SideDerivatives {
+    partials: HalfPartials,
+    /// Of a change of the side's α − β p, what reaches the flux.
+    share: f64,
+    area: f64,
+    /// Derivatives of the floored by the true height at the centre and at the face.
+    slopes: [f64; 2],
+}
+
+impl SideDerivatives {
+    /// Derivatives of flux and load by the side's own four numbers, the face pressure following.
+    #[inline(always)]
+    fn reaching(&self, load_by_p: f64) -> ([f64; 4], [f64; 4]) {
+        let (flux, excess) = (&self.partials.flux, &self.partials.excess);
+        let (mut by, mut load) = ([0.0; 4], [0.0; 4]);
+        for v in 0..4 {
+            by[v] = self.share * flux[v];
+            load[v] = self.area * excess[v] + load_by_p * flux[v];
+        }
+        (by, load)
+    }
+}
+
+/// Both sides of a face joined.
+#[inline(always)]
+fn join(
+    all: &mut FaceDerivatives,
+    k: usize,
+    [up, down]: [(HalfPartials, f64, f64, f64, [f64; 2]); 2],
+    inverse_total: f64,
+    length: f64,
+    arms: &Arms,
+) {
+    let (up, up_beta, up_excess, up_area, up_slopes) = up;
+    let (down, down_beta, down_excess, down_area, down_slopes) = down;
+    all.load[k] = up_area * up_excess + down_area * down_excess;
+    let load_by_p = inverse_total * (up_area * up.excess_by_p + down_area * down.excess_by_p);
+    let up = SideDerivatives {
+        partials: up,
+        share: length * down_beta * inverse_total,
+        area: up_area,
+        slopes: up_slopes,
+    };
+    let down = SideDerivatives {
+        partials: down,
+        share: -length * up_beta * inverse_total,
+        area: down_area,
+        slopes: down_slopes,
+    };
+    all.set(k, [&up, &down], load_by_p, arms);
+}
+
+#[inline(always)]
+pub(super) fn windy<const STEEP: bool>(
+    up: &SideBlock<'_>,
+    down: &SideBlock<'_>,
+    [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
+    length: &Block,
+    arms: &Arms,
+) -> FaceDerivatives {
+    let mut all = FaceDerivatives::zero();
+    for k in 0..BLOCK {
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
+        let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
+        let total = a.beta + b.beta;
+        let p = (a.alpha + b.alpha) / total;
+        all.flux[k] = length[k] * (a.alpha - a.beta * p);
+        join(
+            &mut all,
+            k,
+            [
+                (
+                    u.partials::<true>(&a, p),
+                    a.beta,
+                    u.mean_excess::<true>(&a, p),
+                    up.area[k],
+                    [up.h_slope(k), slope_up[k]],
+                ),
+                (
+                    d.partials::<false>(&b, p),
+                    b.beta,
+                    d.mean_excess::<false>(&b, p),
+                    down.area[k],
+                    [down.h_slope(k), slope_down[k]],
+                ),
+            ],
+            1.0 / total,
+            length[k],
+            arms,
+        );
+    }
+    all
+}
+
+#[inline(always)]
+pub(super) fn still(
+    up: &SideBlock<'_>,
+    down: &SideBlock<'_>,
+    [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
+    length: &Block,
+    arms: &Arms,
+) -> FaceDerivatives {
+    let mut all = FaceDerivatives::zero();
+    for k in 0..BLOCK {
+        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
+        let ((alpha_up, beta_up), (alpha_down, beta_down)) = (u.still(), d.still());
+        let total = beta_up + beta_down;
+        let p = (alpha_up + alpha_down) / total;
+        all.flux[k] = length[k] * (alpha_up - beta_up * p);
+        join(
+            &mut all,
+            k,
+            [
+                (
+                    u.still_partials(p),
+                    beta_up,
+                    u.still_excess(p),
+                    up.area[k],
+                    [up.h_slope(k), slope_up[k]],
+                ),
+                (
+                    d.still_partials(p),
+                    beta_down,
+                    d.still_excess(p),
+                    down.area[k],
+                    [down.h_slope(k), slope_down[k]],
+                ),
+            ],
+            1.0 / total,
+            length[k],
+            arms,
+        );
+    }
+    all
+}
+
+/// Faces on the slider's edge; only the up side counts.
+#[inline(always)]
+pub(super) fn edge(
+    film: &Film,
+    side: &SideBlock<'_>,
+    base: &Block,
+    length: &Block,
+    arms: &Arms,
+) -> FaceDerivatives {
+    let mut all = FaceDerivatives::zero();
+    let p = film.ambient_pa;
+    for k in 0..BLOCK {
+        let (h_face, slope) = film.floored(base[k] + side.recess[k]);
+        let half = side.half(k, h_face);
+        let (partials, (alpha, beta), excess) = if side.wind == 0.0 {
+            (half.still_partials(p), half.still(), half.still_excess(p))
+        } else if side.wind > 0.0 {
+            let flux = half.flux::<true, true>();
+            (
+                half.partials::<true>(&flux, p),
+                (flux.alpha, flux.beta),
+                half.mean_excess::<true>(&flux, p),
+            )
+        } else {
+            let flux = half.flux::<false, true>();
+            (
+                half.partials::<false>(&flux, p),
+                (flux.alpha, flux.beta),
+                half.mean_excess::<false>(&flux, p),
+            )
+        };
+        all.flux[k] = length[k] * (alpha - beta * p);
+        all.load[k] = side.area[k] * excess;
+        let own = SideDerivatives {
+            partials,
+            share: length[k],
+            area: side.area[k],
+            slopes: [side.h_slope(k), slope],
+        };
+        let nothing = SideDerivatives {
+            partials: HalfPartials::NONE,
+            share: 0.0,
+            area: 0.0,
+            slopes: [0.0; 2],
+        };
+        all.set(k, [&own, &nothing], 0.0, arms);
+    }
+    all
+}
