@@ -244,7 +244,8 @@ impl miette::Diagnostic for Shown<'_> {
 pub struct StudyErrors {
     /// The faults listed, at most [`MAX_LISTED`].
     pub errors: Vec<StudyError>,
-    /// How many more there were.
+    /// How many more were found. Of many combinations of axes only so many are looked at that some
+    /// thousand faults are known.
     pub unlisted: usize,
 }
 

@@ -1,16 +1,14 @@
 //! Axes and points, in the canonical order of the search and the natural order of tables.
 
-use std::collections::BTreeMap;
-
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::Rung;
 
-use super::fault::StudyError;
+use super::fault::{Severity, StudyError};
 use super::read::{self, MAX_POINTS};
 use super::scene;
 use super::settings::{Datum, Settings, View};
 use super::unit;
-use super::validity::Check;
+use super::validity::{Check, PointRules};
 use super::words::{Ramp, Sign};
 use crate::identity::CellId;
 
@@ -187,33 +185,41 @@ pub fn ends_then_midpoints(n: usize) -> Vec<usize> {
 }
 
 /// The combinations of the further axes, outermost first, as views on the settings.
-fn combinations<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>)) {
+pub(super) fn combinations<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>)) {
+    combinations_while(settings, |view| {
+        each(view);
+        true
+    });
+}
+
+/// As [`combinations`], until `each` wants no more.
+fn combinations_while<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>) -> bool) {
+    let length = |path| settings.get(path).map_or(1, |setting| setting.values.len());
     let axes: Vec<(&'a str, usize)> = settings
         .axes()
         .into_iter()
-        .map(|path| {
-            (
-                path,
-                settings.get(path).map_or(1, |setting| setting.values.len()),
-            )
-        })
+        .map(|path| (path, length(path)))
+        .filter(|(_, length)| *length != 1)
         .collect();
     let total: usize = axes.iter().map(|(_, length)| length).product();
     for number in 0..total {
-        let mut positions = BTreeMap::new();
         let mut rest = number;
-        for (path, length) in axes.iter().rev() {
-            positions.insert(*path, rest % length);
+        let mut positions: Vec<(&'a str, usize)> = Vec::with_capacity(axes.len());
+        for &(path, length) in axes.iter().rev() {
+            positions.push((path, rest % length));
             rest /= length;
         }
-        each(&View {
-            settings,
-            positions,
-        });
+        if !each(&View::on(settings, positions)) {
+            return;
+        }
     }
 }
 
-/// Checks the number of points and everything that depends on several keys, at every combination.
+/// Different errors after which no further combination is looked at: many times what is listed.
+const ENOUGH: usize = 1000;
+
+/// Checks the number of points and everything that depends on several keys, at every combination
+/// until [`ENOUGH`] is wrong.
 pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
     let first = View::first(settings);
     Check {
@@ -237,13 +243,18 @@ pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
         }
         return;
     }
-    combinations(settings, |view| {
-        let before = faults.len();
-        Check { view, faults }.point(&widths);
-        // The same fault at many combinations is one fault.
-        if faults.len() > before + 1 || before > 0 {
-            super::fault::tidy(faults);
+    let mut rules = PointRules::default();
+    let mut tidied = faults.len();
+    combinations_while(settings, |view| {
+        rules.check(view, faults, &widths);
+        if faults.len() <= 2 * tidied + ENOUGH {
+            return true;
         }
+        // The same fault at many combinations is one fault.
+        super::fault::tidy(faults);
+        tidied = faults.len();
+        let is_error = |fault: &&StudyError| fault.severity() == Severity::Error;
+        faults.iter().filter(is_error).count() < ENOUGH
     });
 }
 

@@ -1,5 +1,6 @@
 //! The checked values of a study, by dotted path, and how one point looks at them.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::keys::{self, KEYS};
@@ -141,8 +142,10 @@ impl Settings {
 pub struct View<'a> {
     /// All settings.
     pub settings: &'a Settings,
-    /// Position on each axis; 0 when absent.
-    pub positions: BTreeMap<&'a str, usize>,
+    /// Position on each axis and its number; position 0 when absent.
+    positions: BTreeMap<&'a str, (u32, usize)>,
+    /// Axes read, a bit for each number.
+    read: Cell<u64>,
 }
 
 impl<'a> View<'a> {
@@ -151,12 +154,56 @@ impl<'a> View<'a> {
         Self {
             settings,
             positions: BTreeMap::new(),
+            read: Cell::new(0),
+        }
+    }
+
+    /// The settings at a position on each of these axes. Axes of one value need not be given.
+    ///
+    /// # Panics
+    /// With more than 64 axes: they would span more points than any study may have.
+    pub fn on(settings: &'a Settings, axes: impl IntoIterator<Item = (&'a str, usize)>) -> Self {
+        let numbered = (0..).zip(axes).map(|(number, (path, position))| {
+            assert!(number < u64::BITS, "more axes than a study can have");
+            (path, (number, position))
+        });
+        Self {
+            positions: numbered.collect(),
+            ..Self::first(settings)
+        }
+    }
+
+    /// Axes read since the last [`View::forget_read`], a bit for each.
+    pub fn read(&self) -> u64 {
+        self.read.get()
+    }
+
+    /// Counts axes that are read from now on.
+    pub fn forget_read(&self) {
+        self.read.set(0);
+    }
+
+    /// Positions on some axes, a bit for each.
+    pub fn at(&self, axes: u64) -> Vec<usize> {
+        let mut at: Vec<(u32, usize)> = self.positions.values().copied().collect();
+        at.retain(|(number, _)| axes >> number & 1 == 1);
+        at.sort_unstable();
+        at.into_iter().map(|(_, position)| position).collect()
+    }
+
+    fn position(&self, path: &str) -> usize {
+        match self.positions.get(path) {
+            None => 0,
+            Some(&(number, position)) => {
+                self.read.set(self.read.get() | 1 << number);
+                position
+            }
         }
     }
 
     /// The value at a path.
     pub fn get(&self, path: &str) -> Option<&'a Datum> {
-        let position = self.positions.get(path).copied().unwrap_or(0);
+        let position = self.position(path);
         self.settings
             .get(path)
             .and_then(|setting| setting.values.get(position))
@@ -164,7 +211,7 @@ impl<'a> View<'a> {
 
     /// Place of the value at a path.
     pub fn place(&self, path: &str) -> Option<&'a Place> {
-        let position = self.positions.get(path).copied().unwrap_or(0);
+        let position = self.position(path);
         self.settings.get(path).map(|setting| {
             if setting.is_axis {
                 setting.place_of(position)

@@ -7,11 +7,13 @@ mod drive;
 mod fields;
 mod pulse;
 mod rails;
+mod seen;
 mod study;
 
 use super::fault::StudyError;
 use super::keys;
 use super::settings::View;
+use seen::Seen;
 
 /// Collects the faults of one point of a study.
 pub struct Check<'a, 'f> {
@@ -29,18 +31,6 @@ impl Check<'_, '_> {
         self.fields();
         self.search();
         self.without_effect();
-    }
-
-    /// Every rule about a point.
-    pub fn point(&mut self, widths_ms: &[f64]) {
-        self.disk_and_ramp();
-        self.ramp_geometry();
-        self.gas();
-        self.slider_place();
-        self.rails();
-        self.suspension();
-        self.pulse(widths_ms);
-        self.fields_end();
     }
 
     fn sound(&self, paths: &[&str]) -> bool {
@@ -70,6 +60,34 @@ impl Check<'_, '_> {
         let at = self.faults.len();
         self.faults.push(fault);
         &mut self.faults[at]
+    }
+}
+
+/// A rule about a point, told the widths of the study in ms.
+type PointRule = fn(&mut Check<'_, '_>, &[f64]);
+
+/// Every rule about a point, in the order of a study.
+const POINT_RULES: [PointRule; 8] = [
+    |check, _| check.disk_and_ramp(),
+    |check, _| check.ramp_geometry(),
+    |check, _| check.gas(),
+    |check, _| check.slider_place(),
+    |check, _| check.rails(),
+    |check, _| check.suspension(),
+    |check, widths_ms| check.pulse(widths_ms),
+    |check, _| check.fields_end(),
+];
+
+/// The rules about points with what each has looked at.
+#[derive(Debug, Default)]
+pub struct PointRules([Seen; POINT_RULES.len()]);
+
+impl PointRules {
+    /// Looks at one combination of the axes; a rule that has seen all it reads there says nothing.
+    pub fn check(&mut self, view: &View<'_>, faults: &mut Vec<StudyError>, widths_ms: &[f64]) {
+        for (rule, seen) in POINT_RULES.iter().zip(&mut self.0) {
+            seen.look(view, || rule(&mut Check { view, faults }, widths_ms));
+        }
     }
 }
 
