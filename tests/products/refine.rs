@@ -3,121 +3,38 @@
 
 use std::path::Path;
 
-use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
-use opshock_study::search::{Probe, ProbeResult, RunCost, Verdict};
-use opshock_study::store::{self, Loaded, Summary, folder};
-use opshock_study::study::{Ramp, SetArg, Study};
-use opshock_study::sweep::refine::{crossings, next_round, refined};
-use opshock_study::sweep::{
-    Ending, MergeEnd, Onset, Silent, Simulator, SweepInput, SweepOptions, merge, shard, sweep,
-};
+use opshock_study::report::html::html;
+use opshock_study::report::{CrossingRow, ReportSource};
+use opshock_study::search::Flag;
+use opshock_study::store::folder;
+use opshock_study::study::Ramp;
+use opshock_study::study::Study;
+use opshock_study::sweep::refine::crossings;
+use opshock_study::sweep::{MergeEnd, Shard, SweepInput, SweepOptions, merge, rounds, shard};
 use opshock_tests::hdf5_dump::dump;
-use opshock_tests::tables::failure;
+use opshock_tests::refined::{
+    GRID_ERROR, critical_g, crossing_ms, refined_study, study, sweep_rounds,
+};
 
 use crate::cli::{Done, study as shipped};
 
-/// Kink of the deformable ramp's curve, ms.
-const KINK_MS: f64 = 0.8;
+fn threads(threads: usize) -> SweepOptions {
+    SweepOptions::with_threads(threads)
+}
 
-/// Critical shocks in G: two power laws that meet at 1.66 ms, one of them with a kink.
-fn critical_g(ramp: Ramp, pulse_ms: f64) -> f64 {
-    match ramp {
-        Ramp::None => 900.0,
-        Ramp::Rigid => 300.0 * pulse_ms.powf(-0.5),
-        Ramp::Deformable => {
-            let at_kink = 200.0 * KINK_MS.powf(0.3);
-            let slope = if pulse_ms < KINK_MS { -0.9 } else { 0.3 };
-            at_kink * (pulse_ms / KINK_MS).powf(slope)
-        }
+fn of_shard(part: &str) -> SweepOptions {
+    let part: Shard = part.parse().expect("a shard");
+    SweepOptions {
+        shard: Some(part),
+        ..threads(1)
     }
-}
-
-/// Where the power laws meet, ms.
-fn crossing_ms() -> f64 {
-    1.5_f64.powf(1.25)
-}
-
-struct Law(Vec<(Ramp, f64)>);
-
-impl Law {
-    fn of(study: &Study) -> Law {
-        let order = study.table_order().into_iter();
-        let points = order.map(|place| &study.points[place]);
-        Law(points.map(|point| (point.ramp, point.pulse_ms)).collect())
-    }
-}
-
-impl Simulator for Law {
-    fn simulate(&self, point: usize, _: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
-        let (ramp, pulse_ms) = self.0[point];
-        let amplitude_g = amplitude_m_per_s2.abs() / STANDARD_GRAVITY_M_PER_S2;
-        let fails = amplitude_g >= critical_g(ramp, pulse_ms);
-        ProbeResult {
-            verdict: if fails { failure() } else { Verdict::Survives },
-            h_min_m: (!fails).then_some(1e-9),
-            t_min_s: (!fails).then_some(1e-3),
-            cost: RunCost {
-                steps: amplitude_g as u64,
-                ..RunCost::default()
-            },
-        }
-    }
-
-    fn onset(&self, point: usize) -> Onset {
-        match self.0[point].0 {
-            Ramp::None => Onset::NoRamp,
-            Ramp::Rigid | Ramp::Deformable => Onset::At {
-                amplitude_m_per_s2: 100.0 * STANDARD_GRAVITY_M_PER_S2,
-            },
-        }
-    }
-}
-
-fn study(more: &[&str]) -> Study {
-    let sets = [
-        "pulse.widths_ms=[0.5, 1.0, 3.0]",
-        "pulse.signs=[\"+\"]",
-        "ramp.models=[\"none\", \"rigid\", \"deformable\"]",
-        "search.error_bars=false",
-        "search.refine.closest_pct=1.0",
-    ];
-    let sets: Vec<SetArg> = sets
-        .iter()
-        .chain(more)
-        .map(|set| set.parse().expect("a set argument"))
-        .collect();
-    Study::from_text(&Study::example("refined"), &sets).expect("a study")
-}
-
-fn finished(store: &Path) -> Loaded {
-    store::load(store).map_or_else(|_| Loaded::default(), |(loaded, _)| loaded)
-}
-
-/// Sweeps round by round as the program does, at most `rounds` of them.
-fn sweep_rounds(study: &Study, store: &Path, threads: usize, rounds: usize) -> (Study, Summary) {
-    let options = SweepOptions::with_threads(threads);
-    let mut study = refined(study, &finished(store)).expect("a range");
-    for _ in 1.. {
-        let input = SweepInput::of(&study).expect("input");
-        let end = sweep(&input, &Law::of(&study), store, &options, &Silent).expect("sweeps");
-        assert_eq!(end.ending, Ending::Complete);
-        let round = study.points.iter().map(|point| point.round).max();
-        match next_round(&study, &end.summary) {
-            Some(next) if round.expect("points") + 1 < rounds as u32 => study = next,
-            _ => return (study, end.summary),
-        }
-    }
-    unreachable!("refinement ends")
 }
 
 #[test]
 fn a_crossing_is_located_and_a_kink_resolved() {
-    let study = study(&[
-        "search.refine.tolerance_pct=3",
-        "search.refine.crossing_pct=4",
-    ]);
+    let study = refined_study();
     let root = tempfile::tempdir().expect("folder");
-    let (last, summary) = sweep_rounds(&study, root.path(), 2, 99);
+    let (last, summary) = sweep_rounds(&study, root.path(), &threads(2), 99);
     assert!(last.points.len() > study.points.len());
 
     let found = crossings(&last, &summary);
@@ -132,8 +49,19 @@ fn a_crossing_is_located_and_a_kink_resolved() {
     // One width between them may have equal answers.
     assert!(high / low <= 1.04 * 1.04, "{low} to {high} ms");
     // Answers are known within half a bracket of 1 %; the curves part by 0.8 % for 1 % of width.
-    let off = crossed.crossing.pulse_ms / crossing_ms() - 1.0;
+    let off = crossed.crossing.pulse_ms / crossing_ms(1.0) - 1.0;
     assert!(off.abs() < 0.01 / 0.8, "{off}");
+
+    // Told by the page too.
+    let rows: Vec<CrossingRow> = found.iter().map(CrossingRow::of).collect();
+    let mut source = ReportSource::of_table(&summary, &[], "opshock");
+    assert!(!html(&source).contains("Crossings"));
+    source.crossings = &rows;
+    let page = html(&source);
+    let pulse_ms = format!("{:.4}", crossed.crossing.pulse_ms);
+    let row = format!("<td>deformable</td><td>rigid</td><td>+</td><td>{pulse_ms}</td>");
+    assert!(page.contains(&row), "{row}");
+    assert!(page.contains("<a href=\"#crossings\">Crossings</a>"));
 
     // Lines between the answers: the tolerance, twice at the kink, and half a bracket.
     for ramp in [Ramp::Rigid, Ramp::Deformable] {
@@ -173,27 +101,24 @@ fn the_studys_own_answers_do_not_change() {
     let root = tempfile::tempdir().expect("folder");
     let plain = study(&["search.refine.most_points=1"]);
     assert!(plain.search.refine.is_none());
-    let (_, own) = sweep_rounds(&plain, &root.path().join("plain"), 1, 1);
+    let (_, own) = sweep_rounds(&plain, &root.path().join("plain"), &threads(1), 1);
     let refined = study(&["search.refine.tolerance_pct=3"]);
-    let (_, all) = sweep_rounds(&refined, &root.path().join("refined"), 1, 99);
+    let (_, all) = sweep_rounds(&refined, &root.path().join("refined"), &threads(1), 99);
     for row in &own.points {
         let is_it = |other: &&_| *other == row;
         assert!(all.points.iter().any(|other| is_it(&other)), "{row:?}");
     }
 }
 
-#[test]
-fn threads_kills_and_shards_add_the_same_widths() {
-    let study = study(&[
-        "search.refine.tolerance_pct=3",
-        "search.refine.crossing_pct=4",
-    ]);
+/// The table of `study` from one process, by name of what made it otherwise: threads, journals cut
+/// anywhere, shards one after another and at the same time.
+fn same_table_whatever_happens(study: &Study) {
     let root = tempfile::tempdir().expect("folder");
     let place = |name: &str| root.path().join(name);
     let content = |name: &str| dump(&place(name).join("results.h5"), &["/machine"]);
-    sweep_rounds(&study, &place("one"), 1, 99);
+    let (last, _) = sweep_rounds(study, &place("one"), &threads(1), 99);
     let expected = content("one");
-    sweep_rounds(&study, &place("three"), 3, 99);
+    sweep_rounds(study, &place("three"), &threads(3), 99);
     assert!(content("three") == expected, "threads show");
 
     // Cut anywhere, the first round included, and gone on.
@@ -203,24 +128,65 @@ fn threads_kills_and_shards_add_the_same_widths() {
         std::fs::create_dir(place(&name)).expect("folder");
         let cut = (journal.len() as f64 * share) as usize;
         std::fs::write(place(&name).join("journal"), &journal[..cut]).expect("writes");
-        sweep_rounds(&study, &place(&name), 2, 99);
+        sweep_rounds(study, &place(&name), &threads(2), 99);
         assert!(content(&name) == expected, "a kill at {share} shows");
     }
 
-    // Shards answer the study's own widths; the rest is added after they are merged.
-    let input = SweepInput::of(&study).expect("input");
-    for part in ["2/2", "1/2"] {
-        let options = SweepOptions {
-            shard: Some(part.parse().expect("a shard")),
-            ..SweepOptions::with_threads(1)
-        };
-        sweep(&input, &Law::of(&study), &place("parts"), &options, &Silent).expect("sweeps");
+    // One after another: the last to run ends what the others began.
+    for part in ["2/3", "3/3", "1/3"] {
+        sweep_rounds(study, &place("after"), &of_shard(part), 99);
     }
-    let stores = shard::stores(&place("parts")).expect("stores");
-    let merged = merge(&input, &place("parts"), &stores, &folder::session(1)).expect("merges");
-    assert!(matches!(merged, MergeEnd::Merged(_)));
-    sweep_rounds(&study, &place("parts"), 2, 99);
-    assert!(content("parts") == expected, "shards show");
+    // At the same time, one of them later.
+    std::thread::scope(|scope| {
+        for (part, later_ms) in [("1/2", 0), ("2/2", 40)] {
+            let folder = place("beside");
+            scope.spawn(move || {
+                std::thread::sleep(std::time::Duration::from_millis(later_ms));
+                sweep_rounds(study, &folder, &of_shard(part), 99)
+            });
+        }
+    });
+    for name in ["after", "beside"] {
+        let stores = shard::stores(&place(name)).expect("stores");
+        let all = rounds::first(study, &place(name)).expect("stores");
+        assert_eq!(all.points.len(), last.points.len(), "{name}");
+        let input = SweepInput::of(&all).expect("input");
+        let merged = merge(&input, &place(name), &stores, &folder::session(1)).expect("merges");
+        assert!(matches!(merged, MergeEnd::Merged(_)));
+        assert!(content(name) == expected, "shards {name} one another show");
+    }
+}
+
+#[test]
+fn threads_kills_and_shards_add_the_same_widths() {
+    same_table_whatever_happens(&refined_study());
+}
+
+/// Points whose bars exceed the accuracy climb, and the answers they climb to call for the widths.
+#[test]
+fn widths_are_added_where_the_climbed_answers_call_for_them() {
+    let sets = [
+        "search.error_bars=true",
+        "search.climbs=2",
+        "search.refine.crossing_pct=4",
+    ];
+    let study = study(&sets);
+    let root = tempfile::tempdir().expect("folder");
+    let (last, summary) = sweep_rounds(&study, root.path(), &threads(2), 99);
+    let rigid = summary.points.iter().filter(|row| row.ramp == "rigid");
+    for row in rigid {
+        assert!(row.flags.contains(&Flag::Climbed), "{row:?}");
+        let answer = row.a_crit_g.zip(row.a_fail_g).map(|(a, b)| (a * b).sqrt());
+        let exact = critical_g(Ramp::Rigid, row.pulse_ms);
+        let off = answer.expect("an answer") / exact - 1.0;
+        // As the study has it, the answer would be 2 % too high.
+        assert!(off.abs() < 0.75 * GRID_ERROR, "{} ms: {off}", row.pulse_ms);
+    }
+    let found = crossings(&last, &summary);
+    assert_eq!(found.len(), 1);
+    let off = found[0].crossing.pulse_ms / crossing_ms(1.0) - 1.0;
+    assert!(off.abs() < (0.005 + GRID_ERROR / 2.0) / 0.8, "{off}");
+    same_table_whatever_happens(&study);
 }
 
 /// Figure 13 without and with the rigid ramp at two widths, coarse: 8 points, and 4 between them.
@@ -268,19 +234,14 @@ fn a_small_study_is_refined_by_the_program() {
     assert_eq!(csv.stdout.lines().count(), 13, "{}", csv.stdout);
     assert_eq!(csv.stdout.matches(",0.5916,").count(), 4, "{}", csv.stdout);
 
-    for shard in ["1/2", "2/2"] {
+    for (shard, told) in [("1/2", "are open"), ("2/2", "4 points added")] {
         let done = Done::of(&parts, &words("sweep", file, &["-j1", "--shard", shard]));
         assert!([0, 4].contains(&done.code), "{}", done.stderr);
+        assert!(done.stderr.contains(told), "{}", done.stderr);
     }
     let merged = Done::of(&parts, &["merge", "s.opshock"]);
-    assert_eq!(
-        merged.stdout.matches("open").count(),
-        5,
-        "{}",
-        merged.stdout
-    );
-    let last = Done::of(&parts, &words("sweep", file, &["-j1"]));
-    assert_eq!(last.code, swept.code, "{}", last.stderr);
+    // The second shard found the first one's points answered and went on to the widths between.
+    assert_eq!(merged.code, swept.code, "{}", merged.stdout);
     let content = |folder: &Path| dump(&folder.join("s.opshock/results.h5"), &["/machine"]);
     assert!(content(&parts) == content(&whole), "other bits");
 }

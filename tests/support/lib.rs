@@ -5,6 +5,7 @@ pub mod hdf5_dump;
 pub mod mock_bars;
 pub mod mock_sweep;
 pub mod pairs;
+pub mod refined;
 pub mod scenes;
 pub mod seeded;
 pub mod tables;

@@ -7,11 +7,12 @@ use super::failure::{Failure, Fault};
 use super::stored::{self, Stored};
 use crate::accuracy::Accuracy;
 use crate::provenance;
-use crate::report::{ReportSource, Saving, savings, table, terminal_plot, write_report};
-use crate::search::Sign;
-use crate::store::{Audit, AxisValue, Status, Summary};
+use crate::report::{
+    CrossingRow, ReportSource, Saving, savings, table, terminal_plot, write_report,
+};
+use crate::store::{Audit, Status, Summary};
 use crate::study::Study;
-use crate::sweep::refine::{self, Crossed};
+use crate::sweep::refine;
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -54,54 +55,17 @@ pub(super) struct Told<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     savings: &'a [Saving],
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    crossings: Vec<CrossingTold<'a>>,
-}
-
-/// Where the critical shocks of two ramp models change places.
-#[derive(Serialize)]
-struct CrossingTold<'a> {
-    /// The lower one below the crossing, then the other.
-    ramps: [&'a str; 2],
-    sign: Sign,
-    axes: &'a [AxisValue],
-    pulse_ms: f64,
-    between_ms: [f64; 2],
-    a_g: f64,
-}
-
-impl CrossingTold<'_> {
-    fn line(&self) -> String {
-        let axes: String = self.axes.iter().map(|value| format!(", {value}")).collect();
-        format!(
-            "crossing: {} below {} up to {:.4} ms ({} to {} ms), sign {}{axes}, at {:.1} G",
-            self.ramps[0],
-            self.ramps[1],
-            self.pulse_ms,
-            self.between_ms[0],
-            self.between_ms[1],
-            self.sign.as_str(),
-            self.a_g
-        )
-    }
+    crossings: Vec<CrossingRow>,
 }
 
 /// Crossings of a store's curves, if its study asks for them.
-fn crossings(stored: &Stored) -> Vec<CrossingTold<'_>> {
+fn crossings(stored: &Stored) -> Vec<CrossingRow> {
     let study = stored.resolved_study.as_deref();
     let Some(study) = study.and_then(|text| Study::from_text(text, &[]).ok()) else {
         return Vec::new();
     };
-    refine::crossings(&study, &stored.summary)
-        .into_iter()
-        .map(|Crossed { below, crossing }| CrossingTold {
-            ramps: [&below.0.ramp, &below.1.ramp],
-            sign: below.0.sign,
-            axes: &below.0.axes,
-            pulse_ms: crossing.pulse_ms,
-            between_ms: [crossing.between_ms.0, crossing.between_ms.1],
-            a_g: crossing.answer_g,
-        })
-        .collect()
+    let found = refine::crossings(&study, &stored.summary);
+    found.iter().map(CrossingRow::of).collect()
 }
 
 impl<'a> Told<'a> {
@@ -131,6 +95,7 @@ pub fn run(
         .as_deref()
         .filter(|_| arguments.out.is_some())
         .and_then(|study| stored::film(&folder, study));
+    let crossings = crossings(&stored);
     let source = ReportSource {
         summary: &stored.summary,
         runs: &stored.runs,
@@ -138,6 +103,7 @@ pub fn run(
         resolved_study: stored.resolved_study.as_deref(),
         audit: stored.audit.as_ref(),
         savings: &stored.savings,
+        crossings: &crossings,
         accuracy: accuracy.as_ref(),
         plan: &stored.plan,
         film: film.as_ref(),
@@ -160,7 +126,7 @@ pub fn run(
         None if arguments.plot => console.result(&terminal_plot(&stored.summary))?,
         None => {
             console.result(&table::terminal(&stored.summary))?;
-            for crossing in crossings(&stored) {
+            for crossing in &crossings {
                 console.tell(&crossing.line());
             }
             for line in savings::lines(&stored.savings) {

@@ -11,8 +11,9 @@ use crate::report::table;
 use crate::search::Order;
 use crate::store::{Audit, Summary};
 use crate::study::{Point, Study};
+use crate::sweep::rounds::{self, Next, RoundError};
 use crate::sweep::{
-    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, refine, sweep,
+    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, sweep,
 };
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -78,35 +79,47 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     let began = Instant::now();
     let no_range = "the study has no amplitudes to search";
-    // A shard answers the study's own widths; what the others found is not its to know.
-    let is_refined = study.search.refine.is_some() && arguments.shard.is_none();
     // Without their undecided runs the study's own answers may call for other widths.
-    let mut study = if is_refined && !options.retry_undecided {
-        refine::refined(&study, &stored::finished(&folder)?).context(no_range)?
-    } else {
+    let mut study = if options.retry_undecided {
         study
+    } else {
+        rounds::first(&study, &folder).map_err(not_known)?
     };
     let (mut computed_runs, mut reused_runs) = (0, 0);
     let (input, end) = loop {
         let progress = kind.start(&study.name);
         let input = SweepInput::of(&study).context(no_range)?;
         let physics = Physics::of(&study);
-        let end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
+        let mut end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
         drop(progress);
         computed_runs += end.computed_runs;
         reused_runs += end.reused_runs;
-        let next = (is_refined && end.ending == Ending::Complete)
-            .then(|| refine::next_round(&study, &end.summary))
-            .flatten();
-        let Some(next) = next else {
-            break (input, end);
-        };
-        console.tell(&added(&study, &next));
-        study = next;
-        options.retry_undecided = false;
         options.budget = arguments
             .budget
             .map(|budget| budget.saturating_sub(began.elapsed()));
+        if end.ending != Ending::Complete {
+            break (input, end);
+        }
+        let now = Instant::now();
+        match rounds::next(&study, &folder, &options, &end.summary, now).map_err(not_known)? {
+            Next::Round(next) => {
+                console.tell(&added(&study, &next));
+                study = *next;
+                options.retry_undecided = false;
+            }
+            Next::Done => break (input, end),
+            Next::Left { points } => {
+                console.tell(&format!(
+                    "{points} points of shards that are not at work are open, and with them what \
+                     refinement adds: run these shards, or `opshock merge` and `opshock sweep`"
+                ));
+                break (input, end);
+            }
+            Next::Stopped(ending) => {
+                end.ending = ending;
+                break (input, end);
+            }
+        }
     };
 
     if !arguments.reuse.is_empty() {
@@ -153,6 +166,16 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             console.tell(&resume(arguments, &folder, global));
             Ok(Exit::Budget)
         }
+    }
+}
+
+/// Why the next round of refinement is not known.
+fn not_known(error: RoundError) -> Failure {
+    match error {
+        RoundError::Store(error) => error.into(),
+        RoundError::Lattice(error) => anyhow::Error::new(error)
+            .context("the study has no amplitudes to search")
+            .into(),
     }
 }
 

@@ -224,6 +224,8 @@ struct Neighbours {
     others: Others,
     /// Shard that owns each point.
     owners: Vec<usize>,
+    /// Points of this part.
+    owned: Vec<bool>,
     /// Points whose answers this part cannot do without.
     needed: Vec<bool>,
     asked_at: Instant,
@@ -261,13 +263,19 @@ impl<'a> Run<'a> {
     fn divide(&mut self, shard: &Shard, whole: &Path) {
         let order = self.ledger.campaign().order();
         let owned = shard.owned(order);
+        // What refinement added is seen to its end by every shard: the next round waits for it.
+        let points = self.input.points.iter().zip(&owned);
+        let wanted: Vec<bool> = points
+            .map(|(point, &is_own)| is_own || point.coordinates.round > 0)
+            .collect();
         let neighbours = Neighbours {
             others: Others::of(shard, whole),
             owners: shard.owners(order),
-            needed: shard::needed(order, &owned),
+            needed: shard::needed(order, &wanted),
+            owned,
             asked_at: Instant::now(),
         };
-        self.ledger.want(owned);
+        self.ledger.want(wanted);
         self.neighbours = Some(neighbours);
         self.ask_neighbours(true);
     }
@@ -283,7 +291,7 @@ impl<'a> Run<'a> {
         neighbours.asked_at = Instant::now();
         let at_work = neighbours.others.at_work();
         let is_left = |(point, &owner): (usize, &usize)| {
-            self.ledger.wants(point) || neighbours.needed[point] && !at_work[owner]
+            neighbours.owned[point] || neighbours.needed[point] && !at_work[owner]
         };
         let allowed = neighbours.owners.iter().enumerate().map(is_left).collect();
         let news = neighbours.others.news();

@@ -19,6 +19,7 @@ mod merge;
 pub mod physics;
 pub mod progress;
 pub mod refine;
+pub mod rounds;
 mod rows;
 pub mod shard;
 mod shelf;

@@ -93,11 +93,11 @@ pub fn stores(whole: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Points whose searches a shard must see ended, by place in the study: its own, the widths that
-/// give each other their lower failures, and whatever these start from.
-pub(super) fn needed(order: &Order, owned: &[bool]) -> Vec<bool> {
-    let mut needed = vec![false; owned.len()];
-    let mut open: Vec<usize> = (0..owned.len()).filter(|&point| owned[point]).collect();
+/// Points whose searches a shard must see ended, by place in the study: those it wants, the widths
+/// that give each other their lower failures, and whatever these start from.
+pub(super) fn needed(order: &Order, wanted: &[bool]) -> Vec<bool> {
+    let mut needed = vec![false; wanted.len()];
+    let mut open: Vec<usize> = (0..wanted.len()).filter(|&point| wanted[point]).collect();
     while let Some(point) = open.pop() {
         if std::mem::replace(&mut needed[point], true) {
             continue;
@@ -136,6 +136,14 @@ impl Others {
             .iter()
             .map(|folder| lock::is_held(folder))
             .collect()
+    }
+
+    /// Another shard, or a sweep of the whole, is at work.
+    pub(super) fn any_at_work(&self) -> bool {
+        let others = self.at_work().into_iter().enumerate();
+        others
+            .filter(|&(number, _)| number != self.own)
+            .any(|(_, is_at_work)| is_at_work)
     }
 
     /// What journals hold that have grown. What cannot be read now is read later, or simulated.

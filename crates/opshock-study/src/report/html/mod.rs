@@ -12,6 +12,7 @@ mod shock_film;
 pub use shock_film::ShockFilm;
 
 use super::critical_shock::critical_shock_figure;
+use super::crossings::{self, CrossingRow};
 use super::margin_curves::margin_curves;
 use super::outcome_map::{RunDot, outcome_map};
 use super::savings::{self, Saving};
@@ -36,6 +37,8 @@ pub struct ReportSource<'a> {
     pub audit: Option<&'a Audit>,
     /// What the rules saved.
     pub savings: &'a [Saving],
+    /// Crossings of the ramps' curves, where the study asks for them.
+    pub crossings: &'a [CrossingRow],
     /// What accuracy was measured to cost, if it was.
     pub accuracy: Option<&'a Accuracy>,
     /// Effects and rules of each ramp's scenes, as the JSON of the results; empty: not known.
@@ -54,6 +57,7 @@ impl<'a> ReportSource<'a> {
             resolved_study: None,
             audit: None,
             savings: &[],
+            crossings: &[],
             accuracy: None,
             plan: "",
             film: None,
@@ -162,6 +166,10 @@ fn sections(source: &ReportSource<'_>) -> Vec<Section> {
         ),
     );
     add("table", "Table", main_table(summary));
+    if !source.crossings.is_empty() {
+        let body = crossings::section(source.crossings, &summary.axes);
+        add("crossings", "Crossings", body);
+    }
     add(
         "points",
         "Points",
@@ -447,7 +455,7 @@ fn provenance(source: &ReportSource<'_>) -> String {
     text
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

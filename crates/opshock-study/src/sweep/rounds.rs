@@ -1,0 +1,138 @@
+//! What follows a sweep of a study that refines itself: the next round, by one process or by shards.
+//!
+//! The widths of a round follow from all answers of the rounds before, so a shard that has answered
+//! its own points waits for the shards at work, reads what all have finished, and goes on with its
+//! part of the next round: every shard finds the same widths. Of the study's own widths a shard
+//! answers its part alone, however long the others stay away. Of added widths those are taken by
+//! whoever is at work, so that the shard that ends last ends the refinement.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::engine::{Ending, SweepOptions, replay};
+use super::input::SweepInput;
+use super::refine::{next_round, refined};
+use super::shard::{Others, stores};
+use crate::search::LatticeError;
+use crate::store::summary::Status;
+use crate::store::{self, Loaded, Record, StoreError, Summary, TouchRecord, folder};
+use crate::study::Study;
+
+/// How often a waiting shard looks at the others.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
+/// Looks without a shard at work after which none is expected: between two rounds a shard is not at
+/// work for an instant.
+const LOOKS: u32 = 4;
+
+/// What follows.
+#[derive(Clone, Debug)]
+pub enum Next {
+    /// The study with the widths of another round.
+    Round(Box<Study>),
+    /// Nothing: no width is missing.
+    Done,
+    /// The points of shards that are not at work are open, and with them the next round.
+    Left {
+        /// Open points.
+        points: usize,
+    },
+    /// A stop was asked for, or the budget used up, while waiting for other shards.
+    Stopped(Ending),
+}
+
+/// Why the next round is not known.
+#[derive(Debug, thiserror::Error)]
+pub enum RoundError {
+    /// The amplitude range holds no node of the lattice.
+    #[error(transparent)]
+    Lattice(#[from] LatticeError),
+    /// A store cannot be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// Everything finished in the store of a whole sweep and in the shards within it; nothing where
+/// there is no store.
+///
+/// # Errors
+///
+/// [`StoreError`]: a store is damaged or newer.
+pub fn finished(whole: &Path) -> Result<Loaded, StoreError> {
+    let mut all = Loaded::default();
+    let shards = stores(whole).map_err(|source| StoreError::Unreadable {
+        path: whole.to_owned(),
+        source,
+    })?;
+    for path in std::iter::once(whole.to_owned()).chain(shards) {
+        let loaded = match store::load(&path) {
+            Ok((loaded, _)) => loaded,
+            Err(StoreError::Empty { .. }) => continue,
+            Err(error) => return Err(error),
+        };
+        let touches = loaded.touches.into_iter();
+        let touches = touches.map(|(point, touch)| Record::Touch(TouchRecord { point, touch }));
+        let runs = loaded.runs.into_values().map(Record::Run);
+        all.add(touches.chain(runs).collect());
+    }
+    Ok(all)
+}
+
+/// The study with every width that what is finished in `whole` calls for: where a sweep begins.
+///
+/// # Errors
+///
+/// [`RoundError`].
+pub fn first(study: &Study, whole: &Path) -> Result<Study, RoundError> {
+    Ok(refined(study, &finished(whole)?)?)
+}
+
+/// What follows a complete sweep of `study` into `whole` that ended with `summary`. A shard waits
+/// for the others as long as one is at work, `began` being what its budget counts from.
+///
+/// # Errors
+///
+/// [`RoundError`].
+pub fn next(
+    study: &Study,
+    whole: &Path,
+    options: &SweepOptions,
+    summary: &Summary,
+    began: Instant,
+) -> Result<Next, RoundError> {
+    if study.search.refine.is_none() {
+        return Ok(Next::Done);
+    }
+    let Some(shard) = &options.shard else {
+        let next = next_round(study, summary);
+        return Ok(next.map_or(Next::Done, |next| Next::Round(Box::new(next))));
+    };
+    let input = SweepInput::of(study)?;
+    let others = Others::of(shard, whole);
+    let mut idle_looks = 0;
+    loop {
+        // Asked before reading: what a shard finishes in between is not missed.
+        let is_alone = !others.any_at_work();
+        let results = replay(&input, finished(whole)?, &folder::session(1));
+        let rows = &results.summary.points;
+        let points = rows.iter().filter(|row| row.status == Status::Open).count();
+        if points == 0 {
+            let next = next_round(study, &results.summary);
+            return Ok(next.map_or(Next::Done, |next| Next::Round(Box::new(next))));
+        }
+        idle_looks = if is_alone { idle_looks + 1 } else { 0 };
+        if idle_looks == LOOKS {
+            return Ok(Next::Left { points });
+        }
+        std::thread::sleep(BETWEEN_LOOKS);
+        if options.stop.is_asked() {
+            let signal = options.stop.signal();
+            return Ok(Next::Stopped(Ending::Stopped { signal }));
+        }
+        if options
+            .budget
+            .is_some_and(|budget| began.elapsed() >= budget)
+        {
+            return Ok(Next::Stopped(Ending::Budget));
+        }
+    }
+}
