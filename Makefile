@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -54,7 +54,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-store verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -67,6 +67,9 @@ verify-durability: bootstrap ## kill -9, torn journals, threads on the real stud
 
 verify-store: bootstrap ## 2000 kill -9 at random moments (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 store_slow
+
+verify-search: bootstrap ## certify = "full" on 10 000 random tables (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture search_slow
 
 verify-slurm: ## a job array with a killed task on a real Slurm on the loopback address
 	@scripts/bootstrap --verify

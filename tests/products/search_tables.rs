@@ -2,6 +2,7 @@
 //! that nothing but the table decides the answer.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use opshock_study::search::{Campaign, SearchSettings};
 use opshock_study::search::{Certify, Coordinates, Flag, RampClass, Sign, Status, Touch, Verdict};
@@ -10,7 +11,7 @@ use opshock_study::sweep::{
 };
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{self, settings};
-use opshock_tests::seeded::Seeded;
+use opshock_tests::seeded::{OnPanic, Seeded, seeds};
 use opshock_tests::tables::{Table, TablePoint, failure, plain_bisection};
 
 const TABLES: u64 = 10_000;
@@ -36,6 +37,14 @@ impl Misses {
             let ratio = lattice.amplitude_g(found) / lattice.amplitude_g(truth);
             self.worst = self.worst.max(ratio - 1.0);
         }
+    }
+
+    fn with(mut self, other: &Misses) -> Misses {
+        self.points += other.points;
+        self.missed += other.missed;
+        self.runs += other.runs;
+        self.worst = self.worst.max(other.worst);
+        self
     }
 
     fn tell(&self, name: &str) {
@@ -71,7 +80,7 @@ fn ten_thousand_tables_with_windows_of_failure() {
             (Certify::Staggered, &mut staggered),
             (Certify::Full, &mut full),
         ] {
-            // A full scan is long; a tenth of the tables shows it.
+            // A full scan is long: a tenth here, all of them with `make verify-search`.
             if certify == Certify::Full && seed % 10 != 0 {
                 continue;
             }
@@ -140,6 +149,42 @@ fn ten_thousand_tables_with_windows_of_failure() {
         "{} missed",
         staggered.missed
     );
+}
+
+/// `certify = "full"` on every table, in parts that threads take in turn.
+#[test]
+#[ignore = "minutes: make verify-search"]
+fn search_slow_full_on_ten_thousand_tables() {
+    let seeds = seeds(0..TABLES);
+    let next = AtomicU64::new(seeds.start);
+    let search = || {
+        let mut misses = Misses::default();
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= seeds.end {
+                return misses;
+            }
+            let _on_panic = OnPanic(seed);
+            let table = Table::random(seed);
+            let found = table.search(Certify::Full, &mut Seeded::new(seed));
+            for (point, searched) in table.0.iter().zip(&found) {
+                let truth = point.lowest_failure(&settings(Certify::Full));
+                assert_eq!(searched.findings.failure, truth, "seed {seed}");
+                if point.at.ramp_class != RampClass::None {
+                    misses.count(searched.findings.failure, truth, searched.findings.runs);
+                }
+            }
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let all = std::thread::scope(|scope| {
+        let searches: Vec<_> = (0..threads).map(|_| scope.spawn(search)).collect();
+        let searched = searches.into_iter().map(|thread| thread.join());
+        searched.fold(Misses::default(), |all, part| {
+            all.with(&part.expect("ends"))
+        })
+    });
+    all.tell(&format!("certify = \"full\", seeds {seeds:?}"));
 }
 
 fn input(table: &Table) -> SweepInput {
