@@ -2,7 +2,7 @@
 //! shared. Verdict, extremes, contacts, histories and costs of what both have must be the same
 //! numbers. The one exception is the energy book of the structure: before the first touch one sums
 //! amplitude² × unit energies, the other energies of amplitude × unit states, so that it must agree
-//! to 1e-12 of the peak energy.
+//! to 1e-13 of the peak energy.
 
 use opshock_solver::disk::DiskDamping;
 use opshock_solver::mutant;
@@ -131,7 +131,7 @@ pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
     };
     let peak = full.energy.h_peak_j;
     for (i, (x, y)) in book(lean).into_iter().zip(book(full)).enumerate() {
-        assert!((x - y).abs() <= 1e-12 * peak, "{what}: energy {i} {x} {y}");
+        assert!((x - y).abs() <= 1e-13 * peak, "{what}: energy {i} {x} {y}");
     }
     if needs >= Needs::Flight {
         assert_eq!(lean.steady, full.steady, "{what}");

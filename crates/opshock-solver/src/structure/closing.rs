@@ -84,14 +84,15 @@ impl Closing<'_> {
 fn book(energies: &Energies, ledger: &Ledger) -> EnergyBook {
     let h_end = energies.fixed_frame;
     let peak = ledger.peak_fixed_frame;
-    let exchanged = ledger.work - ledger.damping - ledger.impact + ledger.algorithmic;
+    let (work, damping) = (ledger.work.value(), ledger.damping.value());
+    let exchanged = work - damping - ledger.impact + ledger.algorithmic;
     EnergyBook {
         kinetic_j: energies.kinetic,
         elastic_j: energies.elastic,
         h_end_j: h_end,
         h_peak_j: peak,
-        shock_work_j: ledger.work,
-        damping_loss_j: ledger.damping,
+        shock_work_j: work,
+        damping_loss_j: damping,
         impact_loss_j: ledger.impact,
         algorithmic_j: ledger.algorithmic,
         spindle_work_j: ledger.spindle,

@@ -6,7 +6,7 @@
 use super::Window;
 use super::closing::Closing;
 use super::contact_log::ContactLog;
-use super::energy::{Energies, Ledger};
+use super::energy::{Energies, Ledger, LongSum};
 use super::free_motion::{ForcedState, Sample};
 use super::history::{Break, StructuralHistory};
 use super::model::{Shared, StructureError, StructureRun, StructureWarning};
@@ -144,8 +144,8 @@ impl<'a> ContactSystem<'a> {
                 .state_at_node(self.k, &mut self.state.unit_now);
             let sample = self.sample();
             let a2 = self.amplitude * self.amplitude;
-            self.ledger.work = a2 * sample.work;
-            self.ledger.damping = a2 * sample.loss;
+            self.ledger.work = LongSum::from_value(a2 * sample.work);
+            self.ledger.damping = LongSum::from_value(a2 * sample.loss);
         }
         self.gaps = self.gaps_of(&self.state.now, self.sample());
     }
@@ -315,20 +315,22 @@ impl<'a> ContactSystem<'a> {
         let state = &*self.state;
         let free = &shared.free;
         let exchange = if self.is_whole_step() {
-            self.ledger.damping += shared.weights.step_loss(&state.total);
+            self.ledger
+                .damping
+                .add(shared.weights.step_loss(&state.total));
             free.exchange(&state.total_forced, self.k, self.amplitude)
         } else {
             for (i, o) in shared.oscillators.iter().enumerate() {
                 if !shared.forced_index.contains(&i) {
                     let q = nalgebra::Complex::new(state.now.q_re[i], state.now.q_im[i]);
                     let r = nalgebra::Complex::new(state.now.r_re[i], state.now.r_im[i]);
-                    self.ledger.damping += o.loss_form(reach).loss(q, r);
+                    self.ledger.damping.add(o.loss_form(reach).loss(q, r));
                 }
             }
             free.exchange_within(&state.total_forced, self.now_s(), reach, self.amplitude)
         };
-        self.ledger.work += exchange.work;
-        self.ledger.damping += exchange.loss;
+        self.ledger.work.add(exchange.work);
+        self.ledger.damping.add(exchange.loss);
     }
 
     fn is_whole_step(&self) -> bool {
@@ -343,7 +345,8 @@ impl<'a> ContactSystem<'a> {
         let mut ledger = self.ledger;
         if !self.awake {
             let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
-            (ledger.work, ledger.damping) = (a2 * sample.work, a2 * sample.loss);
+            ledger.work = LongSum::from_value(a2 * sample.work);
+            ledger.damping = LongSum::from_value(a2 * sample.loss);
         }
         let state = self.state;
         let history = std::mem::take(&mut state.history);
@@ -452,7 +455,7 @@ impl UnilateralSystem for ContactSystem<'_> {
                     .map(|i| p[i] * (r[i][0] * p[0] + r[i][1] * p[1]))
                     .sum();
                 self.ledger.algorithmic += change - ripple;
-                self.ledger.damping -= ripple;
+                self.ledger.damping.add(-ripple);
             }
         }
         let on_disk = p[1] - p[0];

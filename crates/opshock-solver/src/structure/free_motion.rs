@@ -5,6 +5,7 @@
 //! the grid t_k = k Δt by their exact forced flow, also in the steps in which the pulse has a kink.
 //! Every run, whatever its ramp, sign and amplitude, multiplies the same columns.
 
+use super::energy::LongSum;
 use crate::modal::oscillator::GAUSS_8;
 use crate::modal::{Flow, ForcedResponse, LossForm, Oscillator, Phase};
 use crate::shock::Stretch;
@@ -170,19 +171,19 @@ impl FreeMotion {
             stretches,
         };
         let mut state = ForcedState::at_rest(free.modes.oscillators.len());
-        let mut total = Exchange::default();
+        let (mut work, mut loss) = (LongSum::default(), LongSum::default());
         for k in 0..=n_steps {
             if k % CHECKPOINT_STEPS == 0 {
                 free.checkpoints.push(state.clone());
             }
             let mut sample = free.sample(&state);
             (sample.kinetic, sample.energy) = free.energy(&state);
-            sample.work = total.work;
-            sample.loss = total.loss;
+            sample.work = work.value();
+            sample.loss = loss.value();
             free.samples.push(sample);
             let exchange = free.exchange(&state, k, 1.0);
-            total.work += exchange.work;
-            total.loss += exchange.loss;
+            work.add(exchange.work);
+            loss.add(exchange.loss);
             free.step(&mut state, k);
         }
         free

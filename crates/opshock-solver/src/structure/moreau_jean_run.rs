@@ -127,10 +127,12 @@ impl<'a> March<'a> {
             let (q_re, q_im) = (mean(&a.q_re, &b.q_re), mean(&a.q_im, &b.q_im));
             let (r_re, r_im) = (mean(&a.r_re, &b.r_re), mean(&a.r_im, &b.r_im));
             let mode = linear(o);
-            self.ledger.work += self.force[j] * (b.q_re[j] - a.q_re[j]);
-            self.ledger.damping += h
-                * (mode.damping_per_s.re * (r_re * r_re + r_im * r_im)
-                    + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im));
+            self.ledger
+                .work
+                .add(self.force[j] * (b.q_re[j] - a.q_re[j]));
+            let power = mode.damping_per_s.re * (r_re * r_re + r_im * r_im)
+                + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im);
+            self.ledger.damping.add(h * power);
         }
         if impulse == [0.0; 2] {
             return;
