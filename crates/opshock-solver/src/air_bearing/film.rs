@@ -62,6 +62,8 @@ pub struct Film {
     pub(super) ambient_pa: f64,
     clearance: ClearanceMap,
     usual: Attitude,
+    /// ψ in the usual attitude, roughly.
+    usual_psi: Vec<f64>,
 }
 
 impl Film {
@@ -98,10 +100,12 @@ impl Film {
             } else {
                 estimate
             };
-            match layout::refined(&built, &surface, cells) {
-                Some(lines) => built = film(lines)?,
-                None => return film(lines(resolution.cells)?),
-            }
+            let start = std::mem::take(&mut built.usual_psi);
+            let Some((lines, held)) = layout::refined(built, start, &surface, cells) else {
+                return film(lines(resolution.cells)?);
+            };
+            built = film(lines)?;
+            built.usual_psi = held.carried_to(&built);
         }
         Ok(built)
     }
@@ -160,7 +164,7 @@ impl Film {
             flow.conductance(gas.pressure_pa * h).0 * h * h
         });
         let per_area = 12.0 * gas.viscosity_pa_s;
-        Ok(Self {
+        let mut film = Self {
             columns: Columns::new(&mesh),
             capacity: mesh.cells.iter().map(|c| per_area * c.area).collect(),
             mesh,
@@ -169,7 +173,10 @@ impl Film {
             ambient_pa: gas.pressure_pa,
             clearance,
             usual,
-        })
+            usual_psi: Vec::new(),
+        };
+        film.usual_psi = film.ambient(&usual);
+        Ok(film)
     }
 
     /// Number of cells n, the length of every ψ.
@@ -263,6 +270,19 @@ impl Film {
         for (psi, cell) in out.iter_mut().zip(&self.mesh.cells) {
             *psi = self.ambient_pa * self.cell_height(cell, attitude).0;
         }
+    }
+
+    /// ψ where the pressure is ambient everywhere, Pa m, one for each cell.
+    pub(super) fn ambient(&self, attitude: &Attitude) -> Vec<f64> {
+        let mut psi = vec![0.0; self.n_cells()];
+        self.ambient_psi(attitude, &mut psi);
+        psi
+    }
+
+    /// ψ from which to seek the film in the usual attitude, Pa m: what the grids before had there,
+    /// ambient pressure on a given grid.
+    pub(super) fn usual_psi(&self) -> &[f64] {
+        &self.usual_psi
     }
 
     /// Pressure at the cells' centres, Pa.

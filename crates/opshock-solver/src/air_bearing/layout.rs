@@ -39,6 +39,10 @@ pub(super) const ROUNDS: usize = 3;
 /// Cells of the grids the error is estimated on; finer ones would not place lines better.
 const MOST_ESTIMATE_CELLS: usize = 2000;
 
+/// Relative step after which a film to estimate on is as good as converged: the next would be its
+/// square.
+const ESTIMATED: f64 = 1e-4;
+
 /// Smallest density of lines, of the mean.
 const FLOOR: f64 = 0.05;
 
@@ -80,13 +84,53 @@ pub(super) fn plain(surface: &Surface, cells: usize) -> Option<[Lines; 2]> {
     Some([x?, y?])
 }
 
-/// Lines after the error of `film`; `None` when its state could not be found or has no error.
-pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[Lines; 2]> {
+/// A film in the usual attitude.
+pub(super) struct Held {
+    film: Film,
+    /// ψ of every cell, Pa m.
+    psi: Vec<f64>,
+}
+
+impl Held {
+    /// ψ on the cells of another film of the same slider, at the pressure of the cell around each
+    /// centre, Pa m.
+    pub(super) fn carried_to(&self, film: &Film) -> Vec<f64> {
+        let attitude = film.usual_attitude();
+        let mut psi = film.ambient(&attitude);
+        let ambient = self.film.ambient(&attitude);
+        let lines = film.mesh.lines.each_ref();
+        let column = |d: usize| -> Vec<usize> {
+            let old = self.film.mesh.lines[d].as_slice();
+            let around = |x: f64| {
+                old.partition_point(|line| *line <= x)
+                    .clamp(1, old.len() - 1)
+                    - 1
+            };
+            (0..lines[d].n_cells())
+                .map(|k| around(lines[d].centre(k)))
+                .collect()
+        };
+        let columns = [column(0), column(1)];
+        for (cell, psi) in psi.iter_mut().enumerate() {
+            let [i, j] = film.mesh.place_of(cell);
+            let old = self.film.mesh.index(columns[0][i], columns[1][j]);
+            *psi *= self.psi[old] / ambient[old];
+        }
+        psi
+    }
+}
+
+/// Lines after the error of `film`, and its state, which was sought from `psi`; `None` when it could
+/// not be found or has no error.
+pub(super) fn refined(
+    film: Film,
+    mut psi: Vec<f64>,
+    surface: &Surface,
+    cells: usize,
+) -> Option<([Lines; 2], Held)> {
     let attitude = film.usual_attitude();
-    let mut newton = Newton::new(film);
-    let mut psi = vec![0.0; film.n_cells()];
-    film.ambient_psi(&attitude, &mut psi);
-    newton.hold(&mut psi, &attitude, 40).ok()?;
+    let mut newton = Newton::new(&film);
+    newton.hold(&mut psi, &attitude, 40, ESTIMATED).ok()?;
     newton.factor(&psi, &attitude).ok()?;
     let mut adjoint = newton.clearance_goal(&attitude)?;
     let transposed = newton.linearisation.by_psi.transposed();
@@ -95,7 +139,7 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
     lu.factor(&transposed, 0.0, &vec![0.0; n]).ok()?;
     lu.solve(&mut adjoint);
 
-    let errors = strip_errors(film, &psi, &attitude, &adjoint);
+    let errors = strip_errors(&film, &psi, &attitude, &adjoint);
     let edges = surface.edge_coordinates_m();
     let lines = film.lines_m();
     let slanted = surface.slanted_ranges_m();
@@ -106,7 +150,7 @@ pub(super) fn refined(film: &Film, surface: &Surface, cells: usize) -> Option<[L
     let ratio = (x.total / y.total).powf(1.5).clamp(RATIO[0], RATIO[1]);
     let x_lines = x.lines(&edges[0], (cells as f64 * ratio).sqrt())?;
     let y_lines = y.lines(&edges[1], cells as f64 / x_lines.n_cells() as f64)?;
-    Some([x_lines, y_lines])
+    Some(([x_lines, y_lines], Held { film, psi }))
 }
 
 /// What the faces of one direction say of a cell.

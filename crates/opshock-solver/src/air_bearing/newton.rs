@@ -19,6 +19,8 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Relative step at which Newton's quadratic convergence leaves only rounding.
 pub(super) const CONVERGED: f64 = 1e-9;
+/// Relative step after which the iteration on ψ and attitude takes over from that on ψ alone.
+pub(super) const NEAR: f64 = 1e-2;
 /// Most Newton iterations of one attempt.
 pub(super) const MOST_ITERATIONS: usize = 60;
 /// Most steps of the overdamped motion.
@@ -110,12 +112,14 @@ impl<'a> Newton<'a> {
         Matrix3::from_fn(|i, j| -product(&gradients[i], &self.columns[j]))
     }
 
-    /// Newton on ψ alone, in place; returns iterations and the last relative step.
+    /// Newton on ψ alone, in place, until a relative step is below `until`; returns iterations and
+    /// the last relative step.
     pub(super) fn hold(
         &mut self,
         psi: &mut [f64],
         attitude: &Attitude,
         most: usize,
+        until: f64,
     ) -> Result<(usize, f64), BandedError> {
         let mut step = f64::INFINITY;
         let mut delta = vec![0.0; psi.len()];
@@ -129,7 +133,7 @@ impl<'a> Newton<'a> {
                 step = step.max((new - *psi).abs() / *psi);
                 *psi = new;
             }
-            if step < CONVERGED {
+            if step < until {
                 return Ok((iteration, step));
             }
         }
@@ -175,7 +179,7 @@ impl<'a> Newton<'a> {
         let levers = Vector3::new(1.0, 0.5 * l, 0.5 * w);
         let scale = load.component_div(&levers).norm().max(1e-6);
         for _ in 0..MOST_DRIFT_STEPS {
-            self.hold(psi, attitude, 8)?;
+            self.hold(psi, attitude, 8, CONVERGED)?;
             self.factor(psi, attitude)?;
             let (force, stiffness, pending) = self.schur();
             let unbalanced = force - load - pending;

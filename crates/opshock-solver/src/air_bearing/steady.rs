@@ -11,7 +11,7 @@
 
 use super::Attitude;
 use super::film::Film;
-use super::newton::{CONVERGED, MOST_ITERATIONS, Newton, span};
+use super::newton::{CONVERGED, MOST_ITERATIONS, NEAR, Newton, span};
 use crate::linalg::banded::BandedError;
 use crate::slider::clearance::ClearanceMap;
 use nalgebra::{Matrix3, Vector3};
@@ -99,7 +99,7 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, Stea
     let mut newton = Newton::new(film);
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
-    let (n_iterations, step) = newton.hold(&mut psi, attitude, 4 * MOST_ITERATIONS)?;
+    let (n_iterations, step) = newton.hold(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
     if step >= CONVERGED {
         return Err(SteadyError::NotConverged {
             iterations: n_iterations,
@@ -140,10 +140,10 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
         last: *start,
     };
     let usual = film.usual_attitude();
-    search.attempt(start)?;
     if *start != usual {
-        search.attempt(&usual)?;
+        search.attempt(start, film.ambient(start))?;
     }
+    search.attempt(&usual, film.usual_psi().to_vec())?;
     if search.best().is_none() {
         let mut high = usual;
         high.centre_height_m += 1e-7;
@@ -160,7 +160,12 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
         for clearance in [2.0 * film.floor_m(), 8.0 * film.floor_m()] {
             let mut below = flown;
             below.centre_height_m += clearance - film.min_clearance(&flown).value_m;
-            search.attempt(&below)?;
+            let mut psi = film.ambient(&below);
+            let (flown, ambient) = (&search.found[best], film.ambient(&flown));
+            for (psi, (flown, ambient)) in psi.iter_mut().zip(flown.psi.iter().zip(&ambient)) {
+                *psi *= flown / ambient;
+            }
+            search.attempt(&below, psi)?;
         }
     }
     search.finish()
@@ -201,19 +206,11 @@ struct Found {
 }
 
 impl Search<'_> {
-    fn film_at(&mut self, attitude: &Attitude) -> Result<Vec<f64>, BandedError> {
-        let film = self.newton.film;
-        let mut psi = vec![0.0; film.n_cells()];
-        film.ambient_psi(attitude, &mut psi);
-        self.newton.hold(&mut psi, attitude, MOST_ITERATIONS)?;
-        Ok(psi)
-    }
-
-    /// Newton from a start; what it converges to joins `found`.
-    fn attempt(&mut self, start: &Attitude) -> Result<(), BandedError> {
+    /// Newton from a start, the film from `psi`; what it converges to joins `found`.
+    fn attempt(&mut self, start: &Attitude, mut psi: Vec<f64>) -> Result<(), BandedError> {
         let before = self.newton.n_factored;
         let mut attitude = *start;
-        let mut psi = self.film_at(start)?;
+        self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?;
         self.settle(&mut psi, &mut attitude, before)
     }
 
@@ -221,7 +218,8 @@ impl Search<'_> {
     fn attempt_by_drift(&mut self, start: &Attitude) -> Result<(), BandedError> {
         let before = self.newton.n_factored;
         let mut attitude = *start;
-        let mut psi = self.film_at(start)?;
+        let mut psi = self.newton.film.ambient(start);
+        self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?;
         self.newton.drift(&mut psi, &mut attitude, &self.load)?;
         self.settle(&mut psi, &mut attitude, before)
     }
