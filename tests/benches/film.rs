@@ -1,7 +1,9 @@
-//! The film's kernels on the default grid, and its linear algebra against a general sparse solver.
+//! The film's kernels on the default grid, and its linear algebra against general sparse solvers: faer,
+//! and KLU where it is installed.
 //!
 //! The matrix is that of a stage: capacity/d + R_ψ at steady flight of the drive of `fig13`, d that of
-//! a step of 0.2 µs. Both solvers factor anew on a known pattern and solve once.
+//! a step of 0.2 µs. All factor anew on a known pattern and solve once; KLU
+//! also with the pivots of before (`refactor`), which faer and the film's own do not need or do not offer.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -11,6 +13,7 @@ use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Par};
+use opshock_klu::{Columns, Klu};
 use opshock_solver::air_bearing::steady::fly;
 use opshock_solver::air_bearing::{Attitude, Film, FilmLinearisation, FilmScratch};
 use opshock_solver::linalg::banded::BandedLu;
@@ -143,7 +146,25 @@ fn kernels(c: &mut Criterion) {
             black_box(lu.solve(column(&rhs)))
         });
     });
+    if let Some(klu) = Klu::load() {
+        let columns = columns(&sparse);
+        let mut factors = klu.factor(&columns).expect("factors");
+        let mut both = |name: &str, renew: fn(&mut opshock_klu::Factors<'_>) -> bool| {
+            group.bench_function(name, |b| {
+                b.iter(|| {
+                    x.copy_from_slice(&rhs);
+                    renew(&mut factors) && factors.solve(&mut x)
+                });
+            });
+        };
+        both("klu_factor_and_solve", |factors| factors.factor_anew());
+        both("klu_refactor_and_solve", |factors| factors.refactor());
+    }
     group.finish();
+}
+
+fn columns(matrix: &SparseColMat<usize, f64>) -> Columns {
+    Columns::new(matrix.col_ptr(), matrix.row_idx(), matrix.val())
 }
 
 fn column(rhs: &[f64]) -> Mat<f64> {
@@ -154,8 +175,12 @@ fn column(rhs: &[f64]) -> Mat<f64> {
 fn against_size(_: &mut Criterion) {
     faer::set_global_parallelism(Par::Seq);
     let scene = scenes::scene("fig13", "none", 0.5, &[]);
-    println!("| cells | residual, us | factor, us | solve, us | faer factor + solve, us | ratio |");
-    println!("|---|---|---|---|---|---|");
+    let klu = Klu::load();
+    println!(
+        "| cells | residual, us | factor, us | solve, us | faer factor + solve, us | ratio | \
+         KLU refactor + solve, us | ratio |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
     let mut rows = Vec::new();
     for cells in SIZES {
         let mut flying = Flying::of(&scene, cells);
@@ -182,8 +207,24 @@ fn against_size(_: &mut Criterion) {
         for (a, b) in x.iter().zip(other.col_as_slice(0)) {
             assert!((a - b).abs() <= 1e-8 * b.abs().max(1e-12), "{a} {b}");
         }
+        let klu = klu.as_ref().map(|klu| {
+            let columns = columns(&sparse);
+            let mut factors = klu.factor(&columns).expect("factors");
+            let mut other = rhs.clone();
+            let time = median(|| {
+                other.copy_from_slice(&rhs);
+                assert!(factors.refactor() && factors.solve(&mut other));
+            });
+            for (a, b) in x.iter().zip(&other) {
+                assert!((a - b).abs() <= 1e-8 * b.abs().max(1e-12), "{a} {b}");
+            }
+            time
+        });
+        let beside = klu.map_or("- | -".to_string(), |time| {
+            format!("{:.0} | {:.2}", 1e6 * time, time / (factor + solve))
+        });
         println!(
-            "| {n} | {:.1} | {:.0} | {:.1} | {:.0} | {:.2} |",
+            "| {n} | {:.1} | {:.0} | {:.1} | {:.0} | {:.2} | {beside} |",
             1e6 * residual,
             1e6 * factor,
             1e6 * solve,
