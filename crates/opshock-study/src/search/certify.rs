@@ -45,7 +45,11 @@ impl Scan {
 
     /// Next node to test going down from `top` (a survivor, or a failure without survivor below).
     pub(super) fn next(&self, evidence: &Evidence, top: i32) -> Option<i32> {
-        let mut at = top;
+        // Of a scan of every node all that is done at once.
+        let mut at = match self.gap {
+            1 => evidence.unbroken_below(top, self.floor),
+            _ => top,
+        };
         loop {
             let gap = self.gap_at(top - at);
             // The node below the floor is answered without a run. A node without verdict bridges
@@ -88,6 +92,6 @@ impl Scan {
 
 /// Lowest known survivor in `low..at`; an undecided node only when there is no survivor.
 fn highest_use(evidence: &Evidence, low: i32, at: i32) -> Option<i32> {
-    let known = |wanted: NodeVerdict| (low..at).find(|&index| evidence.get(index) == Some(wanted));
+    let known = |verdict| evidence.lowest_with(verdict, low..at);
     known(NodeVerdict::Survives).or_else(|| known(NodeVerdict::Undecided))
 }

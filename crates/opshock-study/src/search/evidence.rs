@@ -17,6 +17,9 @@ pub enum NodeVerdict {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
     nodes: BTreeMap<i32, NodeVerdict>,
+    /// Of these the lowest that fails, and how many have no verdict: asked for at every probe.
+    lowest_failure: Option<i32>,
+    n_undecided: usize,
     /// Smallest clearances of survivors, bits of metres.
     margins: BTreeMap<i32, u64>,
 }
@@ -24,7 +27,16 @@ pub struct Evidence {
 impl Evidence {
     /// Records a node.
     pub fn insert(&mut self, index: i32, verdict: NodeVerdict) {
-        self.nodes.insert(index, verdict);
+        let before = self.nodes.insert(index, verdict);
+        self.n_undecided += usize::from(verdict == NodeVerdict::Undecided);
+        self.n_undecided -= usize::from(before == Some(NodeVerdict::Undecided));
+        let is_lower = self.lowest_failure.is_none_or(|lowest| index < lowest);
+        if verdict == NodeVerdict::Fails && is_lower {
+            self.lowest_failure = Some(index);
+        } else if self.lowest_failure == Some(index) && verdict != NodeVerdict::Fails {
+            let fails = |(_, verdict): &(&i32, &NodeVerdict)| **verdict == NodeVerdict::Fails;
+            self.lowest_failure = self.nodes.iter().find(fails).map(|(&index, _)| index);
+        }
     }
 
     /// Records the smallest clearance, m, of a node that survives.
@@ -65,10 +77,26 @@ impl Evidence {
 
     /// Lowest failing node.
     pub fn lowest_failure(&self) -> Option<i32> {
-        self.nodes
-            .iter()
-            .find(|(_, verdict)| **verdict == NodeVerdict::Fails)
-            .map(|(index, _)| *index)
+        self.lowest_failure
+    }
+
+    /// Lowest node of `nodes` with a verdict.
+    pub fn lowest_with(&self, verdict: NodeVerdict, nodes: std::ops::Range<i32>) -> Option<i32> {
+        let known = self.nodes.range(nodes);
+        let mut with = known.filter(|(_, known)| **known == verdict);
+        with.next().map(|(&index, _)| index)
+    }
+
+    /// Lowest node, not below `floor`, down to which every node below `top` is known and none fails.
+    pub fn unbroken_below(&self, top: i32, floor: i32) -> i32 {
+        let mut at = top;
+        for (&index, verdict) in self.nodes.range(floor.min(top)..top).rev() {
+            if index != at - 1 || *verdict == NodeVerdict::Fails {
+                break;
+            }
+            at = index;
+        }
+        at
     }
 
     /// Highest survivor below `limit` (exclusive), of all nodes when there is no limit.
@@ -97,10 +125,7 @@ impl Evidence {
 
     /// Number of undecided nodes.
     pub fn n_undecided(&self) -> usize {
-        self.nodes
-            .values()
-            .filter(|verdict| **verdict == NodeVerdict::Undecided)
-            .count()
+        self.n_undecided
     }
 
     /// Every (survivor, next higher decided node that fails), ascending.
@@ -163,5 +188,40 @@ impl Evidence {
             .iter()
             .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
             .map(|(index, _)| *index)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_that_replaces_another_counts_once() {
+        let mut evidence = Evidence::default();
+        for (index, verdict) in [
+            (7, NodeVerdict::Fails),
+            (3, NodeVerdict::Undecided),
+            (5, NodeVerdict::Fails),
+        ] {
+            evidence.insert(index, verdict);
+        }
+        assert_eq!(
+            (evidence.lowest_failure(), evidence.n_undecided()),
+            (Some(5), 1)
+        );
+        evidence.insert(3, NodeVerdict::Survives);
+        evidence.insert(5, NodeVerdict::Survives);
+        assert_eq!(
+            (evidence.lowest_failure(), evidence.n_undecided()),
+            (Some(7), 0)
+        );
+        assert_eq!(evidence.lowest_with(NodeVerdict::Survives, 4..9), Some(5));
+        assert_eq!(evidence.lowest_with(NodeVerdict::Fails, 0..7), None);
+        evidence.insert(6, NodeVerdict::Undecided);
+        let below = |top, floor| evidence.unbroken_below(top, floor);
+        assert_eq!(
+            [below(7, 0), below(7, 6), below(8, 0), below(4, 9)],
+            [5, 6, 8, 4]
+        );
     }
 }
