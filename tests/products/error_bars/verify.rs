@@ -148,9 +148,9 @@ fn provenance_line() -> String {
     format!("# {}", provenance::program())
 }
 
-/// Critical amplitude near `from_g` to a share of 0.2 %, by galloping and halving; `None` without
-/// verdicts or farther off than a factor 4.
-fn truth_g(from_g: f64, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<f64> {
+/// Critical amplitude near `from_g` to a `share`, by galloping and halving; `None` without verdicts
+/// or farther off than a factor 4.
+fn truth_g(from_g: f64, share: f64, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<f64> {
     let (mut low, mut high) = (None, None);
     let (mut at, mut stride) = (from_g, 1.01_f64);
     loop {
@@ -159,7 +159,7 @@ fn truth_g(from_g: f64, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<f6
             false => low = Some(at),
         }
         match (low, high) {
-            (Some(low), Some(high)) if high / low < 1.002 => return Some(0.5 * (low + high)),
+            (Some(low), Some(high)) if high / low < 1.0 + share => return Some(0.5 * (low + high)),
             (Some(low), Some(high)) => at = (low * high).sqrt(),
             (Some(low), None) => at = low * stride,
             (None, Some(high)) => at = high / stride,
@@ -365,11 +365,14 @@ fn covered(row: &Row, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Cove
         return None;
     }
     let a_crit_g = row.a_crit_g?;
+    let (low_g, high_g) = (row.err_low_g?, row.err_high_g?);
+    // Fine enough to tell inside from outside, and the bar from twenty times the error.
+    let share = (0.05 * (low_g + high_g) / a_crit_g).max(0.002);
     Some(Covered {
         a_crit_g,
-        low_g: row.err_low_g?,
-        high_g: row.err_high_g?,
-        truth_g: truth_g(a_crit_g, fails)?,
+        low_g,
+        high_g,
+        truth_g: truth_g(a_crit_g, share, fails)?,
         is_partial: row.flags.contains(&Flag::BarPartial),
     })
 }

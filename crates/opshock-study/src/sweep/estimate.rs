@@ -11,53 +11,84 @@ use crate::search::RampClass;
 const PRIOR_RUNS: f64 = 9.0;
 /// Spread of that number from point to point.
 const PRIOR_SPREAD: f64 = 4.0;
+/// Runs of an error bar before any was finished: some three a knob.
+const PRIOR_BAR_RUNS: f64 = 17.0;
+/// Spread of that number; a climb doubles it.
+const PRIOR_BAR_SPREAD: f64 = 8.0;
 
-/// What is left of a sweep.
+/// Runs that something took at the points of a class of ramp where it is done.
+#[derive(Default)]
+struct Taken(HashMap<RampClass, (f64, f64)>);
+
+impl Taken {
+    fn add(&mut self, class: RampClass, runs: usize) {
+        let sum = self.0.entry(class).or_default();
+        sum.0 += runs as f64;
+        sum.1 += 1.0;
+    }
+
+    /// What is left of it where `done` runs are made: one at least.
+    fn left(&self, class: RampClass, prior: f64, done: usize) -> f64 {
+        let expected = self.0.get(&class).map_or(prior, |&sum| mean(sum));
+        (expected - done as f64).max(1.0)
+    }
+}
+
+fn mean((sum, count): (f64, f64)) -> f64 {
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// What is left of a sweep: searches, and error bars with their climbs.
 pub(super) fn estimate(input: &SweepInput, ledger: &Ledger<'_>, threads: usize) -> Estimate {
     let campaign = ledger.campaign();
     let class = |point: usize| input.points[point].coordinates.ramp_class;
+    let searched = |point: usize| {
+        campaign
+            .search(point)
+            .map_or(0, |search| search.log().len())
+    };
 
-    let mut runs_of: HashMap<RampClass, Vec<f64>> = HashMap::new();
+    let (mut searches, mut bars) = (Taken::default(), Taken::default());
     let mut class_of_digest = HashMap::new();
-    for point in 0..input.points.len() {
-        class_of_digest.insert(input.points[point].digest, class(point));
-        if campaign.is_settled(point)
-            && let Some(search) = campaign.search(point)
-        {
-            runs_of
-                .entry(class(point))
-                .or_default()
-                .push(search.log().len() as f64);
+    for (point, one) in input.points.iter().enumerate() {
+        // Scenes with turned knobs have digests of their own: they count in the overall pace alone.
+        class_of_digest.insert(one.digest, class(point));
+        if campaign.is_settled(point) && campaign.search(point).is_some() {
+            searches.add(class(point), searched(point));
+        }
+        if let Some((runs, true)) = ledger.bar_runs(point) {
+            bars.add(class(point), runs);
         }
     }
     let mut wall_of: HashMap<RampClass, (f64, f64)> = HashMap::new();
+    let mut overall = (0.0, 0.0);
     for record in ledger.runs().values() {
+        let wall_s = record.machine.wall_s;
+        overall = (overall.0 + wall_s, overall.1 + 1.0);
         if let Some(&class) = class_of_digest.get(&record.key.point) {
             let sum = wall_of.entry(class).or_default();
-            sum.0 += record.machine.wall_s;
-            sum.1 += 1.0;
+            *sum = (sum.0 + wall_s, sum.1 + 1.0);
         }
     }
-    let overall = wall_of
-        .values()
-        .fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
 
     let (mut runs_left, mut variance, mut left_s) = (0.0, 0.0, 0.0);
-    for point in 0..input.points.len() {
-        if campaign.is_settled(point) {
+    for (point, one) in input.points.iter().enumerate() {
+        if !ledger.wants(point) || ledger.is_final(point) {
             continue;
         }
         let class = class(point);
-        let expected = runs_of.get(&class).map_or(PRIOR_RUNS, |runs| {
-            runs.iter().sum::<f64>() / runs.len() as f64
-        });
-        let done = campaign
-            .search(point)
-            .map_or(0.0, |search| search.log().len() as f64);
-        let left = (expected - done).max(1.0);
-        let mean = |(sum, count): (f64, f64)| if count > 0.0 { sum / count } else { 0.0 };
+        let mut left = 0.0;
+        if !campaign.is_settled(point) {
+            left += searches.left(class, PRIOR_RUNS, searched(point));
+            variance += PRIOR_SPREAD * PRIOR_SPREAD;
+        }
+        if let Some(plan) = &one.bar {
+            let prior = PRIOR_BAR_RUNS * (1.0 + f64::from(plan.climbs.min(1)));
+            let done = ledger.bar_runs(point).map_or(0, |(runs, _)| runs);
+            left += bars.left(class, prior, done);
+            variance += PRIOR_BAR_SPREAD * PRIOR_BAR_SPREAD;
+        }
         runs_left += left;
-        variance += PRIOR_SPREAD * PRIOR_SPREAD;
         left_s += left * wall_of.get(&class).map_or(mean(overall), |&sum| mean(sum));
     }
     Estimate {

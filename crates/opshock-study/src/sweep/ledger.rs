@@ -329,6 +329,15 @@ impl<'a> Ledger<'a> {
         }
     }
 
+    /// Runs that the error bar of a point has used, climbs and all, and whether it is done; `None`
+    /// where it has not begun.
+    pub(super) fn bar_runs(&self, point: usize) -> Option<(usize, bool)> {
+        match &self.bars[point] {
+            BarStage::Begun { log, .. } => Some((log.len(), self.is_final(point))),
+            _ => None,
+        }
+    }
+
     /// All points have that are wanted.
     pub(super) fn is_done(&self) -> bool {
         (0..self.input.points.len()).all(|point| !self.wants(point) || self.is_final(point))
@@ -588,6 +597,7 @@ fn bar_probe(ask: bar::Ask) -> Probe {
     Probe {
         is_fine: true,
         levels: ask.levels,
+        retry: ask.retry,
         ..Probe::at(ask.index)
     }
 }

@@ -149,7 +149,7 @@ impl Physics {
         Ok(model)
     }
 
-    /// A scene with turned knobs; error bars make no retries and keep the study's window.
+    /// A scene with turned knobs in the study's window.
     fn turned_model(&self, slot: usize, levels: Levels) -> Built {
         let is_it = |turned: &Turned| turned.slot == slot && turned.levels == levels;
         if let Some(turned) = lock(&self.turned).iter().find(|turned| is_it(turned)) {
@@ -172,13 +172,14 @@ impl Physics {
 
     /// The model a probe runs on.
     fn model_for(&self, point: usize, probe: Probe) -> Built {
-        if !probe.levels.is_none() {
+        if !probe.levels.is_none() && probe.retry == Retry::None {
             return self.turned_model(self.points[point].0, probe.levels);
         }
         if probe.retry == Retry::None && probe.window_factor == 1 {
             return self.model(point);
         }
         let slot = &self.slots[self.points[point].0];
+        let scene = slot.scene.at_levels(probe.levels);
         let longer = |scene: &Scene| {
             if probe.window_factor == 1 {
                 scene.clone()
@@ -187,19 +188,19 @@ impl Physics {
             }
         };
         match probe.retry {
-            Retry::None if !self.plan.shares_parts => self.build(&longer(&slot.scene)),
+            Retry::None if !self.plan.shares_parts => self.build(&longer(&scene)),
             Retry::None => {
                 if let Some(model) = lock(&slot.longer).clone() {
                     return Ok(model);
                 }
-                let model = self.build(&longer(&slot.scene))?;
+                let model = self.build(&longer(&scene))?;
                 *lock(&slot.longer) = Some(Arc::clone(&model));
                 Ok(model)
             }
-            Retry::HalfStep => self.build(&longer(&slot.scene.with_finer_steps(2.0))),
-            Retry::QuarterStep => self.build(&longer(&slot.scene.with_finer_steps(4.0))),
-            Retry::OtherCoupling => self.build(&longer(&slot.scene.with_other_coupling())),
-            Retry::OtherContact => self.build(&longer(&slot.scene.with_other_contact())),
+            Retry::HalfStep => self.build(&longer(&scene.with_finer_steps(2.0))),
+            Retry::QuarterStep => self.build(&longer(&scene.with_finer_steps(4.0))),
+            Retry::OtherCoupling => self.build(&longer(&scene.with_other_coupling())),
+            Retry::OtherContact => self.build(&longer(&scene.with_other_contact())),
         }
     }
 

@@ -11,6 +11,7 @@ use super::verdicts::{self, Bracket};
 use super::{Ask, Bar, BarInput, GROUPS, Known, Pieces, Progress, SUBNODES, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 use crate::search::outcome::Flag;
+use crate::search::probe::Retry;
 
 /// Most steps by which a knob is turned finer than the study has it.
 pub const FLOOR: i8 = 2;
@@ -41,7 +42,12 @@ pub fn answer(
 ) -> (Vec<Ask>, Progress<Answer>) {
     let mut log = Vec::new();
     let progress = match climbed(input, climbs, lookup, &mut log) {
-        Ok(answer) => Progress::Done(answer),
+        Ok(mut answer) => {
+            if log.iter().any(|ask| ask.retry != Retry::None) {
+                answer.bar.flags.insert(Flag::Retry);
+            }
+            Progress::Done(answer)
+        }
         Err(ask) => Progress::Wants(ask),
     };
     (log, progress)
@@ -60,10 +66,11 @@ fn climbed(
         let pieces = super::pieces(&mut walk, kept)?;
         let bar = super::whole(&walk, &pieces);
         let exceeds = bar.flags.contains(&Flag::BarExceeds);
-        let stay = |bar| Ok(Answer::of(&at, bar));
+        (at.survivor, at.failure) = super::bracket(&walk);
         if !exceeds || climbs == 0 {
-            return stay(bar);
+            return Ok(Answer::of(&at, bar));
         }
+        let mut walk = Walk::new(&at, lookup, log);
         // A narrower bracket alone may do.
         if let Some(narrow) = narrowed(&mut walk, &bar)? {
             at.survivor = narrow.low;
@@ -184,7 +191,7 @@ fn bracketed(
         .log
         .iter()
         .copied()
-        .filter(|ask| ask.levels == base)
+        .filter(|ask| ask.levels == base && ask.retry == Retry::None)
         .collect();
     let mut survivors = Vec::new();
     for ask in own {

@@ -1,7 +1,9 @@
 //! From differences between levels of a knob to the error of the scene as it is.
 //!
-//! Every knob is turned coarser: the runs are cheaper than those of the search, and what is left of
-//! the error is a fraction of what is seen.
+//! Every knob is turned a step coarser first: the runs are cheaper than those of the search. Where
+//! that moves the answer by what counts, one step finer tells more: knobs that are loose, as those of
+//! a cheap scene are, gain more by a step than their order says, so that coarser runs make a large
+//! error of a small one.
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
@@ -18,17 +20,21 @@ const HALF_ORDER: f64 = std::f64::consts::SQRT_2;
 /// Slowest ratio that is believed.
 const SLOWEST: f64 = 1.25;
 
-/// Error of the reported amplitude, as a share, and its factor of safety.
+/// Error of the reported amplitude: what was seen of it, and what is thought to be left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Estimate {
+    /// Change of the answer by a finer scene, a share: certain, so it carries no factor.
+    pub known: f64,
+    /// Error beyond that, a share.
     pub share: f64,
+    /// Factor of safety on it.
     pub factor: f64,
 }
 
 impl Estimate {
     /// The error with its factor of safety.
     pub(super) fn error(self) -> f64 {
-        self.share * self.factor
+        self.known + self.share * self.factor
     }
 
     /// Too little to matter.
@@ -36,9 +42,13 @@ impl Estimate {
         self.error() <= NEGLIGIBLE * accuracy
     }
 
-    /// So much that the bar exceeds what was asked by this part alone, whatever its order.
-    pub(super) fn is_excessive(self, accuracy: f64) -> bool {
-        self.share * NARROW > 2.0 * accuracy
+    /// An error of which nothing was seen for certain.
+    pub(super) fn unseen(share: f64, factor: f64) -> Estimate {
+        Estimate {
+            known: 0.0,
+            share,
+            factor,
+        }
     }
 }
 
@@ -52,6 +62,12 @@ pub(super) fn coarser(levels: Levels, knobs: &[Knob]) -> Levels {
     knobs.iter().fold(levels, turn)
 }
 
+/// These levels with some knobs a step finer.
+pub(super) fn finer(levels: Levels, knobs: &[Knob]) -> Levels {
+    let turn = |levels: Levels, &knob: &Knob| levels.turned(knob, 1);
+    knobs.iter().fold(levels, turn)
+}
+
 /// Slowest formal ratio of some knobs.
 fn slowest(knobs: &[Knob]) -> f64 {
     let ratios = knobs.iter().map(|knob| knob.formal_ratio());
@@ -61,38 +77,42 @@ fn slowest(knobs: &[Knob]) -> f64 {
 /// Error of knobs turned together by one step, from the change of the answer: no order was
 /// observed. The slowest of them counts.
 pub(super) fn one_step(knobs: &[Knob], change: f64) -> Estimate {
-    Estimate {
-        share: change.abs() / (slowest(knobs) - 1.0),
-        factor: WIDE,
-    }
+    Estimate::unseen(change.abs() / (slowest(knobs) - 1.0), WIDE)
 }
 
-/// Error from two steps: `near` is level -1 minus the scene, `far` level -2 minus level -1.
-pub(super) fn two_steps(knobs: &[Knob], near: f64, far: f64) -> Estimate {
+/// Error from two steps coarser: `near` is level -1 minus the scene, `far` level -2 minus level -1.
+/// Without order the larger of what either says at the formal one.
+pub(super) fn two_coarser(knobs: &[Knob], near: f64, far: f64) -> Estimate {
     let formal = slowest(knobs);
     let observed = far / near;
     if is_formal(observed, formal) {
-        Estimate {
-            share: near.abs() / (observed.min(formal) - 1.0),
-            factor: NARROW,
-        }
-    } else if observed > formal {
-        // Faster than the order: what is left is less than it says, by how much is not known.
-        Estimate {
-            share: near.abs() / (observed.min(4.0 * formal) - 1.0),
-            factor: WIDE,
-        }
-    } else if observed > 1.0 {
-        // Slower: more is left than it says.
-        Estimate {
-            share: near.abs() / (observed.max(SLOWEST) - 1.0),
-            factor: WIDE,
-        }
+        return Estimate::unseen(near.abs() / (observed.min(formal) - 1.0), NARROW);
+    }
+    let (one, two) = (near.abs(), (near + far).abs());
+    let share = (one / (formal - 1.0)).max(two / (formal * formal - 1.0));
+    Estimate::unseen(share, WIDE)
+}
+
+/// Error from a step coarser and a step finer: `near` is level -1 minus the scene, `fine` the scene
+/// minus level +1. The latter is seen; what level +1 still lacks follows from the order. An order
+/// above the formal one is not believed to last, and one below it leaves more than the formal one.
+pub(super) fn with_finer(knobs: &[Knob], near: f64, fine: f64) -> Estimate {
+    let formal = slowest(knobs);
+    let observed = near / fine;
+    let (share, factor) = if observed > formal / HALF_ORDER {
+        (fine.abs() / (observed.min(formal) - 1.0), NARROW)
     } else {
-        Estimate {
-            share: near.abs().max(far.abs() / formal),
-            factor: WIDE,
-        }
+        let seen = fine.abs().max(near.abs() / formal) / (formal - 1.0);
+        let slow = match observed > 1.0 {
+            true => fine.abs() / (observed.max(SLOWEST) - 1.0),
+            false => 0.0,
+        };
+        (seen.max(slow * NARROW / WIDE), WIDE)
+    };
+    Estimate {
+        known: fine.abs(),
+        share,
+        factor,
     }
 }
 

@@ -7,7 +7,7 @@
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
-use super::{Ask, Known, Limits, Seen, Walk};
+use super::{Ask, Limits, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.
@@ -18,18 +18,27 @@ const REACH: f64 = 0.12;
 
 /// What differences are read against.
 pub(super) struct Reference {
-    /// Highest survivor of the search.
-    at: Known,
-    /// Amplitude below it, node.
-    below: i32,
-    /// Clearance there on the proxy and at the survivor, m.
-    proxy_m: [f64; 2],
+    /// Instant of the event, s.
+    event_s: f64,
+    /// The highest survivor of the search and one below it.
+    at: [Survivor; 2],
     /// Loss of clearance per relative growth of the amplitude, m: of the scene and of the proxy.
     slope_m: [f64; 2],
 }
 
 fn is_same_event(a_s: f64, b_s: f64) -> bool {
     (a_s - b_s).abs() <= EVENT_S
+}
+
+/// A survivor at the event.
+#[derive(Clone, Copy)]
+struct Survivor {
+    /// Node.
+    index: i32,
+    /// Its clearance, m.
+    own_m: f64,
+    /// That on the proxy, m.
+    proxy_m: f64,
 }
 
 /// Clearance of a survivor at the event.
@@ -74,74 +83,102 @@ impl Reference {
             return Ok(None);
         };
         let span = walk.share(at.index - lower.index);
-        let proxy = walk.proxy();
-        let mut proxy_m = [0.0; 2];
-        for (place, index) in [lower.index, at.index].into_iter().enumerate() {
-            match clearance(walk.see(proxy, index)?, at.t_min_s) {
-                Some(h_m) => proxy_m[place] = h_m,
+        let mut survivors = [at, *lower].map(|known| Survivor {
+            index: known.index,
+            own_m: known.h_min_m,
+            proxy_m: f64::NAN,
+        });
+        for survivor in survivors.iter_mut().rev() {
+            match clearance(walk.see(walk.proxy(), survivor.index)?, at.t_min_s) {
+                Some(h_m) => survivor.proxy_m = h_m,
                 None => return Ok(None),
             }
         }
-        let slope_m = [lower.h_min_m - at.h_min_m, proxy_m[0] - proxy_m[1]].map(|fall| fall / span);
+        let [upper, lower] = survivors;
+        let falls = [lower.own_m - upper.own_m, lower.proxy_m - upper.proxy_m];
+        let slope_m = falls.map(|fall| fall / span);
         Ok((slope_m[1] > 0.0).then_some(Reference {
-            at,
-            below: lower.index,
-            proxy_m,
+            event_s: at.t_min_s,
+            at: survivors,
             slope_m,
         }))
     }
 
-    /// Error of the film's grid from half and a quarter of the cells.
-    pub(super) fn film(&self, walk: &mut Walk<'_>) -> Result<Option<Estimate>, Ask> {
-        // The flatter of the two slopes: the same error of clearance is more amplitude.
-        let slope_m = self.slope_m[0].min(self.slope_m[1]);
-        let both = (self.proxy_m[1] - self.at.h_min_m) / slope_m;
-        if both.abs() > REACH {
-            return Ok(None);
-        }
-        let half = Levels::NONE.turned(Knob::FilmGrid, -1);
-        let Some(half_m) = clearance(walk.see(half, self.at.index)?, self.at.t_min_s) else {
-            return Ok(None);
-        };
-        let near = (half_m - self.at.h_min_m) / slope_m;
-        Ok(Some(judge::two_steps(&[Knob::FilmGrid], near, both - near)))
+    /// Clearance at the event of a turned scene.
+    fn see(&self, walk: &mut Walk<'_>, levels: Levels, index: i32) -> Result<Option<f64>, Ask> {
+        Ok(clearance(walk.see(levels, index)?, self.event_s))
     }
 
-    /// Error of other knobs turned together by one step on the proxy, of one knob by two where that
-    /// is not little: at the survivor, or at the amplitude below it where turned scenes fail at the
-    /// survivor.
+    /// Error of the film's grid from half and a quarter of the cells, and from twice as many where
+    /// that is not little: at the survivor, or below it where another grid fails there.
+    pub(super) fn film(
+        &self,
+        walk: &mut Walk<'_>,
+        limits: Limits,
+    ) -> Result<Option<Estimate>, Ask> {
+        const FILM: [Knob; 1] = [Knob::FilmGrid];
+        // The flatter of the two slopes: the same error of clearance is more amplitude.
+        let slope_m = self.slope_m[0].min(self.slope_m[1]);
+        let mut coarse_only = None;
+        for at in self.at {
+            let both = (at.proxy_m - at.own_m) / slope_m;
+            let half = judge::coarser(Levels::NONE, &FILM);
+            let Some(half_m) = self.see(walk, half, at.index)? else {
+                continue;
+            };
+            let near = (half_m - at.own_m) / slope_m;
+            if near.abs().max(both.abs()) > REACH {
+                continue;
+            }
+            let estimate = judge::two_coarser(&FILM, near, both - near);
+            if estimate.error() <= limits.little {
+                return Ok(Some(estimate));
+            }
+            let double = judge::finer(Levels::NONE, &FILM);
+            let fine = self
+                .see(walk, double, at.index)?
+                .map(|double_m| (at.own_m - double_m) / slope_m)
+                .filter(|fine| fine.abs() <= REACH);
+            if let Some(fine) = fine {
+                return Ok(Some(judge::with_finer(&FILM, near, fine)));
+            }
+            coarse_only = coarse_only.or(Some(estimate));
+        }
+        Ok(coarse_only)
+    }
+
+    /// Error of other knobs turned together by one step on the proxy, and by one step finer where
+    /// that is not little: at the survivor, or below it where turned scenes fail there.
     pub(super) fn knobs(
         &self,
         walk: &mut Walk<'_>,
         knobs: &[Knob],
         limits: Limits,
     ) -> Result<Option<Estimate>, Ask> {
-        let once = judge::coarser(walk.proxy(), knobs);
-        let accuracy = walk.input.accuracy;
-        for (index, proxy_m) in [
-            (self.at.index, self.proxy_m[1]),
-            (self.below, self.proxy_m[0]),
-        ] {
-            let Some(first_m) = clearance(walk.see(once, index)?, self.at.t_min_s) else {
+        let mut coarse_only = None;
+        for at in self.at {
+            let coarse = judge::coarser(walk.proxy(), knobs);
+            let Some(coarse_m) = self.see(walk, coarse, at.index)? else {
                 continue;
             };
-            let first = (first_m - proxy_m) / self.slope_m[1];
-            if first.abs() > REACH {
+            let near = (coarse_m - at.proxy_m) / self.slope_m[1];
+            if near.abs() > REACH {
                 continue;
             }
-            let estimate = judge::one_step(knobs, first);
-            if limits.is_enough(knobs, estimate, accuracy) {
+            let estimate = judge::one_step(knobs, near);
+            if estimate.error() <= limits.little {
                 return Ok(Some(estimate));
             }
-            let seen = walk.see(judge::coarser(once, knobs), index)?;
-            let second = clearance(seen, self.at.t_min_s)
-                .map(|second_m| (second_m - first_m) / self.slope_m[1])
-                .filter(|second| second.abs() <= REACH);
-            return Ok(Some(match second {
-                Some(second) => judge::two_steps(knobs, first, second),
-                None => estimate,
-            }));
+            let finer = judge::finer(walk.proxy(), knobs);
+            let fine = self
+                .see(walk, finer, at.index)?
+                .map(|finer_m| (at.proxy_m - finer_m) / self.slope_m[1])
+                .filter(|fine| fine.abs() <= REACH);
+            if let Some(fine) = fine {
+                return Ok(Some(judge::with_finer(knobs, near, fine)));
+            }
+            coarse_only = coarse_only.or(Some(estimate));
         }
-        Ok(None)
+        Ok(coarse_only)
     }
 }

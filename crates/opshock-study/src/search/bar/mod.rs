@@ -1,10 +1,11 @@
 //! Error bar of a critical shock: what search and resolution add, part by part.
 //!
 //! Each part asks what the answer would be if one knob were turned a step coarser ([`Knob`]), so
-//! that its runs cost less than those of the search. All knobs but the film's grid are turned on a
-//! film of a quarter or an eighth of the cells, because what such a knob changes hardly depends on
-//! the film; and first together, in two groups (`GROUPS`): of disk and ramp, and of the head. Only
-//! where a group moves the answer by what counts is each of its knobs turned alone.
+//! that its runs cost less than those of the search, and a step finer where that is not little. All
+//! knobs but the film's grid are turned on a film of a quarter or an eighth of the cells (half where
+//! those answer otherwise), because what such a knob changes hardly depends on the film; and together, in
+//! two groups (`GROUPS`): of disk and ramp, and of the head. Only where a group turned together has
+//! no answer is each of its knobs turned alone.
 //! Two readings turn runs into amplitude:
 //!
 //! * *margin* (`margin`): where the smallest clearance falls steadily to zero at the instant at
@@ -14,8 +15,9 @@
 //!   or to a 32nd of what is in the bar already.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
-//! 1994, J. Fluids Eng. 116, 405). Parts add up; nothing is taken from their having signs. A part
-//! says that the answer may be wrong by a ratio 1 + e either way.
+//! 1994, J. Fluids Eng. 116, 405); the change seen by turning finer is certain and only what is left
+//! beyond it is multiplied. Parts add up; nothing is taken from their having signs. A part says that
+//! the answer may be wrong by a ratio 1 + e either way.
 //!
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.
@@ -36,6 +38,7 @@ use self::judge::Estimate;
 use super::evidence::NodeVerdict;
 use super::lattice::Lattice;
 use super::outcome::Flag;
+use super::probe::Retry;
 
 /// Nodes of the bar's lattice per step of the search.
 pub const SUBNODES: i32 = 16;
@@ -45,15 +48,12 @@ struct Group {
     /// Name of their common part.
     name: &'static str,
     knobs: &'static [Knob],
-    /// Never turned alone: they have one order, so that two steps of them together show it.
-    is_one: bool,
 }
 
 const GROUPS: [Group; 2] = [
     Group {
         name: "structure",
         knobs: &[Knob::DiskModes, Knob::StructureStep],
-        is_one: true,
     },
     // So coarse at once, they may fail where none of them does.
     Group {
@@ -63,7 +63,6 @@ const GROUPS: [Group; 2] = [
             Knob::HeadTolerance,
             Knob::CouplingTolerance,
         ],
-        is_one: false,
     },
 ];
 
@@ -114,6 +113,8 @@ pub struct Ask {
     pub levels: Levels,
     /// Node of the bar's lattice.
     pub index: i32,
+    /// How the run is made: the scene itself, climbed or not, is tried again as the search tries.
+    pub retry: Retry,
 }
 
 /// What such a run answered.
@@ -219,14 +220,25 @@ impl<'a> Walk<'a> {
         Self { input, lookup, log }
     }
 
+    /// A run of the scene turned by `levels`. Without verdict the scene itself is tried again down
+    /// the ladder of the search; a turned one is not, since its knobs may be what fails.
     fn see(&mut self, levels: Levels, index: i32) -> Result<Seen, Ask> {
-        let levels = self.input.base.plus(levels);
-        let ask = Ask { levels, index };
-        let seen = (self.lookup)(ask).ok_or(ask)?;
-        if !self.log.contains(&ask) {
-            self.log.push(ask);
+        let mut ask = Ask {
+            levels: self.input.base.plus(levels),
+            index,
+            retry: Retry::None,
+        };
+        loop {
+            let seen = (self.lookup)(ask).ok_or(ask)?;
+            if !self.log.contains(&ask) {
+                self.log.push(ask);
+            }
+            let is_open = levels.is_none() && seen.verdict == NodeVerdict::Undecided;
+            match ask.retry.next().filter(|_| is_open) {
+                Some(retry) => ask.retry = retry,
+                None => return Ok(seen),
+            }
         }
-        Ok(seen)
     }
 
     /// The film on which the other knobs are compared.
@@ -245,12 +257,38 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// The bracket of the scene itself, narrowed by what was met of it on the way.
+fn bracket(walk: &Walk<'_>) -> (i32, i32) {
+    let input = walk.input;
+    let mut inside: Vec<(i32, NodeVerdict)> = walk
+        .log
+        .iter()
+        .filter(|ask| ask.levels == input.base)
+        .filter(|ask| (input.survivor..input.failure).contains(&ask.index))
+        .filter_map(|&ask| Some((ask.index, (walk.lookup)(ask)?.verdict)))
+        .collect();
+    inside.sort_by_key(|one| one.0);
+    let mut ends = (input.survivor, input.failure);
+    for (index, verdict) in inside {
+        match verdict {
+            NodeVerdict::Survives => ends.0 = index,
+            NodeVerdict::Fails => {
+                ends.1 = index;
+                break;
+            }
+            NodeVerdict::Undecided => {}
+        }
+    }
+    ends
+}
+
 /// What the bracket alone adds.
 fn search_part(walk: &Walk<'_>) -> Bar {
+    let (survivor, failure) = bracket(walk);
     let search = Part {
         name: "search",
         low: 0.0,
-        high: walk.share(walk.input.failure - walk.input.survivor),
+        high: walk.share(failure - survivor),
         factor: 1.0,
     };
     Bar {
@@ -270,7 +308,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
         false => margin::Reference::find(walk)?,
     };
     let [film, groups @ ..] = kept;
-    let mut coarsest = None;
+    let mut proxy = None;
     let mut sum = search_part(walk);
     let film = match film {
         Some(film) => film,
@@ -278,14 +316,17 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
             let mut film = Bar::default();
             if input.knobs.contains(&Knob::FilmGrid) {
                 let by_margin = match &margin {
-                    Some(reference) => reference.film(walk)?,
+                    Some(reference) => reference.film(walk, Limits::of(walk, &sum))?,
                     None => None,
                 };
                 let (estimate, found) = match by_margin {
                     Some(estimate) => (Some(estimate), None),
-                    None => verdicts::film(walk)?,
+                    None => {
+                        let limits = Limits::of(walk, &sum);
+                        verdicts::film(walk, limits)?
+                    }
                 };
-                coarsest = found;
+                proxy = found;
                 film.add(Knob::FilmGrid.as_str(), estimate, input.accuracy);
             }
             film
@@ -296,7 +337,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
     for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate() {
         let piece = match kept {
             Some(piece) => piece,
-            None => group.look(walk, (&margin, coarsest), &sum)?,
+            None => group.look(walk, &margin, &mut proxy, &sum)?,
         };
         sum.extend(&piece);
         found[place + 1] = piece;
@@ -328,58 +369,62 @@ struct Limits {
     grain: i32,
     /// Error that needs no closer look, a share.
     little: f64,
-    /// Knobs turned together are turned a second step, as one alone is.
-    has_order: bool,
+    /// What may still be added before the bar exceeds what was asked, a share; negative beyond.
+    room: f64,
 }
 
 impl Limits {
-    /// A second step would not change what the bar says.
-    fn is_enough(self, knobs: &[Knob], estimate: Estimate, accuracy: f64) -> bool {
-        estimate.error() <= self.little
-            || estimate.is_excessive(accuracy)
-            || knobs.len() > 1 && !self.has_order
+    /// For a bar that holds `sum` already.
+    fn of(walk: &Walk<'_>, sum: &Bar) -> Limits {
+        let (half, accuracy) = (sum.half_length(), walk.input.accuracy);
+        Limits {
+            grain: walk.nodes(GRAIN * 2.0 * half).max(FINEST),
+            little: judge::NEGLIGIBLE * accuracy.max(half),
+            room: accuracy - half,
+        }
+    }
+
+    /// A closer look that is dear may bring the bar below what was asked.
+    fn is_worth(self, error: f64) -> bool {
+        error > self.little && error > self.room && self.room > 0.0
     }
 }
 
 impl Group {
-    /// The part of its knobs turned together, or those of each of them where that may bring
-    /// the bar, which holds `sum` without it, below what was asked.
+    /// The part of its knobs turned together, or those of each of them where turned together they
+    /// have no answer. The bar holds `sum` without it; `proxy` is the film found by verdicts.
     fn look(
         &self,
         walk: &mut Walk<'_>,
-        (margin, coarsest): (&Option<margin::Reference>, Option<verdicts::OnFilm>),
+        margin: &Option<margin::Reference>,
+        proxy: &mut Option<verdicts::OnFilm>,
         sum: &Bar,
     ) -> Result<Bar, Ask> {
-        let mut bar = Bar::default();
-        let accuracy = walk.input.accuracy;
-        let limits = Limits {
-            grain: walk.nodes(GRAIN * 2.0 * sum.half_length()).max(FINEST),
-            little: judge::NEGLIGIBLE * accuracy.max(sum.half_length()),
-            has_order: self.is_one,
-        };
-        let turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
+        let limits = Limits::of(walk, sum);
+        let mut turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
             let by_margin = match margin {
                 Some(reference) => reference.knobs(walk, knobs, limits)?,
                 None => None,
             };
-            match by_margin {
-                Some(estimate) => Ok(Some(estimate)),
-                None => verdicts::knobs(walk, knobs, coarsest, limits),
+            if by_margin.is_some() {
+                return Ok(by_margin);
             }
+            if proxy.is_none() {
+                *proxy = verdicts::film(walk, limits)?.1;
+            }
+            verdicts::knobs(walk, knobs, *proxy, limits)
         };
         let is_turned = |knob: &Knob| walk.input.knobs.contains(knob);
         let knobs: Vec<Knob> = self.knobs.iter().copied().filter(is_turned).collect();
+        let accuracy = walk.input.accuracy;
+        let mut bar = Bar::default();
         let joint = match knobs.len() {
             0 => return Ok(bar),
             1 => None,
             _ => turned(walk, &knobs)?,
         };
-        // Where the bar exceeds what was asked in any case, it need not be told which of them it is.
-        let is_told = |joint: &Estimate| {
-            self.is_one || joint.error() <= limits.little || sum.half_length() > 2.0 * accuracy
-        };
-        if let Some(estimate) = joint.filter(is_told) {
-            bar.add(self.name, Some(estimate), accuracy);
+        if joint.is_some() {
+            bar.add(self.name, joint, accuracy);
             return Ok(bar);
         }
         for knob in knobs {

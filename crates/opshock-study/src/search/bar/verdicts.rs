@@ -35,6 +35,8 @@ const OF_FILM: Width = Width {
     distance_over: 4,
     farthest: 0.5,
 };
+/// Farthest answer of a film on which the other knobs are turned, as a share.
+const NEAR: f64 = 0.05;
 
 /// Brackets the turned scene's answer beginning at `from`. `None` without verdicts or too far away.
 fn locate(
@@ -131,108 +133,134 @@ fn own(walk: &Walk<'_>) -> Bracket {
     }
 }
 
-/// The coarsest film, of at most `halvings`, on which the answer is found.
-fn on_film(walk: &mut Walk<'_>, halvings: i8, width: Width) -> Result<Option<OnFilm>, Ask> {
-    let own = own(walk);
-    // Without a film the scene itself is as cheap as it gets.
-    let has_film = walk.input.knobs.contains(&Knob::FilmGrid);
-    let fewest = i8::from(has_film);
-    for halvings in (fewest..=halvings.min(walk.input.film_halvings)).rev() {
-        if let Some(bracket) = locate(walk, halved(halvings), own, width)? {
-            return Ok(Some(OnFilm { halvings, bracket }));
-        }
-    }
-    Ok(None)
-}
-
 /// Shift from one bracket to another as a share; the larger end counts.
 fn shift(walk: &Walk<'_>, from: Bracket, to: Bracket) -> f64 {
     let (low, high) = (to.low - from.low, to.high - from.high);
     walk.share(if low.abs() > high.abs() { low } else { high })
 }
 
-/// Error of knobs but the film's grid turned together by one step on the coarsest film, of one knob
-/// by two where that is neither little nor too much. `known`: the film found by [`film`].
+/// Largest distance between two answers of which either may lie anywhere in its bracket.
+fn distance(walk: &Walk<'_>, a: Bracket, b: Bracket) -> f64 {
+    let (up, down) = (walk.share(b.high - a.low), walk.share(b.low - a.high));
+    up.abs().max(down.abs())
+}
+
+/// Error of knobs but the film's grid turned together by one step on the film found by [`film`], and
+/// by one step finer where that is not little and the bar may still meet what was asked.
 pub(super) fn knobs(
     walk: &mut Walk<'_>,
     knobs: &[Knob],
-    known: Option<OnFilm>,
+    found: Option<OnFilm>,
     limits: Limits,
 ) -> Result<Option<Estimate>, Ask> {
-    let plain = Width {
-        nodes: limits.grain,
-        distance_over: 0,
-        farthest: OF_FILM.farthest,
+    let Some(found) = found else {
+        return Ok(None);
     };
-    let quarter = Width {
+    let width = Width {
         nodes: limits.grain,
         distance_over: 4,
         farthest: FARTHEST,
-    };
-    let found = match known {
-        Some(film) => Some(film),
-        None => on_film(walk, 3, plain)?,
-    };
-    let Some(found) = found else {
-        return Ok(None);
     };
     let film = halved(found.halvings);
     let Some(base) = narrowed(walk, film, found.bracket, limits.grain)? else {
         return Ok(None);
     };
-    let once = judge::coarser(film, knobs);
-    let Some(one) = locate(walk, once, base, quarter)? else {
+    let Some(coarse) = locate(walk, judge::coarser(film, knobs), base, width)? else {
         return Ok(None);
     };
-    if one == base {
-        let nodes = base.high - base.low;
+    let nodes = base.high - base.low;
+    if coarse == base {
         return Ok(Some(judge::agreement(&walk.input.lattice, nodes, knobs)));
     }
-    let first = shift(walk, base, one);
-    let estimate = judge::one_step(knobs, first);
-    if limits.is_enough(knobs, estimate, walk.input.accuracy) {
+    let near = shift(walk, base, coarse);
+    let estimate = judge::one_step(knobs, near);
+    if !limits.is_worth(estimate.error()) {
         return Ok(Some(estimate));
     }
-    let Some(two) = locate(walk, judge::coarser(once, knobs), one, quarter)? else {
+    let Some(finer) = locate(walk, judge::finer(film, knobs), base, width)? else {
         return Ok(Some(estimate));
     };
-    let second = shift(walk, one, two);
-    Ok(Some(judge::two_steps(knobs, first, second)))
+    // What was seen is certain only up to the brackets it was seen with.
+    let sense = match finer == base {
+        true => near,
+        false => shift(walk, finer, base),
+    };
+    let fine = distance(walk, base, finer).copysign(sense);
+    Ok(Some(judge::with_finer(knobs, near, fine)))
 }
 
-/// Error of the film's grid from the answers on a quarter and an eighth of the cells.
+/// Error of the film's grid from the answer on a quarter of the cells: with that on half where it is
+/// another than the scene's and half may tell better, else with that on an eighth.
 ///
-/// With errors e, ρ²e and ρ³e on all, a quarter and an eighth of the cells, the two answers differ
-/// by ρ²(ρ - 1) e, and that on all cells follows: it must lie in the bracket that was found there.
-///
-/// The coarsest film is told, too: on it the other knobs are turned.
-pub(super) fn film(walk: &mut Walk<'_>) -> Result<(Option<Estimate>, Option<OnFilm>), Ask> {
-    let Some(near) = on_film(walk, 2, OF_FILM)? else {
+/// A film is told, too, for the other knobs to be turned on: the coarsest whose answer is near, since
+/// an answer far off is another failure.
+pub(super) fn film(
+    walk: &mut Walk<'_>,
+    limits: Limits,
+) -> Result<(Option<Estimate>, Option<OnFilm>), Ask> {
+    let own = own(walk);
+    if !walk.input.knobs.contains(&Knob::FilmGrid) || walk.input.film_halvings < 1 {
+        // Without a film the scene itself is as cheap as it gets.
+        let itself = OnFilm {
+            halvings: 0,
+            bracket: own,
+        };
+        return Ok((None, Some(itself)));
+    }
+    let Some(near) = quarter(walk, own)? else {
         return Ok((None, None));
     };
-    let formal = Knob::FilmGrid.formal_ratio();
-    let own = own(walk);
-    let farthest = walk
-        .share(near.bracket.high - own.low)
-        .abs()
-        .max(walk.share(near.bracket.low - own.high).abs());
-    let rise = formal.powi(i32::from(near.halvings));
     // One coarse film alone shows no order, and films so coarse have none: one halving counts.
     let has_two = near.halvings == 2 && walk.input.film_halvings >= 3;
-    let coarse = Estimate {
-        share: farthest / if has_two { rise - 1.0 } else { formal - 1.0 },
-        factor: judge::WIDE,
-    };
+    let formal = Knob::FilmGrid.formal_ratio();
+    let rise = formal.powi(i32::from(near.halvings));
+    let coarse = Estimate::unseen(
+        distance(walk, own, near.bracket) / if has_two { rise - 1.0 } else { formal - 1.0 },
+        judge::WIDE,
+    );
+    let is_alike = near.bracket.low >= own.low && near.bracket.high <= own.high;
+    if !is_alike && near.halvings == 2 && limits.is_worth(coarse.error()) {
+        if let Some((half, on_half)) = by_half(walk, own)? {
+            let is_near = distance(walk, own, near.bracket) <= NEAR;
+            return Ok((Some(half), Some(if is_near { near } else { on_half })));
+        }
+    }
     if !has_two {
         return Ok((Some(coarse), Some(near)));
     }
+    let (estimate, coarsest) = with_eighth(walk, own, near, coarse)?;
+    Ok((Some(estimate), Some(coarsest)))
+}
+
+/// A quarter of the cells, half where a quarter has no answer.
+fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<OnFilm>, Ask> {
+    for halvings in (1..=walk.input.film_halvings.min(2)).rev() {
+        if let Some(bracket) = locate(walk, halved(halvings), own, OF_FILM)? {
+            return Ok(Some(OnFilm { halvings, bracket }));
+        }
+    }
+    Ok(None)
+}
+
+/// From the answers on a quarter of the cells, `coarse` by themselves, and an eighth.
+///
+/// With errors e, ρ²e and ρ³e on all, a quarter and an eighth of the cells, the two answers differ
+/// by ρ²(ρ - 1) e, and that on all cells follows: it must lie in the bracket that was found there.
+fn with_eighth(
+    walk: &mut Walk<'_>,
+    own: Bracket,
+    near: OnFilm,
+    coarse: Estimate,
+) -> Result<(Estimate, OnFilm), Ask> {
     let Some(far) = locate(walk, halved(3), near.bracket, OF_FILM)? else {
-        return Ok((Some(coarse), Some(near)));
+        return Ok((coarse, near));
     };
     let coarsest = OnFilm {
         halvings: 3,
         bracket: far,
     };
+    let formal = Knob::FilmGrid.formal_ratio();
+    let rise = formal.powi(2);
     let middle = |bracket: Bracket| f64::from(bracket.low + bracket.high) / 2.0;
     let error = (middle(far) - middle(near.bracket)) / (rise * (formal - 1.0));
     let expected = middle(near.bracket) - (rise - 1.0) * error;
@@ -241,16 +269,41 @@ pub(super) fn film(walk: &mut Walk<'_>) -> Result<(Option<Estimate>, Option<OnFi
     let is_formal =
         expected >= f64::from(own.low) - slack && expected <= f64::from(own.high) + slack;
     let share = walk.share(error.abs().max(0.5).ceil() as i32);
-    let estimate = if is_formal {
-        Estimate {
-            share,
-            factor: judge::NARROW,
-        }
-    } else {
-        Estimate {
-            share: coarse.share.max(share),
-            factor: judge::WIDE,
-        }
+    let estimate = match is_formal {
+        true => Estimate::unseen(share, judge::NARROW),
+        false => Estimate::unseen(coarse.share.max(share), judge::WIDE),
     };
-    Ok((Some(estimate), Some(coarsest)))
+    Ok((estimate, coarsest))
+}
+
+/// From half the cells, where they answer as the scene does: both brackets are halved together for as
+/// long as they stay one, and its width bounds the change.
+fn by_half(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(Estimate, OnFilm)>, Ask> {
+    let half = halved(1);
+    // The failure first: it ends early.
+    if walk.see(half, own.high)?.verdict != NodeVerdict::Fails
+        || walk.see(half, own.low)?.verdict != NodeVerdict::Survives
+    {
+        return Ok(None);
+    }
+    let mut both = own;
+    while both.high - both.low > OF_FILM.nodes {
+        let middle = both.low + (both.high - both.low) / 2;
+        let verdict = walk.see(half, middle)?.verdict;
+        if verdict != walk.see(Levels::NONE, middle)?.verdict {
+            break;
+        }
+        match verdict {
+            NodeVerdict::Undecided => break,
+            NodeVerdict::Survives => both.low = middle,
+            NodeVerdict::Fails => both.high = middle,
+        }
+    }
+    let nodes = both.high - both.low;
+    let estimate = judge::agreement(&walk.input.lattice, nodes, &[Knob::FilmGrid]);
+    let on_half = OnFilm {
+        halvings: 1,
+        bracket: both,
+    };
+    Ok(Some((estimate, on_half)))
 }
