@@ -22,6 +22,10 @@ fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/f
 accuracy: build ## what accuracy costs on Fig. 13: ladders, plots and table in results/accuracy/
 	$(OPSHOCK) accuracy studies/fig13/study.toml --at none:2:- --at deformable:2:- --out results/accuracy
 
+.PHONY: accuracy-rungs
+accuracy-rungs: build ## time against the largest bar of each named accuracy on Fig. 13, in results/accuracy/rungs.md (needs python3; goes on where it stopped)
+	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS)
+
 figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
 	$(OPSHOCK) figures studies/paper-cases/study.toml --out results/paper
 

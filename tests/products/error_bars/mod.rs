@@ -3,13 +3,18 @@
 use std::path::Path;
 use std::time::Duration;
 
-use opshock_study::search::{Flag, Purpose};
+use opshock_solver::quantity::m_per_s2_from_g;
+use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_study::search::{Flag, Probe, Purpose, Retry};
 use opshock_study::store::results;
 use opshock_study::store::summary::PointSummary;
-use opshock_study::sweep::{Ending, Event, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
+use opshock_study::sweep::{
+    Ending, Event, Physics, Silent, Simulator, SweepEnd, SweepInput, SweepOptions, sweep,
+};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_bars::{LawSimulator, laws_study};
 use opshock_tests::mock_sweep::Recorder;
+use opshock_tests::scenes::study;
 
 fn run(input: &SweepInput, laws: &LawSimulator, folder: &Path, threads: usize) -> SweepEnd {
     let options = SweepOptions::with_threads(threads);
@@ -140,6 +145,36 @@ fn what_is_left_counts_the_runs_of_bars_and_climbs() {
     let (done, halfway) = told[told.len() / 2];
     let ratio = halfway.runs_left / (all - done) as f64;
     assert!((0.4..2.5).contains(&ratio), "{ratio} at {done} of {all}");
+}
+
+#[test]
+fn a_retry_of_a_turned_scene_keeps_its_knobs_and_takes_finer_steps() {
+    let sets = [
+        ("ramp.models", "[\"none\"]"),
+        ("pulse.signs", "[\"+\"]"),
+        ("pulse.widths_ms", "[0.5]"),
+        ("pulse.window_ms", "1.0"),
+        ("solver.film_cells", "240"),
+    ];
+    let study = study("fig13", &sets);
+    let physics = Physics::of(&study);
+    let cost = |film: i8, retry: Retry| {
+        let probe = Probe {
+            is_fine: true,
+            levels: Levels::NONE.turned(Knob::FilmGrid, film),
+            retry,
+            ..Probe::at(0)
+        };
+        physics.simulate(0, probe, m_per_s2_from_g(200.0)).cost
+    };
+    let (plain, turned) = (cost(0, Retry::None), cost(-1, Retry::None));
+    let retried = cost(-1, Retry::HalfStep);
+    assert!(turned.film_unknowns < plain.film_unknowns);
+    assert_eq!(retried.film_unknowns, turned.film_unknowns);
+    // Half the step of the structure, an eighth of the head's local error: twice the steps of either.
+    assert_eq!(retried.structure_steps, 2 * turned.structure_steps);
+    let ratio = retried.steps as f64 / turned.steps as f64;
+    assert!((1.5..2.6).contains(&ratio), "{ratio}");
 }
 
 fn known_laws(first: u64, n: usize) -> (f64, f64) {

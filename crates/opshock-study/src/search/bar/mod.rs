@@ -337,7 +337,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
     for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate() {
         let piece = match kept {
             Some(piece) => piece,
-            None => group.look(walk, &margin, &mut proxy, &sum)?,
+            None => group.look(walk, margin.as_ref(), &mut proxy, &sum)?,
         };
         sum.extend(&piece);
         found[place + 1] = piece;
@@ -396,7 +396,7 @@ impl Group {
     fn look(
         &self,
         walk: &mut Walk<'_>,
-        margin: &Option<margin::Reference>,
+        margin: Option<&margin::Reference>,
         proxy: &mut Option<verdicts::OnFilm>,
         sum: &Bar,
     ) -> Result<Bar, Ask> {

@@ -219,11 +219,13 @@ pub(super) fn film(
         judge::WIDE,
     );
     let is_alike = near.bracket.low >= own.low && near.bracket.high <= own.high;
-    if !is_alike && near.halvings == 2 && limits.is_worth(coarse.error()) {
-        if let Some((half, on_half)) = by_half(walk, own)? {
-            let is_near = distance(walk, own, near.bracket) <= NEAR;
-            return Ok((Some(half), Some(if is_near { near } else { on_half })));
-        }
+    let half = match !is_alike && near.halvings == 2 && limits.is_worth(coarse.error()) {
+        true => by_half(walk, own)?,
+        false => None,
+    };
+    if let Some((half, on_half)) = half {
+        let is_near = distance(walk, own, near.bracket) <= NEAR;
+        return Ok((Some(half), Some(if is_near { near } else { on_half })));
     }
     if !has_two {
         return Ok((Some(coarse), Some(near)));
