@@ -383,6 +383,7 @@ pub fn damped_response(
         .collect())
 }
 
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// Σ a b.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -5,6 +5,7 @@ use opshock_solid::element::Shape;
 use opshock_solid::material::Material;
 use opshock_solid::mesh::Mesh;
 use opshock_solid::modes::StaticSolver;
+use opshock_solid::sparse::dot;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
@@ -18,6 +19,27 @@ const FREE: Support<'static> = Support {
     held: Vec::new(),
     elastic: Vec::new(),
 };
+
+/// Edges with a node in their middle, as corners of the element.
+fn edges(shape: Shape) -> &'static [[usize; 2]] {
+    match shape {
+        Shape::Hexahedron20 => &[
+            [0, 1],
+            [1, 2],
+            [2, 3],
+            [3, 0],
+            [4, 5],
+            [5, 6],
+            [6, 7],
+            [7, 4],
+            [0, 4],
+            [1, 5],
+            [2, 6],
+            [3, 7],
+        ],
+        Shape::Tetrahedron10 => &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
+    }
+}
 
 /// A box from the origin, divided into cells, each one hexahedron or six tetrahedra.
 fn block(shape: Shape, size_m: [f64; 3], cells: [usize; 3]) -> Mesh {
@@ -42,37 +64,18 @@ fn block(shape: Shape, size_m: [f64; 3], cells: [usize; 3]) -> Mesh {
         [2, 2, 2],
         [0, 2, 2],
     ];
-    // Edges with a middle node, as corners of the element, and the elements of a cell.
-    let (edges, elements): (&[[usize; 2]], &[&[usize]]) = match shape {
-        Shape::Hexahedron20 => (
-            &[
-                [0, 1],
-                [1, 2],
-                [2, 3],
-                [3, 0],
-                [4, 5],
-                [5, 6],
-                [6, 7],
-                [7, 4],
-                [0, 4],
-                [1, 5],
-                [2, 6],
-                [3, 7],
-            ],
-            &[&[0, 1, 2, 3, 4, 5, 6, 7]],
-        ),
-        Shape::Tetrahedron10 => (
-            &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
-            // All six around the diagonal from corner 0 to corner 6.
-            &[
-                &[0, 1, 2, 6],
-                &[0, 2, 3, 6],
-                &[0, 3, 7, 6],
-                &[0, 7, 4, 6],
-                &[0, 4, 5, 6],
-                &[0, 5, 1, 6],
-            ],
-        ),
+    let edges = edges(shape);
+    let elements: &[&[usize]] = match shape {
+        Shape::Hexahedron20 => &[&[0, 1, 2, 3, 4, 5, 6, 7]],
+        // All six around the diagonal from corner 0 to corner 6.
+        Shape::Tetrahedron10 => &[
+            &[0, 1, 2, 6],
+            &[0, 2, 3, 6],
+            &[0, 3, 7, 6],
+            &[0, 7, 4, 6],
+            &[0, 4, 5, 6],
+            &[0, 5, 1, 6],
+        ],
     };
     for k in 0..cells[2] {
         for j in 0..cells[1] {
@@ -122,10 +125,6 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
 /// Irons' patch test: interior nodes of an irregular patch under a linear field on its surface
 /// take the linear field.
 #[test]
@@ -149,25 +148,7 @@ fn an_irregular_patch_takes_any_uniform_strain_exactly() {
                 mesh.nodes_m[a].iter_mut().for_each(|x| *x += random());
             }
         }
-        let hexahedron: [[usize; 2]; 12] = [
-            [0, 1],
-            [1, 2],
-            [2, 3],
-            [3, 0],
-            [4, 5],
-            [5, 6],
-            [6, 7],
-            [7, 4],
-            [0, 4],
-            [1, 5],
-            [2, 6],
-            [3, 7],
-        ];
-        let tetrahedron = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
-        let edges: &[[usize; 2]] = match shape {
-            Shape::Hexahedron20 => &hexahedron,
-            Shape::Tetrahedron10 => &tetrahedron,
-        };
+        let edges = edges(shape);
         let elements: Vec<Vec<usize>> = mesh.elements().map(<[usize]>::to_vec).collect();
         for element in &elements {
             for (m, [a, b]) in edges.iter().enumerate() {

@@ -5,7 +5,7 @@ use opshock_solid::ramp::{
     Extent, Mount, RampGeometry, SolidRamp, SolidRampError, contact_columns,
 };
 use opshock_solid::reduction::PointMode;
-use opshock_solid::sparse::damped_response;
+use opshock_solid::sparse::{damped_response, dot};
 use std::f64::consts::TAU;
 
 fn ramp(cut_hz: f64) -> SolidRamp {
@@ -16,10 +16,6 @@ fn ramp(cut_hz: f64) -> SolidRamp {
         mesh_size_m: 3e-3,
         cut_hz,
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// What drives a mode.
