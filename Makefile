@@ -58,7 +58,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; each prints what it compares
 	cargo bench --workspace --locked
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -87,6 +87,11 @@ verify-solid: ## frequencies of a ramp's finite elements against CalculiX on the
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-solid --test calculix -- --ignored --nocapture
 
+.PHONY: verify-ramp
+verify-ramp: ## a ramp by Gmsh and CalculiX, imported: frequencies and critical shocks against opshock's own
+	@scripts/bootstrap --verify
+	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture outside_slow
+
 verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow
 
@@ -97,5 +102,5 @@ verify-report: ## the report in headless Chromium, series read by VTK (installs 
 	@scripts/bootstrap --verify
 	OPSHOCK_NEED_CHROMIUM=1 cargo test --locked -p opshock-tests --test products -- --include-ignored --nocapture report_page report_slow
 
-verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse, journal, market, calculix, dense, rail or run (OPSHOCK_SEEDS=first..end goes on)
+verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse, journal, market, calculix, dense, rail, run or gmsh (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

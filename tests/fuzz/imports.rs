@@ -5,6 +5,7 @@ use std::path::Path;
 use opshock_import::cml::study::{Asked, study, surface};
 use opshock_import::cml::{rail, run};
 use opshock_import::fault::MAX_LISTED;
+use opshock_import::gmsh;
 use opshock_import::matrix::dof::{self, Freedoms};
 use opshock_import::matrix::system::System;
 use opshock_import::matrix::units::Units;
@@ -297,6 +298,43 @@ fn fuzz_run(range: std::ops::Range<u64>, tell_every: u64) {
             Ok(())
         },
     );
+}
+
+fn fuzz_gmsh(range: std::ops::Range<u64>, tell_every: u64) {
+    fuzz(
+        "gmsh",
+        (corpus("gmsh", &[".msh"]), 1),
+        range,
+        tell_every,
+        |_, source| {
+            let mesh = gmsh::read(&source)?;
+            assert_eq!(mesh.nodes.len(), mesh.node_tags.len());
+            let n = mesh.element_tags.len();
+            assert_eq!(mesh.connectivity.len(), n * mesh.solid.n_nodes());
+            assert!(
+                mesh.connectivity
+                    .iter()
+                    .all(|node| *node < mesh.nodes.len())
+            );
+            mesh.one_piece()?;
+            for name in ["mount", "top", "bottom"] {
+                let faces = mesh.surface(name)?;
+                assert!(faces.iter().flatten().all(|node| *node < mesh.nodes.len()));
+            }
+            Ok(())
+        },
+    );
+}
+
+#[test]
+fn mutated_meshes_are_read_or_refused() {
+    fuzz_gmsh(0..6_000, 3_000);
+}
+
+#[test]
+#[ignore = "slow: 10 million executions, some minutes"]
+fn fuzz_slow_gmsh() {
+    fuzz_gmsh(seeds(0..10_000_000), 1_000_000);
 }
 
 #[test]

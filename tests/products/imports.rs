@@ -4,7 +4,9 @@
 
 use crate::cli::{Done, files};
 use opshock_import::cml::rail::{self, Rail, RailFile, Recess};
+use opshock_solver::ramp::RampModel;
 use opshock_solver::slider::RailOutline;
+use opshock_study::study::Study;
 use opshock_tests::heads::default_slider;
 use std::path::{Path, PathBuf};
 
@@ -164,6 +166,46 @@ fn every_damaged_dense_file_gets_its_message() {
 #[test]
 fn every_damaged_cmlair_file_gets_its_message() {
     insta::assert_snapshot!(said("cmlair", cmlair, 50));
+}
+
+#[test]
+fn every_damaged_gmsh_mesh_gets_its_message() {
+    let words = |damaged: Option<&Path>| {
+        let study = folder("gmsh").join("sound.study.toml");
+        let file = damaged.map_or(folder("gmsh").join("sound.msh"), Path::to_owned);
+        let set = format!("ramp.deformable.mesh.file={}", file.display());
+        let words = ["check", &study.display().to_string(), "--set", &set];
+        words.map(str::to_owned).to_vec()
+    };
+    insta::assert_snapshot!(said("gmsh", words, 40));
+}
+
+/// Gmsh's 27-node hexahedra without their inner nodes are its 20-node ones; the oscillators that
+/// take the mesh's place in the resolved study are the same study.
+#[test]
+fn a_study_takes_its_ramp_from_a_gmsh_mesh() {
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/gmsh");
+    let read = |file: &str| {
+        let text = std::fs::read_to_string(folder("gmsh").join("sound.study.toml")).unwrap();
+        let path = reference.join(file);
+        let named = text.replace("sound.msh", path.to_str().unwrap());
+        Study::from_text(&named, &[]).unwrap()
+    };
+    let modes = |study: &Study| match &study.points[0].scene.ramp.model {
+        RampModel::Coupled { modes } => modes.clone(),
+        other => panic!("{other:?}"),
+    };
+    let [twenty, twenty_seven, ten] = ["hex20.msh", "hex27.msh", "tet10.msh"].map(read);
+    let lowest = |study: &Study| modes(study)[0].frequency_hz;
+    assert!((lowest(&twenty) / lowest(&twenty_seven) - 1.0).abs() < 1e-8);
+    // One shape: both are too stiff, a hexahedron a block more so than the finer tetrahedra.
+    let ratio = lowest(&ten) / lowest(&twenty);
+    assert!((0.9..1.0).contains(&ratio), "{ratio}");
+    let again = Study::from_text(&twenty.resolved_toml(), &[]).unwrap();
+    assert_eq!(again.digest, twenty.digest);
+    assert_eq!(modes(&again), modes(&twenty));
+    // The slot is 0.8 mm, disk and clearances take 0.835 mm.
+    assert!(twenty.remarks.iter().any(|remark| remark.code == "N208"));
 }
 
 #[test]

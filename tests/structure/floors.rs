@@ -43,7 +43,13 @@ const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[
 ];
 
 /// Module of the crate of importers, its floor.
-const IMPORT: &[(&str, u8)] = &[("fault", 0), ("text", 1), ("matrix", 2), ("cml", 2)];
+const IMPORT: &[(&str, u8)] = &[
+    ("fault", 0),
+    ("text", 1),
+    ("matrix", 2),
+    ("cml", 2),
+    ("gmsh", 2),
+];
 
 /// Module of the crate of solid elements, its floor.
 const SOLID: &[(&str, u8)] = &[

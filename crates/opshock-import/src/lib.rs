@@ -1,5 +1,5 @@
 //! Readers of other programs' files: mass and stiffness matrices (Matrix Market, CalculiX, dense
-//! text), and the text files of the CMLAir family.
+//! text), the text files of the CMLAir family, Gmsh meshes of solids.
 //!
 //! Readers take text and give plain numbers in SI units, or every fault they found with its place.
 //! They know no study and no solver. What a file can declare never decides how much memory is
@@ -9,6 +9,7 @@
 
 pub mod cml;
 pub mod fault;
+pub mod gmsh;
 pub mod matrix;
 pub mod text;
 

@@ -87,6 +87,11 @@ impl Source {
             .map(|(number, text)| Line { number, text })
     }
 
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Its bytes.
     pub fn n_bytes(&self) -> usize {
         self.text.len()

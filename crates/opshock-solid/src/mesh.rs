@@ -148,6 +148,33 @@ impl Mesh {
         faces.into_iter().map(|(_, nodes)| nodes).collect()
     }
 
+    /// Mean direction at right angles to faces, of length 1 and of either sense; 0 without area. The
+    /// faces may be listed either way round.
+    pub fn mean_normal(&self, faces: &[Vec<usize>]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for face in faces {
+            let nodes_m = self.corners_m(face);
+            // Corners come first; this is the area vector of a polygon of any number of them.
+            let corners = &nodes_m[..face.len() / 2];
+            let mut area = [0.0; 3];
+            for (n, x) in corners.iter().enumerate() {
+                let y = corners[(n + 1) % corners.len()];
+                for (i, entry) in area.iter_mut().enumerate() {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    *entry += 0.5 * (x[j] * y[k] - x[k] * y[j]);
+                }
+            }
+            let along: f64 = sum.iter().zip(&area).map(|(s, a)| s * a).sum();
+            let sense = if along < 0.0 { -1.0 } else { 1.0 };
+            sum.iter_mut().zip(area).for_each(|(s, a)| *s += sense * a);
+        }
+        let length = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
+        match length > 0.0 {
+            true => sum.map(|c| c / length),
+            false => [0.0; 3],
+        }
+    }
+
     /// Nodal weights of a uniform distribution over faces.
     pub fn face_weights(&self, faces: &[Vec<usize>]) -> FaceWeights {
         let mut sums = vec![0.0; self.nodes_m.len()];

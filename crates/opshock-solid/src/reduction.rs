@@ -29,7 +29,7 @@
 
 use crate::assembly::SolidSystem;
 use crate::modes::{SolidModes, StaticSolver, append, combination};
-use crate::sparse::{Dense, SparseError, dense_general_eigen, dot};
+use crate::sparse::{Dense, SparseError, SymmetricMatrix, dense_general_eigen, dot};
 
 /// A correction of which the modes hold all but this share is left out.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -147,6 +147,42 @@ fn corrections(system: &SolidSystem, statics: &StaticSolver, modes: &SolidModes)
         append(system, answer, &mut kept, &mut masses, NEGLIGIBLE);
     }
     kept.split_off(modes.shapes.len())
+}
+
+/// Every oscillator of a small system, lowest first, with its shape read by `columns`: nothing is
+/// reduced. Solved as M x = μ K x, so that the low modes keep all their digits.
+///
+/// # Errors
+/// A stiffness that is not positive definite, no convergence.
+pub fn all_modes(
+    system: &SolidSystem,
+    columns: &[Vec<f64>],
+) -> Result<Vec<PointMode>, SparseError> {
+    let n = system.order();
+    let dense = |matrix: &SymmetricMatrix| -> Vec<Vec<f64>> {
+        let column = |k: usize| {
+            let mut unit = vec![0.0; n];
+            unit[k] = 1.0;
+            matrix.times(&unit)
+        };
+        (0..n).map(column).collect()
+    };
+    let (values, vectors) = dense_general_eigen(&dense(&system.mass), &dense(&system.stiffness))?;
+    if values.iter().any(|value| value.is_nan() || *value <= 0.0) {
+        return Err(SparseError::NotPositiveDefinite);
+    }
+    let pairs = values.iter().zip(&vectors).rev();
+    Ok(pairs
+        .map(|(value, vector)| {
+            // xᵀ K x = 1 has mass μ.
+            let scale = value.sqrt().recip();
+            PointMode {
+                frequency_hz: scale / std::f64::consts::TAU,
+                shape: columns.iter().map(|c| scale * dot(c, vector)).collect(),
+                participation: scale * dot(vector, &system.base_load_kg[2]),
+            }
+        })
+        .collect())
 }
 
 impl ReducedSolid {

@@ -14,7 +14,7 @@ use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::{ContactMethod, StructureResolution};
 use opshock_solver::suspension::{
-    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
+    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionMode, SuspensionParameters,
 };
 
 /// Identity of one cell: a scene and the sign of its amplitude.
@@ -442,7 +442,29 @@ impl Digester {
                     stiffness_n_per_m,
                     damping_ratio: dimple_damping_ratio,
                 },
+            modes,
         } = suspension;
+        // Points of suspensions by their geometry keep the names that they had.
+        if !modes.is_empty() {
+            self.text("suspension modes");
+            self.integer(modes.len() as u64);
+        }
+        for SuspensionMode {
+            frequency_hz,
+            vertical_per_sqrt_kg,
+            slope_per_m_sqrt_kg,
+            roll_per_m_sqrt_kg,
+            participation_sqrt_kg,
+        } in modes
+        {
+            self.numbers(&[
+                *frequency_hz,
+                *vertical_per_sqrt_kg,
+                *slope_per_m_sqrt_kg,
+                *roll_per_m_sqrt_kg,
+                *participation_sqrt_kg,
+            ]);
+        }
         self.numbers(&[
             *gram_load_n,
             *length_m,

@@ -71,6 +71,18 @@ impl Freedoms {
         }
     }
 
+    /// Those of some rows.
+    ///
+    /// # Panics
+    /// When a row is not there.
+    #[must_use]
+    pub fn part(&self, rows: &[usize]) -> Self {
+        Self {
+            file: self.file.clone(),
+            list: rows.iter().map(|&row| self.list[row]).collect(),
+        }
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.list.len()

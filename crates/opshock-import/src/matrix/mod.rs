@@ -13,6 +13,7 @@ pub mod check;
 pub mod dense;
 pub mod dof;
 pub mod envelope;
+pub mod files;
 pub mod market;
 pub mod modes;
 pub mod system;

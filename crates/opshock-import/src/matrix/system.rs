@@ -1,8 +1,8 @@
 //! A structure's matrices with the freedoms of their rows, in SI units.
 
-use super::Matrix;
-use super::dof::Freedoms;
+use super::dof::{Direction, Freedoms};
 use super::units::Units;
+use super::{Entry, Matrix};
 use crate::fault::{Fault, Faults};
 
 /// M and K, and what goes with them.
@@ -64,6 +64,93 @@ impl System {
             gyroscopic: gyroscopic.map(si),
             freedoms: freedoms.clone(),
         })
+    }
+
+    /// The system with all freedoms of some nodes held on the base, and the load of a unit inertia load
+    /// per mass along a direction (0 to 2) on what is left, kg: M times a unit displacement of all
+    /// nodes, the held ones included.
+    ///
+    /// # Errors
+    /// E169 for a node that is not there, E161 when nothing is left.
+    pub fn held(self, nodes: &[u64], along: u8) -> Result<(Self, Vec<f64>), Faults> {
+        let n = self.n();
+        let freedom = |row: usize| self.freedoms.get(row);
+        for node in nodes {
+            if !(0..n).any(|row| freedom(row).is_some_and(|f| f.node == *node)) {
+                let fault = Fault::of("E169", &self.freedoms.file, "no such node");
+                return Err(fault.what("base").value(node.to_string()).into());
+            }
+        }
+        let moves =
+            |row: usize| freedom(row).is_some_and(|f| f.direction == Direction::Along(along));
+        let unit: Vec<f64> = (0..n).map(|row| f64::from(u8::from(moves(row)))).collect();
+        let mut load = vec![0.0; n];
+        self.mass.apply(&unit, &mut load);
+        let is_held = |row: usize| freedom(row).is_some_and(|f| nodes.contains(&f.node));
+        let kept: Vec<usize> = (0..n).filter(|&row| !is_held(row)).collect();
+        if kept.is_empty() {
+            let fault = Fault::of("E161", &self.freedoms.file, "every freedom is held");
+            return Err(fault.what("base").into());
+        }
+        let load = kept.iter().map(|&row| load[row]).collect();
+        Ok((
+            if nodes.is_empty() {
+                self
+            } else {
+                self.rows(&kept)
+            },
+            load,
+        ))
+    }
+
+    /// The system of some of its rows, the others held.
+    ///
+    /// # Panics
+    /// When a row is not there.
+    #[must_use]
+    pub fn rows(&self, kept: &[usize]) -> Self {
+        let mut place = vec![usize::MAX; self.n()];
+        kept.iter().enumerate().for_each(|(k, &row)| place[row] = k);
+        let part = |matrix: &Matrix| {
+            let entries = matrix.entries().filter_map(|entry| {
+                let (row, column) = (place[entry.row], place[entry.column]);
+                (row != usize::MAX && column != usize::MAX).then_some(Entry {
+                    row,
+                    column,
+                    value: entry.value,
+                })
+            });
+            Matrix::of(&matrix.file, kept.len(), kept.len(), entries.collect())
+        };
+        Self {
+            mass: part(&self.mass),
+            stiffness: part(&self.stiffness),
+            gyroscopic: self.gyroscopic.as_ref().map(part),
+            freedoms: self.freedoms.part(kept),
+        }
+    }
+
+    /// The piece that each row is of: rows that stiffness or mass couple, directly or by others, are of
+    /// one piece.
+    pub fn pieces(&self) -> Vec<usize> {
+        let mut parent: Vec<usize> = (0..self.n()).collect();
+        let root = |parent: &mut [usize], mut row: usize| {
+            while parent[row] != row {
+                parent[row] = parent[parent[row]];
+                row = parent[row];
+            }
+            row
+        };
+        for matrix in [&self.stiffness, &self.mass] {
+            for entry in matrix.entries().filter(|entry| entry.value != 0.0) {
+                let (a, b) = (
+                    root(&mut parent, entry.row),
+                    root(&mut parent, entry.column),
+                );
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        (0..self.n()).map(|row| root(&mut parent, row)).collect()
     }
 
     /// Number of freedoms.

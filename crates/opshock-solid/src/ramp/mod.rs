@@ -1,10 +1,12 @@
-//! A ramp from its dimensions and material to the oscillators of its contact points.
+//! A ramp from its dimensions, or a mesh, and its material to the oscillators of its contact points.
 
 mod geometry;
 mod mesh;
+mod shape;
 
 pub use geometry::{GeometryError, MOST_ELEMENTS, RampGeometry};
 pub use mesh::{Extent, RampMesh};
+pub use shape::{RampFaces, ShapeError};
 
 use crate::assembly::{AssemblyError, ElasticFaces, SolidSystem, Support};
 use crate::material::Material;
@@ -64,6 +66,9 @@ pub enum SolidRampError {
     /// Mesh or material.
     #[error(transparent)]
     Assembly(#[from] AssemblyError),
+    /// A mesh whose contacts cannot be those of a ramp.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
     /// Equations.
     #[error(transparent)]
     Sparse(#[from] SparseError),
@@ -85,58 +90,20 @@ impl SolidRamp {
     /// # Errors
     /// See [`SolidRampError`].
     pub fn modes(&self) -> Result<RampModes, SolidRampError> {
-        let (mesh, system) = self.system(Extent::Half)?;
-        let reduced = self.reduce(&mesh, &system)?;
-        let compliance = |modes: &[PointMode]| -> f64 {
-            let of =
-                |m: &PointMode| (m.shape[0] / (std::f64::consts::TAU * m.frequency_hz)).powi(2);
-            modes.iter().map(of).sum()
-        };
-        let modes = reduced.point_modes()?;
-        Ok(RampModes {
-            top_stiffness_n_per_m: compliance(&modes).recip(),
-            modes,
-            n_elements: mesh.mesh.n_elements(),
-            n_unknowns: system.order(),
-            mass_kg: system.total_mass_kg,
-        })
+        self.validate()?;
+        let mesh = self.geometry.mesh(self.mesh_size_m, Extent::Half)?;
+        mesh.modes(&self.material, self.mount, self.cut_hz)
     }
 
-    /// Mesh and equations of motion on the base. Those of a half are doubled: the other half moves
-    /// alike, and forces on the contacts are shared by both.
+    /// Mesh and equations of motion on the base; see [`RampMesh::system`].
     ///
     /// # Errors
     /// See [`SolidRampError`].
     pub fn system(&self, extent: Extent) -> Result<(RampMesh, SolidSystem), SolidRampError> {
         self.validate()?;
         let mesh = self.geometry.mesh(self.mesh_size_m, extent)?;
-        let sides = match extent {
-            Extent::Half => 2.0,
-            Extent::Whole => 1.0,
-        };
-        let mut support = Support {
-            held: mesh.symmetric.iter().map(|&a| (a, 1)).collect(),
-            elastic: Vec::new(),
-        };
-        let area_m2 = mesh.mesh.face_weights(&mesh.bolted).area_m2;
-        match self.mount {
-            Mount::Bolted => {
-                let nodes = mesh.bolted.iter().flatten();
-                support
-                    .held
-                    .extend(nodes.flat_map(|&a| [(a, 0), (a, 1), (a, 2)]));
-            }
-            Mount::Elastic {
-                normal_n_per_m,
-                tangential_n_per_m,
-            } => support.elastic.push(ElasticFaces {
-                faces: &mesh.bolted,
-                stiffness_n_per_m3: [tangential_n_per_m, tangential_n_per_m, normal_n_per_m]
-                    .map(|k| k / (sides * area_m2)),
-            }),
-        }
-        let system = SolidSystem::assemble(&mesh.mesh, &self.material, &support)?;
-        Ok((mesh, system.times(sides)))
+        let system = mesh.system(&self.material, self.mount)?;
+        Ok((mesh, system))
     }
 
     /// Craig-Bampton reduction to the two contacts, top first.
@@ -152,23 +119,107 @@ impl SolidRamp {
     }
 
     fn validate(&self) -> Result<(), SolidRampError> {
-        let mut checks = vec![("mesh_size", self.mesh_size_m), ("cut", self.cut_hz)];
-        if let Mount::Elastic {
-            normal_n_per_m,
-            tangential_n_per_m,
-        } = self.mount
-        {
-            checks.push(("mount normal stiffness", normal_n_per_m));
-            checks.push(("mount tangential stiffness", tangential_n_per_m));
+        positive(&[("mesh_size", self.mesh_size_m), ("cut", self.cut_hz)])
+    }
+}
+
+impl RampMesh {
+    /// Assembles, reduces to the contacts and diagonalises.
+    ///
+    /// # Errors
+    /// See [`SolidRampError`].
+    pub fn modes(
+        &self,
+        material: &Material,
+        mount: Mount,
+        cut_hz: f64,
+    ) -> Result<RampModes, SolidRampError> {
+        positive(&[("cut", cut_hz)])?;
+        let system = self.system(material, mount)?;
+        let reduced = reduce(&system, contact_columns(self, &system), cut_hz)?;
+        let compliance = |modes: &[PointMode]| -> f64 {
+            let of =
+                |m: &PointMode| (m.shape[0] / (std::f64::consts::TAU * m.frequency_hz)).powi(2);
+            modes.iter().map(of).sum()
+        };
+        let modes = reduced.point_modes()?;
+        Ok(RampModes {
+            top_stiffness_n_per_m: compliance(&modes).recip(),
+            modes,
+            n_elements: self.mesh.n_elements(),
+            n_unknowns: system.order(),
+            mass_kg: system.total_mass_kg,
+        })
+    }
+
+    /// Equations of motion on the base. Those of a half are doubled: the other half moves alike, and
+    /// forces on the contacts are shared by both.
+    ///
+    /// # Errors
+    /// See [`SolidRampError`].
+    pub fn system(&self, material: &Material, mount: Mount) -> Result<SolidSystem, SolidRampError> {
+        let sides = match self.extent {
+            Extent::Half => 2.0,
+            Extent::Whole => 1.0,
+        };
+        let mut support = Support {
+            held: self.symmetric.iter().map(|&a| (a, 1)).collect(),
+            elastic: Vec::new(),
+        };
+        match mount {
+            Mount::Bolted => {
+                let nodes = self.bolted.iter().flatten();
+                support
+                    .held
+                    .extend(nodes.flat_map(|&a| [(a, 0), (a, 1), (a, 2)]));
+            }
+            Mount::Elastic {
+                normal_n_per_m,
+                tangential_n_per_m,
+            } => {
+                positive(&[
+                    ("mount normal stiffness", normal_n_per_m),
+                    ("mount tangential stiffness", tangential_n_per_m),
+                ])?;
+                let area_m2 = self.mesh.face_weights(&self.bolted).area_m2;
+                let mut stiffness = [tangential_n_per_m; 3];
+                stiffness[self.mount_axis()?] = normal_n_per_m;
+                support.elastic.push(ElasticFaces {
+                    faces: &self.bolted,
+                    stiffness_n_per_m3: stiffness.map(|k| k / (sides * area_m2)),
+                });
+            }
         }
-        match checks.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
-            Some(&(name, value)) => Err(SolidRampError::Parameter {
-                name,
-                value,
-                allowed: "finite and above 0",
-            }),
-            None => Ok(()),
-        }
+        let system = SolidSystem::assemble(&self.mesh, material, &support)?;
+        Ok(system.times(sides))
+    }
+
+    /// The axis that the mount's face stands on.
+    fn mount_axis(&self) -> Result<usize, SolidRampError> {
+        let normal = self.mesh.mean_normal(&self.bolted);
+        let axis = (0..3).find(|&i| normal[i].abs() > MOUNT_UPRIGHT);
+        axis.ok_or(SolidRampError::Parameter {
+            name: "tilt of the mount's face from the axes",
+            value: normal
+                .iter()
+                .fold(0.0_f64, |most, n| n.abs().max(most))
+                .acos(),
+            allowed: "an elastic mount's face at right angles to x, y or z",
+        })
+    }
+}
+
+/// Cosine of the largest tilt of an elastic mount's face, 1 degree.
+const MOUNT_UPRIGHT: f64 = 0.999_847_7;
+
+fn positive(checks: &[(&'static str, f64)]) -> Result<(), SolidRampError> {
+    match checks.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
+        Some(&(name, value)) => Err(SolidRampError::Parameter {
+            name,
+            value,
+            allowed: "finite and above 0",
+        }),
+        None => Ok(()),
     }
 }
 

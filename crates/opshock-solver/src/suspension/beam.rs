@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
+use super::modes::Clamped;
 use super::{Section, SuspensionParameters};
 
 /// Longest element, m.
@@ -40,6 +41,18 @@ pub enum SuspensionError {
     Singular {
         /// Which matrix.
         matrix: &'static str,
+    },
+    /// A mode that bends and twists.
+    #[error("suspension mode {mode} moves z and roll of the dimple at once")]
+    Coupled {
+        /// Which one, from 0.
+        mode: usize,
+    },
+    /// No mode moves the dimple that way.
+    #[error("no suspension mode moves the {what} of the dimple")]
+    Unmoved {
+        /// `z` or `roll`.
+        what: &'static str,
     },
     /// More modes are wanted than the elements have.
     #[error("{wanted} suspension modes wanted, the elements have {available}")]
@@ -76,7 +89,30 @@ pub struct BeamMatrices {
     pub mass_kg: f64,
 }
 
-impl BeamMatrices {
+/// Assembled matrices of the beam with its root free to move.
+///
+/// Bending unknowns: (w, w') of the root, node 1, 2, ...; torsion unknowns: twist of the root, ...
+#[derive(Clone, Debug)]
+pub struct RootedBeam {
+    /// Distances of the nodes from the root, root included, m.
+    pub nodes_m: Vec<f64>,
+    /// Bending stiffness.
+    pub bending_stiffness: DMatrix<f64>,
+    /// Bending mass.
+    pub bending_mass: DMatrix<f64>,
+    /// Load of a unit inertia load per mass on the bending unknowns.
+    pub inertia_load: DVector<f64>,
+    /// Torsion stiffness.
+    pub torsion_stiffness: DMatrix<f64>,
+    /// Torsion inertia.
+    pub torsion_mass: DMatrix<f64>,
+    /// Node of the dimple, the root being 0.
+    pub dimple: usize,
+    /// Mass of hinge, load beam and flexure, kg.
+    pub mass_kg: f64,
+}
+
+impl RootedBeam {
     /// Meshes and assembles `parameters`.
     ///
     /// # Errors
@@ -124,16 +160,63 @@ impl BeamMatrices {
             .position(|&x| x == parameters.load_beam.dimple_m)
             .expect("the mesh has a node on the dimple");
         Ok(Self {
-            bending_stiffness: bending_stiffness.view((2, 2), (2 * n, 2 * n)).into_owned(),
-            bending_mass: bending_mass.view((2, 2), (2 * n, 2 * n)).into_owned(),
-            inertia_load: inertia_load.rows(2, 2 * n).into_owned(),
-            torsion_stiffness: torsion_stiffness.view((1, 1), (n, n)).into_owned(),
-            torsion_mass: torsion_mass.view((1, 1), (n, n)).into_owned(),
-            dimple_bending: 2 * (dimple - 1),
-            dimple_torsion: dimple - 1,
+            bending_stiffness,
+            bending_mass,
+            inertia_load,
+            torsion_stiffness,
+            torsion_mass,
+            dimple,
             nodes_m: nodes,
             mass_kg,
         })
+    }
+}
+
+impl BeamMatrices {
+    /// Meshes and assembles `parameters`, and holds the root.
+    ///
+    /// # Errors
+    /// A dimension that is not positive, or places out of order.
+    pub fn assemble(parameters: &SuspensionParameters) -> Result<Self, SuspensionError> {
+        let whole = RootedBeam::assemble(parameters)?;
+        let n = whole.nodes_m.len() - 1;
+        let bending = |matrix: &DMatrix<f64>| matrix.view((2, 2), (2 * n, 2 * n)).into_owned();
+        let torsion = |matrix: &DMatrix<f64>| matrix.view((1, 1), (n, n)).into_owned();
+        Ok(Self {
+            bending_stiffness: bending(&whole.bending_stiffness),
+            bending_mass: bending(&whole.bending_mass),
+            inertia_load: whole.inertia_load.rows(2, 2 * n).into_owned(),
+            torsion_stiffness: torsion(&whole.torsion_stiffness),
+            torsion_mass: torsion(&whole.torsion_mass),
+            dimple_bending: 2 * (whole.dimple - 1),
+            dimple_torsion: whole.dimple - 1,
+            nodes_m: whole.nodes_m,
+            mass_kg: whole.mass_kg,
+        })
+    }
+
+    /// Bending and torsion as the reduction takes them.
+    pub(super) fn clamped(self) -> [Clamped; 2] {
+        let n = self.bending_mass.nrows();
+        let mut slope = DVector::zeros(n);
+        slope[self.dimple_bending + 1] = 1.0;
+        let n_twists = self.torsion_mass.nrows();
+        [
+            Clamped {
+                stiffness: self.bending_stiffness,
+                mass: self.bending_mass,
+                load: self.inertia_load,
+                interface: self.dimple_bending,
+                slope,
+            },
+            Clamped {
+                stiffness: self.torsion_stiffness,
+                mass: self.torsion_mass,
+                load: DVector::zeros(n_twists),
+                interface: self.dimple_torsion,
+                slope: DVector::zeros(n_twists),
+            },
+        ]
     }
 }
 

@@ -13,14 +13,18 @@
 //! that the slider exerts at the dimple. All displacements are increments from the loaded state;
 //! the gram load itself enters as the steady dimple force.
 //!
+//! A suspension of another program comes as its modes on the base (`modes`), reduced in the same way.
+//!
 //! Left out: in-plane motion (sway), the coupling of bending and torsion by asymmetry, the
 //! stiffening by preload, and the rotatory inertia of bending.
 
 mod beam;
+mod modes;
 mod reduction;
 mod section;
 
-pub use beam::{BeamMatrices, SuspensionError};
+pub use beam::{BeamMatrices, RootedBeam, SuspensionError};
+pub use modes::SuspensionMode;
 pub use reduction::{ReducedSuspension, Reduction};
 pub use section::{FLANGED_TORSION_FACTOR, FLEXURE_ROLL_RADIUS_M, HINGE_TORSION_FACTOR, Section};
 
@@ -49,6 +53,8 @@ pub struct SuspensionParameters {
     pub gimbal: Gimbal,
     /// Unilateral dimple contact.
     pub dimple: Dimple,
+    /// Modes that take the place of geometry and material; none: by its geometry.
+    pub modes: Vec<SuspensionMode>,
 }
 
 /// Hinge strip.

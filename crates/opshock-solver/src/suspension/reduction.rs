@@ -17,7 +17,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-use super::{BeamMatrices, SuspensionError, SuspensionParameters};
+use super::modes::{self, Clamped};
+use super::{BeamMatrices, SuspensionError, SuspensionMode, SuspensionParameters};
 
 /// One reduced set: coordinate 0 is the dimple's, the others are pinned modes.
 #[derive(Clone, Debug)]
@@ -71,42 +72,28 @@ impl ReducedSuspension {
         parameters: &SuspensionParameters,
         bending_modes: usize,
     ) -> Result<Self, SuspensionError> {
-        let beam = BeamMatrices::assemble(parameters)?;
+        let ([bending, torsion], mass_kg) = clamped(parameters)?;
         let zeta = parameters.damping_ratio;
-        let bending = reduce(
-            &beam.bending_stiffness,
-            &beam.bending_mass,
-            &beam.inertia_load,
-            beam.dimple_bending,
-            Some(beam.dimple_bending + 1),
-            bending_modes,
-            zeta,
-        )?;
-        let no_load = DVector::zeros(beam.torsion_mass.nrows());
-        let all_torsion = beam.torsion_mass.nrows() - 1;
-        let torsion = reduce(
-            &beam.torsion_stiffness,
-            &beam.torsion_mass,
-            &no_load,
-            beam.dimple_torsion,
-            None,
-            bending_modes.div_ceil(2).min(all_torsion),
-            zeta,
-        )?;
+        let bending_modes = match parameters.modes.is_empty() {
+            true => bending_modes,
+            // All that there are, where there are fewer.
+            false => bending_modes.min(bending.mass.nrows() - 1),
+        };
+        let all_torsion = torsion.mass.nrows() - 1;
         Ok(Self {
-            mass_kg: beam.mass_kg,
-            bending,
-            torsion,
+            mass_kg,
+            bending: reduce(&bending, bending_modes, zeta)?,
+            torsion: reduce(&torsion, bending_modes.div_ceil(2).min(all_torsion), zeta)?,
         })
     }
 
-    /// Most pinned bending modes that the beam's elements carry: with all of them nothing is cut.
+    /// Most pinned bending modes that there are: with all of them nothing is cut.
     ///
     /// # Errors
     /// Geometry that cannot be.
     pub fn most_bending_modes(parameters: &SuspensionParameters) -> Result<usize, SuspensionError> {
-        let beam = BeamMatrices::assemble(parameters)?;
-        Ok(beam.bending_mass.nrows() - 1)
+        let ([bending, _], _) = clamped(parameters)?;
+        Ok(bending.mass.nrows() - 1)
     }
 
     /// Stiffness against a vertical force at the dimple, N/m.
@@ -125,15 +112,32 @@ impl ReducedSuspension {
     }
 }
 
+/// Bending and torsion of the suspension on its base, and its mass, kg.
+fn clamped(parameters: &SuspensionParameters) -> Result<([Clamped; 2], f64), SuspensionError> {
+    if parameters.modes.is_empty() {
+        let beam = BeamMatrices::assemble(parameters)?;
+        let mass_kg = beam.mass_kg;
+        return Ok((beam.clamped(), mass_kg));
+    }
+    // The mass that moves: with all modes, that of everything but the root.
+    let moving = |mode: &SuspensionMode| mode.participation_sqrt_kg.powi(2);
+    let mass_kg = parameters.modes.iter().map(moving).sum();
+    Ok((modes::clamped(&parameters.modes)?, mass_kg))
+}
+
 fn reduce(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    load: &DVector<f64>,
-    interface: usize,
-    slope: Option<usize>,
+    body: &Clamped,
     n_modes: usize,
     damping_ratio: f64,
 ) -> Result<Reduction, SuspensionError> {
+    let Clamped {
+        stiffness,
+        mass,
+        load,
+        interface,
+        slope,
+    } = body;
+    let interface = *interface;
     let n = stiffness.nrows();
     if n_modes + 1 > n {
         return Err(SuspensionError::TooManyModes {
@@ -197,7 +201,7 @@ fn reduce(
         stiffness: reduced_stiffness,
         damping,
         inertia_load: basis.transpose() * load,
-        slope_row: slope.map_or_else(|| DVector::zeros(size), |row| basis.row(row).transpose()),
+        slope_row: basis.transpose() * slope,
         free_hz: to_hz(&free),
         pinned_hz: to_hz(&pinned),
     })

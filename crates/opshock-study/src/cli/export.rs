@@ -5,12 +5,13 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::ShockArgs;
-use super::{export_vtu, stored};
+use super::{export_suspension, export_vtu, stored};
 use crate::report::runs_table::{csv, json};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Print every simulation of a store as CSV or JSON; write one shock of a study for ParaView
+/// Print every simulation of a store as CSV or JSON; write one shock of a study for ParaView, or its
+/// suspension as matrices
 #[derive(Args, Debug)]
 pub struct ExportArgs {
     /// Store, or study file
@@ -21,7 +22,7 @@ pub struct ExportArgs {
     format: Option<ExportFormat>,
     #[command(flatten)]
     shock: ShockArgs,
-    /// Folder of the time series; vtu only
+    /// Folder of the files; vtu and suspension only
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Times of the series; vtu only
@@ -35,6 +36,8 @@ enum ExportFormat {
     Json,
     /// One shock of a study for ParaView: disk, ramp and film over time, into --out
     Vtu,
+    /// A study's suspension as matrices of its finite elements, into --out
+    Suspension,
 }
 
 /// Runs the command.
@@ -43,19 +46,23 @@ pub fn run(
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    if arguments.format == Some(ExportFormat::Vtu) {
+    let format = arguments.format;
+    if matches!(format, Some(ExportFormat::Vtu | ExportFormat::Suspension)) {
         let Some(out) = &arguments.out else {
             return Err(Failure::Usage(vec![Fault {
                 key: Some("--out".into()),
                 allowed: Some("a folder".into()),
                 ..Fault::new(
                     "usage",
-                    "--format vtu writes many files: --out names their folder",
+                    "--format vtu and suspension write many files: --out names their folder",
                 )
             }]));
         };
-        let frames = usize::from(arguments.frames);
         let (source, shock) = (&arguments.source, &arguments.shock);
+        if format == Some(ExportFormat::Suspension) {
+            return export_suspension::run(source, out, global, console);
+        }
+        let frames = usize::from(arguments.frames);
         return export_vtu::run(source, shock, out, frames, global, console);
     }
     let is_for_series = arguments.out.is_some() || arguments.shock.is_given();

@@ -11,6 +11,7 @@ mod doctor;
 mod exit;
 mod explain;
 mod export;
+mod export_suspension;
 mod export_vtu;
 mod failure;
 mod figures;

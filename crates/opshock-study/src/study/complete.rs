@@ -1,9 +1,11 @@
 //! Completing what a study file says: choices, defaults, and what is missing.
 
 use super::fault::StudyError;
+use super::imported_suspension;
 use super::included::{self, Location};
 use super::key::Presence;
 use super::keys::{CHOICES, KEYS};
+use super::ramp_mesh;
 use super::read::Reader;
 use super::settings::{Datum, Setting};
 use super::source::{Origin, Place};
@@ -16,6 +18,9 @@ pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
     included::surface_base(reader, location);
     included::pulse_table(reader, location);
     defaults(reader);
+    // Its slot is compared with the disk's thickness.
+    ramp_mesh::read(reader, location);
+    imported_suspension::read(reader, location);
     missing(reader, root);
 }
 

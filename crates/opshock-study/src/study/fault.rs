@@ -164,6 +164,19 @@ impl std::fmt::Display for StudyError {
 
 impl std::error::Error for StudyError {}
 
+/// A fault of another program's file.
+impl From<opshock_import::Fault> for StudyError {
+    fn from(fault: opshock_import::Fault) -> Self {
+        let mut error = Self::in_file(fault.code, &fault.file, fault.message)
+            .value(&fault.value)
+            .allowed(fault.allowed)
+            .hint(fault.hint);
+        (error.line, error.column) = (fault.line, fault.column);
+        error.key = fault.what;
+        error
+    }
+}
+
 impl miette::Diagnostic for StudyError {
     fn code<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
         Some(Box::new(self.code))

@@ -359,7 +359,12 @@ impl Key {
             "solver.effects",
             "slider.surface.rail[].kind",
         ];
-        self.kind.is_single() && SCENE.contains(&self.section()) && !FIXED.contains(&self.path)
+        self.kind.is_single()
+            && SCENE.contains(&self.section())
+            && !FIXED.contains(&self.path)
+            // The files are read once, with the study.
+            && !self.path.starts_with("ramp.deformable.mesh.")
+            && !self.path.starts_with("suspension.imported.")
     }
 }
 

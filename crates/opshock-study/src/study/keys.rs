@@ -57,6 +57,10 @@ pub const OUTPUTS: &[&str] = &[
 pub const LEAVE_OUT: &[&str] = &["air_bearing"];
 /// Named materials of a ramp.
 pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
+/// Units of length of a ramp's mesh.
+pub const MESH_UNITS: &[&str] = &["mm", "um", "m", "inch"];
+/// Units of matrices of other programs.
+pub const MATRIX_UNITS: &[&str] = &["si", "mm_mn", "mm_n"];
 /// Named surfaces.
 pub const SURFACES: &[&str] = &["femto-2.5in"];
 
@@ -136,6 +140,21 @@ pub static KEYS: &[Key] = &[
     Key::optional("ramp.deformable.geometry.mount_tangential_n_per_m", LENGTH, "as mount_normal_n_per_m", "1.0e6", "Stiffness of the mount's face within its plane.").usual(1e3, 1e10),
     Key::optional("ramp.deformable.geometry.mesh_size_mm", LENGTH, "1.0", "0.7", "Longest edge of a finite element; elements at re-entrant corners are a quarter of it.").usual(0.2, 5.0).code("E174"),
     Key::optional("ramp.deformable.geometry.cut_khz", LENGTH, "100.0", "100.0", "Modes with the contact points held, below this frequency, are kept; responses are good to half of it.").usual(5.0, 1000.0).code("E174"),
+    Key::optional("ramp.deformable.mesh.file", Text, "a ramp given by modes", "\"ramp.msh\"", "Gmsh mesh (.msh 4.1) of the ramp with physical surfaces mount, top and bottom; z is the disk's axis."),
+    Key::optional("ramp.deformable.mesh.material", Word(RAMP_MATERIALS), "a ramp given by modes", "\"POM\"", "Material of the mesh."),
+    Key::optional("ramp.deformable.mesh.unit", Word(MESH_UNITS), "mm", "\"mm\"", "Unit of length of the file."),
+    Key::optional("ramp.deformable.mesh.youngs_modulus_gpa", LENGTH, "the material's", "2.85", "Young's modulus, instead of the material's.").usual(0.5, 700.0),
+    Key::optional("ramp.deformable.mesh.poisson", Number(open(-1.0, 0.5)), "the material's", "0.37", "Poisson's ratio, instead of the material's.").usual(0.0, 0.45).code("E131"),
+    Key::optional("ramp.deformable.mesh.density_kg_per_m3", LENGTH, "the material's", "1410.0", "Density, instead of the material's.").usual(500.0, 12000.0),
+    Key::optional("ramp.deformable.mesh.mount_normal_n_per_m", LENGTH, "bolted", "2.0e6", "Stiffness of the mount's face against its plane, spread evenly; without it the face is held.").usual(1e3, 1e10),
+    Key::optional("ramp.deformable.mesh.mount_tangential_n_per_m", LENGTH, "as mount_normal_n_per_m", "1.0e6", "Stiffness of the mount's face within its plane.").usual(1e3, 1e10),
+    Key::optional("ramp.deformable.mesh.cut_khz", LENGTH, "100.0", "100.0", "Modes with the contacts held, below this frequency, are kept; responses are good to half of it.").usual(5.0, 1000.0).code("E174"),
+    Key::optional("ramp.deformable.coupled_modes", Tables, "a ramp given by modes of each arm", "[{ frequency_hz = 3180.2, top_per_sqrt_kg = 211.0, bottom_per_sqrt_kg = 220.0, participation_sqrt_kg = 0.005 }]", "Modes of both arms as one body.").code("E135"),
+    Key::required("ramp.deformable.coupled_modes[].frequency_hz", LENGTH, "3180.2", "Undamped natural frequency."),
+    Key::required("ramp.deformable.coupled_modes[].top_per_sqrt_kg", Number(ANY), "211.0", "Shape at the top contact, of unit modal mass."),
+    Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass."),
+    Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base."),
+    Key::optional("ramp.deformable.coupled_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132"),
     Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132"),
     // slider
     Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0),
@@ -184,6 +203,20 @@ pub static KEYS: &[Key] = &[
     Key::or("suspension.gimbal.roll_n_m_per_rad", LENGTH, "2.5e-5", "Stiffness of the gimbal, roll.").usual(1e-7, 1e-2),
     Key::or("suspension.dimple.stiffness_n_per_m", LENGTH, "5.0e5", "Stiffness of the closed dimple contact.").usual(1e3, 1e8),
     Key::or("suspension.dimple.damping_ratio", RATIO, "0.05", "Damping ratio of the closed dimple contact, on the slider's mass.").code("E132"),
+    Key::optional("suspension.imported.mass", Text, "a suspension by its geometry", "\"susp_M.dat\"", "Mass matrix of another program: Matrix Market (.mtx), CalculiX (.mas) or rows of numbers."),
+    Key::optional("suspension.imported.stiffness", Text, "a suspension by its geometry", "\"susp_K.dat\"", "Its stiffness matrix."),
+    Key::optional("suspension.imported.freedoms", Text, "places", "\"susp.dof\"", "Freedoms of the rows, a line node.direction each."),
+    Key::optional("suspension.imported.places", Text, "freedoms", "\"susp_cords.dat\"", "Places and kinds of the rows, a line x y z type each, mm."),
+    Key::optional("suspension.imported.units", Word(MATRIX_UNITS), "si", "\"mm_mn\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
+    Key::optional("suspension.imported.dimple", Integer(1, 1_000_000_000), "a suspension by its geometry", "29", "Node of the dimple: z, roll about x and slope about y."),
+    Key::optional("suspension.imported.base", Numbers(ABOVE_ZERO), "the base is not in the matrices", "[1]", "Nodes that the base holds; their mass loads the others."),
+    Key::optional("suspension.imported.cut_khz", LENGTH, "1000.0", "1000.0", "Modes with the dimple held, below this frequency, are kept of matrices of more than 300 rows.").usual(20.0, 10_000.0).code("E174"),
+    Key::optional("suspension.modes", Tables, "a suspension by its geometry", "[{ frequency_hz = 333.0, vertical_per_sqrt_kg = 700.0, slope_per_m_sqrt_kg = 9.0e4, roll_per_m_sqrt_kg = 0.0, participation_sqrt_kg = 1.7e-3 }]", "Modes of the suspension on its base, in place of its geometry.").code("E135"),
+    Key::required("suspension.modes[].frequency_hz", LENGTH, "333.0", "Undamped natural frequency."),
+    Key::required("suspension.modes[].vertical_per_sqrt_kg", Number(ANY), "700.0", "Displacement z of the dimple, of unit modal mass."),
+    Key::required("suspension.modes[].slope_per_m_sqrt_kg", Number(ANY), "9.0e4", "Slope dw/dx at the dimple, x from root to tip."),
+    Key::required("suspension.modes[].roll_per_m_sqrt_kg", Number(ANY), "0.0", "Roll of the dimple; 0 in a mode that bends."),
+    Key::required("suspension.modes[].participation_sqrt_kg", Number(ANY), "1.7e-3", "Load on the mode by a unit acceleration of the base."),
     // gas
     Key::optional("gas.pressure_pa", LENGTH, "101325 Pa, or from altitude_m", "101325.0", "Ambient pressure.").usual(2e4, 2e5),
     Key::optional("gas.altitude_m", Number(closed(-5000.0, 11000.0)), "sea level", "3000.0", "Altitude: pressure of the standard atmosphere.").usual(-500.0, 6000.0),
@@ -245,6 +278,26 @@ pub static CHOICES: &[Choice] = &[
         alternatives: &[
             &["ramp.deformable.modes"],
             &["ramp.deformable.geometry.material"],
+            &["ramp.deformable.mesh.file", "ramp.deformable.mesh.material"],
+            &["ramp.deformable.coupled_modes"],
+        ],
+    },
+    Choice {
+        what: "the suspension",
+        alternatives: &[
+            &["suspension.modes"],
+            &[
+                "suspension.imported.mass",
+                "suspension.imported.stiffness",
+                "suspension.imported.dimple",
+            ],
+        ],
+    },
+    Choice {
+        what: "the rows of the matrices",
+        alternatives: &[
+            &["suspension.imported.freedoms"],
+            &["suspension.imported.places"],
         ],
     },
     Choice {

@@ -72,25 +72,37 @@ pub fn solid_ramp(view: &View<'_>) -> SolidRamp {
     };
     geometry.slot_above_m = half_disk_m + clearance_m("ramp.clearance_top_um");
     geometry.slot_below_m = half_disk_m + clearance_m("ramp.clearance_bottom_um");
-    let name = view.word(&path("material")).to_string();
-    // The table of keys allows known names only.
-    let known = Material::by_name(&name).unwrap_or(MATERIALS[0].material);
     SolidRamp {
         geometry,
-        material: Material {
-            youngs_modulus_pa: given("youngs_modulus_gpa").unwrap_or(known.youngs_modulus_pa),
-            poisson: given("poisson").unwrap_or(known.poisson),
-            density_kg_per_m3: given("density_kg_per_m3").unwrap_or(known.density_kg_per_m3),
-        },
-        mount: match given("mount_normal_n_per_m") {
-            None => Mount::Bolted,
-            Some(normal_n_per_m) => Mount::Elastic {
-                normal_n_per_m,
-                tangential_n_per_m: given("mount_tangential_n_per_m").unwrap_or(normal_n_per_m),
-            },
-        },
+        material: material_of(view, TABLE),
+        mount: mount_of(view, TABLE),
         mesh_size_m: given("mesh_size_mm").unwrap_or(MESH_SIZE_M),
         cut_hz: given("cut_khz").unwrap_or(CUT_HZ),
+    }
+}
+
+/// The material that a table of the ramp names, with what it replaces.
+pub fn material_of(view: &View<'_>, table: &str) -> Material {
+    let given = |name: &str| view.maybe_si(&format!("{table}.{name}"));
+    let name = view.word(&format!("{table}.material"));
+    // The table of keys allows known names only.
+    let known = Material::by_name(name).unwrap_or(MATERIALS[0].material);
+    Material {
+        youngs_modulus_pa: given("youngs_modulus_gpa").unwrap_or(known.youngs_modulus_pa),
+        poisson: given("poisson").unwrap_or(known.poisson),
+        density_kg_per_m3: given("density_kg_per_m3").unwrap_or(known.density_kg_per_m3),
+    }
+}
+
+/// How the ramp of a table stands on the base.
+pub fn mount_of(view: &View<'_>, table: &str) -> Mount {
+    let given = |name: &str| view.maybe_si(&format!("{table}.{name}"));
+    match given("mount_normal_n_per_m") {
+        None => Mount::Bolted,
+        Some(normal_n_per_m) => Mount::Elastic {
+            normal_n_per_m,
+            tangential_n_per_m: given("mount_tangential_n_per_m").unwrap_or(normal_n_per_m),
+        },
     }
 }
 
@@ -131,7 +143,7 @@ pub fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
 }
 
 /// Nine digits.
-fn rounded(value: f64) -> f64 {
+pub fn rounded(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 

@@ -19,6 +19,9 @@ const REPLACED: [&str; 3] = [
     "pulse.table",
 ];
 
+/// Tables of such keys.
+const REPLACED_BELOW: [&str; 2] = ["ramp.deformable.mesh.", "suspension.imported."];
+
 /// The resolved study.
 pub fn text(settings: &Settings) -> String {
     let mut out = String::from(
@@ -27,7 +30,12 @@ pub fn text(settings: &Settings) -> String {
     // A table may be opened only once, so its keys are brought together first.
     let mut tables: Vec<(&str, String)> = Vec::new();
     let single = |key: &&super::key::Key| {
-        !key.path.contains("[]") && key.kind != Kind::Tables && !REPLACED.contains(&key.path)
+        !key.path.contains("[]")
+            && key.kind != Kind::Tables
+            && !REPLACED.contains(&key.path)
+            && !REPLACED_BELOW
+                .iter()
+                .any(|below| key.path.starts_with(below))
     };
     for key in KEYS.iter().filter(single) {
         let Some(value) = value_at(settings, key.path) else {

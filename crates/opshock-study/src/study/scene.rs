@@ -5,7 +5,7 @@
 use opshock_solver::air_bearing::{FilmResolution, FlowModel};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
+use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{Pulse, PulseShape};
@@ -15,10 +15,10 @@ use opshock_solver::suspension::{
     Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
 };
 
-use super::ramp_geometry;
 use super::settings::{Datum, View};
 use super::unit;
 use super::words::{self, Ramp};
+use super::{imported_suspension, ramp_geometry, ramp_mesh};
 
 /// Key of the times of pressure fields.
 pub const FIELD_TIMES: &str = "fields.times_ms";
@@ -184,6 +184,24 @@ fn disk_parameters(view: &View<'_>) -> DiskParameters {
     }
 }
 
+/// Modes of both arms as one body, as listed.
+fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
+    let list = ramp_mesh::MODES;
+    let mode = |position: usize| {
+        let member = |name: &str| format!("{list}[{position}].{name}");
+        CoupledMode {
+            frequency_hz: view.si(&member("frequency_hz")),
+            shape_per_sqrt_kg: ["top_per_sqrt_kg", "bottom_per_sqrt_kg"]
+                .map(|name| view.si(&member(name))),
+            participation_sqrt_kg: view.si(&member("participation_sqrt_kg")),
+            damping_ratio: view
+                .maybe_si(&member("damping_ratio"))
+                .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
+        }
+    };
+    (0..view.entries(list)).map(mode).collect()
+}
+
 fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
     let arm = |list: &str| -> Vec<ArmMode> {
         (0..view.entries(list))
@@ -207,6 +225,9 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
             Ramp::Rigid => RampModel::Rigid,
             Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
                 modes: ramp_geometry::coupled_modes(view),
+            },
+            Ramp::Deformable if view.entries(ramp_mesh::MODES) > 0 => RampModel::Coupled {
+                modes: coupled_modes(view),
             },
             Ramp::Deformable => {
                 let top = arm("ramp.deformable.modes");
@@ -284,7 +305,8 @@ fn rail(view: &View<'_>, position: usize) -> Rail {
     }
 }
 
-fn suspension(view: &View<'_>) -> SuspensionParameters {
+/// The suspension.
+pub fn suspension(view: &View<'_>) -> SuspensionParameters {
     let si = |name: &str| view.si(&format!("suspension.{name}"));
     SuspensionParameters {
         gram_load_n: si("gram_load_gf"),
@@ -323,6 +345,7 @@ fn suspension(view: &View<'_>) -> SuspensionParameters {
             stiffness_n_per_m: si("dimple.stiffness_n_per_m"),
             damping_ratio: si("dimple.damping_ratio"),
         },
+        modes: imported_suspension::listed(view),
     }
 }
 

@@ -42,6 +42,12 @@ pub enum Dimension {
     Temperature,
     /// Dynamic viscosity.
     Viscosity,
+    /// Root of a mass: load on a mode of unit mass.
+    ModalMass,
+    /// Inverse of it: shape of a mode of unit mass.
+    ModalShape,
+    /// Slope of such a shape.
+    ModalSlope,
 }
 
 impl Dimension {
@@ -64,6 +70,9 @@ impl Dimension {
             Self::Density => "density",
             Self::Temperature => "temperature",
             Self::Viscosity => "viscosity",
+            Self::ModalMass => "root of a mass",
+            Self::ModalShape => "inverse root of a mass",
+            Self::ModalSlope => "inverse root of a mass by a length",
         }
     }
 }
@@ -140,6 +149,9 @@ pub static UNITS: &[Unit] = &[
     unit("gpa", "GPa", Dimension::Pressure, quantity::pa_from_gpa),
     unit("kg", "kg", Dimension::Mass, same),
     unit("mg", "mg", Dimension::Mass, quantity::kg_from_mg),
+    unit("sqrt_kg", "√kg", Dimension::ModalMass, same),
+    unit("per_sqrt_kg", "1/√kg", Dimension::ModalShape, same),
+    unit("per_m_sqrt_kg", "1/(m √kg)", Dimension::ModalSlope, same),
     unit("n_per_m", "N/m", Dimension::Stiffness, same),
     unit(
         "n_m_per_rad",

@@ -1,20 +1,21 @@
 //! `opshock import matrices`: mass and stiffness matrices, checked, in SI units.
 
-use super::{refused, shown, study_error, write_new};
+use super::{refused, shown, write_new};
 use crate::cli::GlobalArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
-use crate::study::StudyErrors;
+use crate::study::{StudyError, StudyErrors};
 use clap::Args;
 use opshock_import::Faults;
-use opshock_import::matrix::dof::{self, Freedoms};
+use opshock_import::matrix::dof;
+use opshock_import::matrix::files::{freedoms, matrix};
 use opshock_import::matrix::system::System;
 use opshock_import::matrix::units::Units;
-use opshock_import::matrix::{Matrix, calculix, check, dense, market, modes};
+use opshock_import::matrix::{check, market, modes};
 use opshock_import::text::Source;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Check mass and stiffness matrices and write them in SI units
 ///
@@ -116,7 +117,7 @@ pub(super) fn refuse_unaccepted(found: &check::Found, global: &GlobalArgs) -> Re
         .warnings
         .iter()
         .filter(|warning| !accepted(warning.code));
-    let errors: Vec<_> = warnings.cloned().map(study_error).collect();
+    let errors: Vec<_> = warnings.cloned().map(StudyError::from).collect();
     if errors.is_empty() {
         Ok(())
     } else {
@@ -150,21 +151,9 @@ fn text(system: &System, found: &check::Found, paths: &[PathBuf]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The map of freedoms, from whichever file was named.
-pub(super) fn freedoms(
-    dof: Option<&PathBuf>,
-    places: Option<&PathBuf>,
-) -> Result<Option<Freedoms>, Faults> {
-    Ok(match (dof, places) {
-        (Some(path), _) => Some(dof::read(&Source::read(path)?)?),
-        (_, Some(path)) => Some(dense::read_places(&Source::read(path)?)?.0),
-        _ => None,
-    })
-}
-
 /// Reads and checks everything that is named.
 fn read(arguments: &MatricesArgs) -> Result<(System, check::Found), Faults> {
-    let freedoms = freedoms(arguments.dof.as_ref(), arguments.places.as_ref())?;
+    let freedoms = freedoms(arguments.dof.as_deref(), arguments.places.as_deref())?;
     // Faults of both matrices are told at once.
     let mut faults = Faults::default();
     let mut one = |path: &PathBuf| match matrix(path, freedoms.as_ref(), true) {
@@ -196,27 +185,4 @@ fn read(arguments: &MatricesArgs) -> Result<(System, check::Found), Faults> {
         }
     }
     Ok((system, found))
-}
-
-/// A matrix, by the ending of its file.
-pub(super) fn matrix(
-    path: &Path,
-    freedoms: Option<&Freedoms>,
-    square: bool,
-) -> Result<Matrix, Faults> {
-    let source = Source::read(path)?;
-    match (
-        path.extension().and_then(|ending| ending.to_str()),
-        freedoms,
-    ) {
-        (Some("mtx" | "mm"), _) => market::read(&source),
-        (Some("sti" | "mas"), Some(freedoms)) => calculix::read(&source, freedoms),
-        (Some("sti" | "mas"), None) => {
-            let fault = opshock_import::Fault::of("E169", &source.name, "no map of freedoms");
-            Err(fault
-                .hint("give the .dof file of the same run with --dof")
-                .into())
-        }
-        _ => dense::read(&source, square),
-    }
 }

@@ -43,24 +43,14 @@ pub fn run(
 
 /// Faults of files as faults of a study: one place tells them all.
 fn refused(faults: Faults) -> Failure {
-    let errors = faults.listed.into_iter().map(study_error);
+    let errors = faults.listed.into_iter().map(StudyError::from);
     let mut errors = StudyErrors::new(errors.collect());
     errors.unlisted += faults.unlisted;
     Failure::Study(errors)
 }
 
-fn study_error(fault: opshock_import::Fault) -> StudyError {
-    let mut error = StudyError::in_file(fault.code, &fault.file, fault.message)
-        .value(&fault.value)
-        .allowed(fault.allowed)
-        .hint(fault.hint);
-    (error.line, error.column) = (fault.line, fault.column);
-    error.key = fault.what;
-    error
-}
-
 /// Writes files into a folder that is made where there is none; nothing that is there is replaced.
-fn write_new(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn write_new(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<PathBuf>, Failure> {
     let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
     if let Some(there) = paths.iter().find(|path| path.exists()) {
         let fault = Fault {
@@ -80,7 +70,7 @@ fn write_new(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<PathBuf>, Fail
 }
 
 /// Paths as text.
-fn shown(paths: &[PathBuf]) -> Vec<String> {
+pub(super) fn shown(paths: &[PathBuf]) -> Vec<String> {
     paths
         .iter()
         .map(|path| path.display().to_string())

@@ -4,28 +4,35 @@
 //! held still, its constraint mode, and what the modes above the cut answer statically. Each mode
 //! q'' + ω² q = φ λ + p a of the reduced arm is an oscillator of a study's arm in x = φ q: its mass is
 //! 1/φ², its participation φ p.
+//!
+//! With the Gmsh mesh that the matrices were made on, both contacts are patches of one body, and its
+//! modes are those of both arms: a node of the mesh is the node of the same number in the matrices.
 
-use super::matrices::{freedoms, matrix, refuse_unaccepted, units};
+use super::matrices::{refuse_unaccepted, units};
 use super::{refused, shown, write_new};
 use crate::cli::GlobalArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::study::matrices::{load, solid};
 use anyhow::Context as _;
 use clap::Args;
+use opshock_import::gmsh;
 use opshock_import::matrix::check;
 use opshock_import::matrix::dof::Direction;
+use opshock_import::matrix::files::{freedoms, matrix};
 use opshock_import::matrix::system::System;
 use opshock_import::matrix::units::Units;
+use opshock_import::text::Source;
 use opshock_import::{Fault, Faults};
-use opshock_solid::assembly::SolidSystem;
+use opshock_solid::element::Shape;
+use opshock_solid::mesh::Mesh;
 use opshock_solid::reduction::reduce;
-use opshock_solid::sparse::{SymmetricMatrix, SymmetricPattern};
 use serde::Serialize;
 use serde_json::json;
+use std::collections::HashMap;
 use std::fmt::Write as _;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 
 /// Shares of flexibility and of motion with the base below which a mode is left out.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -51,11 +58,19 @@ pub struct RampArgs {
     #[arg(long, value_name = "UNITS", value_parser = units)]
     units: Units,
     /// Freedom of the top arm that meets the disk, along the shock, as 12.3
-    #[arg(long, value_name = "FREEDOM")]
-    contact: String,
+    #[arg(long, value_name = "FREEDOM", required_unless_present = "mesh")]
+    contact: Option<String>,
     /// That of the bottom arm, where it differs; the arms move independently
-    #[arg(long, value_name = "FREEDOM")]
+    #[arg(long, value_name = "FREEDOM", requires = "contact")]
     bottom_contact: Option<String>,
+    /// Gmsh mesh with physical surfaces top and bottom: both contacts of one body, along z
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "dof",
+        conflicts_with = "contact"
+    )]
+    mesh: Option<PathBuf>,
     /// Modes are kept up to this frequency
     #[arg(long, value_name = "KHZ", default_value = "60", value_parser = kilohertz)]
     cut_khz: f64,
@@ -83,7 +98,10 @@ struct Mode {
 pub fn run(arguments: &RampArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
     let (system, found) = read(arguments).map_err(refused)?;
     refuse_unaccepted(&found, global)?;
-    let top = arm(&system, &arguments.contact, "--contact", arguments.cut_khz)?;
+    let Some(contact) = &arguments.contact else {
+        return one_body(arguments, &system, console);
+    };
+    let top = arm(&system, contact, "--contact", arguments.cut_khz)?;
     let bottom = match &arguments.bottom_contact {
         Some(name) => Some(arm(&system, name, "--bottom-contact", arguments.cut_khz)?),
         None => None,
@@ -107,6 +125,86 @@ pub fn run(arguments: &RampArgs, global: &GlobalArgs, console: &Console) -> Resu
     Ok(Exit::Complete)
 }
 
+/// Both arms as one body, by the contacts of the mesh.
+fn one_body(arguments: &RampArgs, system: &System, console: &Console) -> Result<Exit, Failure> {
+    let path = arguments.mesh.as_deref().unwrap_or(Path::new(""));
+    let points = contact_columns(system, path).map_err(refused)?;
+    let modes = reduce(
+        &solid(system, Z, &load(system, Z)),
+        points,
+        1e3 * arguments.cut_khz,
+    )
+    .and_then(|reduced| reduced.point_modes())
+    .context("the ramp cannot be reduced to its contacts")?;
+    let mut text = String::new();
+    for mode in &modes {
+        let _ = writeln!(
+            text,
+            "[[ramp.deformable.coupled_modes]]\nfrequency_hz = {:?}\ntop_per_sqrt_kg = {:?}\n\
+             bottom_per_sqrt_kg = {:?}\nparticipation_sqrt_kg = {:?}\n",
+            mode.frequency_hz, mode.shape[0], mode.shape[1], mode.participation
+        );
+    }
+    let paths = write_new(&arguments.out, &[("ramp.toml", &text)])?;
+    if console.json {
+        let modes = modes.iter().map(|mode| {
+            json!({
+                "frequency_hz": mode.frequency_hz,
+                "top_per_sqrt_kg": mode.shape[0],
+                "bottom_per_sqrt_kg": mode.shape[1],
+                "participation_sqrt_kg": mode.participation,
+            })
+        });
+        let modes: Vec<_> = modes.collect();
+        console.result_json(&json!({"coupled_modes": modes, "files": shown(&paths)}))?;
+    } else {
+        let told = format!("{} modes: {}\n", modes.len(), shown(&paths).join(", "));
+        console.result(&told)?;
+    }
+    Ok(Exit::Complete)
+}
+
+/// Direction of the disk's axis.
+const Z: u8 = 2;
+
+/// Columns that read the mean displacement along z of the surfaces top and bottom.
+fn contact_columns(system: &System, path: &Path) -> Result<Vec<Vec<f64>>, Faults> {
+    let file = gmsh::read(&Source::read(path)?)?;
+    let mesh = Mesh {
+        shape: match file.solid {
+            gmsh::Solid::Tetrahedron => Shape::Tetrahedron10,
+            gmsh::Solid::Hexahedron => Shape::Hexahedron20,
+        },
+        nodes_m: file.nodes.clone(),
+        connectivity: file.connectivity.clone(),
+    };
+    let mut rows = HashMap::new();
+    for row in 0..system.n() {
+        let freedom = system.freedoms.get(row);
+        if let Some(freedom) = freedom.filter(|f| f.direction == Direction::Along(Z)) {
+            rows.insert(freedom.node, row);
+        }
+    }
+    let column = |name: &str| -> Result<Vec<f64>, Faults> {
+        let patch = mesh.face_weights(&file.surface(name)?);
+        let mut column = vec![0.0; system.n()];
+        for (node, weight) in patch.nodes {
+            let number = file.node_tags[node];
+            let Some(&row) = rows.get(&(number as u64)) else {
+                let message = "the node of a contact is none of the matrices";
+                let fault = Fault::of("E169", &system.freedoms.file, message).what(name);
+                return Err(fault
+                    .value(format!("{number}.3"))
+                    .allowed("nodes that move, of the same numbers as in the mesh")
+                    .into());
+            };
+            column[row] += weight / patch.area_m2;
+        }
+        Ok(column)
+    };
+    Ok(vec![column("top")?, column("bottom")?])
+}
+
 /// Modes as TOML.
 fn list(modes: &[Mode]) -> String {
     let tables = modes.iter().map(|mode| {
@@ -119,7 +217,7 @@ fn list(modes: &[Mode]) -> String {
 }
 
 fn read(arguments: &RampArgs) -> Result<(System, check::Found), Faults> {
-    let freedoms = freedoms(arguments.dof.as_ref(), arguments.places.as_ref())?;
+    let freedoms = freedoms(arguments.dof.as_deref(), arguments.places.as_deref())?;
     let stiffness = matrix(&arguments.stiffness, freedoms.as_ref(), true)?;
     let mass = matrix(&arguments.mass, freedoms.as_ref(), true)?;
     let system = System::of(mass, stiffness, None, freedoms, arguments.units)?;
@@ -139,7 +237,7 @@ fn arm(system: &System, name: &str, option: &str, cut_khz: f64) -> Result<Vec<Mo
             ));
         }
     };
-    let solid = solid(system, along);
+    let solid = solid(system, along, &load(system, along));
     let mut point = vec![0.0; system.n()];
     point[row] = 1.0;
     let reduced = reduce(&solid, vec![point], 1e3 * cut_khz)
@@ -180,54 +278,4 @@ fn arm(system: &System, name: &str, option: &str, cut_khz: f64) -> Result<Vec<Mo
             participation: mode.participation * mode.shape[0],
         })
         .collect())
-}
-
-/// The matrices as the solid crate has them; its z is the direction of the contact.
-fn solid(system: &System, along: u8) -> SolidSystem {
-    let n = system.n();
-    let mut columns: Vec<Vec<usize>> = (0..n).map(|column| vec![column]).collect();
-    for matrix in [&system.stiffness, &system.mass] {
-        for entry in matrix.entries().filter(|entry| entry.row > entry.column) {
-            columns[entry.column].push(entry.row);
-        }
-    }
-    let mut starts = vec![0];
-    for column in &mut columns {
-        column.sort_unstable();
-        column.dedup();
-        starts.push(starts.last().copied().unwrap_or(0) + column.len());
-    }
-    let pattern = Arc::new(SymmetricPattern::new(starts, columns.concat()));
-    let lower = |matrix: &opshock_import::matrix::Matrix| {
-        let mut lower = SymmetricMatrix::zeros(Arc::clone(&pattern));
-        for entry in matrix.entries().filter(|entry| entry.row >= entry.column) {
-            lower.add(entry.row, entry.column, entry.value);
-        }
-        lower
-    };
-    // Of a unit motion of the base: M times 1 in every displacement of one direction.
-    let load = |direction: u8| {
-        let moves: Vec<f64> = (0..n)
-            .map(|row| {
-                let freedom = system.freedoms.get(row);
-                let is = freedom.is_some_and(|f| f.direction == Direction::Along(direction));
-                f64::from(u8::from(is))
-            })
-            .collect();
-        let mut load = vec![0.0; n];
-        system.mass.apply(&moves, &mut load);
-        (
-            load.iter().zip(&moves).map(|(l, m)| l * m).sum::<f64>(),
-            load,
-        )
-    };
-    let (total, along_z) = load(along);
-    let others = [(along + 1) % 3, (along + 2) % 3].map(|direction| load(direction).1);
-    let [x, y] = others;
-    SolidSystem::of_matrices(
-        lower(&system.stiffness),
-        lower(&system.mass),
-        [x, y, along_z],
-        total,
-    )
 }

@@ -44,6 +44,7 @@ pub fn default_suspension() -> SuspensionParameters {
             stiffness_n_per_m: 5e5,
             damping_ratio: 0.05,
         },
+        modes: Vec::new(),
     }
 }
 

@@ -3,9 +3,10 @@
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
 use super::Check;
-use crate::study::{ramp_geometry, scene, unit};
+use crate::study::{imported_suspension, ramp_geometry, ramp_mesh, scene, unit};
 use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;
+use opshock_solver::suspension::ReducedSuspension;
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
@@ -78,6 +79,15 @@ impl Check<'_, '_> {
         if !is_wanted || !self.sound(&looked_at) {
             return;
         }
+        let is_one_body =
+            ramp_geometry::is_given(self.view) || self.view.entries(ramp_mesh::MODES) > 0;
+        if is_one_body && self.view.entries("ramp.deformable.bottom_modes") > 0 {
+            let paths = ["ramp.deformable.bottom_modes"];
+            let message = "modes of the bottom arm beside a geometry, which gives both arms";
+            let fault = self.fault("E115", &paths, message);
+            fault.allowed = "one of the two".to_string();
+            fault.hint = "leave one out".to_string();
+        }
         if !ramp_geometry::is_given(self.view) {
             let lonely: Vec<&str> = ramp_geometry::paths()
                 .filter(|path| self.view.settings.has(path))
@@ -89,13 +99,6 @@ impl Check<'_, '_> {
                 fault.hint = "add material, or leave the geometry out".to_string();
             }
             return;
-        }
-        if self.view.entries("ramp.deformable.bottom_modes") > 0 {
-            let paths = ["ramp.deformable.bottom_modes"];
-            let message = "modes of the bottom arm beside a geometry, which gives both arms";
-            let fault = self.fault("E115", &paths, message);
-            fault.allowed = "one of the two".to_string();
-            fault.hint = "leave one out".to_string();
         }
         let Err(error) = ramp_geometry::modes(&ramp_geometry::solid_ramp(self.view)) else {
             return;
@@ -257,6 +260,19 @@ impl Check<'_, '_> {
                 );
                 fault.allowed = format!("{low} {sign} {high}");
             }
+        }
+    }
+
+    /// Modes that take the place of the suspension's geometry move the dimple, and bend or twist.
+    pub(super) fn suspension_modes(&mut self) {
+        let path = imported_suspension::MODES;
+        if !self.sound(&["suspension"]) || self.view.entries(path) == 0 {
+            return;
+        }
+        let suspension = scene::suspension(self.view);
+        if let Err(error) = ReducedSuspension::build(&suspension, 1) {
+            let fault = self.fault("E180", &[path], error.to_string());
+            fault.allowed = "modes that bend or twist, some of each moving the dimple".to_string();
         }
     }
 

@@ -67,13 +67,14 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 8] = [
+const POINT_RULES: [PointRule; 9] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.ramp_geometry(),
     |check, _| check.gas(),
     |check, _| check.slider_place(),
     |check, _| check.rails(),
     |check, _| check.suspension(),
+    |check, _| check.suspension_modes(),
     |check, widths_ms| check.pulse(widths_ms),
     |check, _| check.fields_end(),
 ];

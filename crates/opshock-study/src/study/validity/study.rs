@@ -92,7 +92,7 @@ impl Check<'_, '_> {
         };
         let refines = ["search.refine.tolerance_pct", "search.refine.crossing_pct"];
         let refines = refines.iter().any(|path| self.view.settings.has(path));
-        let rules: [(bool, &str, &[&str]); 8] = [
+        let rules: [(bool, &str, &[&str]); 9] = [
             (
                 refines,
                 "neither tolerance_pct nor crossing_pct is given",
@@ -129,12 +129,37 @@ impl Check<'_, '_> {
                 &["pulse.decay_share", "pulse.window_max_ms"],
             ),
             (
+                self.view.entries("suspension.modes") == 0,
+                "the suspension is given by its modes",
+                &[
+                    "suspension.hinge.length_mm",
+                    "suspension.hinge.width_mm",
+                    "suspension.hinge.thickness_um",
+                    "suspension.load_beam.dimple_mm",
+                    "suspension.load_beam.end_mm",
+                    "suspension.load_beam.web_um",
+                    "suspension.load_beam.width_root_mm",
+                    "suspension.load_beam.width_dimple_mm",
+                    "suspension.load_beam.tab_width_mm",
+                    "suspension.flange.height_um",
+                    "suspension.flange.from_mm",
+                    "suspension.flange.to_mm",
+                    "suspension.flexure.mass_mg",
+                    "suspension.flexure.from_mm",
+                    "suspension.material.youngs_modulus_gpa",
+                    "suspension.material.shear_modulus_gpa",
+                    "suspension.material.density_kg_per_m3",
+                ],
+            ),
+            (
                 any("ramp.models", "deformable"),
                 "ramp.models has no deformable",
                 &[
                     "ramp.deformable.modes",
                     "ramp.deformable.bottom_modes",
                     "ramp.deformable.damping_ratio",
+                    "ramp.deformable.mesh.file",
+                    "ramp.deformable.coupled_modes",
                 ],
             ),
         ];

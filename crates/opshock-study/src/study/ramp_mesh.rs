@@ -1,0 +1,273 @@
+//! A deformable ramp given by a mesh of the user: a file of Gmsh to oscillators.
+//!
+//! The file is read with the study, so that what is simulated, stored and compared is the ramp as it
+//! was then: its oscillators take the place of the table, as samples take that of a pulse's file.
+//! They are rounded as those of a geometry are.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use opshock_import::gmsh::{self, MeshFile, Solid};
+use opshock_import::text;
+use opshock_import::{Fault, Faults};
+use opshock_solid::assembly::AssemblyError;
+use opshock_solid::element::Shape;
+use opshock_solid::mesh::{Mesh, MeshError};
+use opshock_solid::ramp::{Mount, RampFaces, RampMesh, RampModes, ShapeError, SolidRampError};
+
+use super::fault::StudyError;
+use super::included::Location;
+use super::ramp_geometry::{CUT_HZ, material_of, mount_of, rounded};
+use super::read::Reader;
+use super::settings::View;
+use super::source::{Origin, Source};
+use super::tree;
+
+/// Table of the mesh.
+pub const TABLE: &str = "ramp.deformable.mesh";
+/// List that takes its place.
+pub const MODES: &str = "ramp.deformable.coupled_modes";
+/// Units of length of a file, in m; the first is the default.
+pub const LENGTH_UNITS: [(&str, f64); 4] =
+    [("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("inch", 0.0254)];
+/// Nodes at most: two gigabytes and a quarter of a minute.
+const MOST_NODES: usize = 25_000;
+/// Longest edge of the box around a ramp, m.
+const SIZE_M: std::ops::RangeInclusive<f64> = 0.5e-3..=0.1;
+/// Difference between slot and disk with clearances that is told, m.
+const SLOT_M: f64 = 2e-6;
+
+/// Reads the mesh a study names, if it wants a deformable ramp, into the list of oscillators.
+pub fn read(reader: &mut Reader, location: &Location) {
+    let path = |name: &str| format!("{TABLE}.{name}");
+    let file_key = path("file");
+    let needed = [
+        TABLE,
+        "ramp.models",
+        "disk.thickness_mm",
+        "ramp.clearance_um",
+    ];
+    let view = View::first(&reader.settings);
+    let is_wanted = view.words("ramp.models").iter().any(|m| m == "deformable");
+    let named = view.word(&file_key).to_owned();
+    if named.is_empty() && view.word(&path("material")).is_empty() {
+        // Modes of the command line leave them without their file.
+        if !reader.settings.has(MODES) {
+            lonely(reader, TABLE, "a mesh", "file and material");
+        }
+        return;
+    }
+    if named.is_empty() || !is_wanted || !reader.settings.are_sound(&needed) {
+        return;
+    }
+    let answer = ramp(&view, &location.folder.join(&named));
+    let place = view.place(&file_key).cloned();
+    match answer {
+        Err(faults) => {
+            let errors = faults.listed.into_iter().map(|mut fault| {
+                if fault.message.starts_with("cannot be read") {
+                    fault.hint = "file paths start from the study's folder".to_owned();
+                }
+                StudyError::from(fault)
+            });
+            reader.errors.extend(errors);
+            reader.settings.spoil(TABLE);
+        }
+        Ok((modes, gap_m)) => {
+            let clearance_m = |side: &str| {
+                view.maybe_si(side)
+                    .unwrap_or_else(|| view.si("ramp.clearance_um"))
+            };
+            let slot_m = view.si("disk.thickness_mm")
+                + clearance_m("ramp.clearance_top_um")
+                + clearance_m("ramp.clearance_bottom_um");
+            if let Some(place) = place.filter(|_| (gap_m - slot_m).abs() > SLOT_M) {
+                let message = format!(
+                    "its contacts stand {:.1} um apart, disk and clearances take {:.1} um",
+                    1e6 * gap_m,
+                    1e6 * slot_m
+                );
+                reader.remarks.push(
+                    StudyError::at("N208", &place, &file_key, message)
+                        .value(place.text())
+                        .hint(
+                            "the study's clearances count; the mesh gives only how the ramp moves",
+                        ),
+                );
+            }
+            let source = Source::new(format!("modes of {named}"), written(&modes));
+            // What is written here reads back.
+            if let Ok(node) = tree::parse(&source, Origin::Included) {
+                reader.table(&node, "ramp.deformable", "ramp.deformable");
+            }
+        }
+    }
+}
+
+/// Refuses keys of a table that say how to take files which are not named.
+pub fn lonely(reader: &mut Reader, table: &str, what: &str, needed: &str) {
+    let below = |path: &str| {
+        path.strip_prefix(table)
+            .is_some_and(|rest| rest.starts_with('.'))
+    };
+    let first = reader.settings.iter().find(|(path, _)| below(path));
+    if let Some((path, setting)) = first {
+        let fault = StudyError::at(
+            "E112",
+            &setting.key_place,
+            path,
+            format!("how to read {what}, without its files"),
+        )
+        .value(setting.place.text())
+        .allowed(format!("{needed} beside it"))
+        .hint("add them, or leave the table out");
+        reader.spoil(table, fault);
+    }
+}
+
+/// The oscillators as a study has them.
+fn written(modes: &RampModes) -> String {
+    let mut text = String::new();
+    for mode in &modes.modes {
+        let _ = write!(
+            text,
+            "[[coupled_modes]]\nfrequency_hz = {:?}\ntop_per_sqrt_kg = {:?}\n\
+             bottom_per_sqrt_kg = {:?}\nparticipation_sqrt_kg = {:?}\n",
+            rounded(mode.frequency_hz),
+            rounded(mode.shape[0]),
+            rounded(mode.shape[1]),
+            rounded(mode.participation)
+        );
+    }
+    text
+}
+
+/// Oscillators of the ramp in a file, and how far apart its contacts stand, m.
+fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64), Faults> {
+    type Known = HashMap<([u8; 32], String), (Arc<RampModes>, f64)>;
+    static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
+    let source = text::Source::read(path)?;
+    let unit = view.word(&format!("{TABLE}.unit"));
+    let metres = LENGTH_UNITS.iter().find(|(name, _)| *name == unit);
+    let metres = metres.map_or(LENGTH_UNITS[0].1, |(_, metres)| *metres);
+    let material = material_of(view, TABLE);
+    let mount = mount_of(view, TABLE);
+    let cut_hz = view.maybe_si(&format!("{TABLE}.cut_khz")).unwrap_or(CUT_HZ);
+    let digest = *blake3::hash(source.text().as_bytes()).as_bytes();
+    let key = (
+        digest,
+        format!("{metres:?} {material:?} {mount:?} {cut_hz:?}"),
+    );
+    let mut known = KNOWN
+        .get_or_init(Mutex::default)
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    if let Some(found) = known.get(&key) {
+        return Ok(found.clone());
+    }
+    let file = gmsh::read(&source)?;
+    let mesh = ramp_mesh(&file, metres)?;
+    let gap_m = mesh.gap_m();
+    let modes = mesh
+        .modes(&material, mount, cut_hz)
+        .map_err(|error| unsolved(&file, mount, &error))?;
+    let found = (Arc::new(modes), gap_m);
+    known.insert(key, found.clone());
+    Ok(found)
+}
+
+/// A file's solid as a ramp, in m.
+///
+/// # Errors
+/// E174 for too many nodes; E178 for folded elements; E179 for surfaces that are not named, not on
+/// the outside, or not where a ramp has them, and for a size that no ramp has.
+pub fn ramp_mesh(file: &MeshFile, metres: f64) -> Result<RampMesh, Faults> {
+    if file.nodes.len() > MOST_NODES {
+        let fault = Fault::of("E174", &file.file, "the mesh has too many nodes");
+        return Err(fault
+            .value(file.nodes.len().to_string())
+            .allowed(format!("at most {MOST_NODES}"))
+            .hint("larger elements; errors fall with the fourth power of their size")
+            .into());
+    }
+    file.one_piece()?;
+    let mut faults = Faults::default();
+    let [mount, top, bottom] = ["mount", "top", "bottom"].map(|name| {
+        file.surface(name).unwrap_or_else(|found| {
+            faults.append(found);
+            Vec::new()
+        })
+    });
+    faults.or(())?;
+    let nodes_m: Vec<[f64; 3]> = file.nodes.iter().map(|x| x.map(|c| metres * c)).collect();
+    let extents_m = std::array::from_fn::<f64, 3, _>(|i| {
+        let of = |pick: fn(f64, f64) -> f64, from: f64| {
+            nodes_m.iter().fold(from, |most, x| pick(most, x[i]))
+        };
+        of(f64::max, f64::NEG_INFINITY) - of(f64::min, f64::INFINITY)
+    });
+    let longest_m = extents_m.into_iter().fold(0.0, f64::max);
+    if !SIZE_M.contains(&longest_m) {
+        let fault = Fault::of("E179", &file.file, "no ramp is of this size");
+        return Err(fault
+            .value(format!("{} mm", 1e3 * longest_m))
+            .allowed("0.5 to 100 mm")
+            .hint("set unit to the file's unit of length: mm, um, m or inch")
+            .into());
+    }
+    let mesh = Mesh {
+        shape: match file.solid {
+            Solid::Tetrahedron => Shape::Tetrahedron10,
+            Solid::Hexahedron => Shape::Hexahedron20,
+        },
+        nodes_m,
+        connectivity: file.connectivity.clone(),
+    };
+    let faces = RampFaces { mount, top, bottom };
+    RampMesh::of(mesh, faces).map_err(|error| misshapen(file, &error))
+}
+
+fn misshapen(file: &MeshFile, error: &ShapeError) -> Faults {
+    let fault = Fault::of("E179", &file.file, error.to_string());
+    match error {
+        ShapeError::Mesh(error) => return Fault::of("E178", &file.file, error.to_string()).into(),
+        ShapeError::NoArea { part } => fault.what(*part).allowed("faces with an area"),
+        ShapeError::UpsideDown { gap_m } => fault
+            .what("top")
+            .value(format!("{} mm", 1e3 * gap_m))
+            .allowed("top above bottom along z")
+            .hint("z is the disk's axis, towards the slider"),
+        ShapeError::HeldContact { node } => Fault::of(
+            "E179",
+            &file.file,
+            "contact and mount share a node, which does not move",
+        )
+        .what(format!("node {}", file.node_tags[*node])),
+    }
+    .into()
+}
+
+fn unsolved(file: &MeshFile, mount: Mount, error: &SolidRampError) -> Faults {
+    let fault = match error {
+        SolidRampError::Assembly(AssemblyError::Mesh(MeshError::Folded {
+            element,
+            determinant,
+        })) => Fault::of("E178", &file.file, "the element is folded")
+            .what(format!("element {}", file.element_tags[*element]))
+            .value(format!("{determinant:e}"))
+            .allowed("a determinant of its map above 0")
+            .hint("mesh again; Mesh.HighOrderOptimize = 2 unfolds curved elements"),
+        SolidRampError::Parameter { .. } => {
+            Fault::of("E179", &file.file, error.to_string()).what(format!("{mount:?}"))
+        }
+        _ => Fault::of(
+            "E175",
+            &file.file,
+            format!("the ramp has no modes: {error}"),
+        )
+        .allowed("a ramp that can be solved")
+        .hint("another cut_khz, a finer mesh"),
+    };
+    fault.into()
+}
