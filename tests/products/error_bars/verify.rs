@@ -17,6 +17,7 @@ use opshock_solver::scene::knob::Knob;
 use opshock_solver::simulation::{
     Model, Outcome, Request, Scope, Verdict as SolverVerdict, Workspace, simulate,
 };
+use opshock_solver::suspension::ReducedSuspension;
 use opshock_study::provenance;
 use opshock_study::search::{Flag, Probe, ProbeResult, RunCost, Verdict};
 use opshock_study::store::summary::Status;
@@ -186,7 +187,10 @@ fn ten_times_finer(scene: &Scene) -> Scene {
     finer.head_resolution.tolerance /= 32.0;
     finer.head_resolution.approach_share /= 3.0;
     finer.head_resolution.coupling_tolerance /= 10.0;
-    finer.head_resolution.suspension_modes *= 4;
+    // A beam has no more; with all of them nothing is cut.
+    let wanted = 4 * scene.head_resolution.suspension_modes;
+    let most = ReducedSuspension::most_bending_modes(&scene.suspension);
+    finer.head_resolution.suspension_modes = most.map_or(wanted, |most| wanted.min(most));
     finer
 }
 
