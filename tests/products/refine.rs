@@ -148,7 +148,8 @@ fn same_table_whatever_happens(study: &Study) {
     });
     for name in ["after", "beside"] {
         let stores = shard::stores(&place(name)).expect("stores");
-        let all = rounds::first(study, &place(name)).expect("stores");
+        let any = of_shard("1/1").shard;
+        let all = rounds::first(study, &place(name), any.as_ref()).expect("stores");
         assert_eq!(all.points.len(), last.points.len(), "{name}");
         let input = SweepInput::of(&all).expect("input");
         let merged = merge(&input, &place(name), &stores, &folder::session(1)).expect("merges");

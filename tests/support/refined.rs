@@ -161,7 +161,8 @@ pub fn sweep_told(
     sleep: Duration,
     progress: impl Fn(&SweepInput) -> Box<dyn Progress>,
 ) -> (Study, Summary) {
-    let mut study = rounds::first(study, store).expect("stores and a range");
+    let mut study =
+        rounds::first(study, store, options.shard.as_ref()).expect("stores and a range");
     loop {
         let input = SweepInput::of(&study).expect("input");
         let law = Law {

@@ -83,7 +83,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     let mut study = if options.retry_undecided {
         study
     } else {
-        rounds::first(&study, &folder).map_err(not_known)?
+        rounds::first(&study, &folder, options.shard.as_ref()).map_err(not_known)?
     };
     let (mut computed_runs, mut reused_runs) = (0, 0);
     let (input, end) = loop {
@@ -99,6 +99,10 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             .map(|budget| budget.saturating_sub(began.elapsed()));
         if end.ending != Ending::Complete {
             break (input, end);
+        }
+        if options.shard.is_some() && study.search.refine.is_some() {
+            console
+                .tell("this part is answered: what refinement adds waits for the shards at work");
         }
         let now = Instant::now();
         match rounds::next(&study, &folder, &options, &end.summary, now).map_err(not_known)? {

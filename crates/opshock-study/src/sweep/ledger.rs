@@ -158,7 +158,8 @@ impl<'a> Ledger<'a> {
     pub(super) fn touched(&mut self, digest: PointDigest, touch: StoredTouch) -> Vec<Told> {
         self.onsets_in_flight.remove(&digest);
         self.touches.entry(digest).or_insert(touch);
-        for &place in &self.sharing[&digest] {
+        // Another shard may be in a round of refinement that this one does not know yet.
+        for &place in self.sharing.get(&digest).into_iter().flatten() {
             self.campaign
                 .set_touch(place, searched(self.touches[&digest]));
         }

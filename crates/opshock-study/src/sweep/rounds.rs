@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use super::engine::{Ending, SweepOptions, replay};
 use super::input::SweepInput;
 use super::refine::{next_round, refined};
-use super::shard::{Others, stores};
+use super::shard::{Others, Shard, stores};
 use crate::search::LatticeError;
 use crate::store::summary::Status;
 use crate::store::{self, Loaded, Record, StoreError, Summary, TouchRecord, folder};
@@ -64,26 +64,42 @@ pub fn finished(whole: &Path) -> Result<Loaded, StoreError> {
         source,
     })?;
     for path in std::iter::once(whole.to_owned()).chain(shards) {
-        let loaded = match store::load(&path) {
-            Ok((loaded, _)) => loaded,
-            Err(StoreError::Empty { .. }) => continue,
-            Err(error) => return Err(error),
-        };
-        let touches = loaded.touches.into_iter();
-        let touches = touches.map(|(point, touch)| Record::Touch(TouchRecord { point, touch }));
-        let runs = loaded.runs.into_values().map(Record::Run);
-        all.add(touches.chain(runs).collect());
+        take(&path, &mut all)?;
     }
     Ok(all)
 }
 
-/// The study with every width that what is finished in `whole` calls for: where a sweep begins.
+/// Adds what is finished in one store, if there is one.
+fn take(store: &Path, all: &mut Loaded) -> Result<(), StoreError> {
+    let loaded = match store::load(store) {
+        Ok((loaded, _)) => loaded,
+        Err(StoreError::Empty { .. }) => return Ok(()),
+        Err(error) => return Err(error),
+    };
+    let touches = loaded.touches.into_iter();
+    let touches = touches.map(|(point, touch)| Record::Touch(TouchRecord { point, touch }));
+    let runs = loaded.runs.into_values().map(Record::Run);
+    all.add(touches.chain(runs).collect());
+    Ok(())
+}
+
+/// The study with every width that what is finished in `whole` calls for, where it refines itself:
+/// where a sweep begins. What shards have finished counts for a shard alone; a sweep of the whole
+/// takes from them what was merged.
 ///
 /// # Errors
 ///
 /// [`RoundError`].
-pub fn first(study: &Study, whole: &Path) -> Result<Study, RoundError> {
-    Ok(refined(study, &finished(whole)?)?)
+pub fn first(study: &Study, whole: &Path, shard: Option<&Shard>) -> Result<Study, RoundError> {
+    if study.search.refine.is_none() {
+        return Ok(study.clone());
+    }
+    let mut known = Loaded::default();
+    match shard {
+        Some(_) => known = finished(whole)?,
+        None => take(whole, &mut known)?,
+    }
+    Ok(refined(study, &known)?)
 }
 
 /// What follows a complete sweep of `study` into `whole` that ended with `summary`. A shard waits
