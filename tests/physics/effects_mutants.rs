@@ -6,6 +6,7 @@ use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
+use opshock_solver::shock::ObliqueShock;
 use opshock_solver::simulation::Model;
 use opshock_tests::pairs::{Pair, base, compare, random_pair};
 
@@ -128,21 +129,34 @@ fn effects_mutant_of_the_asked_times_is_caught() {
 fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     let mut scene = base();
     scene.ramp.model = RampModel::Rigid;
+    for (name, change) in OF_SHARING {
+        is_needed(&scene, name, change);
+    }
+    // Only a disk on a hub takes an oblique shock.
+    scene.disk.hub = Some(super::hub::spindle());
+    is_needed(&scene, "R9 direction", |s| {
+        s.oblique = Some(ObliqueShock {
+            in_plane: [0.5, 0.0],
+            ..ObliqueShock::default()
+        });
+    });
+}
+
+/// A donor that `change` makes another one than `scene`, which only the condition `name` tells.
+fn is_needed(scene: &Scene, name: &'static str, change: Change) {
     let asked = [Output::CriticalShock];
     let plan = Plan::new(&asked, Mode::Auto);
-    for (name, change) in OF_SHARING {
-        let mut other = scene.clone();
-        change(&mut other);
-        let donor = Model::assemble(&other, &plan, None).expect("the donor builds");
-        let shock = |mutant| {
-            let pair = Pair {
-                with_head: true,
-                mutant,
-                ..Pair::default()
-            };
-            compare(&scene, &asked, 250.0, Some(&donor), pair, name);
+    let mut other = scene.clone();
+    change(&mut other);
+    let donor = Model::assemble(&other, &plan, None).expect("the donor builds");
+    let shock = |mutant| {
+        let pair = Pair {
+            with_head: true,
+            mutant,
+            ..Pair::default()
         };
-        shock(None);
-        assert!(differs(|| shock(Some(name))), "nothing needs {name}");
-    }
+        compare(scene, &asked, 250.0, Some(&donor), pair, name);
+    };
+    shock(None);
+    assert!(differs(|| shock(Some(name))), "nothing needs {name}");
 }

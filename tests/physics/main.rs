@@ -18,6 +18,8 @@ mod head_coupling;
 mod head_rest;
 mod head_shock;
 mod head_touch;
+mod hub;
+mod oblique;
 mod plate;
 mod pressure_fields;
 mod suspension;

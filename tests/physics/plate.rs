@@ -31,6 +31,7 @@ fn unit_plate(poisson: f64, inner: f64) -> DiskParameters {
         spin_rad_per_s: 0.0,
         damping: DiskDamping::ModalRatio(0.0),
         space_fixed_damping_per_s: 0.0,
+        hub: None,
     }
 }
 

@@ -31,6 +31,11 @@ const SOLVER: &[(&str, u8)] = &[
 /// Imports that cross one floor on purpose, with the reason.
 const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[
     (
+        "complementarity",
+        "modal",
+        "the reference method also steps modes of first order, which are plain numbers",
+    ),
+    (
         "air_bearing",
         "slider",
         "the film is cut to the slider's surface, which is geometry and no physics",

@@ -239,6 +239,7 @@ impl Simulator for MockSimulator<'_> {
             energy_h_j: column,
         };
         self.records.then(|| Outcome {
+            hub: None,
             verdict: match result.verdict {
                 Verdict::Survives => simulation::Verdict::Survives,
                 Verdict::Fails { t_fail_s, x_m, y_m } => simulation::Verdict::Fails {

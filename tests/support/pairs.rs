@@ -4,13 +4,13 @@
 //! amplitude² × unit energies, the other energies of amplitude × unit states, so that it must agree
 //! to 1e-13 of the peak energy.
 
-use opshock_solver::disk::DiskDamping;
+use opshock_solver::disk::{DiskDamping, HubParameters};
 use opshock_solver::mutant;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
-use opshock_solver::shock::PulseShape;
+use opshock_solver::shock::{ObliqueShock, PulseShape};
 use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Verdict, Warning, Workspace, simulate,
 };
@@ -224,6 +224,27 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         scene.ramp.contact_stiffness_n_per_m = None;
     }
     scene.slider.angle_rad = seeded.between(0.05, 6.0);
+    if seeded.once_in(4) {
+        scene.disk.hub = Some(HubParameters {
+            mass_kg: seeded.between(0.0, 2e-2),
+            transverse_inertia_kg_m2: 4e-7,
+            polar_inertia_kg_m2: seeded.between(0.0, 8e-7),
+            axial_stiffness_n_per_m: seeded.between(1e6, 5e7),
+            axial_damping_n_s_per_m: seeded.between(0.0, 100.0),
+            tilt_stiffness_n_m_per_rad: seeded.between(50.0, 1000.0),
+            tilt_damping_n_m_s_per_rad: seeded.between(0.0, 1e-2),
+            cross_stiffness_n_m_per_rad: 0.0,
+            cross_damping_n_m_s_per_rad: 0.0,
+            centre_height_m: 1e-3,
+        });
+        if seeded.once_in(2) {
+            let mut share = |most: f64| seeded.between(-most, most);
+            scene.oblique = Some(ObliqueShock {
+                in_plane: [share(1.0), share(1.0)],
+                rotation_per_m: [share(10.0), share(10.0)],
+            });
+        }
+    }
     scene
 }
 

@@ -57,6 +57,11 @@ pub fn kg_from_mg(mg: f64) -> f64 {
     mg / 1e6
 }
 
+/// kg m² from mg mm².
+pub fn kg_m2_from_mg_mm2(mg_mm2: f64) -> f64 {
+    mg_mm2 / 1e12
+}
+
 /// N from grams of force.
 pub fn n_from_gf(gf: f64) -> f64 {
     gf * GRAM_FORCE_N

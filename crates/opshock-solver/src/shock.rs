@@ -73,6 +73,33 @@ pub struct Stretch {
     pub phase: Phase,
 }
 
+/// What else shakes the base while the pulse shakes it along the axis: everything in step with a(t).
+///
+/// Axes stand in the drive: x at angle 0 of the disk, y a quarter turn on in the sense of growing
+/// angle. Signs are those of a(t), the load felt in the base.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ObliqueShock {
+    /// In-plane loads per mass along x and y per unit a(t).
+    pub in_plane: [f64; 2],
+    /// Felt angular accelerations about x and y per unit a(t), 1/m.
+    pub rotation_per_m: [f64; 2],
+}
+
+impl ObliqueShock {
+    /// Axial load per mass at a place on the drive per unit a(t): 1 + ρ_x y − ρ_y x.
+    pub fn axial_at(&self, radius_m: f64, angle_rad: f64) -> f64 {
+        let (sine, cosine) = angle_rad.sin_cos();
+        let [about_x, about_y] = self.rotation_per_m;
+        1.0 + radius_m * (about_x * sine - about_y * cosine)
+    }
+
+    /// Whether every share is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let shares = self.in_plane.iter().chain(&self.rotation_per_m);
+        shares.into_iter().all(|x| x.is_finite())
+    }
+}
+
 /// What is wrong with a pulse.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PulseError {

@@ -6,11 +6,11 @@
 //! it has a place in its digest.
 
 use opshock_solver::air_bearing::{FilmResolution, FlowModel};
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
-use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::{ContactMethod, StructureResolution};
 use opshock_solver::suspension::{
@@ -119,6 +119,7 @@ impl Digester {
     fn structure(&mut self, scene: &Scene) {
         let Scene {
             pulse,
+            oblique,
             window,
             disk,
             ramp,
@@ -133,6 +134,15 @@ impl Digester {
             head_resolution: _,
         } = scene;
         self.pulse(pulse);
+        if let Some(ObliqueShock {
+            in_plane,
+            rotation_per_m,
+        }) = oblique
+        {
+            self.text("oblique");
+            self.numbers(in_plane);
+            self.numbers(rotation_per_m);
+        }
         match window {
             Window::Fixed { length_s } => {
                 self.text("fixed");
@@ -175,6 +185,7 @@ impl Digester {
             fail_below_m,
             film_resolution,
             head_resolution,
+            oblique: _,
             pulse: _,
             window: _,
             disk: _,
@@ -256,6 +267,7 @@ impl Digester {
             spin_rad_per_s,
             damping,
             space_fixed_damping_per_s,
+            hub,
         } = disk;
         self.numbers(&[
             *inner_radius_m,
@@ -280,6 +292,37 @@ impl Digester {
                 self.numbers(&[*ratio]);
             }
         }
+        if let Some(hub) = hub {
+            self.hub(hub);
+        }
+    }
+
+    fn hub(&mut self, hub: &HubParameters) {
+        let HubParameters {
+            mass_kg,
+            transverse_inertia_kg_m2,
+            polar_inertia_kg_m2,
+            axial_stiffness_n_per_m,
+            axial_damping_n_s_per_m,
+            tilt_stiffness_n_m_per_rad,
+            tilt_damping_n_m_s_per_rad,
+            cross_stiffness_n_m_per_rad,
+            cross_damping_n_m_s_per_rad,
+            centre_height_m,
+        } = hub;
+        self.text("hub");
+        self.numbers(&[
+            *mass_kg,
+            *transverse_inertia_kg_m2,
+            *polar_inertia_kg_m2,
+            *axial_stiffness_n_per_m,
+            *axial_damping_n_s_per_m,
+            *tilt_stiffness_n_m_per_rad,
+            *tilt_damping_n_m_s_per_rad,
+            *cross_stiffness_n_m_per_rad,
+            *cross_damping_n_m_s_per_rad,
+            *centre_height_m,
+        ]);
     }
 
     fn ramp(&mut self, ramp: &RampParameters) {

@@ -14,6 +14,7 @@
 //! Methods Appl. Mech. Engrg. 177 (1999); Acary and Brogliato (2008), ch. 10.
 
 use super::lcp;
+use crate::modal::{CoupledState, PointReadout};
 use nalgebra::Complex;
 
 /// q̈ + d q̇ + k q = f of one mode of unit mass, complex in a turning frame.
@@ -23,6 +24,22 @@ pub struct LinearMode {
     pub stiffness_per_s2: Complex<f64>,
     /// d, 1/s.
     pub damping_per_s: Complex<f64>,
+}
+
+/// Modes of first order, η̇ = s η + w f, as coupled oscillators have them: the same implicit midpoint,
+/// since it does not depend on the coordinates.
+#[derive(Clone, Debug)]
+pub struct FirstOrderModes {
+    /// s, 1/s.
+    pub rates_per_s: Vec<Complex<f64>>,
+    /// What reads each contact's gap.
+    pub gaps: [PointReadout; 2],
+    /// w of an impulse that opens each contact.
+    pub entrances: [CoupledState; 2],
+    /// w of the driving force, if it drives these modes.
+    pub drive: Option<CoupledState>,
+    /// η.
+    pub state: CoupledState,
 }
 
 /// A linear system with up to two contacts under Moreau-Jean steps.
@@ -40,6 +57,8 @@ pub struct MoreauJean {
     pub velocity: Vec<Complex<f64>>,
     /// Velocities of the step without contact.
     free: Vec<Complex<f64>>,
+    /// Coupled oscillators beside the modes.
+    pub coupled: Vec<FirstOrderModes>,
 }
 
 impl MoreauJean {
@@ -66,20 +85,27 @@ impl MoreauJean {
             amplitude: zero.clone(),
             free: zero.clone(),
             velocity: zero,
+            coupled: Vec::new(),
         }
+    }
+
+    /// Adds coupled oscillators at rest.
+    pub fn add_coupled(&mut self, modes: FirstOrderModes) {
+        self.coupled.push(modes);
     }
 
     /// Gap of contact `i`, m.
     pub fn gap_m(&self, i: usize) -> f64 {
-        self.clearance_m[i] + read(&self.shapes[i], &self.amplitude)
+        let coupled = self.coupled.iter().map(|c| c.gaps[i].read(&c.state).0);
+        self.clearance_m[i] + read(&self.shapes[i], &self.amplitude) + coupled.sum::<f64>()
     }
 
-    /// Advances by one step under the modal `force` at its middle; impulses, N s.
-    pub fn step(&mut self, force: &[f64]) -> [f64; 2] {
+    /// Advances by one step under the modal `force` at its middle and `coupled_force` on what drives
+    /// coupled oscillators; impulses, N s.
+    pub fn step(&mut self, force: &[f64], coupled_force: f64) -> [f64; 2] {
         let h = self.step_s;
         let n = self.shapes.len();
-        let before: [f64; 2] =
-            std::array::from_fn(|i| self.shapes.get(i).map_or(0.0, |s| read(s, &self.velocity)));
+        let before: [f64; 2] = std::array::from_fn(|i| self.gap_rate(i, &self.velocity));
         let closed = std::array::from_fn(|i| i < n && self.gap_m(i) + 0.5 * h * before[i] <= 0.0);
 
         // Effective inertia 1 + Δt d/2 + Δt² k/4 of the implicit step.
@@ -92,6 +118,10 @@ impl MoreauJean {
             *free = r - pull * h / inertia(m);
         }
 
+        for modes in &mut self.coupled {
+            modes.step(h, coupled_force);
+        }
+
         let mut p = [0.0; 2];
         if closed[0] || closed[1] {
             let mut w = [[0.0; 2]; 2];
@@ -99,13 +129,17 @@ impl MoreauJean {
                 for (b, entry) in row.iter_mut().enumerate().take(n) {
                     let pairs = self.shapes[a].iter().zip(&self.shapes[b]).zip(&self.modes);
                     *entry = pairs.map(|((x, y), m)| x * y * inertia(m).inv().re).sum();
+                    let coupled = self.coupled.iter().map(|c| c.mobility(a, b, h));
+                    *entry += coupled.sum::<f64>();
                 }
             }
             let target = std::array::from_fn(|i| {
-                let after = self.shapes.get(i).map_or(0.0, |s| read(s, &self.free));
-                after + self.restitution * before[i]
+                self.gap_rate(i, &self.free) + self.restitution * before[i]
             });
             p = lcp::solve(w, target, closed).unwrap_or([0.0; 2]);
+        }
+        for modes in &mut self.coupled {
+            modes.kick(p, h);
         }
         for (j, m) in self.modes.iter().enumerate() {
             let kick: f64 = (0..n).map(|i| self.shapes[i][j] * p[i]).sum();
@@ -116,6 +150,15 @@ impl MoreauJean {
         p
     }
 
+    /// Rate of gap `i` for velocities of the modes and the coupled oscillators as they are.
+    fn gap_rate(&self, i: usize, velocity: &[Complex<f64>]) -> f64 {
+        let Some(shape) = self.shapes.get(i) else {
+            return 0.0;
+        };
+        let coupled = self.coupled.iter().map(|c| c.gaps[i].read(&c.state).1);
+        read(shape, velocity) + coupled.sum::<f64>()
+    }
+
     /// ½ Σ (|r|² + Re k |q|²), J.
     pub fn energy_j(&self) -> f64 {
         let states = self.amplitude.iter().zip(&self.velocity);
@@ -123,6 +166,44 @@ impl MoreauJean {
             .iter()
             .zip(states)
             .map(|(m, (q, r))| 0.5 * (r.norm_sqr() + m.stiffness_per_s2.re * q.norm_sqr()))
+            .sum()
+    }
+}
+
+impl FirstOrderModes {
+    /// η₁ = ((1 + hs/2) η₀ + h w f) / (1 − hs/2).
+    fn step(&mut self, h: f64, force: f64) {
+        for (k, s) in self.rates_per_s.iter().enumerate() {
+            let half = s * (0.5 * h);
+            let mut eta = Complex::new(self.state.re[k], self.state.im[k]) * (half + 1.0);
+            if let Some(w) = &self.drive {
+                eta += Complex::new(w.re[k], w.im[k]) * (h * force);
+            }
+            eta /= -half + 1.0;
+            (self.state.re[k], self.state.im[k]) = (eta.re, eta.im);
+        }
+    }
+
+    /// Adds w P / (1 − hs/2).
+    fn kick(&mut self, p: [f64; 2], h: f64) {
+        for (w, p) in self.entrances.iter().zip(p) {
+            for (k, s) in self.rates_per_s.iter().enumerate() {
+                let eta = Complex::new(w.re[k], w.im[k]) * p / (-s * (0.5 * h) + 1.0);
+                self.state.re[k] += eta.re;
+                self.state.im[k] += eta.im;
+            }
+        }
+    }
+
+    /// Rate of gap `a` after the step per unit impulse on contact `b`.
+    fn mobility(&self, a: usize, b: usize, h: f64) -> f64 {
+        let (row, w) = (&self.gaps[a].velocity, &self.entrances[b]);
+        let modes = self.rates_per_s.iter().enumerate();
+        modes
+            .map(|(k, s)| {
+                let eta = Complex::new(w.re[k], w.im[k]) / (-s * (0.5 * h) + 1.0);
+                row.re[k] * eta.re + row.im[k] * eta.im
+            })
             .sum()
     }
 }

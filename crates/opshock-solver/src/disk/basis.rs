@@ -47,6 +47,18 @@ pub enum DiskError {
         /// Outer radius, m.
         outer_m: f64,
     },
+    /// The modes of a harmonic on its hub cannot be taken apart.
+    #[error(
+        "modes of nodal-diameter number {nodal_diameters} on the hub: two of them coincide; change \
+         the bearing's stiffness or damping a little"
+    )]
+    Hub {
+        /// Harmonic.
+        nodal_diameters: usize,
+        /// Cause.
+        #[source]
+        source: DenseError,
+    },
     /// The eigenvalue problem of a harmonic failed.
     #[error("modes of nodal-diameter number {nodal_diameters}")]
     Modes {
@@ -69,7 +81,8 @@ pub struct DiskMode {
     pub omega_rad_per_s: f64,
     /// Damping ratio in the rotating frame.
     pub damping_ratio: f64,
-    /// Generalised force of a unit uniform acceleration, kg^½; zero for n >= 1 and corrections.
+    /// Generalised force of a unit acceleration of the rigid motion of its harmonic: of a
+    /// displacement for n = 0, kg^½; of a tilt for n = 1, kg^½ m; zero above and for corrections.
     pub participation: f64,
     /// Radial shape at the asked radii: (φ, φ′), kg^-½ and kg^-½/m.
     pub shape: Vec<(f64, f64)>,
@@ -80,6 +93,8 @@ pub struct DiskMode {
 pub enum Harmonics {
     /// n = 0: all that moves without a load that depends on the angle.
     Symmetric,
+    /// n = 0 and n = 1: all that moves with a hub.
+    Tilting,
     /// Every harmonic below the cut.
     All,
 }
@@ -108,6 +123,7 @@ impl DiskBasis {
         harmonics: Harmonics,
     ) -> Result<Self, DiskError> {
         validate(disk, resolution)?;
+        disk.hub.map_or(Ok(()), |hub| hub.validate())?;
         let mesh = RadialMesh::new(disk, resolution.n_elements);
         let rows: Vec<_> = radii_m.iter().map(|&r| mesh.interpolation(r)).collect();
         let stress = MembraneStress::new(disk);
@@ -118,7 +134,12 @@ impl DiskBasis {
         // a row above the cut end the list.
         let mut n_above_cut = 0;
         for n in 0.. {
-            if n > 0 && harmonics == Harmonics::Symmetric {
+            let is_last = match harmonics {
+                Harmonics::Symmetric => n > 0,
+                Harmonics::Tilting => n > 1,
+                Harmonics::All => false,
+            };
+            if is_last {
                 break;
             }
             let failed = |source| DiskError::Modes {
@@ -160,7 +181,7 @@ impl DiskBasis {
                     nodal_circles: Some(j),
                     omega_rad_per_s: pairs.values[j].sqrt(),
                     damping_ratio: damping_ratio(&disk.damping, pairs.values[j].sqrt()),
-                    participation: dot(&m.uniform_load, x),
+                    participation: dot(&m.rigid_load, x),
                     shape: sample(x),
                 });
             }

@@ -73,8 +73,9 @@ pub struct HarmonicMatrices {
     pub stiffness: SquareMatrix,
     /// Mass, kg.
     pub mass: SquareMatrix,
-    /// ∫ ρ h φ dA: load of a unit uniform acceleration, kg; zero for n >= 1.
-    pub uniform_load: Vec<f64>,
+    /// Inertia along the rigid motion of the harmonic: ∫ ρ h φ dA of a unit displacement for n = 0,
+    /// kg; ∫ ρ h φ r cos²θ dA of a unit tilt for n = 1, kg m; zero above.
+    pub rigid_load: Vec<f64>,
 }
 
 /// Assembles harmonic `n`.
@@ -103,8 +104,10 @@ pub fn assemble(
             for (a, &[va, da, dda]) in shape.iter().enumerate() {
                 let Some(i) = unknown(e, a) else { continue };
                 let (ka, ta) = (da / r - n2 * va / (r * r), da / r - va / (r * r));
-                if n == 0 {
-                    load[i] += mass * va;
+                match n {
+                    0 => load[i] += mass * va,
+                    1 => load[i] += mass * r * va,
+                    _ => {}
                 }
                 for (b, &[vb, db, ddb]) in shape.iter().enumerate() {
                     let Some(j) = unknown(e, b) else { continue };
@@ -127,7 +130,7 @@ pub fn assemble(
     HarmonicMatrices {
         stiffness: k,
         mass: m,
-        uniform_load: load,
+        rigid_load: load,
     }
 }
 

@@ -1,11 +1,13 @@
-//! Rotating flexible annular disk, clamped inside, free outside.
+//! Rotating flexible annular disk, clamped inside to the base or to a hub, free outside.
 #![doc = include_str!("theory.md")]
 
 pub mod basis;
 pub mod harmonic;
+pub mod hub;
 pub mod membrane;
 
 pub use basis::{DiskBasis, DiskError, DiskMode, Harmonics};
+pub use hub::HubParameters;
 pub use membrane::MembraneStress;
 
 /// How the disk loses energy.
@@ -43,6 +45,8 @@ pub struct DiskParameters {
     pub damping: DiskDamping,
     /// Damping fixed in space (air), force per mass and velocity w_t, 1/s; 0 = none.
     pub space_fixed_damping_per_s: f64,
+    /// Hub on its bearing; `None`: the clamp is part of the base.
+    pub hub: Option<HubParameters>,
 }
 
 /// Numerical resolution of the disk.
@@ -67,6 +71,18 @@ pub struct DiskPose {
     pub pitch_rad: f64,
     /// Slope in the sense of positive slider roll (dw/dy), rad.
     pub roll_rad: f64,
+}
+
+impl DiskPose {
+    /// Sum of two small poses.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            displacement_m: self.displacement_m + other.displacement_m,
+            pitch_rad: self.pitch_rad + other.pitch_rad,
+            roll_rad: self.roll_rad + other.roll_rad,
+        }
+    }
 }
 
 /// The disk's motion under the slider as the head sees it. Time 0 is the onset of the pulse.

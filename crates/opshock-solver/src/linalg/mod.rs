@@ -2,6 +2,7 @@
 
 pub mod banded;
 pub mod dense;
+pub mod general;
 pub mod lowest;
 pub mod pivoted;
 mod triangles;

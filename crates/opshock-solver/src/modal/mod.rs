@@ -1,9 +1,14 @@
 //! Modal subsystems: exact propagation, forcing in closed form, energy.
 
 pub mod bank;
+pub mod coupled;
 pub mod forcing;
 pub mod oscillator;
 
 pub use bank::{BankFlow, ModalState, Readout};
+pub use coupled::{
+    Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, FirstOrderResponse,
+    PointReadout,
+};
 pub use forcing::{ForcedResponse, Phase};
 pub use oscillator::{Flow, LossForm, Oscillator};

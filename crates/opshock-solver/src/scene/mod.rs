@@ -10,7 +10,7 @@ use crate::disk::{DiskParameters, DiskResolution};
 use crate::gas::GasParameters;
 pub use crate::head::{Coupling, HeadResolution};
 use crate::ramp::RampParameters;
-use crate::shock::Pulse;
+use crate::shock::{ObliqueShock, Pulse};
 use crate::slider::SliderParameters;
 use crate::structure::StructureResolution;
 pub use crate::structure::{ContactMethod, Window};
@@ -21,6 +21,8 @@ use crate::suspension::SuspensionParameters;
 pub struct Scene {
     /// Unit pulse.
     pub pulse: Pulse,
+    /// What else shakes the base in step with it; `None`: a straight shock.
+    pub oblique: Option<ObliqueShock>,
     /// Simulated time after the onset.
     pub window: Window,
     /// Disk.

@@ -20,7 +20,8 @@
 //! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
-//! R1 rests on the film's force on the disk being neglected beside the disk's inertia.
+//! R1 rests on the film's force on the disk being neglected beside the disk's inertia. An oblique shock on
+//! a hub drives n = 1 from the onset: R2 and R3 then speak of n ≥ 2.
 
 use super::Scene;
 use crate::disk::Harmonics;
@@ -287,6 +288,7 @@ impl Plan {
     /// Harmonics of the disk that are built: without a ramp nothing can wake n >= 1.
     pub fn harmonics(&self, scene: &Scene) -> Harmonics {
         match (self.wake, &scene.ramp.model) {
+            (Wake::AtTouch, RampModel::None) if scene.oblique.is_some() => Harmonics::Tilting,
             (Wake::AtTouch, RampModel::None) => Harmonics::Symmetric,
             (Wake::AtTouch, _) if mutant::is_on("R2 no ramp") => Harmonics::Symmetric,
             _ => Harmonics::All,
@@ -310,7 +312,16 @@ impl Plan {
         };
         let mut list = vec![
             on("disk.bending"),
+            match scene.disk.hub {
+                Some(_) => on("disk.hub"),
+                None => effect("disk.hub", State::Off, None),
+            },
+            match scene.oblique {
+                Some(_) => on("shock.oblique"),
+                None => effect("shock.oblique", State::Off, None),
+            },
             match self.harmonics(scene) {
+                Harmonics::Tilting => on("disk.travelling_waves"),
                 Harmonics::Symmetric => effect("disk.travelling_waves", State::Off, Some("R2")),
                 Harmonics::All => sleeps("disk.travelling_waves", "R2"),
             },
@@ -379,7 +390,12 @@ impl Plan {
                 "harmonics n >= 1 of the disk asleep until the first touch, not built without a ramp",
                 self.wake == Wake::AtTouch,
                 "axial shock, axisymmetric disk, no tilt or run-out: only n = 0 is driven",
-                "participation of n >= 1 is 0".to_owned(),
+                match scene.oblique {
+                    None => "participation of n >= 1 is 0".to_owned(),
+                    Some(_) => {
+                        "the shock drives n = 1, which is awake; that of n >= 2 is 0".to_owned()
+                    }
+                },
             ),
             decision(
                 "R3",

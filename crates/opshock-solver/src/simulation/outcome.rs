@@ -2,7 +2,7 @@
 
 pub use crate::head::{Cause, DimpleRecord, HeadColumns, Place, PressureFields, Verdict};
 pub use crate::structure::{
-    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
+    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
 };
 
 /// Steady flying state before the shock.
@@ -62,6 +62,8 @@ pub struct Outcome {
     pub energy: EnergyBook,
     /// Complementarity numbers.
     pub complementarity: Complementarity,
+    /// Hub, of a disk on a bearing.
+    pub hub: Option<HubRecord>,
     /// Names of the effects that were simulated.
     pub effects: Vec<&'static str>,
     /// Rules of [`crate::scene::plan`] that were applied.

@@ -72,7 +72,15 @@ pub fn simulate_head(
         };
         let load = ShockLoad {
             pulse: &model.scene.pulse,
-            amplitude_m_per_s2: request.amplitude_m_per_s2,
+            // A turning base shakes the suspension by another axial load than the spindle.
+            amplitude_m_per_s2: match &model.scene.oblique {
+                Some(shock) => {
+                    let slider = &model.scene.slider;
+                    let share = shock.axial_at(slider.radius_m, slider.angle_rad);
+                    request.amplitude_m_per_s2 * share
+                }
+                None => request.amplitude_m_per_s2,
+            },
         };
         let result = head.run(
             &run.history,
@@ -134,6 +142,7 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
         dimple: head.as_ref().map(|h| h.dimple),
         energy: run.energy,
         complementarity: run.complementarity,
+        hub: run.hub,
         effects: effects(model),
         rules: model.plan().applied(&model.scene, touched),
         warnings,
@@ -163,6 +172,7 @@ fn without_structure(error: &StructureError) -> Outcome {
         dimple: None,
         energy: EnergyBook::default(),
         complementarity: Default::default(),
+        hub: None,
         effects: Vec::new(),
         rules: Vec::new(),
         warnings: Vec::new(),
@@ -180,6 +190,12 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     ];
     if model.scene.disk.space_fixed_damping_per_s > 0.0 {
         names.push("disk.space_fixed_damping");
+    }
+    if model.scene.disk.hub.is_some() {
+        names.push("disk.hub");
+    }
+    if model.scene.oblique.is_some() {
+        names.push("shock.oblique");
     }
     match model.scene.ramp.model {
         RampModel::None => {}
@@ -225,6 +241,21 @@ fn describe(warning: &StructureWarning) -> Warning {
         StructureWarning::BothArmsOnePoint => (
             "both_arms_one_point",
             "both arms held one point: only the net force is determined".to_string(),
+        ),
+        StructureWarning::HubInstability {
+            nodal_diameters,
+            growth_per_s,
+        } => (
+            "hub_instability",
+            format!(
+                "the hub's bearing drives its {} motion, which grows at {growth_per_s:.3} per second by \
+                 itself",
+                if nodal_diameters == 0 {
+                    "axial"
+                } else {
+                    "tilting"
+                }
+            ),
         ),
         StructureWarning::PhysicalInstability {
             nodal_diameters,

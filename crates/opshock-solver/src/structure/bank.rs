@@ -46,11 +46,7 @@ impl Bank {
         let zero = || vec![0.0; n_disk];
         // x runs with the disk; with negative spin it runs against growing angle.
         let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
-        let (sine, cosine) = slider.skew_rad.sin_cos();
-        // Along the disk's velocity the slope is w_t, outwards w_r:
-        // w_x = w_t cos − w_r sin, w_y = w_t sin + w_r cos; pitch = −w_x, roll = w_y.
-        let pitch = [sine, -cosine];
-        let roll = [cosine, sine];
+        let [pitch, roll] = slider.slopes_to_pose();
         let mut bank = Self {
             oscillators: vec![Oscillator::default(); n_disk],
             n_disk,
@@ -221,6 +217,15 @@ impl Bank {
         [0, 1].map(|_| Arm {
             modes: modes.clone(),
         })
+    }
+
+    /// Scales the base's load on the arms, which come behind the disk in the forced columns.
+    pub fn scale_arms(&mut self, factor: f64) {
+        for (index, gain) in self.forced_index.iter().zip(&mut self.forced.participation) {
+            if *index >= self.n_disk {
+                *gain *= factor;
+            }
+        }
     }
 
     pub fn pad(&mut self) {

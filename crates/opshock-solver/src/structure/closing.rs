@@ -2,9 +2,11 @@
 
 use super::contact_log::ContactLog;
 use super::energy::{Energies, Ledger};
+use super::free_motion::HubSample;
 use super::history::StructuralHistory;
 use super::model::{Shared, StructureError, StructureRun};
-use super::record::{Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use super::record::{Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns};
+use super::rotor::Rotor;
 
 /// What a method of contact leaves behind.
 pub(super) struct Closing<'a> {
@@ -18,9 +20,61 @@ pub(super) struct Closing<'a> {
     pub ledger: Ledger,
     pub extremes: DiskExtremes,
     pub complementarity: Complementarity,
+    pub hub: Option<HubBook>,
     pub logs: &'a [ContactLog; 2],
     pub history: StructuralHistory,
     pub columns: Option<StructureColumns>,
+}
+
+/// The hub along a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HubBook {
+    pub amplitude: f64,
+    /// Now.
+    pub now: HubSample,
+    /// Impulse of the ramp on the disk so far, N s.
+    pub contact_n_s: f64,
+    axial_max_m: f64,
+    tilt_max_rad: f64,
+    momentum_max_n_s: f64,
+}
+
+impl HubBook {
+    /// A book of one amplitude.
+    pub fn of(amplitude: f64) -> Self {
+        Self {
+            amplitude,
+            ..Self::default()
+        }
+    }
+
+    /// Books the hub at a node.
+    pub fn include(&mut self, now: HubSample) {
+        self.now = now;
+        self.axial_max_m = self.axial_max_m.max(now.axial_m.abs());
+        let tilt = f64::hypot(now.tilt_rad[0], now.tilt_rad[1]);
+        self.tilt_max_rad = self.tilt_max_rad.max(tilt);
+        self.momentum_max_n_s = self.momentum_max_n_s.max(now.momentum_n_s.abs());
+    }
+
+    fn record(&self, shared: &Shared, end_s: f64) -> HubRecord {
+        let load_kg = shared.free.rotor.as_ref().map_or(0.0, Rotor::load_kg);
+        let shock_n_s = self.amplitude * load_kg * shared.free.pulse_integral_s(end_s);
+        let impulses = shock_n_s + self.now.bearing_n_s + self.contact_n_s;
+        let left = (self.now.momentum_n_s - impulses).abs();
+        HubRecord {
+            axial_max_m: self.axial_max_m,
+            tilt_max_rad: self.tilt_max_rad,
+            shock_n_s,
+            bearing_n_s: self.now.bearing_n_s,
+            contact_n_s: self.contact_n_s,
+            momentum_end_n_s: self.now.momentum_n_s,
+            momentum_closure: match self.momentum_max_n_s > 0.0 {
+                true => left / self.momentum_max_n_s,
+                false => 0.0,
+            },
+        }
+    }
 }
 
 impl Closing<'_> {
@@ -54,6 +108,7 @@ impl Closing<'_> {
         history.events_s.extend(kinks);
         history.events_s.sort_by(f64::total_cmp);
         history.events_s.dedup();
+        let hub = self.hub.map(|book| book.record(self.shared, end_s));
         let columns = self.columns.map(|mut columns| {
             let n = columns.time_s.len();
             columns.contact_top_n = self.logs[0].running_mean(step_s, n);
@@ -72,6 +127,7 @@ impl Closing<'_> {
             bottom,
             energy,
             complementarity: self.complementarity,
+            hub,
             first_touch_s,
             steps: self.k as u64,
             end_s,

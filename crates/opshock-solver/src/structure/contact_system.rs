@@ -4,7 +4,7 @@
 //! until the first touch; from then on it is carried by its exact flow and kicked by impulses.
 
 use super::Window;
-use super::closing::Closing;
+use super::closing::{Closing, HubBook};
 use super::contact_log::ContactLog;
 use super::energy::{Energies, Ledger, LongSum};
 use super::free_motion::{ForcedState, Sample};
@@ -12,6 +12,7 @@ use super::history::{Break, StructuralHistory};
 use super::model::{Shared, StructureError, StructureRun, StructureWarning};
 use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
+use super::rotor::{Leap, RotorState};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -30,6 +31,10 @@ pub(super) struct RunState {
     unit_ahead: ForcedState,
     total_forced: ForcedState,
     part_flow: BankFlow,
+    /// The disk's harmonics on a hub: driven by contact; no parts without one.
+    rotor_now: RotorState,
+    rotor_ahead: RotorState,
+    part_leap: Leap,
     logs: [ContactLog; 2],
     history: StructuralHistory,
     columns: StructureColumns,
@@ -57,6 +62,7 @@ pub(super) struct ContactSystem<'a> {
     complementarity: Complementarity,
     accumulated_steps: u64,
     both_arms: bool,
+    hub: Option<HubBook>,
     decayed: bool,
     /// First node whose motion is not a finite number.
     not_finite: Option<usize>,
@@ -74,11 +80,20 @@ impl RunState {
             self.part_flow = BankFlow::zeros(n);
         }
         let n_forced = shared.forced_index.len();
-        if self.unit_now.x.len() != n_forced {
-            self.unit_now = ForcedState::at_rest(n_forced);
-            self.unit_ahead = ForcedState::at_rest(n_forced);
-            self.total_forced = ForcedState::at_rest(n_forced);
+        let rotor = shared.free.rotor.as_ref();
+        let has_shape = match rotor {
+            Some(rotor) => rotor.is_of(&self.rotor_now),
+            None => self.rotor_now.parts.is_empty(),
+        };
+        if self.unit_now.x.len() != n_forced || !has_shape {
+            self.unit_now = ForcedState::at_rest(n_forced, rotor);
+            self.unit_ahead = self.unit_now.clone();
+            self.total_forced = self.unit_now.clone();
+            self.rotor_now = self.unit_now.rotor.clone();
+            self.rotor_ahead = self.unit_now.rotor.clone();
+            self.part_leap = rotor.map_or_else(Leap::default, |rotor| rotor.step.clone());
         }
+        self.rotor_now.reset();
         self.logs.iter_mut().for_each(ContactLog::clear);
         let n_nodes = if keeps_motion { shared.n_steps + 1 } else { 0 };
         self.history = StructuralHistory {
@@ -113,6 +128,7 @@ impl<'a> ContactSystem<'a> {
             complementarity: Complementarity::default(),
             accumulated_steps: 0,
             both_arms: false,
+            hub: shared.free.rotor.is_some().then(|| HubBook::of(amplitude)),
             decayed: false,
             not_finite: None,
         }
@@ -147,7 +163,7 @@ impl<'a> ContactSystem<'a> {
             self.ledger.work = LongSum::from_value(a2 * sample.work);
             self.ledger.damping = LongSum::from_value(a2 * sample.loss);
         }
-        self.gaps = self.gaps_of(&self.state.now, self.sample());
+        self.gaps = self.gaps_now();
     }
 
     /// Settles at the next node.
@@ -155,7 +171,7 @@ impl<'a> ContactSystem<'a> {
         self.k += 1;
         self.offset_s = 0.0;
         self.accumulated_steps += u64::from(report.accumulated);
-        let gaps = self.gaps_of(&self.state.now, self.sample());
+        let gaps = self.gaps_now();
         for gap in gaps.iter().take(self.shared.n_contacts) {
             let depth = -gap.value_m;
             let largest = &mut self.complementarity.max_penetration_m;
@@ -163,13 +179,23 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
+    /// Gaps at the node reached.
+    fn gaps_now(&self) -> [Gap; 2] {
+        self.gaps_of(&self.state.now, &self.state.rotor_now, self.sample())
+    }
+
     /// Gaps of a contact-driven state on top of the unit response `sample`.
-    fn gaps_of(&self, driven: &ModalState, sample: &Sample) -> [Gap; 2] {
+    fn gaps_of(&self, driven: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
         let shared = self.shared;
-        let disk = Gap {
+        let mut disk = Gap {
             value_m: dot(&shared.contact, &driven.q_re),
             rate_m_per_s: dot(&shared.contact, &driven.r_re),
         };
+        if let Some(rotor) = &shared.free.rotor {
+            let on_hub = rotor.contact(hub);
+            disk.value_m += on_hub.value_m;
+            disk.rate_m_per_s += on_hub.rate_m_per_s;
+        }
         std::array::from_fn(|side| {
             if side >= shared.n_contacts {
                 return Gap::default();
@@ -202,6 +228,16 @@ impl<'a> ContactSystem<'a> {
             pitch_rad: a * pitch * sample.slider_slope.rate,
             roll_rad: a * roll * sample.slider_slope.rate,
         };
+        if let Some(rotor) = &self.shared.free.rotor {
+            let [pitch, roll] = sample.tilt;
+            pose.pitch_rad += a * pitch.value;
+            pose.roll_rad += a * roll.value;
+            rate.pitch_rad += a * pitch.rate;
+            rate.roll_rad += a * roll.rate;
+            if self.awake {
+                rotor.add_slider(&self.state.rotor_now, &mut pose, &mut rate);
+            }
+        }
         if self.awake {
             let n = self.shared.n_disk;
             let now = &self.state.now;
@@ -223,6 +259,9 @@ impl<'a> ContactSystem<'a> {
             let n = self.shared.n_disk;
             let now = &self.state.now;
             displacement_m += self.shared.slider[0].read(&now.q_re[..n], &now.q_im[..n]);
+            if let Some(rotor) = &self.shared.free.rotor {
+                displacement_m += rotor.slider_m(&self.state.rotor_now);
+            }
         }
         displacement_m
     }
@@ -251,6 +290,10 @@ impl<'a> ContactSystem<'a> {
             let now = &self.state.now;
             ramp += dot(&shared.contact, &now.q_re);
             rim += dot(&shared.rim, &now.q_re);
+            if let Some(rotor) = &shared.free.rotor {
+                ramp += rotor.contact(&self.state.rotor_now).value_m;
+                rim += rotor.rim_m(&self.state.rotor_now);
+            }
             for (side, x) in arms.iter_mut().enumerate() {
                 for j in shared.arms[side].modes.clone() {
                     *x += shared.arm_shape[side][j] * now.q_re[j];
@@ -258,14 +301,25 @@ impl<'a> ContactSystem<'a> {
             }
             self.total_state();
             self.energies = shared.weights.energies(&self.state.total);
+            if let Some(rotor) = &shared.free.rotor {
+                let ForcedState {
+                    rotor: total,
+                    scratch,
+                    ..
+                } = &mut self.state.total_forced;
+                self.energies.add(&rotor.energies(total, scratch));
+            }
         } else {
             let energy = a * a * sample.energy;
-            // Without contact the disk's motion is axisymmetric: both energies agree.
+            // Where the disk's motion is axisymmetric both energies agree.
             self.energies = Energies {
                 kinetic: a * a * sample.kinetic,
                 elastic: energy - a * a * sample.kinetic,
                 fixed_frame: energy,
             };
+            if sample.excess != 0.0 {
+                self.energies.fixed_frame += a * a * sample.excess;
+            }
         }
         if self.state.keeps_motion {
             self.state.history.pose.push(pose);
@@ -282,6 +336,7 @@ impl<'a> ContactSystem<'a> {
             energies: self.energies,
         };
         self.extremes.include(&node);
+        self.record_hub();
         let material = self.energies.material();
         let ledger = &mut self.ledger;
         ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
@@ -292,6 +347,19 @@ impl<'a> ContactSystem<'a> {
         }
         if self.state.record {
             self.state.columns.push(&node);
+        }
+    }
+
+    /// Books the hub at the node reached.
+    fn record_hub(&mut self) {
+        let (Some(book), Some(rotor)) = (&mut self.hub, &self.shared.free.rotor) else {
+            return;
+        };
+        if self.awake {
+            let bearing_n_s = book.now.bearing_n_s;
+            book.include(rotor.hub(&self.state.total_forced.rotor, bearing_n_s));
+        } else {
+            book.include(self.shared.free.hub[self.k].times(self.amplitude));
         }
     }
 
@@ -306,19 +374,24 @@ impl<'a> ContactSystem<'a> {
             (state.total.q_re[i], state.total.r_re[i]) = (x, v);
             (state.total_forced.x[j], state.total_forced.v[j]) = (x, v);
         }
+        let total = &mut state.total_forced.rotor;
+        total.copy_from(&state.rotor_now);
+        total.add(&state.unit_now.rotor, self.amplitude);
     }
 
     /// Work and loss from now to the instant ahead.
     fn book_free_motion(&mut self) {
         let (shared, reach) = (self.shared, self.reach_s);
         self.total_state();
-        let state = &*self.state;
+        let is_whole = self.is_whole_step();
+        let now_s = self.now_s();
+        let state = &mut *self.state;
         let free = &shared.free;
-        let exchange = if self.is_whole_step() {
+        let exchange = if is_whole {
             self.ledger
                 .damping
                 .add(shared.weights.step_loss(&state.total));
-            free.exchange(&state.total_forced, self.k, self.amplitude)
+            free.exchange(&mut state.total_forced, self.k, self.amplitude)
         } else {
             for (i, o) in shared.oscillators.iter().enumerate() {
                 if !shared.forced_index.contains(&i) {
@@ -327,10 +400,18 @@ impl<'a> ContactSystem<'a> {
                     self.ledger.damping.add(o.loss_form(reach).loss(q, r));
                 }
             }
-            free.exchange_within(&state.total_forced, self.now_s(), reach, self.amplitude)
+            free.exchange_within(&mut state.total_forced, now_s, reach, self.amplitude)
         };
         self.ledger.work.add(exchange.work);
         self.ledger.damping.add(exchange.loss);
+        if let Some(book) = &mut self.hub {
+            book.now.bearing_n_s += exchange.bearing_n_s;
+        }
+    }
+
+    fn gaps_at_reach(&self) -> [Gap; 2] {
+        let state = &*self.state;
+        self.gaps_of(&state.ahead, &state.rotor_ahead, &self.sample_ahead)
     }
 
     fn is_whole_step(&self) -> bool {
@@ -359,6 +440,7 @@ impl<'a> ContactSystem<'a> {
             ledger,
             extremes: self.extremes,
             complementarity: self.complementarity,
+            hub: self.hub,
             logs: &state.logs,
             history,
             columns: state.record.then_some(columns),
@@ -392,6 +474,9 @@ impl UnilateralSystem for ContactSystem<'_> {
         if self.is_whole_step() {
             let state = &mut *self.state;
             shared.step_flow.apply(&state.now, &mut state.ahead);
+            if let Some(rotor) = &free.rotor {
+                rotor.flow(&state.rotor_now, None, &mut state.rotor_ahead);
+            }
             // The unit response itself is stepped only when the step is committed.
             self.sample_ahead = free.samples[self.k + 1];
         } else {
@@ -399,11 +484,16 @@ impl UnilateralSystem for ContactSystem<'_> {
             let state = &mut *self.state;
             state.part_flow.set(&shared.oscillators, h_s);
             state.part_flow.apply(&state.now, &mut state.ahead);
+            if let Some(rotor) = &free.rotor {
+                rotor.set_leap(h_s, None, &mut state.part_leap);
+                let leap = Some(&state.part_leap);
+                rotor.flow(&state.rotor_now, leap, &mut state.rotor_ahead);
+            }
             state.unit_ahead.copy_from(&state.unit_now);
             free.advance(&mut state.unit_ahead, start_s, h_s, 1.0);
             self.sample_ahead = free.sample(&state.unit_ahead);
         }
-        self.gaps_ahead = self.gaps_of(&self.state.ahead, &self.sample_ahead);
+        self.gaps_ahead = self.gaps_at_reach();
     }
 
     fn gaps_ahead(&self) -> [Gap; 2] {
@@ -421,7 +511,11 @@ impl UnilateralSystem for ContactSystem<'_> {
         } else {
             &self.state.part_flow
         };
-        let disk = flow.compliance(&shared.contact);
+        let mut disk = flow.compliance(&shared.contact);
+        if let Some(rotor) = &shared.free.rotor {
+            let partial = (!self.is_whole_step()).then_some(&self.state.part_leap);
+            disk += rotor.compliance(partial);
+        }
         let [top, bottom] = &shared.arm_shape;
         let across = match shared.coupled {
             true => disk + flow.compliance_across(top, bottom),
@@ -459,7 +553,14 @@ impl UnilateralSystem for ContactSystem<'_> {
             }
         }
         let on_disk = p[1] - p[0];
-        let w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);
+        let mut w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);
+        if let Some(rotor) = &shared.free.rotor {
+            w_theta += rotor.contact_turn(&self.state.rotor_now);
+            w_theta += self.amplitude * rotor.contact_turn(&self.state.unit_now.rotor);
+        }
+        if let Some(book) = &mut self.hub {
+            book.contact_n_s += on_disk;
+        }
         self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
 
         let record = &mut self.complementarity;
@@ -485,6 +586,16 @@ impl UnilateralSystem for ContactSystem<'_> {
         };
         state.now.kick(&shared.contact, on_disk);
         flow.add_kick(&shared.contact, on_disk, &mut state.ahead);
+        if let Some(rotor) = &shared.free.rotor {
+            let is_partial = self.offset_s != 0.0 || self.reach_s != shared.free.step_s;
+            let partial = is_partial.then_some(&state.part_leap);
+            rotor.kick(
+                on_disk,
+                partial,
+                &mut state.rotor_now,
+                &mut state.rotor_ahead,
+            );
+        }
         for (side, force) in [(0, p[0]), (1, -p[1])] {
             if force != 0.0 && !shared.arms[side].modes.is_empty() {
                 state.now.kick(&shared.arm_shape[side], force);
@@ -494,7 +605,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         for side in 0..2 {
             self.gaps[side].rate_m_per_s = rate[side] + jump[side];
         }
-        self.gaps_ahead = self.gaps_of(&self.state.ahead, &self.sample_ahead);
+        self.gaps_ahead = self.gaps_at_reach();
     }
 
     fn commit(&mut self) {
@@ -502,6 +613,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         let whole = self.is_whole_step();
         let state = &mut *self.state;
         std::mem::swap(&mut state.now, &mut state.ahead);
+        std::mem::swap(&mut state.rotor_now, &mut state.rotor_ahead);
         if whole {
             self.shared.free.step(&mut state.unit_now, self.k);
         } else {

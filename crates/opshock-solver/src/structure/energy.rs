@@ -19,6 +19,12 @@ pub(super) struct Energies {
 }
 
 impl Energies {
+    pub fn add(&mut self, other: &Self) {
+        self.kinetic += other.kinetic;
+        self.elastic += other.elastic;
+        self.fixed_frame += other.fixed_frame;
+    }
+
     pub fn material(&self) -> f64 {
         self.kinetic + self.elastic
     }

@@ -6,9 +6,11 @@
 //! Every run, whatever its ramp, sign and amplitude, multiplies the same columns.
 
 use super::energy::LongSum;
-use crate::modal::oscillator::GAUSS_8;
+use crate::modal::oscillator::{GAUSS_8, phi1};
 use crate::modal::{Flow, ForcedResponse, LossForm, Oscillator, Phase};
 use crate::shock::Stretch;
+
+use super::rotor::{Rotor, RotorScratch, RotorState};
 
 /// Oscillators driven by the shock, modal mass 1 kg each.
 #[derive(Clone, Debug, Default)]
@@ -30,7 +32,7 @@ pub(super) struct ForcedShapes {
 }
 
 /// Displacement and velocity of one point.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Motion {
     pub value: f64,
     pub rate: f64,
@@ -45,14 +47,31 @@ pub(super) struct Sample {
     pub top: Motion,
     pub bottom: Motion,
     pub rim: f64,
+    /// Pitch and roll of the disk under the slider, of a disk on a hub.
+    pub tilt: [Motion; 2],
     /// Energy of disk and arms, J per (m/s²)².
     pub energy: f64,
     /// Its kinetic part.
     pub kinetic: f64,
+    /// H less that energy: 0 where only n = 0 moves.
+    pub excess: f64,
     /// Work of the shock so far, J per (m/s²)².
     pub work: f64,
     /// Loss by damping so far, J per (m/s²)².
     pub loss: f64,
+}
+
+/// The hub at one instant, per unit amplitude or in total.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HubSample {
+    /// Axial displacement, m.
+    pub axial_m: f64,
+    /// Tilt towards the ramp and across, rad.
+    pub tilt_rad: [f64; 2],
+    /// Axial momentum of hub and disk, N s.
+    pub momentum_n_s: f64,
+    /// Impulse of the bearing on them so far, N s.
+    pub bearing_n_s: f64,
 }
 
 /// Displacements and velocities of the forced modes.
@@ -60,6 +79,9 @@ pub(super) struct Sample {
 pub(super) struct ForcedState {
     pub x: Vec<f64>,
     pub v: Vec<f64>,
+    /// The disk's harmonics on a hub; no parts without one.
+    pub rotor: RotorState,
+    pub scratch: RotorScratch,
 }
 
 /// Work of the shock and loss by damping over a time, J.
@@ -67,6 +89,8 @@ pub(super) struct ForcedState {
 pub(super) struct Exchange {
     pub work: f64,
     pub loss: f64,
+    /// Impulse of a hub's bearing on the rotor, N s.
+    pub bearing_n_s: f64,
 }
 
 struct QuadraturePoint {
@@ -84,6 +108,10 @@ pub(super) struct FreeMotion {
     checkpoints: Vec<ForcedState>,
     pub modes: ForcedModes,
     pub shapes: ForcedShapes,
+    /// The disk's harmonics on a hub.
+    pub rotor: Option<Rotor>,
+    /// Its hub at every node.
+    pub hub: Vec<HubSample>,
     stretches: Vec<Stretch>,
     pub pulse_end_s: f64,
     flow: Vec<Flow>,
@@ -104,17 +132,31 @@ const GAUSS_5: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
 
+impl HubSample {
+    pub fn times(&self, factor: f64) -> Self {
+        Self {
+            axial_m: factor * self.axial_m,
+            tilt_rad: self.tilt_rad.map(|x| factor * x),
+            momentum_n_s: factor * self.momentum_n_s,
+            bearing_n_s: factor * self.bearing_n_s,
+        }
+    }
+}
+
 impl ForcedState {
-    pub fn at_rest(n: usize) -> Self {
+    pub fn at_rest(n: usize, rotor: Option<&Rotor>) -> Self {
         Self {
             x: vec![0.0; n],
             v: vec![0.0; n],
+            rotor: rotor.map_or_else(RotorState::default, Rotor::at_rest),
+            scratch: rotor.map_or_else(RotorScratch::default, Rotor::scratch),
         }
     }
 
     pub fn copy_from(&mut self, other: &Self) {
         self.x.copy_from_slice(&other.x);
         self.v.copy_from_slice(&other.v);
+        self.rotor.copy_from(&other.rotor);
     }
 }
 
@@ -123,6 +165,7 @@ impl FreeMotion {
     pub fn new(
         modes: ForcedModes,
         shapes: ForcedShapes,
+        rotor: Option<Rotor>,
         stretches: Vec<Stretch>,
         step_s: f64,
         n_steps: usize,
@@ -168,22 +211,33 @@ impl FreeMotion {
             pulse_end_s: stretches[stretches.len() - 1].end_s,
             modes,
             shapes,
+            rotor,
+            hub: Vec::new(),
             stretches,
         };
-        let mut state = ForcedState::at_rest(free.modes.oscillators.len());
+        let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
+        let mut bearing = LongSum::default();
         for k in 0..=n_steps {
             if k % CHECKPOINT_STEPS == 0 {
                 free.checkpoints.push(state.clone());
             }
             let mut sample = free.sample(&state);
-            (sample.kinetic, sample.energy) = free.energy(&state);
+            (sample.kinetic, sample.energy) = free.energy(&mut state);
+            if let Some(rotor) = free.rotor.as_ref().filter(|rotor| rotor.is_tilted()) {
+                let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
+                sample.excess = of_rotor.fixed_frame - of_rotor.material();
+            }
             sample.work = work.value();
             sample.loss = loss.value();
             free.samples.push(sample);
-            let exchange = free.exchange(&state, k, 1.0);
+            if let Some(rotor) = &free.rotor {
+                free.hub.push(rotor.hub(&state.rotor, bearing.value()));
+            }
+            let exchange = free.exchange(&mut state, k, 1.0);
             work.add(exchange.work);
             loss.add(exchange.loss);
+            bearing.add(exchange.bearing_n_s);
             free.step(&mut state, k);
         }
         free
@@ -201,7 +255,7 @@ impl FreeMotion {
             rate: sum(shape, &state.v),
         };
         let s = &self.shapes;
-        Sample {
+        let mut sample = Sample {
             contact: read(&s.contact),
             slider: read(&s.slider),
             slider_slope: read(&s.slider_slope),
@@ -209,16 +263,25 @@ impl FreeMotion {
             bottom: read(&s.bottom),
             rim: sum(&s.rim, &state.x),
             ..Sample::default()
+        };
+        if let Some(rotor) = &self.rotor {
+            rotor.add_sample(&state.rotor, &mut sample);
         }
+        sample
     }
 
     /// (kinetic, total) energy.
-    fn energy(&self, state: &ForcedState) -> (f64, f64) {
+    fn energy(&self, state: &mut ForcedState) -> (f64, f64) {
         let (mut kinetic, mut elastic) = (0.0, 0.0);
         for ((o, x), v) in self.modes.oscillators.iter().zip(&state.x).zip(&state.v) {
             let spring = o.omega_rad_per_s * x;
             kinetic += 0.5 * v * v;
             elastic += 0.5 * spring * spring;
+        }
+        if let Some(rotor) = &self.rotor {
+            let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
+            kinetic += of_rotor.kinetic;
+            elastic += of_rotor.elastic;
         }
         (kinetic, kinetic + elastic)
     }
@@ -239,6 +302,9 @@ impl FreeMotion {
             for ((f, x), v) in self.flow.iter().zip(&mut state.x).zip(&mut state.v) {
                 (*x, *v) = carry(f, *x, *v);
             }
+            if let Some(rotor) = &self.rotor {
+                rotor.step(None, &mut state.rotor, &mut state.scratch);
+            }
         } else if let Some((_, phase)) = self.whole_step(start_s) {
             let modes = self
                 .flow
@@ -250,6 +316,9 @@ impl FreeMotion {
                 let free = carry(f, *x, *v);
                 (*x, *v) = (free.0 + gain * dx, free.1 + gain * dv);
             }
+            if let Some(rotor) = &self.rotor {
+                rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
+            }
         } else {
             self.advance(state, start_s, self.step_s, 1.0);
         }
@@ -257,16 +326,20 @@ impl FreeMotion {
 
     /// Work and loss over the step from node `k` for a total state under `amplitude` times the
     /// unit pulse.
-    pub fn exchange(&self, state: &ForcedState, k: usize, amplitude: f64) -> Exchange {
+    pub fn exchange(&self, state: &mut ForcedState, k: usize, amplitude: f64) -> Exchange {
         let start_s = k as f64 * self.step_s;
         if start_s >= self.pulse_end_s {
             let modes = self.loss.iter().zip(&state.x).zip(&state.v);
-            return Exchange {
-                work: 0.0,
+            let mut total = Exchange {
                 loss: modes
                     .map(|((l, x), v)| l.qq * x * x + l.rr * v * v + 2.0 * l.qr.re * x * v)
                     .sum(),
+                ..Exchange::default()
             };
+            if let Some(rotor) = &self.rotor {
+                total.add(&rotor.free_exchange(&state.rotor));
+            }
+            return total;
         }
         let Some((stretch, phase)) = self.whole_step(start_s) else {
             return self.exchange_within(state, start_s, self.step_s, amplitude);
@@ -288,13 +361,22 @@ impl FreeMotion {
             total.work += point.weight_s * force * power;
             total.loss += point.weight_s * loss;
         }
+        if let Some(rotor) = &self.rotor {
+            let forcing = (stretch.sigma_per_s, &phase);
+            let ForcedState {
+                rotor: own,
+                scratch,
+                ..
+            } = state;
+            total.add(&rotor.step_exchange(own, forcing, amplitude, scratch));
+        }
         total
     }
 
     /// The same over any time; slower, nothing tabulated.
     pub fn exchange_within(
         &self,
-        state: &ForcedState,
+        state: &mut ForcedState,
         start_s: f64,
         h_s: f64,
         amplitude: f64,
@@ -312,7 +394,33 @@ impl FreeMotion {
                 }
             }
         });
+        if let Some(rotor) = &self.rotor {
+            let ForcedState {
+                rotor: own,
+                scratch,
+                ..
+            } = state;
+            scratch.walk.copy_from(own);
+            self.pieces(start_s, h_s, |piece| {
+                let one = rotor.piece_exchange(piece.h_s, piece.forcing(), amplitude, scratch);
+                total.add(&one);
+            });
+        }
         total
+    }
+
+    /// ∫ s dt of the unit pulse until `end_s`.
+    pub fn pulse_integral_s(&self, end_s: f64) -> f64 {
+        let mut sum = 0.0;
+        for stretch in &self.stretches {
+            let h = stretch.end_s.min(end_s) - stretch.start_s;
+            if h > 0.0 {
+                let phase = &stretch.phase;
+                let wave = phase.wave * phi1(stretch.sigma_per_s * h) * h;
+                sum += phase.constant * h + 0.5 * phase.slope_per_s * h * h + wave.re;
+            }
+        }
+        sum
     }
 
     fn velocity_at(
@@ -337,6 +445,14 @@ impl FreeMotion {
             for (j, o) in self.modes.oscillators.iter().enumerate() {
                 (state.x[j], state.v[j]) =
                     self.carry_piece(j, o, state.x[j], state.v[j], &piece, amplitude);
+            }
+            if let Some(rotor) = &self.rotor {
+                let ForcedState {
+                    rotor: own,
+                    scratch,
+                    ..
+                } = &mut *state;
+                rotor.advance(piece.h_s, piece.forcing(), amplitude, own, scratch);
             }
         });
     }
@@ -413,6 +529,20 @@ struct Piece {
     sigma_per_s: nalgebra::Complex<f64>,
     phase: Phase,
     driven: bool,
+}
+
+impl Piece {
+    fn forcing(&self) -> Option<(nalgebra::Complex<f64>, &Phase)> {
+        self.driven.then_some((self.sigma_per_s, &self.phase))
+    }
+}
+
+impl Exchange {
+    pub fn add(&mut self, other: &Self) {
+        self.work += other.work;
+        self.loss += other.loss;
+        self.bearing_n_s += other.bearing_n_s;
+    }
 }
 
 fn carry(f: &Flow, x: f64, v: f64) -> (f64, f64) {

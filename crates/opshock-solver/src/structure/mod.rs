@@ -13,6 +13,7 @@ mod modes;
 mod moreau_jean_run;
 mod node;
 mod record;
+mod rotor;
 
 pub use history::StructuralHistory;
 pub use model::{
@@ -21,8 +22,9 @@ pub use model::{
 };
 pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{
-    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, StructureColumns,
+    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
 };
+pub use rotor::HubModeRow;
 
 /// How disk and ramp are brought into contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,10 @@ use super::contact_system::{ContactSystem, RunState};
 use super::energy::EnergyWeights;
 use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
-use super::record::{ArmContact, Complementarity, DiskExtremes, EnergyBook, StructureColumns};
+use super::record::{
+    ArmContact, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
+};
+use super::rotor::{Rotor, is_carried};
 use super::{ContactMethod, StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{
@@ -14,7 +17,7 @@ use crate::disk::{
 use crate::modal::{BankFlow, Oscillator, Readout};
 use crate::mutant;
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
-use crate::shock::{Pulse, PulseError};
+use crate::shock::{ObliqueShock, Pulse, PulseError};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -43,6 +46,15 @@ pub struct SliderPlace {
     pub skew_rad: f64,
 }
 
+impl SliderPlace {
+    /// Weights of (slope outwards, slope along the disk's velocity) in pitch and in roll:
+    /// w_x = w_t cos − w_r sin, w_y = w_t sin + w_r cos; pitch = −w_x, roll = w_y.
+    pub(super) fn slopes_to_pose(&self) -> [[f64; 2]; 2] {
+        let (sine, cosine) = self.skew_rad.sin_cos();
+        [[sine, -cosine], [cosine, sine]]
+    }
+}
+
 /// Everything a structural model is built from.
 #[derive(Clone, Copy, Debug)]
 pub struct StructureParameters<'a> {
@@ -56,6 +68,8 @@ pub struct StructureParameters<'a> {
     pub slider: SliderPlace,
     /// Unit pulse.
     pub pulse: &'a Pulse,
+    /// What else shakes the base in step with it.
+    pub oblique: Option<&'a ObliqueShock>,
     /// Simulated time.
     pub window: Window,
     /// Numerical resolution in time.
@@ -74,6 +88,9 @@ pub enum StructureError {
     /// Pulse.
     #[error(transparent)]
     Pulse(#[from] PulseError),
+    /// An oblique shock without a hub that it could tilt, or with shares that are no numbers.
+    #[error("an oblique shock needs a hub, on which it tilts the disk, and finite shares")]
+    Direction,
     /// Step or window.
     #[error("{name} = {value:e} is outside its range ({allowed})")]
     Time {
@@ -114,6 +131,13 @@ pub enum StructureWarning {
     },
     /// Both arms held one point: only the net force is determined.
     BothArmsOnePoint,
+    /// The hub's bearing drives a whirl of the rotor.
+    HubInstability {
+        /// 0: axial motion, 1: tilt.
+        nodal_diameters: usize,
+        /// Growth rate, 1/s.
+        growth_per_s: f64,
+    },
     /// The disk spins above a critical speed and air held in space drives a travelling wave.
     PhysicalInstability {
         /// Nodal diameters of the wave.
@@ -214,6 +238,8 @@ pub struct StructureRun {
     pub energy: EnergyBook,
     /// Complementarity numbers.
     pub complementarity: Complementarity,
+    /// Hub, of a disk on a bearing.
+    pub hub: Option<HubRecord>,
     /// First touch of either arm, s.
     pub first_touch_s: Option<f64>,
     /// Steps taken.
@@ -243,11 +269,13 @@ impl StructureModel {
             ramp,
             slider,
             pulse,
+            oblique,
             window,
             resolution,
         } = *parameters;
         check_times(window, resolution.step_s)?;
         ramp.validate()?;
+        check_direction(oblique, disk)?;
         disk::basis::validate_place(disk, "slider", slider.radius_m)?;
         disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
         let stretches = pulse.stretches()?;
@@ -256,6 +284,11 @@ impl StructureModel {
         let step_s = divided_step_s(&basis, disk_resolution, resolution.step_s);
         slow_corrections(&mut basis, step_s);
 
+        let rotor = Rotor::build(&basis, parameters, &stretches, step_s)?;
+        if rotor.is_some() {
+            // The rotor carries them with the hub.
+            basis.modes.retain(|mode| !is_carried(mode));
+        }
         let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
         let n_steps = count_steps(window, step_s)?;
         let stiffness = match ramp.model {
@@ -268,24 +301,39 @@ impl StructureModel {
             RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
             RampModel::Coupled { modes } => bank.add_coupled(modes, stiffness, step_s),
         };
+        if let Some(shock) = oblique {
+            // A turning base shakes the ramp by another axial load than the spindle.
+            bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));
+        }
         bank.pad();
 
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());
         step_flow.set(&bank.oscillators, step_s);
-        let mobility = bank.contact_matrix(|_| 1.0);
-        let ripple_loss = bank.contact_matrix(|o| o.ripple_loss(step_s));
-        let slider_jump = bank.slider_jump();
+        let mut mobility = bank.contact_matrix(|_| 1.0);
+        let mut ripple_loss = bank.contact_matrix(|o| o.ripple_loss(step_s));
+        let mut slider_jump = bank.slider_jump();
+        if let Some(rotor) = &rotor {
+            add_on_disk(&mut mobility, rotor.mobility());
+            add_on_disk(&mut ripple_loss, rotor.ripple_loss());
+            slider_jump = slider_jump.plus(&rotor.slider_jump());
+        }
         let mut warnings = instabilities(&basis, &bank.oscillators);
         if bank.n_slowed > 0 {
             warnings.push(StructureWarning::ArmModesSlowed {
                 modes: bank.n_slowed,
             });
         }
+        if let Some((nodal_diameters, growth_per_s)) = rotor.as_ref().and_then(Rotor::growth) {
+            warnings.push(StructureWarning::HubInstability {
+                nodal_diameters,
+                growth_per_s,
+            });
+        }
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
         let weights = EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s);
-        let free = FreeMotion::new(bank.forced, bank.shapes, stretches, step_s, n_steps);
+        let free = FreeMotion::new(bank.forced, bank.shapes, rotor, stretches, step_s, n_steps);
         Ok(Self {
             shared: Arc::new(Shared {
                 free,
@@ -351,7 +399,8 @@ impl StructureModel {
 
     /// Number of modes that move before any contact: the disk's axisymmetric ones and the arms'.
     pub fn n_free_modes(&self) -> usize {
-        self.shared.forced_index.len()
+        let rotor = self.shared.free.rotor.as_ref();
+        self.shared.forced_index.len() + rotor.map_or(0, Rotor::n_driven)
     }
 
     /// Number of modes of both arms.
@@ -362,10 +411,11 @@ impl StructureModel {
         }
     }
 
-    /// Number of modes carried: disk (with static corrections) and arms.
+    /// Number of modes carried: disk (with static corrections), hub and arms.
     pub fn n_modes(&self) -> usize {
         let used = |o: &&Oscillator| o.omega_rad_per_s > 0.0;
-        self.shared.oscillators.iter().filter(used).count()
+        let rotor = self.shared.free.rotor.as_ref();
+        self.shared.oscillators.iter().filter(used).count() + rotor.map_or(0, Rotor::n_modes)
     }
 
     /// Runs the signed amplitude. With `record` the columns of the history are kept.
@@ -492,6 +542,15 @@ impl Shared {
     }
 }
 
+/// Adds what moves the disk at both contacts.
+fn add_on_disk(matrix: &mut [[f64; 2]; 2], value: f64) {
+    for (i, row) in matrix.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry += if i == j { value } else { -value };
+        }
+    }
+}
+
 /// Change of the gap of `side` per unit amplitude: top g = g₀ + x − w, bottom g = g₀ − x + w.
 fn unit_gap(side: usize, sample: &Sample) -> Gap {
     let (arm, sign) = if side == 0 {
@@ -515,6 +574,16 @@ fn window_length(window: Window) -> f64 {
     match window {
         Window::Fixed { length_s } => length_s,
         Window::UntilDecayed { max_s, .. } => max_s,
+    }
+}
+
+fn check_direction(
+    oblique: Option<&ObliqueShock>,
+    disk: &DiskParameters,
+) -> Result<(), StructureError> {
+    match oblique {
+        Some(shock) if disk.hub.is_none() || !shock.is_finite() => Err(StructureError::Direction),
+        _ => Ok(()),
     }
 }
 

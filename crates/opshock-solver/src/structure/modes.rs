@@ -1,6 +1,7 @@
 //! Tables of natural frequencies for people.
 
 use super::StructureError;
+use super::rotor::{HubModeRow, hub_modes};
 use crate::disk::{DiskBasis, DiskParameters, DiskResolution, Harmonics};
 use crate::ramp::{CoupledMode, RampModel, RampParameters};
 use std::f64::consts::TAU;
@@ -43,6 +44,8 @@ pub struct ArmModeRow {
 pub struct StructureModes {
     /// Disk.
     pub disk: Vec<DiskModeRow>,
+    /// Disk's harmonics n = 0 and n = 1 with their hub, if it has one, below the cut.
+    pub hub: Vec<HubModeRow>,
     /// Ramp arms.
     pub ramp: Vec<ArmModeRow>,
     /// Modes of a ramp whose arms are one body.
@@ -95,8 +98,11 @@ pub fn modes(
         RampModel::Coupled { modes } => modes.clone(),
         _ => Vec::new(),
     };
+    let mut hub = hub_modes(disk, &basis)?;
+    hub.retain(|row| row.frequency_hz < resolution.cut_hz);
     Ok(StructureModes {
         disk: rows,
+        hub,
         ramp: arms,
         coupled_ramp,
     })

@@ -13,7 +13,7 @@
 //! event for the head.
 
 use super::Window;
-use super::closing::Closing;
+use super::closing::{Closing, HubBook};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::energy::Ledger;
@@ -21,6 +21,7 @@ use super::history::StructuralHistory;
 use super::model::{Shared, StructureError, StructureModel, StructureRun};
 use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
+use super::rotor::{RotorScratch, RotorState};
 use crate::complementarity::moreau_jean::{LinearMode, MoreauJean};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -42,6 +43,10 @@ struct March<'a> {
     logs: [ContactLog; 2],
     complementarity: Complementarity,
     ledger: Ledger,
+    rotor_now: RotorState,
+    rotor_before: RotorState,
+    scratch: RotorScratch,
+    hub: Option<HubBook>,
     last: Node,
     last_impulse_s: f64,
 }
@@ -71,6 +76,8 @@ impl<'a> March<'a> {
     fn new(shared: &'a Shared, amplitude: f64, record: bool) -> Self {
         let n = shared.oscillators.len();
         let n_nodes = shared.n_steps + 1;
+        let rotor = shared.free.rotor.as_ref();
+        let at_rest = || rotor.map_or_else(RotorState::default, |rotor| rotor.at_rest());
         Self {
             shared,
             amplitude,
@@ -90,6 +97,10 @@ impl<'a> March<'a> {
             logs: Default::default(),
             complementarity: Complementarity::default(),
             ledger: Ledger::default(),
+            rotor_now: at_rest(),
+            rotor_before: at_rest(),
+            scratch: rotor.map_or_else(RotorScratch::default, |rotor| rotor.scratch()),
+            hub: rotor.is_some().then(|| HubBook::of(amplitude)),
             last: Node::default(),
             last_impulse_s: f64::NEG_INFINITY,
         }
@@ -108,7 +119,11 @@ impl<'a> March<'a> {
             self.force[i] = gain * middle;
         }
         self.before.copy_from(&self.now);
-        let impulse = self.system.step(&self.force);
+        std::mem::swap(&mut self.rotor_before, &mut self.rotor_now);
+        let impulse = self.system.step(&self.force, middle);
+        for (own, modes) in self.rotor_now.parts.iter_mut().zip(&self.system.coupled) {
+            own.copy_from(&modes.state);
+        }
         let states = self.system.amplitude.iter().zip(&self.system.velocity);
         for (j, (q, r)) in states.enumerate() {
             (self.now.q_re[j], self.now.q_im[j]) = (q.re, q.im);
@@ -134,13 +149,28 @@ impl<'a> March<'a> {
                 + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im);
             self.ledger.damping.add(h * power);
         }
+        if let Some(rotor) = &shared.free.rotor {
+            let force = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
+            let (before, now) = (&self.rotor_before, &self.rotor_now);
+            let exchange = rotor.midpoint_exchange(before, now, h, force, &mut self.scratch);
+            self.ledger.work.add(exchange.work);
+            self.ledger.damping.add(exchange.loss);
+            if let Some(book) = &mut self.hub {
+                book.now.bearing_n_s += exchange.bearing_n_s;
+                book.contact_n_s += impulse[1] - impulse[0];
+            }
+        }
         if impulse == [0.0; 2] {
             return;
         }
         let start_s = k as f64 * h;
         let on_disk = impulse[1] - impulse[0];
-        let w_theta =
+        let mut w_theta =
             -0.5 * (dot(&shared.contact_turn, &a.q_im) + dot(&shared.contact_turn, &b.q_im));
+        if let Some(rotor) = &shared.free.rotor {
+            let (before, now) = (&self.rotor_before, &self.rotor_now);
+            w_theta += 0.5 * (rotor.contact_turn(before) + rotor.contact_turn(now));
+        }
         self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
         for (side, &p) in impulse.iter().enumerate() {
             let record = &mut self.complementarity;
@@ -148,7 +178,16 @@ impl<'a> March<'a> {
             if p == 0.0 {
                 continue;
             }
-            let rates = gap_rate(shared, side, a) + gap_rate(shared, side, b);
+            let mut rates = gap_rate(shared, side, a) + gap_rate(shared, side, b);
+            if let Some(rotor) = &shared.free.rotor {
+                let [before, now] = [&self.rotor_before, &self.rotor_now]
+                    .map(|state| rotor.contact(state).rate_m_per_s);
+                rates += if side == 0 {
+                    -(before + now)
+                } else {
+                    before + now
+                };
+            }
             self.ledger.impact -= 0.5 * p * rates;
             let product = (p * self.system.gap_m(side)).abs();
             record.max_product_n_s_m = record.max_product_n_s_m.max(product);
@@ -171,17 +210,29 @@ impl<'a> March<'a> {
             roll_rad: r.read(&re[..n], &im[..n]),
         };
         let time_s = k as f64 * shared.free.step_s;
+        let (mut pose, mut rate) = (read(&s.q_re, &s.q_im), read(&s.r_re, &s.r_im));
+        let mut energies = shared.weights.energies(s);
+        let (mut ramp_m, mut rim_m) = (dot(&shared.contact, &s.q_re), dot(&shared.rim, &s.q_re));
+        if let Some(rotor) = &shared.free.rotor {
+            rotor.add_slider(&self.rotor_now, &mut pose, &mut rate);
+            energies.add(&rotor.energies(&self.rotor_now, &mut self.scratch));
+            ramp_m += rotor.contact(&self.rotor_now).value_m;
+            rim_m += rotor.rim_m(&self.rotor_now);
+            if let Some(book) = &mut self.hub {
+                book.include(rotor.hub(&self.rotor_now, book.now.bearing_n_s));
+            }
+        }
         let node = Node {
             time_s,
             shock_m_per_s2: self.amplitude * shared.pulse.value(time_s),
-            pose: read(&s.q_re, &s.q_im),
-            ramp_m: dot(&shared.contact, &s.q_re),
-            rim_m: dot(&shared.rim, &s.q_re),
+            pose,
+            ramp_m,
+            rim_m,
             arms_m: std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re)),
-            energies: shared.weights.energies(s),
+            energies,
         };
         self.history.pose.push(node.pose);
-        self.history.rate.push(read(&s.r_re, &s.r_im));
+        self.history.rate.push(rate);
         self.extremes.include(&node);
         for side in 0..shared.n_contacts {
             let largest = &mut self.complementarity.max_penetration_m;
@@ -217,6 +268,7 @@ impl<'a> March<'a> {
             ledger: self.ledger,
             extremes: self.extremes,
             complementarity: self.complementarity,
+            hub: self.hub,
             logs: &self.logs,
             history: self.history,
             columns: self.columns,
@@ -240,7 +292,7 @@ fn system(shared: &Shared) -> MoreauJean {
         let pairs = shared.arm_shape[side].iter().zip(&shared.contact);
         pairs.map(|(arm, disk)| sign * (arm - disk)).collect()
     };
-    MoreauJean::new(
+    let mut system = MoreauJean::new(
         shared.oscillators.iter().map(linear).collect(),
         [row(0, 1.0), row(1, -1.0)]
             .into_iter()
@@ -249,7 +301,11 @@ fn system(shared: &Shared) -> MoreauJean {
         shared.clearance_m[..shared.n_contacts].to_vec(),
         shared.law.restitution,
         shared.free.step_s,
-    )
+    );
+    if let Some(rotor) = &shared.free.rotor {
+        rotor.add_to(&mut system);
+    }
+    system
 }
 
 fn gap_rate(shared: &Shared, side: usize, state: &ModalState) -> f64 {

@@ -66,6 +66,25 @@ pub struct EnergyBook {
     pub closure: f64,
 }
 
+/// The hub of a disk on a bearing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HubRecord {
+    /// Largest axial displacement, m.
+    pub axial_max_m: f64,
+    /// Largest tilt, rad.
+    pub tilt_max_rad: f64,
+    /// Axial impulse of the shock on hub and disk, N s.
+    pub shock_n_s: f64,
+    /// Axial impulse of bearing and still air on them, N s.
+    pub bearing_n_s: f64,
+    /// Axial impulse of the ramp on the disk, N s.
+    pub contact_n_s: f64,
+    /// Axial momentum of hub and disk at the end, N s.
+    pub momentum_end_n_s: f64,
+    /// |momentum at the end - impulses| / largest momentum.
+    pub momentum_closure: f64,
+}
+
 /// How well 0 <= g complementary to lambda >= 0 was met.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Complementarity {

@@ -157,6 +157,7 @@ fn disk(
                 skew_rad: 0.0,
             },
             pulse: &scene.pulse,
+            oblique: scene.oblique.as_ref(),
             window: scene.window,
             resolution: &scene.structure_resolution,
         };

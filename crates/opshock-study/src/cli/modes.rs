@@ -81,8 +81,20 @@ fn as_json(structure: &StructureModes, suspension: &ReducedSuspension, head: &[M
         })
     });
     let ramp: Vec<Value> = ramp.into_iter().chain(coupled).collect();
+    let hub: Vec<Value> = structure
+        .hub
+        .iter()
+        .map(|mode| {
+            json!({
+                "motion": mode.motion,
+                "frequency_hz": mode.frequency_hz,
+                "damping_ratio": mode.damping_ratio,
+            })
+        })
+        .collect();
     json!({
         "disk": disk,
+        "hub": hub,
         "ramp": ramp,
         "suspension": {
             "mass_kg": suspension.mass_kg,
@@ -116,6 +128,18 @@ fn as_text(
             mode.forward_hz,
             mode.backward_hz,
             mode.damping_ratio
+        );
+    }
+    if !structure.hub.is_empty() {
+        text.push_str(
+            "disk with hub, 0 and 1 nodal diameters\n  motion    fixed frame (Hz)  damping ratio\n",
+        );
+    }
+    for mode in &structure.hub {
+        let _ = writeln!(
+            text,
+            "  {:<8}  {:>16.2}  {:>13.5}",
+            mode.motion, mode.frequency_hz, mode.damping_ratio
         );
     }
     if !structure.ramp.is_empty() {

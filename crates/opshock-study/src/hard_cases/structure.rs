@@ -468,6 +468,7 @@ fn unit_plate(inner: f64) -> DiskParameters {
         spin_rad_per_s: 0.0,
         damping: DiskDamping::ModalRatio(0.0),
         space_fixed_damping_per_s: 0.0,
+        hub: None,
     }
 }
 

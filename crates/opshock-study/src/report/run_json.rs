@@ -1,7 +1,7 @@
 //! What one simulation answered, for machines: the JSON of `opshock run --json`.
 
 use opshock_solver::simulation::{
-    ArmContact, Complementarity, EnergyBook, Outcome, Verdict, Warning,
+    ArmContact, Complementarity, EnergyBook, HubRecord, Outcome, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -24,6 +24,9 @@ pub struct RunJson {
     pub dimple: Option<DimpleJson>,
     pub energy: EnergyJson,
     pub complementarity: ComplementarityJson,
+    /// Hub, of a disk on a bearing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hub: Option<HubJson>,
     pub effects: Vec<&'static str>,
     /// Rules by which other effects were left out or shared.
     pub rules: Vec<&'static str>,
@@ -134,6 +137,23 @@ pub struct EnergyJson {
     pub closure: f64,
 }
 
+/// Hub of a disk on a bearing.
+#[derive(Clone, Debug, Serialize)]
+pub struct HubJson {
+    /// Largest axial displacement, m.
+    pub axial_max_m: f64,
+    /// Largest tilt, rad.
+    pub tilt_max_rad: f64,
+    /// Axial impulse of the shock on hub and disk, N s.
+    pub shock_n_s: f64,
+    /// Axial impulse of the bearing on them, N s.
+    pub bearing_n_s: f64,
+    /// Axial impulse of the ramp, N s.
+    pub contact_n_s: f64,
+    /// What the momentum book leaves over, as a share of the largest momentum.
+    pub momentum_closure: f64,
+}
+
 /// How well 0 <= gap complementary to multiplier >= 0 was met.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
@@ -222,6 +242,7 @@ impl RunJson {
             }),
             energy: energy(&outcome.energy),
             complementarity: complementarity(&outcome.complementarity),
+            hub: outcome.hub.as_ref().map(hub),
             effects: outcome.effects.clone(),
             rules: outcome.rules.clone(),
             warnings: outcome.warnings.iter().map(warning).collect(),
@@ -276,6 +297,17 @@ fn energy(book: &EnergyBook) -> EnergyJson {
         algorithmic_j: book.algorithmic_j,
         spindle_work_j: book.spindle_work_j,
         closure: book.closure,
+    }
+}
+
+fn hub(record: &HubRecord) -> HubJson {
+    HubJson {
+        axial_max_m: record.axial_max_m,
+        tilt_max_rad: record.tilt_max_rad,
+        shock_n_s: record.shock_n_s,
+        bearing_n_s: record.bearing_n_s,
+        contact_n_s: record.contact_n_s,
+        momentum_closure: record.momentum_closure,
     }
 }
 

@@ -345,9 +345,10 @@ impl Key {
 
     /// Whether a list of values makes an axis of the study.
     pub fn may_be_axis(&self) -> bool {
-        const SCENE: [&str; 7] = [
+        const SCENE: [&str; 8] = [
             "pulse",
             "disk",
+            "hub",
             "ramp",
             "slider",
             "suspension",

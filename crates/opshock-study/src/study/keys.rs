@@ -88,6 +88,10 @@ pub static KEYS: &[Key] = &[
     Key::optional("pulse.table", Text, "no table", "\"pulse.csv\"", "File of a sampled pulse, two columns: time in ms from 0, relative acceleration. Stretched to the width, scaled to a largest value of 1."),
     Key::optional("pulse.table_time_ms", Numbers(FROM_ZERO), "no table", "[0.0, 0.5, 1.0]", "Times of a sampled pulse given here instead of in a file.").code("E153"),
     Key::optional("pulse.table_relative", Numbers(ANY), "no table", "[0.0, 1.0, 0.0]", "Relative accelerations of a sampled pulse.").code("E153"),
+    Key::optional("pulse.in_plane_x", Number(ANY), "a straight shock", "0.5", "Share of the shock in the plane of the disk, along angle 0: load along x per axial load. Needs a hub.").usual(-10.0, 10.0).code("E138"),
+    Key::optional("pulse.in_plane_y", Number(ANY), "a straight shock", "0.5", "The same a quarter turn on in the disk's sense of rotation.").usual(-10.0, 10.0).code("E138"),
+    Key::optional("pulse.rotation_x_per_m", Number(ANY), "a straight shock", "10.0", "Angular acceleration felt about x per axial acceleration at the spindle. Needs a hub.").usual(-100.0, 100.0).code("E138"),
+    Key::optional("pulse.rotation_y_per_m", Number(ANY), "a straight shock", "10.0", "The same about y.").usual(-100.0, 100.0).code("E138"),
     // disk
     Key::or("disk.inner_radius_mm", LENGTH, "10.01", "Radius of the clamp.").usual(2.0, 30.0).code("E140"),
     Key::or("disk.outer_radius_mm", LENGTH, "32.5", "Radius of the rim.").usual(8.0, 70.0).code("E140"),
@@ -100,6 +104,17 @@ pub static KEYS: &[Key] = &[
     Key::together("disk.damping.rayleigh.beta_s", Number(FROM_ZERO), "1.0e-7", "Material damping, share of the stiffness matrix, in the rotating frame.").usual(0.0, 1e-4).code("E132"),
     Key::optional("disk.damping.modal_ratio", RATIO, "Rayleigh damping", "0.004", "The same damping ratio for every mode of the disk, in the rotating frame.").code("E132"),
     Key::or("disk.space_fixed_damping_per_s", Number(FROM_ZERO), "0.0", "Damping fixed in space (air): force per mass and velocity.").usual(0.0, 1000.0).code("E132"),
+    // hub
+    Key::optional("hub.axial_stiffness_n_per_m", LENGTH, "the disk is clamped to the base", "8.0e6", "Axial stiffness of the hub's bearing; with both stiffnesses the disk stands on a hub.").usual(1e4, 1e12).code("E137"),
+    Key::optional("hub.tilt_stiffness_n_m_per_rad", LENGTH, "the disk is clamped to the base", "300.0", "Stiffness of the bearing against tilt of the hub.").usual(0.1, 1e7).code("E137"),
+    Key::optional("hub.mass_mg", Number(FROM_ZERO), "0", "15000.0", "Mass that moves with the hub, without the free part of the disk.").usual(100.0, 1e6).code("E137"),
+    Key::optional("hub.transverse_inertia_mg_mm2", Number(FROM_ZERO), "0", "4.0e5", "Its moment of inertia about a diameter, at the bearing's centre.").usual(1e2, 1e9).code("E137"),
+    Key::optional("hub.polar_inertia_mg_mm2", Number(FROM_ZERO), "0", "6.0e5", "Its moment of inertia about the axis of spin.").usual(1e2, 1e9).code("E137"),
+    Key::optional("hub.axial_damping_n_s_per_m", Number(FROM_ZERO), "0", "50.0", "Axial damping of the bearing.").usual(0.0, 1e5).code("E137"),
+    Key::optional("hub.tilt_damping_n_m_s_per_rad", Number(FROM_ZERO), "0", "2.0e-3", "Damping of the hub's tilt.").usual(0.0, 100.0).code("E137"),
+    Key::optional("hub.cross_stiffness_n_m_per_rad", Number(ANY), "0", "1.0", "Moment across a tilt; positive drives the whirl that goes with the spin.").usual(-1e5, 1e5).code("E137"),
+    Key::optional("hub.cross_damping_n_m_s_per_rad", Number(ANY), "0", "1.0e-4", "Moment across the velocity of a tilt, in the sense of the gyroscopic one.").usual(-100.0, 100.0).code("E137"),
+    Key::optional("hub.centre_height_mm", Number(ANY), "0", "1.5", "Centre of mass of rotor and disk above the centre of tilt: arm of a shock in the disk's plane.").usual(-20.0, 20.0).code("E137"),
     // ramp
     Key::required("ramp.models", Words(RAMPS), "[\"none\", \"rigid\", \"deformable\"]", "Ramp models: an axis of the study."),
     Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143"),

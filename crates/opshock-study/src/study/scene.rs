@@ -3,12 +3,12 @@
 //! Every number passes [`View::si`] here and nowhere else.
 
 use opshock_solver::air_bearing::{FilmResolution, FlowModel};
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
-use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::StructureResolution;
 use opshock_solver::suspension::{
@@ -33,6 +33,7 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     } = resolutions(view);
     Scene {
         pulse: pulse(view, width_ms),
+        oblique: oblique(view),
         window: window(view),
         disk: disk_parameters(view),
         ramp: ramp_parameters(view, ramp),
@@ -143,6 +144,19 @@ fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
     Pulse { shape, width_s }
 }
 
+/// Shares of an oblique shock; `None` when all are 0.
+fn oblique(view: &View<'_>) -> Option<ObliqueShock> {
+    let share = |path: &str| view.maybe_si(path).unwrap_or(0.0);
+    let shock = ObliqueShock {
+        in_plane: [share("pulse.in_plane_x"), share("pulse.in_plane_y")],
+        rotation_per_m: [
+            share("pulse.rotation_x_per_m"),
+            share("pulse.rotation_y_per_m"),
+        ],
+    };
+    (shock != ObliqueShock::default()).then_some(shock)
+}
+
 /// Times at which pressure fields are asked for, after the onset, ascending.
 pub fn field_times_s(view: &View<'_>) -> Vec<f64> {
     let start_s = view.si("pulse.start_ms");
@@ -181,6 +195,7 @@ fn disk_parameters(view: &View<'_>) -> DiskParameters {
             },
         },
         space_fixed_damping_per_s: view.si("disk.space_fixed_damping_per_s"),
+        hub: hub(view),
     }
 }
 
@@ -200,6 +215,24 @@ fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
         }
     };
     (0..view.entries(list)).map(mode).collect()
+}
+
+/// The hub, when its stiffnesses are given; what is left out of it is 0.
+fn hub(view: &View<'_>) -> Option<HubParameters> {
+    let maybe = |name: &str| view.maybe_si(&format!("hub.{name}"));
+    let or_0 = |name: &str| maybe(name).unwrap_or(0.0);
+    Some(HubParameters {
+        axial_stiffness_n_per_m: maybe("axial_stiffness_n_per_m")?,
+        tilt_stiffness_n_m_per_rad: maybe("tilt_stiffness_n_m_per_rad")?,
+        mass_kg: or_0("mass_mg"),
+        transverse_inertia_kg_m2: or_0("transverse_inertia_mg_mm2"),
+        polar_inertia_kg_m2: or_0("polar_inertia_mg_mm2"),
+        axial_damping_n_s_per_m: or_0("axial_damping_n_s_per_m"),
+        tilt_damping_n_m_s_per_rad: or_0("tilt_damping_n_m_s_per_rad"),
+        cross_stiffness_n_m_per_rad: or_0("cross_stiffness_n_m_per_rad"),
+        cross_damping_n_m_s_per_rad: or_0("cross_damping_n_m_s_per_rad"),
+        centre_height_m: or_0("centre_height_mm"),
+    })
 }
 
 fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {

@@ -30,6 +30,14 @@ pub enum Dimension {
     Stiffness,
     /// Rotational stiffness.
     RotationalStiffness,
+    /// Moment of inertia.
+    Inertia,
+    /// Damping.
+    Damping,
+    /// Rotational damping.
+    RotationalDamping,
+    /// Curvature: angular per linear acceleration.
+    PerLength,
     /// Angle.
     Angle,
     /// Share in percent.
@@ -64,6 +72,10 @@ impl Dimension {
             Self::Mass => "mass",
             Self::Stiffness => "stiffness",
             Self::RotationalStiffness => "rotational stiffness",
+            Self::Inertia => "moment of inertia",
+            Self::Damping => "damping",
+            Self::RotationalDamping => "rotational damping",
+            Self::PerLength => "angular per linear acceleration",
             Self::Angle => "angle",
             Self::Percentage => "share",
             Self::Rate => "rate",
@@ -159,9 +171,23 @@ pub static UNITS: &[Unit] = &[
         Dimension::RotationalStiffness,
         same,
     ),
+    unit(
+        "mg_mm2",
+        "mg mm²",
+        Dimension::Inertia,
+        quantity::kg_m2_from_mg_mm2,
+    ),
+    unit("n_s_per_m", "N s/m", Dimension::Damping, same),
+    unit(
+        "n_m_s_per_rad",
+        "N m s/rad",
+        Dimension::RotationalDamping,
+        same,
+    ),
     unit("deg", "°", Dimension::Angle, quantity::rad_from_deg),
     unit("urad", "µrad", Dimension::Angle, quantity::rad_from_urad),
     unit("pct", "%", Dimension::Percentage, quantity::share_from_pct),
+    unit("per_m", "1/m", Dimension::PerLength, same),
     unit("per_s", "1/s", Dimension::Rate, same),
     unit("kg_per_m3", "kg/m³", Dimension::Density, same),
     unit("c", "°C", Dimension::Temperature, quantity::k_from_c),
@@ -266,6 +292,10 @@ mod tests {
             ("m_mg", 1e-6),
             ("k_n_per_m", 1.0),
             ("k_n_m_per_rad", 1.0),
+            ("j_mg_mm2", 1e-12),
+            ("c_n_s_per_m", 1.0),
+            ("c_n_m_s_per_rad", 1.0),
+            ("r_per_m", 1.0),
             ("a_deg", std::f64::consts::PI / 180.0),
             ("a_urad", 1e-6),
             ("s_pct", 1e-2),

@@ -3,7 +3,7 @@
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
 use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
-use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
 use opshock_solver::structure::{
     ContactMethod, SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
 };
@@ -21,6 +21,8 @@ pub struct Structure {
     pub slider: SliderPlace,
     /// Pulse.
     pub pulse: Pulse,
+    /// What else shakes the base.
+    pub oblique: Option<ObliqueShock>,
     /// Window.
     pub window: Window,
     /// Resolution in time.
@@ -44,6 +46,7 @@ impl Structure {
             ramp: &self.ramp,
             slider: self.slider,
             pulse: &self.pulse,
+            oblique: self.oblique.as_ref(),
             window: self.window,
             resolution: &self.resolution,
         }
@@ -98,6 +101,7 @@ pub fn reference_disk() -> DiskParameters {
         spin_rad_per_s: rad_per_s_from_rpm(5400.0),
         damping: DiskDamping::ModalRatio(0.004),
         space_fixed_damping_per_s: 0.0,
+        hub: None,
     }
 }
 
@@ -183,6 +187,7 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
             angle_rad: rad_from_deg(20.0),
             skew_rad: 0.0,
         },
+        oblique: None,
         pulse: half_sine(width_s),
         window: Window::Fixed { length_s: 5e-3 },
         resolution: StructureResolution {

@@ -62,6 +62,77 @@ impl Check<'_, '_> {
         }
     }
 
+    /// A hub has both stiffnesses, and moments of inertia that a body can have.
+    pub(super) fn hub(&mut self) {
+        const STIFFNESSES: [&str; 2] = [
+            "hub.axial_stiffness_n_per_m",
+            "hub.tilt_stiffness_n_m_per_rad",
+        ];
+        const REST: [&str; 8] = [
+            "hub.mass_mg",
+            "hub.transverse_inertia_mg_mm2",
+            "hub.polar_inertia_mg_mm2",
+            "hub.axial_damping_n_s_per_m",
+            "hub.tilt_damping_n_m_s_per_rad",
+            "hub.cross_stiffness_n_m_per_rad",
+            "hub.cross_damping_n_m_s_per_rad",
+            "hub.centre_height_mm",
+        ];
+        let given: Vec<&str> = STIFFNESSES
+            .into_iter()
+            .chain(REST)
+            .filter(|path| self.view.settings.has(path))
+            .collect();
+        self.direction(given.is_empty());
+        if given.is_empty() || !self.sound(&STIFFNESSES) || !self.sound(&REST) {
+            return;
+        }
+        let missing: Vec<&str> = STIFFNESSES
+            .into_iter()
+            .filter(|path| self.view.maybe_number(path).is_none())
+            .collect();
+        if !missing.is_empty() {
+            let message = format!("a hub without {}", missing.join(" and "));
+            let fault = self.fault("E112", &given, message);
+            fault.allowed = "both stiffnesses of the bearing".to_string();
+            fault.hint = "add them, or leave the hub out".to_string();
+            return;
+        }
+        let inertia = |path: &str| self.view.maybe_number(path).unwrap_or(0.0);
+        let (transverse, polar) = (inertia(REST[1]), inertia(REST[2]));
+        if polar > 2.0 * transverse {
+            let message = format!(
+                "no body has a polar inertia of {polar} mg mm2 beside a transverse one of {transverse}"
+            );
+            let fault = self.fault("E137", &[REST[2], REST[1]], message);
+            fault.allowed = "polar_inertia_mg_mm2 <= 2 x transverse_inertia_mg_mm2".to_string();
+        }
+    }
+
+    /// An oblique shock has a hub to tilt.
+    fn direction(&mut self, is_clamped: bool) {
+        const SHARES: [&str; 4] = [
+            "pulse.in_plane_x",
+            "pulse.in_plane_y",
+            "pulse.rotation_x_per_m",
+            "pulse.rotation_y_per_m",
+        ];
+        let given: Vec<&str> = SHARES
+            .into_iter()
+            .filter(|path| {
+                self.view
+                    .maybe_number(path)
+                    .is_some_and(|share| share != 0.0)
+            })
+            .collect();
+        if is_clamped && !given.is_empty() && self.sound(&SHARES) {
+            let message = "an oblique shock on a disk clamped to the base";
+            let fault = self.fault("E138", &given, message);
+            fault.allowed = "a study with a [hub]".to_string();
+            fault.hint = "give the hub's stiffnesses, however large".to_string();
+        }
+    }
+
     /// Parts of a ramp's geometry fit together, and its model can be solved.
     pub(super) fn ramp_geometry(&mut self) {
         let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();

@@ -67,8 +67,9 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 9] = [
+const POINT_RULES: [PointRule; 10] = [
     |check, _| check.disk_and_ramp(),
+    |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
     |check, _| check.gas(),
     |check, _| check.slider_place(),
