@@ -55,8 +55,8 @@ doc: ## API documentation, warnings are errors
 
 check: fmt clippy doc test ## what CI runs
 
-bench: bootstrap ## benchmarks; each prints what it compares
-	cargo bench --workspace --locked
+bench: bootstrap ## benchmarks; what they print is kept in results/bench
+	scripts/bench
 
 verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp ## heavy evidence, in parts
 
