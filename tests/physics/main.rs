@@ -19,6 +19,7 @@ mod head_rest;
 mod head_shock;
 mod head_touch;
 mod hub;
+mod limiters;
 mod oblique;
 mod plate;
 mod pressure_fields;

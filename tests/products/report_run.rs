@@ -48,6 +48,8 @@ fn failing() -> Outcome {
             min_force_n: 0.0,
             open_s: 3e-5,
         }),
+        limiters: None,
+        lift_tab: None,
         energy: EnergyBook::default(),
         complementarity: Complementarity::default(),
         rules: vec!["R2", "R10"],
@@ -238,6 +240,7 @@ fn history(with_head: bool) -> History {
                 min_clearance_m: scaled(9e-9)[..100].to_vec(),
                 bearing_force_n: scaled(0.02)[..100].to_vec(),
                 dimple_force_n: scaled(0.02)[..100].to_vec(),
+                ..HeadColumns::default()
             }
         } else {
             HeadColumns::default()

@@ -210,6 +210,12 @@ const HUB: [&str; 3] = [
     "hub.transverse_inertia_mg_mm2=3.5e5",
 ];
 
+/// Limiters and lift tab that are given.
+const STOPS: [&str; 2] = [
+    "suspension.limiters.gap_um=92.0",
+    "suspension.lift_tab.gap_um=140.0",
+];
+
 #[test]
 fn every_value_changes_the_digest_and_is_written_out() {
     use opshock_study::study::keys::KEYS;
@@ -220,10 +226,11 @@ fn every_value_changes_the_digest_and_is_written_out() {
             continue;
         };
         let set = format!("{}={value}", key.path);
-        // A hub has both stiffnesses, and an oblique shock a hub.
-        let around: &[&str] = match key.section() == "hub" || key.code == "E138" {
-            true => &HUB,
-            false => &[],
+        // A hub has both stiffnesses, an oblique shock a hub, a stop its gap.
+        let around: &[&str] = match key.path {
+            path if path.starts_with("hub.") || key.code == "E138" => &HUB,
+            path if path.starts_with("suspension.li") => &STOPS,
+            _ => &[],
         };
         let without = |set: &&&str| !set.starts_with(&format!("{}=", key.path));
         let mut sets: Vec<&str> = around.iter().filter(without).copied().collect();

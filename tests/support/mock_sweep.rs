@@ -254,6 +254,8 @@ impl Simulator for MockSimulator<'_> {
             disk: Default::default(),
             top: Default::default(),
             bottom: Default::default(),
+            limiters: None,
+            lift_tab: None,
             dimple: None,
             energy: Default::default(),
             complementarity: Default::default(),

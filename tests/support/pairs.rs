@@ -14,6 +14,7 @@ use opshock_solver::shock::{ObliqueShock, PulseShape};
 use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Verdict, Warning, Workspace, simulate,
 };
+use opshock_solver::suspension::{ContactLaw, LiftTab, Limiter};
 
 use crate::scenes;
 use crate::seeded::Seeded;
@@ -141,6 +142,8 @@ pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
         assert_eq!(lean.min_clearance_m, full.min_clearance_m, "{what}");
         assert_eq!(lean.t_min_clearance_s, full.t_min_clearance_s, "{what}");
         assert_eq!(lean.dimple, full.dimple, "{what}");
+        assert_eq!(lean.limiters, full.limiters, "{what}");
+        assert_eq!(lean.lift_tab, full.lift_tab, "{what}");
         assert_eq!(lean.cost, full.cost, "{what}");
         assert!(a.head == b.head, "{what}");
         assert!(a.fields == b.fields, "{what}");
@@ -245,6 +248,21 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
             });
         }
     }
+    let contact = ContactLaw {
+        stiffness_n_per_m: 1e5,
+        damping_ratio: 0.05,
+    };
+    if seeded.once_in(4) {
+        let mut limiter = |across_m: f64| Limiter {
+            gap_m: *seeded.one_of(&[0.0, 1e-6, 1e-5]),
+            along_m: 2e-4,
+            across_m,
+            contact,
+        };
+        scene.suspension.limiters = vec![limiter(-3e-4), limiter(3e-4)];
+        let gap_m = seeded.between(0.0, 2e-5);
+        scene.suspension.lift_tab = Some(LiftTab { gap_m, contact });
+    }
     scene
 }
 
@@ -344,6 +362,7 @@ fn end_at_touch(all: &mut Outcome, lean: &Outcome) {
     };
     (all.min_clearance_m, all.t_min_clearance_s) = (lean.min_clearance_m, lean.t_min_clearance_s);
     (all.dimple, all.cost) = (lean.dimple, lean.cost);
+    (all.limiters, all.lift_tab) = (lean.limiters, lean.lift_tab);
     let (Some(all), Some(lean)) = (&mut all.history, &lean.history) else {
         return;
     };
@@ -355,7 +374,7 @@ fn end_at_touch(all: &mut Outcome, lean: &Outcome) {
     }
 }
 
-fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 7] {
+fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 9] {
     [
         &mut head.time_s,
         &mut head.slider_z_m,
@@ -364,5 +383,7 @@ fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 7] {
         &mut head.min_clearance_m,
         &mut head.bearing_force_n,
         &mut head.dimple_force_n,
+        &mut head.limiter_force_n,
+        &mut head.lift_tab_force_n,
     ]
 }

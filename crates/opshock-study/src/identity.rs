@@ -14,7 +14,8 @@ use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::{ContactMethod, StructureResolution};
 use opshock_solver::suspension::{
-    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionMode, SuspensionParameters,
+    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, SuspensionMode,
+    SuspensionParameters,
 };
 
 /// Identity of one cell: a scene and the sign of its amplitude.
@@ -441,6 +442,14 @@ impl Digester {
         }
     }
 
+    fn contact(&mut self, contact: &ContactLaw) {
+        let ContactLaw {
+            stiffness_n_per_m,
+            damping_ratio,
+        } = contact;
+        self.numbers(&[*stiffness_n_per_m, *damping_ratio]);
+    }
+
     fn suspension(&mut self, suspension: &SuspensionParameters) {
         let SuspensionParameters {
             gram_load_n,
@@ -481,13 +490,34 @@ impl Digester {
                     roll_n_m_per_rad,
                 },
             dimple:
-                Dimple {
+                ContactLaw {
                     stiffness_n_per_m,
                     damping_ratio: dimple_damping_ratio,
                 },
+            limiters,
+            lift_tab,
             modes,
         } = suspension;
-        // Points of suspensions by their geometry keep the names that they had.
+        // Points of suspensions without a stop, and by their geometry, keep the names that they had.
+        if !limiters.is_empty() {
+            self.text("limiters");
+            self.integer(limiters.len() as u64);
+        }
+        for Limiter {
+            gap_m,
+            along_m,
+            across_m,
+            contact,
+        } in limiters
+        {
+            self.numbers(&[*gap_m, *along_m, *across_m]);
+            self.contact(contact);
+        }
+        if let Some(LiftTab { gap_m, contact }) = lift_tab {
+            self.text("lift tab");
+            self.numbers(&[*gap_m]);
+            self.contact(contact);
+        }
         if !modes.is_empty() {
             self.text("suspension modes");
             self.integer(modes.len() as u64);

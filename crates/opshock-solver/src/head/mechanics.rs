@@ -13,13 +13,15 @@
 //! Every mass feels +m a(t), so a > 0 lifts the load beam off the slider and unloads the dimple.
 //! dw/dx = Σ slope_row u has the sign opposite to pitch (pitch > 0: leading edge up; the
 //! suspension's root lies beyond the leading edge). The contact pushes only; its force is
-//! continuous with a kink where the dimple opens.
+//! continuous with a kink where the dimple opens. Limiters and a lift tab, where there are some, are
+//! further contacts of that kind (`stops`).
 
+use super::stops::{Closed, Stop, Stops};
 use crate::linalg::dense::dot;
 use crate::linalg::pivoted::PivotedLu;
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
-use crate::suspension::{ReducedSuspension, SuspensionParameters};
+use crate::suspension::{ContactLaw, ReducedSuspension, SuspensionParameters};
 
 /// Index of the slider's z among the coordinates.
 const SLIDER_Z: usize = 0;
@@ -39,6 +41,9 @@ pub(super) struct Mechanics {
     contact_n_per_m: f64,
     contact_n_s_per_m: f64,
     suspension_weights: Vec<f64>,
+    stops: Stops,
+    /// Of the stops those that are limiters; the lift tab follows.
+    n_limiters: usize,
 }
 
 impl Mechanics {
@@ -119,6 +124,29 @@ impl Mechanics {
             }
         }
 
+        let damper = |law: &ContactLaw| {
+            2.0 * law.damping_ratio * (law.stiffness_n_per_m * inertia.mass_kg).sqrt()
+        };
+        let stop = |row: Vec<f64>, gap_m: f64, law: &ContactLaw| Stop {
+            row,
+            gap_m,
+            stiffness_n_per_m: law.stiffness_n_per_m,
+            damping_n_s_per_m: damper(law),
+        };
+        let mut stops = Vec::new();
+        for limiter in &parameters.limiters {
+            let opening = vertical.iter().zip(&pitch).zip(&roll);
+            let row = opening
+                .map(|((v, p), r)| limiter.along_m * p - limiter.across_m * r - v)
+                .collect();
+            stops.push(stop(row, limiter.gap_m, &limiter.contact));
+        }
+        if let (Some(tab), Some(shape)) = (&parameters.lift_tab, &bending.tab_row) {
+            let mut row = vec![0.0; n];
+            row[DIMPLE_Z..roll_at].copy_from_slice(shape.as_slice());
+            stops.push(stop(row, tab.gap_m, &tab.contact));
+        }
+
         let dimple = &parameters.dimple;
         Some(Self {
             n,
@@ -133,7 +161,28 @@ impl Mechanics {
                 * dimple.damping_ratio
                 * (dimple.stiffness_n_per_m * inertia.mass_kg).sqrt(),
             suspension_weights,
+            stops: Stops::new(stops),
+            n_limiters: parameters.limiters.len(),
         })
+    }
+
+    /// Limiters and lift tab.
+    pub fn n_stops(&self) -> usize {
+        self.stops.len()
+    }
+
+    /// Whether there are limiters, and a lift tab.
+    pub fn has_stops(&self) -> [bool; 2] {
+        [self.n_limiters > 0, self.stops.len() > self.n_limiters]
+    }
+
+    /// Forces of the limiters together, and of the lift tab; 0 where there are none.
+    pub fn stop_forces(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
+        let mut forces = [0.0; 2];
+        for (k, stop) in self.stops.iter().enumerate() {
+            forces[usize::from(k >= self.n_limiters)] += stop.force(x, v);
+        }
+        forces
     }
 
     /// Number of coordinates.
@@ -170,6 +219,7 @@ impl Mechanics {
         let excess = self.dimple_force(x, v) - self.preload_n;
         out[SLIDER_Z] -= excess;
         out[DIMPLE_Z] += excess;
+        self.stops.add_force(x, v, out);
     }
 
     /// Acceleration ẍ.
@@ -203,13 +253,13 @@ impl Mechanics {
     }
 
     /// Derivative of the residual by x with v = (x − x_known)/d, without the film; `closed` is the
-    /// state of the dimple.
-    pub fn stage_matrix(&self, d_s: f64, closed: bool, out: &mut [f64]) {
+    /// state of the contacts.
+    pub fn stage_matrix(&self, d_s: f64, closed: Closed, out: &mut [f64]) {
         let (per_d, per_d2) = (1.0 / d_s, 1.0 / (d_s * d_s));
         for (i, out) in out.iter_mut().enumerate() {
             *out = self.mass[i] * per_d2 + self.damping[i] * per_d + self.stiffness[i];
         }
-        if closed {
+        if closed.dimple() {
             let contact = self.contact_n_per_m + self.contact_n_s_per_m * per_d;
             let n = self.n;
             out[SLIDER_Z * n + SLIDER_Z] += contact;
@@ -217,10 +267,11 @@ impl Mechanics {
             out[SLIDER_Z * n + DIMPLE_Z] -= contact;
             out[DIMPLE_Z * n + SLIDER_Z] -= contact;
         }
+        self.stops.add_matrix(d_s, closed, out);
     }
 
     /// Right-hand side of the filter: M e_v/d + (M/d² + C/d) e_x.
-    pub fn filter_load(&self, d_s: f64, closed: bool, e_x: &[f64], e_v: &[f64], out: &mut [f64]) {
+    pub fn filter_load(&self, d_s: f64, closed: Closed, e_x: &[f64], e_v: &[f64], out: &mut [f64]) {
         let rows = self
             .mass
             .chunks_exact(self.n)
@@ -228,16 +279,18 @@ impl Mechanics {
         for (out, (mass, damping)) in out.iter_mut().zip(rows) {
             *out = (dot(mass, e_v) + dot(mass, e_x) / d_s + dot(damping, e_x)) / d_s;
         }
-        if closed {
+        if closed.dimple() {
             let f = self.contact_n_s_per_m * (e_x[SLIDER_Z] - e_x[DIMPLE_Z]) / d_s;
             out[SLIDER_Z] += f;
             out[DIMPLE_Z] -= f;
         }
+        self.stops.add_filter_load(d_s, closed, e_x, out);
     }
 
-    /// Whether the dimple is closed at (x, v).
-    pub fn is_closed(&self, x: &[f64], v: &[f64]) -> bool {
-        self.signed_dimple_force(x, v) > 0.0
+    /// Which contacts are closed at (x, v).
+    pub fn closed(&self, x: &[f64], v: &[f64]) -> Closed {
+        let dimple = Closed::of_dimple(self.signed_dimple_force(x, v) > 0.0);
+        self.stops.add_closed(x, v, dimple)
     }
 
     /// Force at the dimple that errors of the suspension's modes cause, N.

@@ -28,10 +28,13 @@ mod outcome;
 mod partitioned;
 mod run;
 mod stage;
+mod stops;
 
 pub use fields::PressureFields;
 pub use model::{HeadError, HeadModel, ShockLoad};
-pub use outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
+pub use outcome::{
+    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, StopRecord, Verdict,
+};
 pub use run::HeadWorkspace;
 
 /// How film and slider are solved together at a step.

@@ -113,6 +113,15 @@ impl HeadModel {
                 return Err(HeadError::NotPositive { quantity, value });
             }
         }
+        let limiters = suspension.limiters.iter().map(|limiter| &limiter.contact);
+        let tab = suspension.lift_tab.iter().map(|tab| &tab.contact);
+        for law in limiters.chain(tab) {
+            let value = law.stiffness_n_per_m;
+            if !(value > 0.0 && value.is_finite()) {
+                let quantity = "stiffness of a limiter or lift tab";
+                return Err(HeadError::NotPositive { quantity, value });
+            }
+        }
         if flight.psi.len() != film.n_cells() {
             return Err(HeadError::CellMismatch {
                 flight: flight.psi.len(),

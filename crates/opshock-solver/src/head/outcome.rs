@@ -92,6 +92,30 @@ pub struct DimpleRecord {
     pub open_s: f64,
 }
 
+/// Force of a limiter or of the lift tab over the simulated head.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StopRecord {
+    /// Largest contact force, N; of limiters, of all together.
+    pub max_force_n: f64,
+    /// End of the first step in which it was closed, s.
+    pub first_s: Option<f64>,
+    /// Total time closed, s.
+    pub closed_s: f64,
+}
+
+impl StopRecord {
+    /// Takes in a step of `dt_s` that ends at `time_s`, with the forces at its ends.
+    pub(super) fn book(&mut self, force_n: [f64; 2], dt_s: f64, time_s: f64) {
+        let [before, after] = force_n;
+        self.max_force_n = self.max_force_n.max(after);
+        if after > 0.0 {
+            self.first_s.get_or_insert(time_s);
+        }
+        let n_closed = [before, after].iter().filter(|&&f| f > 0.0).count();
+        self.closed_s += 0.5 * n_closed as f64 * dt_s;
+    }
+}
+
 /// Columns at the head's accepted steps; a run that stops at touch ends with the touch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadColumns {
@@ -109,6 +133,10 @@ pub struct HeadColumns {
     pub bearing_force_n: Vec<f64>,
     /// Contact force of the dimple, N.
     pub dimple_force_n: Vec<f64>,
+    /// Contact force of the limiters together, N; empty without some.
+    pub limiter_force_n: Vec<f64>,
+    /// Contact force of the lift tab, N; empty without one.
+    pub lift_tab_force_n: Vec<f64>,
 }
 
 /// What a run cost, and signs of trouble.
@@ -166,6 +194,10 @@ pub struct HeadRun {
     pub end_s: f64,
     /// Dimple.
     pub dimple: DimpleRecord,
+    /// Limiters, when there are some.
+    pub limiters: Option<StopRecord>,
+    /// Lift tab, when there is one.
+    pub lift_tab: Option<StopRecord>,
     /// Histories, when asked for.
     pub columns: Option<HeadColumns>,
     /// Pressure fields, when recorded by a head that keeps some.

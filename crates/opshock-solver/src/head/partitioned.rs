@@ -14,8 +14,8 @@ use crate::lanes::sum;
 const MAX_EXCHANGES: usize = 40;
 /// Newton iterations of the film at one attitude.
 const MAX_FILM_ITERATIONS: usize = 12;
-/// Iterations of the mechanics at one film force: one per change of the dimple's state.
-const MAX_DIMPLE_ITERATIONS: usize = 8;
+/// Iterations of the mechanics at one film force for each contact: one per change of its state.
+const MAX_CONTACT_ITERATIONS: usize = 8;
 /// Differences kept by Anderson's iteration: all that three components can use.
 const ANDERSON_DEPTH: usize = 3;
 
@@ -136,7 +136,7 @@ impl Stages<'_> {
         Err(StageFailure::NotConverged(size))
     }
 
-    /// Moves slider and suspension under a given film force. Linear but for the dimple.
+    /// Moves slider and suspension under a given film force. Linear but for the contacts.
     fn mechanics_under(
         &mut self,
         instant: &Instant,
@@ -146,11 +146,12 @@ impl Stages<'_> {
         v_known: &[f64],
     ) -> Result<(), StageFailure> {
         let mut closed = None;
-        for _ in 0..MAX_DIMPLE_ITERATIONS {
+        let n_contacts = 1 + self.model.mechanics.n_stops();
+        for _ in 0..n_contacts * MAX_CONTACT_ITERATIONS {
             for ((v, x), known) in self.scratch.velocity.iter_mut().zip(&*x).zip(x_known) {
                 *v = (x - known) / instant.d_s;
             }
-            let now = self.model.mechanics.is_closed(x, &self.scratch.velocity);
+            let now = self.model.mechanics.closed(x, &self.scratch.velocity);
             if closed == Some(now) {
                 return Ok(());
             }

@@ -2,7 +2,9 @@
 
 use super::fields::{FieldRecord, StepEnds};
 use super::model::{HeadModel, ShockLoad};
-use super::outcome::{Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, Verdict};
+use super::outcome::{
+    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, StopRecord, Verdict,
+};
 use super::stage::{StageFailure, StageScratch, Stages};
 use crate::air_bearing::Attitude;
 use crate::disk::DiskMotion;
@@ -97,6 +99,8 @@ struct Run<'a> {
     failed: Option<(f64, Place)>,
     dimple: DimpleRecord,
     dimple_force_n: f64,
+    /// Limiters and lift tab: record, and the latest force.
+    stops: [Option<(StopRecord, f64)>; 2],
     columns: Option<HeadColumns>,
     fields: Option<FieldRecord<'a>>,
     cost: HeadCost,
@@ -137,6 +141,10 @@ impl<'a> Run<'a> {
                 open_s: 0.0,
             },
             dimple_force_n: preload,
+            stops: model.mechanics.has_stops().map(|is_there| {
+                let record = StopRecord::default();
+                is_there.then_some((record, 0.0))
+            }),
             columns: record.then(HeadColumns::default),
             fields: (record && !model.field_times_s.is_empty())
                 .then(|| FieldRecord::new(model, &model.field_times_s)),
@@ -395,6 +403,15 @@ impl<'a> Run<'a> {
             .filter(|&&f| f == 0.0)
             .count();
         self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
+        if model.mechanics.n_stops() > 0 {
+            let forces = model.mechanics.stop_forces(x, v);
+            for (stop, force) in self.stops.iter_mut().zip(forces) {
+                if let Some((record, latest)) = stop {
+                    record.book([*latest, force], dt_s, self.time_s);
+                    *latest = force;
+                }
+            }
+        }
         model
             .film
             .pressure(&w.y[..n_cells], attitude, &mut w.pressure);
@@ -479,6 +496,9 @@ impl<'a> Run<'a> {
             .force(&self.w.y[..n_cells], attitude, scratch);
         columns.bearing_force_n.push(force[0]);
         columns.dimple_force_n.push(self.dimple_force_n);
+        let [limiters, lift_tab] = &self.stops;
+        columns.limiter_force_n.extend(limiters.map(|(_, f)| f));
+        columns.lift_tab_force_n.extend(lift_tab.map(|(_, f)| f));
     }
 
     fn cause(&self, failure: StageFailure) -> Cause {
@@ -512,6 +532,8 @@ impl<'a> Run<'a> {
             },
             end_s: self.time_s,
             dimple: self.dimple,
+            limiters: self.stops[0].map(|(record, _)| record),
+            lift_tab: self.stops[1].map(|(record, _)| record),
             columns: self.columns,
             fields: self.fields.map(FieldRecord::finish),
             cost: HeadCost {

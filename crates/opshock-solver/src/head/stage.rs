@@ -9,7 +9,7 @@
 //! ```
 //!
 //! with S the derivative of r_m by x without the film. A, Z, F_ψ and F_q are kept as long as the
-//! iteration contracts; S follows the dimple at every iterate, so opening and closing cost no
+//! iteration contracts; S follows the contacts at every iterate, so opening and closing cost no
 //! factorisation. An iterate that would take more than nine tenths of a cell's gas away is cut,
 //! and a cut iterate is never accepted.
 //!
@@ -20,6 +20,7 @@ use super::HeadModel;
 use super::ShockLoad;
 use super::correction::correct_film;
 use super::mechanics::StageState;
+use super::stops::Closed;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
 use crate::disk::{DiskMotion, DiskPose};
 use crate::fixed_point::FixedPoint;
@@ -79,8 +80,8 @@ pub(super) struct StageScratch {
     small_key: Option<SmallKey>,
     /// Contraction of the last iteration with the present factors.
     contraction: f64,
-    /// Whether the dimple was closed at the last mechanical iterate.
-    last_closed: bool,
+    /// Contacts that were closed at the last mechanical iterate.
+    last_closed: Closed,
     pub counters: Counters,
 }
 
@@ -88,7 +89,7 @@ pub(super) struct StageScratch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SmallKey {
     d_s: f64,
-    is_closed: bool,
+    closed: Closed,
     with_film: bool,
 }
 
@@ -123,7 +124,7 @@ impl StageScratch {
             lu_small: PivotedLu::new(n),
             small_key: None,
             contraction: FIRST_CONTRACTION,
-            last_closed: true,
+            last_closed: Closed::DIMPLE,
             counters: Counters::default(),
         }
     }
@@ -273,18 +274,18 @@ impl Stages<'_> {
     }
 
     /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness; the
-    /// factors are kept while d, dimple and film stay. False when there is none.
-    fn solve_small(&mut self, d_s: f64, is_closed: bool, with_film: bool) -> bool {
+    /// factors are kept while d, contacts and film stay. False when there is none.
+    fn solve_small(&mut self, d_s: f64, closed: Closed, with_film: bool) -> bool {
         let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
         let key = SmallKey {
             d_s,
-            is_closed,
+            closed,
             with_film,
         };
         if s.small_key != Some(key) {
             s.small_key = None;
             let matrix = s.lu_small.matrix_mut();
-            self.model.mechanics.stage_matrix(d_s, is_closed, matrix);
+            self.model.mechanics.stage_matrix(d_s, closed, matrix);
             if with_film {
                 for f in 0..3 {
                     for q in 0..3 {
@@ -319,7 +320,7 @@ impl Stages<'_> {
         self.model
             .mechanics
             .residual(&stage, &mut s.mechanical, &mut s.small);
-        let closed = self.model.mechanics.is_closed(state.x, &s.velocity);
+        let closed = self.model.mechanics.closed(state.x, &s.velocity);
         s.last_closed = closed;
         s.mechanical.iter_mut().for_each(|r| *r = -*r);
         if let Some(condensed) = condensed {

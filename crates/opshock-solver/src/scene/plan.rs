@@ -341,6 +341,15 @@ impl Plan {
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));
         }
+        for (name, is_there) in [
+            ("head.limiters", !scene.suspension.limiters.is_empty()),
+            ("head.lift_tab", scene.suspension.lift_tab.is_some()),
+        ] {
+            list.push(match is_there {
+                true => needs(name, Needs::Head),
+                false => effect(name, State::Off, None),
+            });
+        }
         list
     }
 

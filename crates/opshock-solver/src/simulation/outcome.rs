@@ -1,6 +1,8 @@
 //! What one simulation answers. Times are seconds after the onset of the pulse.
 
-pub use crate::head::{Cause, DimpleRecord, HeadColumns, Place, PressureFields, Verdict};
+pub use crate::head::{
+    Cause, DimpleRecord, HeadColumns, Place, PressureFields, StopRecord, Verdict,
+};
 pub use crate::structure::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
 };
@@ -58,6 +60,10 @@ pub struct Outcome {
     pub bottom: ArmContact,
     /// Dimple.
     pub dimple: Option<DimpleRecord>,
+    /// Limiters of the suspension.
+    pub limiters: Option<StopRecord>,
+    /// Lift tab.
+    pub lift_tab: Option<StopRecord>,
     /// Energy book of the structure.
     pub energy: EnergyBook,
     /// Complementarity numbers.

@@ -140,6 +140,8 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
         top: run.top.clone(),
         bottom: run.bottom.clone(),
         dimple: head.as_ref().map(|h| h.dimple),
+        limiters: head.as_ref().and_then(|h| h.limiters),
+        lift_tab: head.as_ref().and_then(|h| h.lift_tab),
         energy: run.energy,
         complementarity: run.complementarity,
         hub: run.hub,
@@ -170,6 +172,8 @@ fn without_structure(error: &StructureError) -> Outcome {
         top: Default::default(),
         bottom: Default::default(),
         dimple: None,
+        limiters: None,
+        lift_tab: None,
         energy: EnergyBook::default(),
         complementarity: Default::default(),
         hub: None,
@@ -209,6 +213,12 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     }
     if model.head.is_some() {
         names.extend(["head.film", "head.slider", "head.suspension", "head.dimple"]);
+        if !model.scene.suspension.limiters.is_empty() {
+            names.push("head.limiters");
+        }
+        if model.scene.suspension.lift_tab.is_some() {
+            names.push("head.lift_tab");
+        }
     }
     names
 }

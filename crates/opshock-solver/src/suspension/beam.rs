@@ -48,6 +48,9 @@ pub enum SuspensionError {
         /// Which one, from 0.
         mode: usize,
     },
+    /// A lift tab on a suspension that is given by its modes.
+    #[error("modes of a suspension say nothing of its lift tab")]
+    NoTab,
     /// No mode moves the dimple that way.
     #[error("no suspension mode moves the {what} of the dimple")]
     Unmoved {
@@ -208,6 +211,7 @@ impl BeamMatrices {
                 load: self.inertia_load,
                 interface: self.dimple_bending,
                 slope,
+                tab: Some(n - 2),
             },
             Clamped {
                 stiffness: self.torsion_stiffness,
@@ -215,6 +219,7 @@ impl BeamMatrices {
                 load: DVector::zeros(n_twists),
                 interface: self.dimple_torsion,
                 slope: DVector::zeros(n_twists),
+                tab: None,
             },
         ]
     }

@@ -52,7 +52,11 @@ pub struct SuspensionParameters {
     /// Gimbal stiffnesses between the dimple point and the slider.
     pub gimbal: Gimbal,
     /// Unilateral dimple contact.
-    pub dimple: Dimple,
+    pub dimple: ContactLaw,
+    /// Limiters between flexure and load beam; none: nothing holds an open dimple but the gimbal.
+    pub limiters: Vec<Limiter>,
+    /// Lift tab under a stop; `None`: it moves freely.
+    pub lift_tab: Option<LiftTab>,
     /// Modes that take the place of geometry and material; none: by its geometry.
     pub modes: Vec<SuspensionMode>,
 }
@@ -116,11 +120,33 @@ pub struct Gimbal {
     pub roll_n_m_per_rad: f64,
 }
 
-/// Dimple contact: a spring that only pushes.
+/// Dimple, limiter or lift tab in contact: a spring that only pushes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dimple {
+pub struct ContactLaw {
     /// Contact stiffness, N/m.
     pub stiffness_n_per_m: f64,
     /// Damping ratio of the closed contact, on the slider's mass.
     pub damping_ratio: f64,
+}
+
+/// Hook of the flexure behind the load beam, which ends the opening of the dimple.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limiter {
+    /// Opening at which it is met, from the steady state, m.
+    pub gap_m: f64,
+    /// From the dimple towards the tip, m.
+    pub along_m: f64,
+    /// From the dimple outwards, as the slider's y, m.
+    pub across_m: f64,
+    /// Contact.
+    pub contact: ContactLaw,
+}
+
+/// Tab at the end of the load beam under a stop that is fixed to the base, a ramp's or a limiter's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LiftTab {
+    /// Rise of the tab's end at which it is met, from the steady state, m.
+    pub gap_m: f64,
+    /// Contact.
+    pub contact: ContactLaw,
 }

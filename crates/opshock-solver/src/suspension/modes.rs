@@ -44,6 +44,8 @@ pub(super) struct Clamped {
     pub interface: usize,
     /// Row that reads dw/dx at the dimple.
     pub slope: DVector<f64>,
+    /// Unknown that is the rise of the tab's end, where there is one.
+    pub tab: Option<usize>,
 }
 
 /// Bending and torsion of these modes.
@@ -114,5 +116,6 @@ fn with_interface(
         load: basis.transpose() * row(|mode| mode.participation_sqrt_kg),
         interface: n - 1,
         slope: basis.transpose() * row(|mode| mode.slope_per_m_sqrt_kg),
+        tab: None,
     })
 }

@@ -13,12 +13,20 @@
 //! Damping is the same ratio for every mode of the free reduced beam,
 //! C = M Φ diag(2 ζ ω) Φᵀ M.
 //!
-//! Source: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313.
+//! With a lift tab one shape more is kept: the static shape of a force at the tab's end with the dimple held,
+//! less what the kept modes have of it. It is orthogonal to them in M and K, so it enters like one of them, at
+//! the frequency of its Rayleigh quotient; the tab is then exactly as compliant as the finite elements make it
+//! (attachment mode).
+//!
+//! Sources: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313; R. R. Craig, C.-J. Chang, NASA CR-2918 (1977).
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 use super::modes::{self, Clamped};
 use super::{BeamMatrices, SuspensionError, SuspensionMode, SuspensionParameters};
+
+/// Share of a static shape's mass below which modes hold all of it.
+const HELD: f64 = 1e-20;
 
 /// One reduced set: coordinate 0 is the dimple's, the others are pinned modes.
 #[derive(Clone, Debug)]
@@ -33,6 +41,8 @@ pub struct Reduction {
     pub inertia_load: DVector<f64>,
     /// Slope dw/dx at the dimple per coordinate, n (zero for torsion), 1/m and 1/(√kg m).
     pub slope_row: DVector<f64>,
+    /// Rise of the tab's end per coordinate, n; bending of a suspension with a lift tab.
+    pub tab_row: Option<DVector<f64>>,
     /// Frequencies of the finite elements with the dimple free, Hz, as many as coordinates.
     pub free_hz: Vec<f64>,
     /// Frequencies with the dimple held, Hz, one for each pinned mode kept.
@@ -72,8 +82,13 @@ impl ReducedSuspension {
         parameters: &SuspensionParameters,
         bending_modes: usize,
     ) -> Result<Self, SuspensionError> {
-        let ([bending, torsion], mass_kg) = clamped(parameters)?;
+        let ([mut bending, torsion], mass_kg) = clamped(parameters)?;
         let zeta = parameters.damping_ratio;
+        if parameters.lift_tab.is_none() {
+            bending.tab = None;
+        } else if bending.tab.is_none() {
+            return Err(SuspensionError::NoTab);
+        }
         let bending_modes = match parameters.modes.is_empty() {
             true => bending_modes,
             // All that there are, where there are fewer.
@@ -136,6 +151,7 @@ fn reduce(
         load,
         interface,
         slope,
+        tab,
     } = body;
     let interface = *interface;
     let n = stiffness.nrows();
@@ -159,13 +175,22 @@ fn reduce(
         .remove_row(interface)
         .remove_column(interface);
     let pinned_mass = mass.clone().remove_row(interface).remove_column(interface);
-    let (pinned, modes) = lowest_modes(pinned_stiffness, &pinned_mass, n_modes)?;
+    let (pinned, modes) = lowest_modes(pinned_stiffness.clone(), &pinned_mass, n_modes)?;
+    let (mut omegas, mut modes) = (pinned.clone(), modes);
+    if let Some(tab) = tab {
+        let at = if *tab > interface { tab - 1 } else { *tab };
+        if let Some((omega, mode)) = attachment(pinned_stiffness, &pinned_mass, &modes, at)? {
+            omegas.push(omega);
+            modes = modes.insert_column(n_modes, 0.0);
+            modes.set_column(n_modes, &mode);
+        }
+    }
     let modes = modes.insert_row(interface, 0.0);
 
-    let size = n_modes + 1;
+    let size = omegas.len() + 1;
     let mut basis = DMatrix::zeros(n, size);
     basis.set_column(0, &shape);
-    basis.columns_mut(1, n_modes).copy_from(&modes);
+    basis.columns_mut(1, size - 1).copy_from(&modes);
     let mut reduced_mass = basis.transpose() * mass * &basis;
     // The pinned block is the identity and the whole is symmetric by construction; rounding is
     // not allowed to say otherwise.
@@ -179,7 +204,7 @@ fn reduce(
         }
     }
     let mut reduced_stiffness = DVector::from_element(size, interface_stiffness);
-    for (k, omega) in reduced_stiffness.iter_mut().skip(1).zip(&pinned) {
+    for (k, omega) in reduced_stiffness.iter_mut().skip(1).zip(&omegas) {
         *k = omega * omega;
     }
     let (omega, free_modes) = lowest_modes(
@@ -202,9 +227,40 @@ fn reduce(
         damping,
         inertia_load: basis.transpose() * load,
         slope_row: basis.transpose() * slope,
+        tab_row: tab.map(|tab| basis.row(tab).transpose()),
         free_hz: to_hz(&free),
         pinned_hz: to_hz(&pinned),
     })
+}
+
+/// Static shape of a unit force at unknown `at`, less its part in the mass-normalised `modes`: its circular
+/// frequency and its mass-normalised shape; `None` when the modes hold all of it.
+fn attachment(
+    stiffness: DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    modes: &DMatrix<f64>,
+    at: usize,
+) -> Result<Option<(f64, DVector<f64>)>, SuspensionError> {
+    let factor = Cholesky::new(stiffness.clone()).ok_or(SuspensionError::Singular {
+        matrix: "stiffness",
+    })?;
+    let mut unit = DVector::zeros(stiffness.nrows());
+    unit[at] = 1.0;
+    let whole = factor.solve(&unit);
+    let size = |x: &DVector<f64>| x.dot(&(mass * x));
+    let mut rest = whole.clone();
+    // Twice: the second time takes away what rounding left of the first.
+    for _ in 0..2 {
+        let shares = modes.transpose() * (mass * &rest);
+        rest -= modes * shares;
+    }
+    let square = size(&rest);
+    if square <= HELD * size(&whole) {
+        return Ok(None);
+    }
+    rest /= square.sqrt();
+    let omega = rest.dot(&(&stiffness * &rest)).sqrt();
+    Ok(Some((omega, rest)))
 }
 
 /// Lowest `n_modes` of K φ = ω² M φ: circular frequencies in rising order and mass-normalised

@@ -1,7 +1,7 @@
 //! What one simulation answered, for machines: the JSON of `opshock run --json`.
 
 use opshock_solver::simulation::{
-    ArmContact, Complementarity, EnergyBook, HubRecord, Outcome, Verdict, Warning,
+    ArmContact, Complementarity, EnergyBook, HubRecord, Outcome, StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -22,6 +22,12 @@ pub struct RunJson {
     pub disk: DiskJson,
     pub contact: ContactJson,
     pub dimple: Option<DimpleJson>,
+    /// Limiters of the suspension, when there are some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limiters: Option<StopJson>,
+    /// Lift tab, when there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lift_tab: Option<StopJson>,
     pub energy: EnergyJson,
     pub complementarity: ComplementarityJson,
     /// Hub, of a disk on a bearing.
@@ -116,6 +122,17 @@ pub struct EpisodeJson {
 pub struct DimpleJson {
     pub min_force_n: f64,
     pub open_s: f64,
+}
+
+/// Limiters together, or lift tab, over the simulated head.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct StopJson {
+    /// Largest contact force, N.
+    pub max_force_n: f64,
+    /// First contact, s.
+    pub first_s: Option<f64>,
+    /// Total time closed, s.
+    pub closed_s: f64,
 }
 
 /// Energy book of disk and ramp.
@@ -240,6 +257,8 @@ impl RunJson {
                 min_force_n: dimple.min_force_n,
                 open_s: dimple.open_s,
             }),
+            limiters: outcome.limiters.map(|record| stop(&record, start_s)),
+            lift_tab: outcome.lift_tab.map(|record| stop(&record, start_s)),
             energy: energy(&outcome.energy),
             complementarity: complementarity(&outcome.complementarity),
             hub: outcome.hub.as_ref().map(hub),
@@ -282,6 +301,14 @@ fn arm(contact: &ArmContact, start_s: f64) -> ArmJson {
                 peak_20us_n: episode.peak_20us_n,
             })
             .collect(),
+    }
+}
+
+fn stop(record: &StopRecord, start_s: f64) -> StopJson {
+    StopJson {
+        max_force_n: record.max_force_n,
+        first_s: record.first_s.map(|t| t + start_s),
+        closed_s: record.closed_s,
     }
 }
 

@@ -76,6 +76,18 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
             ),
         );
     }
+    for (name, stop) in [("limiters", run.limiters), ("lift tab", run.lift_tab)] {
+        if let Some(stop) = stop {
+            line(
+                name,
+                format!(
+                    "largest force {:.3} mN, closed for {:.1} us",
+                    1e3 * stop.max_force_n,
+                    1e6 * stop.closed_s
+                ),
+            );
+        }
+    }
     let energy = run.energy;
     line(
         "energy",

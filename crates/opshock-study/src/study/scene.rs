@@ -12,7 +12,7 @@ use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::StructureResolution;
 use opshock_solver::suspension::{
-    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
+    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, SuspensionParameters,
 };
 
 use super::settings::{Datum, View};
@@ -374,11 +374,46 @@ pub fn suspension(view: &View<'_>) -> SuspensionParameters {
             pitch_n_m_per_rad: si("gimbal.pitch_n_m_per_rad"),
             roll_n_m_per_rad: si("gimbal.roll_n_m_per_rad"),
         },
-        dimple: Dimple {
-            stiffness_n_per_m: si("dimple.stiffness_n_per_m"),
-            damping_ratio: si("dimple.damping_ratio"),
-        },
+        dimple: contact_law(view, "dimple"),
+        limiters: limiters(view),
+        lift_tab: view
+            .maybe_si("suspension.lift_tab.gap_um")
+            .map(|gap_m| LiftTab {
+                gap_m,
+                contact: contact_law(view, "lift_tab"),
+            }),
         modes: imported_suspension::listed(view),
+    }
+}
+
+/// The inner and the outer limiter, when a gap is given.
+fn limiters(view: &View<'_>) -> Vec<Limiter> {
+    let maybe = |name: &str| view.maybe_si(&format!("suspension.limiters.{name}"));
+    let Some(gap_m) = maybe("gap_um") else {
+        return Vec::new();
+    };
+    let across_m = maybe("across_mm").unwrap_or(0.0);
+    let limiter = |gap_m: f64, across_m: f64| Limiter {
+        gap_m,
+        along_m: maybe("along_mm").unwrap_or(0.0),
+        across_m,
+        contact: contact_law(view, "limiters"),
+    };
+    vec![
+        limiter(gap_m, -across_m),
+        limiter(maybe("gap_outer_um").unwrap_or(gap_m), across_m),
+    ]
+}
+
+/// Stiffness and damping of a contact of the suspension; the dimple's where they are left out.
+fn contact_law(view: &View<'_>, contact: &str) -> ContactLaw {
+    let of = |name: &str| {
+        view.maybe_si(&format!("suspension.{contact}.{name}"))
+            .unwrap_or_else(|| view.si(&format!("suspension.dimple.{name}")))
+    };
+    ContactLaw {
+        stiffness_n_per_m: of("stiffness_n_per_m"),
+        damping_ratio: of("damping_ratio"),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use opshock_solver::quantity::GRAM_FORCE_N;
 use opshock_solver::suspension::{
-    Dimple, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
+    ContactLaw, Flange, Flexure, Gimbal, Hinge, LoadBeam, SuspensionParameters,
 };
 
 /// Suspension of the 2.5-inch default drive.
@@ -40,7 +40,9 @@ pub fn default_suspension() -> SuspensionParameters {
             pitch_n_m_per_rad: 6e-5,
             roll_n_m_per_rad: 2.5e-5,
         },
-        dimple: Dimple {
+        limiters: Vec::new(),
+        lift_tab: None,
+        dimple: ContactLaw {
             stiffness_n_per_m: 5e5,
             damping_ratio: 0.05,
         },

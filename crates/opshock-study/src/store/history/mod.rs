@@ -212,7 +212,7 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
         description,
         values: values.clone(),
     };
-    vec![
+    let mut list = vec![
         Column {
             name: "time_s",
             units: "s",
@@ -255,7 +255,24 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
             "contact force in the dimple; 0 while it is open",
             &columns.dimple_force_n,
         ),
-    ]
+    ];
+    // Only of suspensions that have them.
+    let stops = [
+        column(
+            "limiter_force_n",
+            "N",
+            "contact force of the limiters together; 0 while they are open",
+            &columns.limiter_force_n,
+        ),
+        column(
+            "lift_tab_force_n",
+            "N",
+            "contact force of the lift tab on its stop; 0 while it is free",
+            &columns.lift_tab_force_n,
+        ),
+    ];
+    list.extend(stops.into_iter().filter(|stop| !stop.values.is_empty()));
+    list
 }
 
 /// Every root column: the structure's, then the head's interpolated onto the structure's time.

@@ -29,6 +29,7 @@ fn history() -> History {
             min_clearance_m: vec![9e-9, 4e-9, 0.0],
             bearing_force_n: vec![0.02; 3],
             dimple_force_n: vec![0.02, 0.01, 0.0],
+            ..HeadColumns::default()
         },
         fields: None,
     }

@@ -340,7 +340,9 @@ impl Check<'_, '_> {
         if !self.sound(&["suspension"]) || self.view.entries(path) == 0 {
             return;
         }
-        let suspension = scene::suspension(self.view);
+        let mut suspension = scene::suspension(self.view);
+        // A lift tab is another rule's.
+        suspension.lift_tab = None;
         if let Err(error) = ReducedSuspension::build(&suspension, 1) {
             let fault = self.fault("E180", &[path], error.to_string());
             fault.allowed = "modes that bend or twist, some of each moving the dimple".to_string();

@@ -8,6 +8,7 @@ mod fields;
 mod pulse;
 mod rails;
 mod seen;
+mod stops;
 mod study;
 
 use super::fault::StudyError;
@@ -67,7 +68,7 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 10] = [
+const POINT_RULES: [PointRule; 11] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
@@ -76,6 +77,7 @@ const POINT_RULES: [PointRule; 10] = [
     |check, _| check.rails(),
     |check, _| check.suspension(),
     |check, _| check.suspension_modes(),
+    |check, _| check.stops(),
     |check, widths_ms| check.pulse(widths_ms),
     |check, _| check.fields_end(),
 ];

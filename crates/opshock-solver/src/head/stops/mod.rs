@@ -1,0 +1,144 @@
+//! Limiters of the gimbal and lift tab: contacts that hold back what opens.
+//!
+//! ```text
+//! o = r·x,    N = max(0, k (o − g) + c ȯ),    force on the coordinates −r N,    c = 2 ζ √(k m)
+//! ```
+//!
+//! | symbol | what | unit |
+//! |---|---|---|
+//! | o | opening, 0 in the steady loaded state | m |
+//! | r | opening per coordinate | |
+//! | g | gap at rest | m |
+//! | k, c, ζ | stiffness, damping, damping ratio on the slider's mass m | N/m, N s/m, 1 |
+//! | N | force of the contact | N |
+//!
+//! A limiter is a hook of the flexure behind the load beam, at x along the suspension and y across it from
+//! the dimple: o = z_dimple − z + x (pitch + dw/dx) − y (roll − roll_dimple), the load beam being taken as
+//! the plane that it has at the dimple. The lift tab's o is the rise of the tab's end over the base, to which
+//! its stop is fixed.
+//!
+//! The law is the dimple's without its preload: continuous, pushing only. With V = k max(0, o − g)²/2 the
+//! power (N − V') ȯ is never negative, so no contact gives energy that it did not take. From N = 0 to N = 0
+//! two bodies of reduced mass μ part at exp(−π ζ'/√(1 − ζ'²)) of the velocity at which they met, ζ' = c/(2 √(k μ)).
+
+#[cfg(test)]
+mod tests;
+
+use crate::linalg::dense::dot;
+
+/// Most stops beside the dimple that [`Closed`] has room for.
+const MOST: usize = 7;
+
+/// One contact.
+#[derive(Clone, Debug)]
+pub(super) struct Stop {
+    /// r.
+    pub row: Vec<f64>,
+    pub gap_m: f64,
+    pub stiffness_n_per_m: f64,
+    pub damping_n_s_per_m: f64,
+}
+
+impl Stop {
+    #[inline]
+    fn signed_force(&self, x: &[f64], v: &[f64]) -> f64 {
+        self.stiffness_n_per_m * (dot(&self.row, x) - self.gap_m)
+            + self.damping_n_s_per_m * dot(&self.row, v)
+    }
+
+    /// N; 0 when it is open.
+    pub fn force(&self, x: &[f64], v: &[f64]) -> f64 {
+        self.signed_force(x, v).max(0.0)
+    }
+}
+
+/// Which contacts of a head are closed: the dimple and its stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Closed(u8);
+
+impl Closed {
+    /// The dimple alone.
+    pub const DIMPLE: Self = Self(1);
+
+    /// With the dimple as it is and every stop open.
+    pub fn of_dimple(is_closed: bool) -> Self {
+        Self(u8::from(is_closed))
+    }
+
+    pub fn dimple(self) -> bool {
+        self.0 & 1 != 0
+    }
+
+    fn stop(self, k: usize) -> bool {
+        self.0 & (2 << k) != 0
+    }
+}
+
+/// The stops of a head; none by default.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stops(Vec<Stop>);
+
+impl Stops {
+    /// # Panics
+    /// With more than seven.
+    pub fn new(stops: Vec<Stop>) -> Self {
+        assert!(stops.len() <= MOST);
+        Self(stops)
+    }
+
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub fn iter(&self) -> std::slice::Iter<'_, Stop> {
+        self.0.iter()
+    }
+
+    fn closed(&self, closed: Closed) -> impl Iterator<Item = &Stop> {
+        let stops = self.0.iter().enumerate();
+        stops.filter_map(move |(k, stop)| closed.stop(k).then_some(stop))
+    }
+
+    /// `closed` with the state of every stop at (x, v).
+    #[inline]
+    pub fn add_closed(&self, x: &[f64], v: &[f64], mut closed: Closed) -> Closed {
+        for (k, stop) in self.0.iter().enumerate() {
+            closed.0 |= u8::from(stop.signed_force(x, v) > 0.0) << (k + 1);
+        }
+        closed
+    }
+
+    /// Adds the forces on the coordinates.
+    #[inline]
+    pub fn add_force(&self, x: &[f64], v: &[f64], out: &mut [f64]) {
+        for stop in &self.0 {
+            let force = stop.force(x, v);
+            for (out, r) in out.iter_mut().zip(&stop.row) {
+                *out -= r * force;
+            }
+        }
+    }
+
+    /// Adds the derivative of −force by x with v = (x − x_known)/d, n × n.
+    pub fn add_matrix(&self, d_s: f64, closed: Closed, out: &mut [f64]) {
+        for stop in self.closed(closed) {
+            let contact = stop.stiffness_n_per_m + stop.damping_n_s_per_m / d_s;
+            let n = stop.row.len();
+            for (out, left) in out.chunks_exact_mut(n).zip(&stop.row) {
+                for (out, right) in out.iter_mut().zip(&stop.row) {
+                    *out += contact * left * right;
+                }
+            }
+        }
+    }
+
+    /// Adds C/d e_x of the closed stops.
+    pub fn add_filter_load(&self, d_s: f64, closed: Closed, e_x: &[f64], out: &mut [f64]) {
+        for stop in self.closed(closed) {
+            let force = stop.damping_n_s_per_m * dot(&stop.row, e_x) / d_s;
+            for (out, r) in out.iter_mut().zip(&stop.row) {
+                *out += r * force;
+            }
+        }
+    }
+}

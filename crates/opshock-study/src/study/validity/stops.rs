@@ -1,0 +1,49 @@
+//! Limiters and lift tab of the suspension.
+
+use super::Check;
+use crate::study::imported_suspension;
+
+/// Keys of the limiters besides the gap that makes them.
+const OF_LIMITERS: [&str; 5] = [
+    "suspension.limiters.gap_outer_um",
+    "suspension.limiters.along_mm",
+    "suspension.limiters.across_mm",
+    "suspension.limiters.stiffness_n_per_m",
+    "suspension.limiters.damping_ratio",
+];
+/// Keys of the lift tab besides its gap.
+const OF_LIFT_TAB: [&str; 2] = [
+    "suspension.lift_tab.stiffness_n_per_m",
+    "suspension.lift_tab.damping_ratio",
+];
+const LIMITER_GAP: &str = "suspension.limiters.gap_um";
+const LIFT_TAB_GAP: &str = "suspension.lift_tab.gap_um";
+
+impl Check<'_, '_> {
+    /// A stop has a gap, and a lift tab a geometry that says how far it rises.
+    pub(super) fn stops(&mut self) {
+        for (what, gap, rest) in [
+            ("limiters", LIMITER_GAP, OF_LIMITERS.as_slice()),
+            ("a lift tab", LIFT_TAB_GAP, OF_LIFT_TAB.as_slice()),
+        ] {
+            let has = |path: &&&str| self.view.settings.has(path);
+            let given: Vec<&str> = rest.iter().filter(has).copied().collect();
+            if !given.is_empty() && !self.view.settings.has(gap) {
+                let message = format!("{what} without gap_um");
+                let fault = self.fault("E112", &given, message);
+                fault.allowed = "gap_um beside the rest".to_string();
+                fault.hint = "add it, or leave the rest out".to_string();
+            }
+        }
+        let modes = imported_suspension::MODES;
+        if self.sound(&[LIFT_TAB_GAP, modes])
+            && self.view.settings.has(LIFT_TAB_GAP)
+            && self.view.entries(modes) > 0
+        {
+            let message = "a lift tab on a suspension given by its modes, which say nothing of it";
+            let fault = self.fault("E139", &[LIFT_TAB_GAP], message);
+            fault.allowed = "a suspension by its geometry".to_string();
+            fault.hint = "leave lift_tab out".to_string();
+        }
+    }
+}
