@@ -2,6 +2,7 @@
 //!
 //! A pair is one scene as planned and in full: [`opshock_tests::pairs`].
 
+use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Effect, Mode, Needs, Output, Plan, State, Touch};
 use opshock_solver::simulation::Model;
@@ -104,7 +105,7 @@ struct Poison {
 
 /// Every effect that a plan can leave out, but arms, hub, oblique shock, limiters and lift tab: where a scene has none it has
 /// no numbers of them.
-const POISONS: [Poison; 8] = [
+const POISONS: [Poison; 9] = [
     Poison {
         effect: "disk.travelling_waves",
         ramp: "none",
@@ -145,6 +146,18 @@ const POISONS: [Poison; 8] = [
             s.head_resolution.coupling_tolerance = f64::NAN;
             s.head_resolution.approach_share = f64::NAN;
             s.fail_below_m = f64::NAN;
+        },
+    },
+    Poison {
+        effect: "head.surface_forces",
+        ramp: "rigid",
+        asked: Output::ContactForce,
+        poison: |s| {
+            s.surface_forces = Some(SurfaceForces {
+                hamaker_j: f64::NAN,
+                repulsion_j_m6: f64::NAN,
+                potential_v: f64::NAN,
+            });
         },
     },
     Poison {

@@ -23,4 +23,5 @@ mod limiters;
 mod oblique;
 mod plate;
 mod pressure_fields;
+mod surface_forces;
 mod suspension;

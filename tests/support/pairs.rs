@@ -4,6 +4,7 @@
 //! amplitude² × unit energies, the other energies of amplitude × unit states, so that it must agree
 //! to 1e-13 of the peak energy.
 
+use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::disk::{DiskDamping, HubParameters};
 use opshock_solver::mutant;
 use opshock_solver::quantity::m_per_s2_from_g;
@@ -262,6 +263,13 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         scene.suspension.limiters = vec![limiter(-3e-4), limiter(3e-4)];
         let gap_m = seeded.between(0.0, 2e-5);
         scene.suspension.lift_tab = Some(LiftTab { gap_m, contact });
+    }
+    if seeded.once_in(4) {
+        scene.surface_forces = Some(SurfaceForces {
+            hamaker_j: seeded.between(0.0, 2e-19),
+            repulsion_j_m6: 1e-76,
+            potential_v: seeded.between(0.0, 0.5),
+        });
     }
     scene
 }

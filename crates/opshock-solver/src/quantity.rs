@@ -6,6 +6,9 @@ pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 /// Force of one gram at standard gravity, N.
 pub const GRAM_FORCE_N: f64 = 9.80665e-3;
 
+/// Permittivity of the vacuum ε₀, F/m (CODATA 2018).
+pub const VACUUM_PERMITTIVITY_F_PER_M: f64 = 8.854_187_812_8e-12;
+
 /// rad/s from revolutions per minute.
 pub fn rad_per_s_from_rpm(rpm: f64) -> f64 {
     rpm * (std::f64::consts::TAU / 60.0)

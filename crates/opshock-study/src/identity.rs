@@ -5,7 +5,7 @@
 //! below take every structure apart by name, so that a new field of a scene does not compile until
 //! it has a place in its digest.
 
-use opshock_solver::air_bearing::{FilmResolution, FlowModel};
+use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
@@ -130,6 +130,7 @@ impl Digester {
             suspension: _,
             gas: _,
             flow: _,
+            surface_forces: _,
             fail_below_m: _,
             film_resolution: _,
             head_resolution: _,
@@ -183,6 +184,7 @@ impl Digester {
             suspension,
             gas,
             flow,
+            surface_forces,
             fail_below_m,
             film_resolution,
             head_resolution,
@@ -229,6 +231,16 @@ impl Digester {
             Coupling::Anderson => "anderson",
         });
         self.integer(*max_steps);
+        // Nothing without them: what was stored before there were any keeps its name.
+        if let Some(SurfaceForces {
+            hamaker_j,
+            repulsion_j_m6,
+            potential_v,
+        }) = surface_forces
+        {
+            self.text("surface_forces");
+            self.numbers(&[*hamaker_j, *repulsion_j_m6, *potential_v]);
+        }
     }
 
     fn pulse(&mut self, pulse: &Pulse) {

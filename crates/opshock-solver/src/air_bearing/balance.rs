@@ -22,8 +22,8 @@ impl Film {
     }
 
     /// Net outward flux R of every cell, `capacity` dψ/dt + `out` = 0, and the force and moments
-    /// [F_z, M_pitch, M_roll] of the film on the slider, conjugate to (h_c, pitch, roll): N, N m,
-    /// N m. ψ must be positive.
+    /// [F_z, M_pitch, M_roll] of the film and of surface forces beside it on the slider, conjugate to
+    /// (h_c, pitch, roll): N, N m, N m. ψ must be positive.
     ///
     /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
     /// layers at the pads' edges count although no cell resolves them.
@@ -39,14 +39,21 @@ impl Film {
         scratch: &mut FilmScratch,
     ) -> [f64; 3] {
         assert_eq!(out.len(), self.n_cells());
-        widest(Balance {
+        let force = widest(Balance {
             film: self,
             psi,
             attitude,
             out,
             cell_loads: None,
             scratch,
-        })
+        });
+        match &self.interaction {
+            None => force,
+            Some(_) => {
+                let surface = self.surface_force(attitude);
+                std::array::from_fn(|f| force[f] + surface[f])
+            }
+        }
     }
 
     /// R alone, as from [`Film::flux_residual_and_force`].
@@ -76,7 +83,25 @@ impl Film {
         force
     }
 
-    /// Normal force on every cell, N, over the same profiles as the whole force.
+    /// The air's share of [`Film::force`], without surface forces.
+    ///
+    /// # Panics
+    ///
+    /// As [`Film::flux_residual_and_force`].
+    pub fn air_force(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        scratch: &mut FilmScratch,
+    ) -> [f64; 3] {
+        let (force, surface) = (
+            self.force(psi, attitude, scratch),
+            self.surface_force(attitude),
+        );
+        std::array::from_fn(|f| force[f] - surface[f])
+    }
+
+    /// Normal force of the air on every cell, N, over the same profiles as the whole force.
     ///
     /// # Panics
     ///

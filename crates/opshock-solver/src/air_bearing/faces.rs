@@ -33,7 +33,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    fn push(&mut self, place: &Place) {
+    pub(super) fn push(&mut self, place: &Place) {
         self.form.push(place.form);
         self.x.push(place.x);
         self.y.push(place.y);

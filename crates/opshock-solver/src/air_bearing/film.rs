@@ -15,6 +15,7 @@ use super::flux::HalfCell;
 use super::layout;
 use super::mesh::{Cell, Mesh, Side};
 use super::steady::usual_attitude;
+use super::surface_forces::Interaction;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
 use crate::gas::GasParameters;
@@ -64,6 +65,8 @@ pub struct Film {
     usual: Attitude,
     /// ψ in the usual attitude, roughly.
     usual_psi: Vec<f64>,
+    /// Surface forces beside the film; none unless asked for.
+    pub(super) interaction: Option<Interaction>,
 }
 
 impl Film {
@@ -174,6 +177,7 @@ impl Film {
             clearance,
             usual,
             usual_psi: Vec::new(),
+            interaction: None,
         };
         film.usual_psi = film.ambient(&usual);
         Ok(film)

@@ -48,9 +48,9 @@ struct ByFace {
 
 /// Sums over faces and cells.
 #[derive(Default)]
-struct Totals {
-    moments: Moments,
-    force_by_attitude: [[[f64; SUMS]; 3]; 3],
+pub(super) struct Totals {
+    pub(super) moments: Moments,
+    pub(super) force_by_attitude: [[[f64; SUMS]; 3]; 3],
 }
 
 impl Film {
@@ -94,6 +94,14 @@ impl Film {
             out,
             scratch,
         });
+        if let Some(load) = self.surface_load(attitude) {
+            for f in 0..3 {
+                out.force[f] += load.force[f];
+                for q in 0..3 {
+                    out.force_by_attitude[f][q] += load.by_attitude[f][q];
+                }
+            }
+        }
     }
 }
 
@@ -219,7 +227,11 @@ fn between_cells(
 impl Totals {
     /// Adds loads by attitude, which act at `places`.
     #[inline(always)]
-    fn add_by_attitude(&mut self, by_attitude: &[[f64; BLOCK]; 3], places: &[[f64; BLOCK]; 2]) {
+    pub(super) fn add_by_attitude(
+        &mut self,
+        by_attitude: &[[f64; BLOCK]; 3],
+        places: &[[f64; BLOCK]; 2],
+    ) {
         for f in 0..3 {
             for q in 0..3 {
                 let mut sums = self.force_by_attitude[f][q];

@@ -14,6 +14,7 @@ mod mesh;
 mod newton;
 mod state;
 pub mod steady;
+mod surface_forces;
 mod thickness;
 
 #[cfg(test)]
@@ -23,6 +24,7 @@ pub use film::{Film, FilmError};
 pub use flow_factor::FlowFactor;
 pub use linearise::FilmLinearisation;
 pub use state::FilmScratch;
+pub use surface_forces::{SurfaceForces, SurfaceLoad};
 
 /// Rarefaction model of the flow factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

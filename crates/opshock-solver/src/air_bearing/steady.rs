@@ -31,6 +31,17 @@ pub enum SteadyError {
         /// Last attitude reached.
         attitude: Attitude,
     },
+    /// Surface forces pull the slider onto the disk, from which the film alone keeps it away.
+    #[error(
+        "surface forces pull the slider onto the disk, {share:.3} of them is the most under which it \
+         flies; without them it flies at {without_m:e} m"
+    )]
+    PulledIn {
+        /// Share of the surface forces to which a flight could be followed, within a thousandth.
+        share: f64,
+        /// Smallest clearance without surface forces, m.
+        without_m: f64,
+    },
     /// The only equilibria found are unstable.
     #[error("the equilibrium at {attitude:?} is not stable")]
     Unstable {
@@ -59,11 +70,11 @@ pub struct Flight {
     pub psi: Vec<f64>,
     /// Smallest clearance, m.
     pub min_clearance_m: f64,
-    /// Force of the part of the surface above ambient pressure, N.
+    /// Force of the air on the part of the surface above ambient pressure, N.
     pub lift_n: f64,
     /// Force of the part below ambient pressure, N; negative.
     pub suction_n: f64,
-    /// Centre of pressure in slider coordinates, m.
+    /// Centre of the air's pressure in slider coordinates, m.
     pub centre_of_pressure_m: [f64; 2],
     /// Largest pressure, Pa.
     pub p_max_pa: f64,
@@ -127,11 +138,75 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 /// As [`fly`], from `start`, which may be far from the answer.
 ///
 /// Of several stable equilibria the one with the largest clearance is flown; the others are listed.
+/// Where surface forces act, one within the range of the film's floor is no flight.
 ///
 /// # Errors
 ///
 /// [`SteadyError`] when no stable equilibrium is found; it names the best attitude met.
 pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
+    if film.surface_forces().is_none() {
+        return seek(film, load, start, true);
+    }
+    let flown = seek(film, load, start, false);
+    let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.floor_m();
+    if flown.as_ref().is_ok_and(is_flight) {
+        return flown;
+    }
+    let bare = seek(&film.with_surface_share(0.0), load, start, true)?;
+    match is_flight(&bare) {
+        true => follow(film, load, &bare),
+        false => flown,
+    }
+}
+
+/// First and smallest step in the share of the surface forces.
+const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
+
+/// The flight under surface forces, followed from `bare` without them as their share grows to 1. Near
+/// pull-in, where the slider has next to no stiffness left, Newton's method from afar misses it.
+///
+/// # Errors
+///
+/// [`SteadyError::PulledIn`] with the share at which the flight ends.
+fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyError> {
+    let load = Vector3::from(load);
+    let mut reached = (0.0, bare.attitude, bare.psi.clone());
+    let [mut step, smallest] = SHARE_STEPS;
+    loop {
+        let share = f64::min(reached.0 + step, 1.0);
+        let under = film.with_surface_share(share);
+        let mut search = Search {
+            newton: Newton::new(&under),
+            load,
+            found: Vec::new(),
+            last: reached.1,
+        };
+        let (mut attitude, mut psi) = (reached.1, reached.2.clone());
+        search.settle(&mut psi, &mut attitude, 0)?;
+        let flies = |found: &Found| found.stable && found.clearance_m >= 2.0 * film.floor_m();
+        if search.found.iter().any(flies) {
+            if share == 1.0 {
+                return search.finish();
+            }
+            reached = (share, attitude, psi);
+        } else if step > smallest {
+            step *= 0.5;
+        } else {
+            return Err(SteadyError::PulledIn {
+                share: reached.0,
+                without_m: bare.min_clearance_m,
+            });
+        }
+    }
+}
+
+/// The search for equilibria behind [`fly_from`]; by overdamped motion only where that is asked for.
+fn seek(
+    film: &Film,
+    load: [f64; 3],
+    start: &Attitude,
+    may_drift: bool,
+) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
     let mut search = Search {
         newton: Newton::new(film),
@@ -144,7 +219,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
         search.attempt(start, film.ambient(start))?;
     }
     search.attempt(&usual, film.usual_psi().to_vec())?;
-    if search.best().is_none() {
+    if search.best().is_none() && may_drift {
         let mut high = usual;
         high.centre_height_m += 1e-7;
         for from in [usual, high, *start] {
@@ -299,7 +374,8 @@ impl Search<'_> {
         );
         let mut pressure = vec![0.0; film.n_cells()];
         film.pressure(&found.psi, &found.attitude, &mut pressure);
-        let [force, m_pitch, m_roll] = film.force(&found.psi, &found.attitude, &mut film.scratch());
+        let [force, m_pitch, m_roll] =
+            film.air_force(&found.psi, &found.attitude, &mut film.scratch());
         let [l, w] = film.extent_m();
         Ok(Flight {
             attitude: found.attitude,

@@ -493,7 +493,7 @@ impl<'a> Run<'a> {
         let force = self
             .model
             .film
-            .force(&self.w.y[..n_cells], attitude, scratch);
+            .air_force(&self.w.y[..n_cells], attitude, scratch);
         columns.bearing_force_n.push(force[0]);
         columns.dimple_force_n.push(self.dimple_force_n);
         let [limiters, lift_tab] = &self.stops;

@@ -5,7 +5,7 @@ pub mod knob;
 pub mod plan;
 mod refine;
 
-use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel};
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, SurfaceForces};
 use crate::disk::{DiskParameters, DiskResolution};
 use crate::gas::GasParameters;
 pub use crate::head::{Coupling, HeadResolution};
@@ -37,6 +37,8 @@ pub struct Scene {
     pub gas: GasParameters,
     /// Rarefaction model.
     pub flow: FlowModel,
+    /// Forces between slider and disk beside the air; `None`: the air alone.
+    pub surface_forces: Option<SurfaceForces>,
     /// Clearance below which the head-disk interface has failed, m.
     pub fail_below_m: f64,
     /// Resolution of the disk.
@@ -50,18 +52,22 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The film under the slider, over the disk at its speed.
+    /// The film under the slider, over the disk at its speed, and surface forces beside it.
     ///
     /// # Errors
     ///
     /// As [`Film::build`].
     pub fn film(&self) -> Result<Film, FilmError> {
-        Film::build(
+        let film = Film::build(
             &self.slider,
             &self.gas,
             self.flow,
             self.disk.spin_rad_per_s,
             &self.film_resolution,
-        )
+        )?;
+        Ok(match self.surface_forces {
+            Some(forces) => film.with_surface_forces(&self.slider, forces),
+            None => film,
+        })
     }
 }

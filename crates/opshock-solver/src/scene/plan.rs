@@ -337,6 +337,10 @@ impl Plan {
                 _ => effect("ramp.arms", State::Off, None),
             },
             needs("head.steady_flight", Needs::Flight),
+            match scene.surface_forces {
+                Some(_) => needs("head.surface_forces", Needs::Flight),
+                None => effect("head.surface_forces", State::Off, None),
+            },
         ];
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));

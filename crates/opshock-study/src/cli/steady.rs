@@ -63,8 +63,20 @@ struct SteadyJson {
     /// Slider free on its film; null when a held attitude has none.
     modes: Option<Vec<ModeJson>>,
     unknowns: usize,
+    /// Share of the forces between slider and disk beside the air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    surface_forces: Option<SurfaceJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
     impedance: Option<Vec<ImpedanceJson>>,
+}
+
+/// Part of the force, the moments and the stiffness above that is no air.
+#[derive(Debug, Serialize)]
+struct SurfaceJson {
+    force_n: f64,
+    pitch_moment_n_m: f64,
+    roll_moment_n_m: f64,
+    stiffness: Matrix,
 }
 
 /// A mode of the slider on its film.
@@ -184,6 +196,13 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
     film.pressure(&psi, &attitude, &mut pressure);
     let [force_n, pitch_moment_n_m, roll_moment_n_m] =
         film.force(&psi, &attitude, &mut film.scratch());
+    let [air_n, air_pitch_n_m, air_roll_n_m] = film.air_force(&psi, &attitude, &mut film.scratch());
+    let surface_forces = film.surface_load(&attitude).map(|load| SurfaceJson {
+        force_n: load.force[0],
+        pitch_moment_n_m: load.force[1],
+        roll_moment_n_m: load.force[2],
+        stiffness: load.by_attitude.map(|row| row.map(|slope| -slope)),
+    });
     let [length_m, width_m] = film.extent_m();
     let json = SteadyJson {
         min_clearance_m: film.min_clearance(&attitude).value_m,
@@ -196,8 +215,8 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         pitch_moment_n_m,
         roll_moment_n_m,
         centre_of_pressure: [
-            0.5 * length_m - pitch_moment_n_m / force_n,
-            0.5 * width_m + roll_moment_n_m / force_n,
+            0.5 * length_m - air_pitch_n_m / air_n,
+            0.5 * width_m + air_roll_n_m / air_n,
         ],
         p_max_pa: pressure.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         p_min_pa: pressure.iter().copied().fold(f64::INFINITY, f64::min),
@@ -205,6 +224,7 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         damping: [[0.0; 3]; 3],
         modes: None,
         unknowns: n,
+        surface_forces,
         impedance: None,
     };
     State {
@@ -326,6 +346,15 @@ fn as_text(steady: &SteadyJson) -> String {
         1e6 * steady.centre_of_pressure[1],
         steady.unknowns,
     );
+    if let Some(surface) = &steady.surface_forces {
+        let _ = writeln!(
+            text,
+            "no air         {:.4} mN of the force, moments {:.4e} and {:.4e} N m",
+            1e3 * surface.force_n,
+            surface.pitch_moment_n_m,
+            surface.roll_moment_n_m
+        );
+    }
     matrix(&mut text, "stiffness", &steady.stiffness);
     matrix(&mut text, "damping", &steady.damping);
     for mode in steady.modes.iter().flatten() {

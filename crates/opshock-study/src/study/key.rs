@@ -345,7 +345,7 @@ impl Key {
 
     /// Whether a list of values makes an axis of the study.
     pub fn may_be_axis(&self) -> bool {
-        const SCENE: [&str; 8] = [
+        const SCENE: [&str; 9] = [
             "pulse",
             "disk",
             "hub",
@@ -353,6 +353,7 @@ impl Key {
             "slider",
             "suspension",
             "gas",
+            "surface_forces",
             "solver",
         ];
         const FIXED: [&str; 3] = [

@@ -248,6 +248,10 @@ pub static KEYS: &[Key] = &[
     Key::optional("gas.viscosity_pa_s", LENGTH, "from the temperature", "1.806e-5", "Dynamic viscosity.").usual(1e-6, 1e-4),
     Key::optional("gas.mean_free_path_nm", LENGTH, "63.5 nm scaled with viscosity, pressure and temperature", "63.5", "Mean free path at the ambient pressure.").usual(5.0, 500.0),
     Key::or("gas.model", Word(FLOWS), "\"fukui_kaneko\"", "Rarefaction model of the film."),
+    // surface forces
+    Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125"),
+    Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125"),
+    Key::optional("surface_forces.potential_v", Number(ANY), "no electrostatic force", "0.5", "Potential difference V of slider and disk: attraction eps0 V^2/(2 h^2) per area.").usual(-10.0, 10.0).code("E125"),
     // search
     Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156"),
     Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156"),

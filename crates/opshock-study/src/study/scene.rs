@@ -2,7 +2,7 @@
 //!
 //! Every number passes [`View::si`] here and nowhere else.
 
-use opshock_solver::air_bearing::{FilmResolution, FlowModel};
+use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
@@ -46,6 +46,7 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
             "slip_2" => FlowModel::Slip2,
             _ => FlowModel::FukuiKaneko,
         },
+        surface_forces: surface_forces(view),
         fail_below_m: view.si("solver.fail_below_nm"),
         disk_resolution: disk,
         structure_resolution: structure,
@@ -415,6 +416,20 @@ fn contact_law(view: &View<'_>, contact: &str) -> ContactLaw {
         stiffness_n_per_m: of("stiffness_n_per_m"),
         damping_ratio: of("damping_ratio"),
     }
+}
+
+/// Forces beside the air; `None` when none is given or all are 0.
+fn surface_forces(view: &View<'_>) -> Option<SurfaceForces> {
+    let or_0 = |name: &str| {
+        let path = format!("surface_forces.{name}");
+        view.maybe_si(&path).unwrap_or(0.0)
+    };
+    let forces = SurfaceForces {
+        hamaker_j: or_0("hamaker_j"),
+        repulsion_j_m6: or_0("repulsion_j_m6"),
+        potential_v: or_0("potential_v"),
+    };
+    (!forces.is_none()).then_some(forces)
 }
 
 /// Pressure from itself or the altitude; viscosity from itself or the temperature; mean free path

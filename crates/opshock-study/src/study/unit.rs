@@ -56,6 +56,12 @@ pub enum Dimension {
     ModalShape,
     /// Slope of such a shape.
     ModalSlope,
+    /// Energy.
+    Energy,
+    /// Energy times the sixth power of a length.
+    Repulsion,
+    /// Electric potential.
+    Potential,
 }
 
 impl Dimension {
@@ -85,6 +91,9 @@ impl Dimension {
             Self::ModalMass => "root of a mass",
             Self::ModalShape => "inverse root of a mass",
             Self::ModalSlope => "inverse root of a mass by a length",
+            Self::Energy => "energy",
+            Self::Repulsion => "energy times a length to the sixth",
+            Self::Potential => "potential",
         }
     }
 }
@@ -192,6 +201,9 @@ pub static UNITS: &[Unit] = &[
     unit("kg_per_m3", "kg/m³", Dimension::Density, same),
     unit("c", "°C", Dimension::Temperature, quantity::k_from_c),
     unit("pa_s", "Pa s", Dimension::Viscosity, same),
+    unit("j", "J", Dimension::Energy, same),
+    unit("j_m6", "J m⁶", Dimension::Repulsion, same),
+    unit("v", "V", Dimension::Potential, same),
     foreign("ns", "ns", Dimension::Time),
     foreign("min", "min", Dimension::Time),
     foreign("m_per_s2", "m/s²", Dimension::Acceleration),
@@ -299,6 +311,9 @@ mod tests {
             ("c_n_s_per_m", 1.0),
             ("c_n_m_s_per_rad", 1.0),
             ("r_per_m", 1.0),
+            ("a_j", 1.0),
+            ("b_j_m6", 1.0),
+            ("u_v", 1.0),
             ("a_deg", std::f64::consts::PI / 180.0),
             ("a_urad", 1e-6),
             ("s_pct", 1e-2),

@@ -133,6 +133,21 @@ impl Check<'_, '_> {
         }
     }
 
+    /// A repulsion belongs to the attraction that it ends.
+    pub(super) fn surface_forces(&mut self) {
+        const PATHS: [&str; 2] = ["surface_forces.hamaker_j", "surface_forces.repulsion_j_m6"];
+        if !self.sound(&PATHS) {
+            return;
+        }
+        let [attraction, repulsion] = PATHS.map(|path| self.view.maybe_number(path).unwrap_or(0.0));
+        if repulsion > 0.0 && attraction == 0.0 {
+            let message = "a repulsion without the attraction that it ends";
+            let fault = self.fault("E125", &PATHS[1..], message);
+            fault.allowed = "a repulsion beside hamaker_j > 0".to_string();
+            fault.hint = "give hamaker_j, or leave the repulsion out".to_string();
+        }
+    }
+
     /// Parts of a ramp's geometry fit together, and its model can be solved.
     pub(super) fn ramp_geometry(&mut self) {
         let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();
