@@ -6,7 +6,6 @@
 //! also with the pivots of before (`refactor`), which faer and the film's own do not need or do not offer.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::prelude::Solve;
@@ -19,6 +18,7 @@ use opshock_solver::air_bearing::{Attitude, Film, FilmLinearisation, FilmScratch
 use opshock_solver::linalg::banded::BandedLu;
 use opshock_solver::scene::Scene;
 use opshock_tests::scenes;
+use opshock_tests::timing::median_of;
 
 /// d of TR-BDF2 with a step of 0.2 µs, s.
 const D_S: f64 = 0.293 * 0.2e-6;
@@ -85,19 +85,6 @@ impl Flying {
         }
         SparseColMat::try_new_from_triplets(n, n, &entries).expect("a pattern")
     }
-}
-
-/// Median time of a call, s.
-fn median(mut call: impl FnMut()) -> f64 {
-    let mut times: Vec<f64> = (0..9)
-        .map(|_| {
-            let start = Instant::now();
-            call();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[4]
 }
 
 fn kernels(c: &mut Criterion) {
@@ -186,21 +173,23 @@ fn against_size(_: &mut Criterion) {
         let mut flying = Flying::of(&scene, cells);
         let n = flying.film.n_cells();
         let mut x = vec![1.0; n];
-        let residual = median(|| {
+        let residual = median_of(9, || {
             black_box(flying.residual(&mut x));
         });
         let mut lu = BandedLu::<f64>::new(n, flying.lin.by_psi.band());
         let (matrix, capacity) = (&flying.lin.by_psi, flying.film.capacity());
-        let factor = median(|| lu.factor(matrix, 1.0 / D_S, capacity).expect("factors"));
+        let factor = median_of(9, || {
+            lu.factor(matrix, 1.0 / D_S, capacity).expect("factors")
+        });
         let rhs: Vec<f64> = (0..n).map(|i| (0.7 * i as f64).sin()).collect();
         x.copy_from_slice(&rhs);
-        let solve = median(|| lu.solve(&mut x));
+        let solve = median_of(9, || lu.solve(&mut x));
         x.copy_from_slice(&rhs);
         lu.solve(&mut x);
         let sparse = flying.sparse();
         let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern");
         let mut other = column(&rhs);
-        let faer = median(|| {
+        let faer = median_of(9, || {
             let lu = Lu::try_new_with_symbolic(symbolic.clone(), sparse.as_ref()).expect("factors");
             other = lu.solve(column(&rhs));
         });
@@ -211,7 +200,7 @@ fn against_size(_: &mut Criterion) {
             let columns = columns(&sparse);
             let mut factors = klu.factor(&columns).expect("factors");
             let mut other = rhs.clone();
-            let time = median(|| {
+            let time = median_of(9, || {
                 other.copy_from_slice(&rhs);
                 assert!(factors.refactor() && factors.solve(&mut other));
             });

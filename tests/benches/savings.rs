@@ -20,6 +20,7 @@ use opshock_solver::simulation::{
 use opshock_solver::structure::StructureRun;
 use opshock_study::sweep::{Physics, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::scenes;
+use opshock_tests::timing::median;
 
 const ROUNDS: usize = 3;
 
@@ -65,11 +66,6 @@ fn times(scene: &Scene, plan: &Plan, amplitude_g: f64) -> ([f64; 2], Outcome) {
     let start = busy_s();
     let outcome = black_box(simulate(&model, &request(amplitude_g), &mut workspace));
     ([built, busy_s() - start], outcome)
-}
-
-fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 fn compare(question: &str, ramp: &str, output: Output, amplitude_g: f64) {

@@ -4,11 +4,11 @@
 //! window, at the study's accuracy.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use opshock_solver::simulation::{Bearing, Model, Request, Scope, Workspace, simulate};
 use opshock_tests::scenes;
+use opshock_tests::timing::median_of;
 
 const REQUEST: Request = Request {
     amplitude_m_per_s2: 190.0 * 9.80665,
@@ -47,22 +47,11 @@ fn shock(c: &mut Criterion) {
     });
     group.finish();
 
-    let median = |f: &mut dyn FnMut()| {
-        let mut times: Vec<f64> = (0..5)
-            .map(|_| {
-                let start = Instant::now();
-                f();
-                start.elapsed().as_secs_f64()
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        times[2]
-    };
     let mut workspace = Workspace::default();
-    let whole = median(&mut || {
+    let whole = median_of(5, || {
         black_box(simulate(&full, &REQUEST, &mut workspace));
     });
-    let part = median(&mut || {
+    let part = median_of(5, || {
         black_box(simulate(&structure, &REQUEST, &mut workspace));
     });
     let cost = simulate(&full, &REQUEST, &mut workspace).cost;

@@ -10,25 +10,13 @@ use opshock_study::search::RampClass;
 use opshock_study::sweep::{SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Recorder, study};
 use opshock_tests::scenes;
+use opshock_tests::timing::median_of;
 
 /// Cut frequencies of the disk's modes, Hz.
 const CUTS_HZ: [f64; 6] = [2e3, 10e3, 30e3, 60e3, 120e3, 240e3];
 
 /// Points of a sweep.
-const POINTS: [usize; 3] = [10, 100, 1000];
-
-/// Median of five, s.
-fn median(mut call: impl FnMut()) -> f64 {
-    let mut times: Vec<f64> = (0..5)
-        .map(|_| {
-            let start = Instant::now();
-            call();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[2]
-}
+const POINTS: [usize; 4] = [10, 100, 1000, 10_000];
 
 /// Slope of ln(time) over ln(size) between the ends of a table.
 fn exponent(rows: &[(f64, f64)]) -> f64 {
@@ -51,12 +39,12 @@ fn modes(_: &mut Criterion) {
     for cut_hz in CUTS_HZ {
         let mut scene = scenes::scene("fig13", "deformable", 0.5, &[]);
         scene.disk_resolution.cut_hz = cut_hz;
-        let build = median(|| {
+        let build = median_of(5, || {
             black_box(Model::build(&scene, Scope::Structure, None).expect("builds"));
         });
         let model = Model::build(&scene, Scope::Structure, None).expect("builds");
         let mut workspace = Workspace::default();
-        let run = median(|| {
+        let run = median_of(5, || {
             black_box(simulate(&model, &request, &mut workspace));
         });
         let n = model.structure().n_modes();

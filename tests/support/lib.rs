@@ -9,6 +9,7 @@ pub mod refined;
 pub mod scenes;
 pub mod seeded;
 pub mod tables;
+pub mod timing;
 
 pub use opshock_study::hard_cases::scenes::{bodies, films, heads, structures, suspensions};
 

@@ -65,6 +65,7 @@ pub struct Campaign {
     successors: Vec<Vec<usize>>,
     points: Vec<PointState>,
     chain_final: Vec<bool>,
+    n_final_chains: usize,
     /// (source, low end of its window, neighbour) already given.
     given: BTreeSet<(usize, i32, usize)>,
     changed: Vec<usize>,
@@ -93,6 +94,7 @@ impl Campaign {
                 coordinates.len()
             ],
             chain_final: vec![false; order.chains.len()],
+            n_final_chains: 0,
             order,
             given: BTreeSet::new(),
             changed: Vec::new(),
@@ -183,9 +185,14 @@ impl Campaign {
                 .is_none_or(|companion| self.chain_final[self.order.relations[companion].chain])
     }
 
+    /// Chains whose answers will not change any more.
+    pub fn n_final_chains(&self) -> usize {
+        self.n_final_chains
+    }
+
     /// All answers are final.
     pub fn is_done(&self) -> bool {
-        self.chain_final.iter().all(|is_final| *is_final)
+        self.n_final_chains == self.chain_final.len()
     }
 
     /// Answer of a point as the evidence has it; `Open` until it is final.
@@ -366,6 +373,7 @@ impl Campaign {
             }
         }
         self.chain_final[chain] = widths.iter().all(|&point| self.ask(point).is_none());
+        self.n_final_chains += usize::from(self.chain_final[chain]);
     }
 
     /// Starting amplitude: `None` while a point it comes from is open, `Some(None)` when there is

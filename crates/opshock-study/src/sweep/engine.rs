@@ -99,6 +99,9 @@ pub struct SweepEnd {
 const CHANNEL: usize = 1024;
 /// How often stop, budget and checkpoint are looked at.
 const TICK: Duration = Duration::from_millis(50);
+/// What is left is told anew once the known runs have grown by this part of them, or this time on.
+const ESTIMATE_SHARE: usize = 256;
+const BETWEEN_ESTIMATES: Duration = Duration::from_secs(1);
 /// How often a shard looks at the stores of the others.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 
@@ -210,6 +213,11 @@ struct Run<'a> {
     is_writer_gone: bool,
     brackets: Vec<(Option<f64>, Option<f64>)>,
     is_reported: Vec<bool>,
+    /// Changes of the ledger after the last report.
+    seen_changes: u64,
+    /// Known runs at which what is left is told next, and when it was told last.
+    estimate_at: usize,
+    estimated: Instant,
     began: Instant,
     busy_s: f64,
     computed_runs: u64,
@@ -250,6 +258,9 @@ impl<'a> Run<'a> {
             is_writer_gone: false,
             brackets: vec![(None, None); input.points.len()],
             is_reported: vec![false; input.points.len()],
+            seen_changes: 0,
+            estimate_at: 0,
+            estimated: Instant::now(),
             began: Instant::now(),
             busy_s: 0.0,
             computed_runs: 0,
@@ -500,6 +511,18 @@ impl<'a> Run<'a> {
         self.report(&told, wall_s.map(|wall_s| (key, wall_s)));
     }
 
+    /// Tells what is left. It looks at every point and run, so not after each of many runs.
+    fn estimate(&mut self) {
+        let n_runs = self.ledger.runs().len();
+        let is_due = n_runs >= self.estimate_at || self.estimated.elapsed() >= BETWEEN_ESTIMATES;
+        if is_due || self.ledger.is_done() {
+            let left = estimate::estimate(self.input, &self.ledger, self.options.threads);
+            self.tell(Event::Estimated(left));
+            self.estimate_at = n_runs + 1 + n_runs / ESTIMATE_SHARE;
+            self.estimated = Instant::now();
+        }
+    }
+
     /// Tells what the searches were told.
     fn report(&mut self, told: &[Told], computed: Option<(RunKey, f64)>) {
         for &Told { point, asked, key } in told {
@@ -534,16 +557,18 @@ impl<'a> Run<'a> {
                 });
             }
         }
-        for point in 0..self.is_reported.len() {
-            if !self.is_reported[point] && self.ledger.is_final(point) {
-                self.is_reported[point] = true;
-                let summary = self.ledger.row(point);
-                self.tell(Event::PointDone { point, summary });
+        if self.seen_changes != self.ledger.n_changes() {
+            self.seen_changes = self.ledger.n_changes();
+            for point in 0..self.is_reported.len() {
+                if !self.is_reported[point] && self.ledger.is_final(point) {
+                    self.is_reported[point] = true;
+                    let summary = self.ledger.row(point);
+                    self.tell(Event::PointDone { point, summary });
+                }
             }
         }
         if !told.is_empty() {
-            let left = estimate::estimate(self.input, &self.ledger, self.options.threads);
-            self.tell(Event::Estimated(left));
+            self.estimate();
         }
     }
 

@@ -1,7 +1,7 @@
 //! The searches of a study with every simulation finished so far: answers what the searches ask
 //! from what is known, and reads table and runs from them.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 use opshock_solver::scene::knob::Levels;
@@ -60,8 +60,20 @@ pub(super) struct Ledger<'a> {
     sharing: HashMap<PointDigest, Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     urgency: Vec<usize>,
+    /// Rank of every place in it.
+    rank: Vec<usize>,
+    /// What searches ask that is not known, by rank: (place, probe, its identity).
+    asking: BTreeMap<usize, (usize, Asked, RunKey)>,
+    /// Places before it in the campaign's sequence have their first touch.
+    n_touched: usize,
     /// Error bars as far as they have got, by place.
     bars: Vec<BarStage>,
+    /// Places whose bar waits for a run, by rank.
+    drawing: BTreeMap<usize, usize>,
+    /// Final chains of the campaign when bars were begun last.
+    n_final_chains: usize,
+    /// Times that a point became final, or may have.
+    n_changes: u64,
     part: Part,
 }
 
@@ -102,6 +114,10 @@ impl<'a> Ledger<'a> {
             sharing.entry(point.digest).or_default().push(place);
         }
         let urgency = urgency(&campaign);
+        let mut rank = vec![0; urgency.len()];
+        for (k, &point) in urgency.iter().enumerate() {
+            rank[point] = k;
+        }
         Ledger {
             input,
             campaign,
@@ -111,7 +127,13 @@ impl<'a> Ledger<'a> {
             onsets_in_flight: HashSet::new(),
             sharing,
             urgency,
+            rank,
+            asking: BTreeMap::new(),
+            n_touched: 0,
             bars: input.points.iter().map(|_| BarStage::Waiting).collect(),
+            drawing: BTreeMap::new(),
+            n_final_chains: 0,
+            n_changes: 0,
             part: Part {
                 wanted: vec![true; input.points.len()],
                 allowed: vec![true; input.points.len()],
@@ -186,8 +208,10 @@ impl<'a> Ledger<'a> {
             while let Some(asked) = self.campaign.ask(point) {
                 let key = self.key(point, asked.probe);
                 let Some(record) = self.runs.get(&key) else {
+                    self.asking.insert(self.rank[point], (point, asked, key));
                     break;
                 };
+                self.asking.remove(&self.rank[point]);
                 let result = &record.result;
                 self.campaign
                     .tell_margin(point, &result.verdict, result.h_min_m);
@@ -203,10 +227,18 @@ impl<'a> Ledger<'a> {
     /// all, and those whose search has become final. Says which runs were used first now.
     fn draw_bars(&mut self, finished: Option<RunKey>) -> Vec<Told> {
         let mut told = Vec::new();
-        for point in 0..self.input.points.len() {
+        let n_final_chains = self.campaign.n_final_chains();
+        let places: Vec<usize> = if n_final_chains == self.n_final_chains {
+            self.drawing.values().copied().collect()
+        } else {
+            (0..self.input.points.len()).collect()
+        };
+        self.n_final_chains = n_final_chains;
+        for point in places {
             match &self.bars[point] {
                 BarStage::Waiting if self.campaign.is_final(point) => {
                     self.bars[point] = self.first_stage(point);
+                    self.n_changes += 1;
                 }
                 BarStage::Begun {
                     progress: bar::Progress::Wants(ask),
@@ -239,10 +271,21 @@ impl<'a> Ledger<'a> {
                 ..
             } = &mut self.bars[point]
             {
+                if matches!(progress, bar::Progress::Wants(_)) {
+                    self.drawing.insert(self.rank[point], point);
+                } else {
+                    self.drawing.remove(&self.rank[point]);
+                    self.n_changes += 1;
+                }
                 (*log, *before) = (now, progress);
             }
         }
         told
+    }
+
+    /// Changes whenever a point becomes final.
+    pub(super) fn n_changes(&self) -> u64 {
+        self.n_changes
     }
 
     /// Stage of a bar when the point's search has become final.
@@ -353,7 +396,7 @@ impl<'a> Ledger<'a> {
     }
 
     fn bar_job(&self) -> Option<Job> {
-        self.urgency.iter().find_map(|&point| {
+        self.drawing.values().find_map(|&point| {
             let BarStage::Begun {
                 progress: bar::Progress::Wants(ask),
                 ..
@@ -388,32 +431,27 @@ impl<'a> Ledger<'a> {
         Some(job)
     }
 
-    fn asked_job(&self) -> Option<Job> {
-        let onset = self
-            .campaign
-            .order()
-            .sequence
-            .iter()
-            .copied()
-            .find(|&place| {
-                self.campaign.touch(place).is_none()
-                    && !self
-                        .onsets_in_flight
-                        .contains(&self.input.points[place].digest)
-            });
+    fn asked_job(&mut self) -> Option<Job> {
+        let sequence = &self.campaign.order().sequence;
+        let is_touched = |place: usize| self.campaign.touch(place).is_some();
+        let touched = sequence[self.n_touched..].iter();
+        self.n_touched += touched.take_while(|&&place| is_touched(place)).count();
+        let onset = sequence[self.n_touched..].iter().copied().find(|&place| {
+            let digest = &self.input.points[place].digest;
+            !is_touched(place) && !self.onsets_in_flight.contains(digest)
+        });
         if let Some(point) = onset {
             return Some(Job::Onset { point });
         }
         // What is wanted first: another process may be about to answer the rest.
-        let (own, others): (Vec<usize>, Vec<usize>) = self
-            .urgency
-            .iter()
-            .filter(|&&point| self.part.allowed[point])
-            .partition(|&&point| self.wants(point));
-        own.into_iter().chain(others).find_map(|point| {
-            let asked = self.campaign.ask(point)?;
-            let key = self.key(point, asked.probe);
-            (!self.in_flight.contains(&key)).then_some(Job::Run { point, asked, key })
+        [true, false].into_iter().find_map(|is_own| {
+            let mut asking = self.asking.values();
+            let &(point, asked, key) = asking.find(|&&(point, _, key)| {
+                self.part.allowed[point]
+                    && self.wants(point) == is_own
+                    && !self.in_flight.contains(&key)
+            })?;
+            Some(Job::Run { point, asked, key })
         })
     }
 
