@@ -10,7 +10,7 @@
 //!
 //! Shapes are scaled to modal mass 1 kg.
 
-use super::harmonic::{self, RadialMesh};
+use super::harmonic::{HarmonicFamily, RadialMesh};
 use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
 use crate::linalg::dense::dot;
 use crate::linalg::{DenseError, lowest};
@@ -126,7 +126,7 @@ impl DiskBasis {
         disk.hub.map_or(Ok(()), |hub| hub.validate())?;
         let mesh = RadialMesh::new(disk, resolution.n_elements);
         let rows: Vec<_> = radii_m.iter().map(|&r| mesh.interpolation(r)).collect();
-        let stress = MembraneStress::new(disk);
+        let family = HarmonicFamily::new(disk, &MembraneStress::new(disk), &mesh);
         let cut = std::f64::consts::TAU * resolution.cut_hz;
         let mut modes = Vec::new();
         let mut harmonics_bounded = false;
@@ -146,7 +146,7 @@ impl DiskBasis {
                 nodal_diameters: n,
                 source,
             };
-            let m = harmonic::assemble(disk, &stress, &mesh, n);
+            let m = family.harmonic(n);
             let (limit, at_least) = match n {
                 0 => (SYMMETRIC_CUT_FACTOR * cut, MIN_SYMMETRIC_MODES),
                 _ => (cut, 0),
@@ -191,8 +191,9 @@ impl DiskBasis {
                 m.stiffness.cholesky().map_err(failed)?.solve(&mut x);
                 // Twice is enough against rounding left by the first projection.
                 for _ in 0..2 {
+                    let inertia = m.mass.times(&x);
                     for y in &pairs.vectors[..n_keep] {
-                        let share = m.mass.form(y, &x);
+                        let share = dot(y, &inertia);
                         for (xi, yi) in x.iter_mut().zip(y) {
                             *xi -= share * yi;
                         }

@@ -9,11 +9,14 @@
 //! κ = φ′/r − n² φ/r²,    τ = φ′/r − φ/r²
 //! ```
 //!
+//! k is a polynomial in n²: with the three matrices of its coefficients integrated once
+//! ([`HarmonicFamily`]) every harmonic is a sum of them.
+//!
 //! Cubic Hermite elements (unknowns φ and φ′ at the nodes), eigenvalues converge with order 4 in
 //! the element length; φ = φ′ = 0 at the clamp.
 
 use super::{DiskParameters, MembraneStress};
-use crate::linalg::SquareMatrix;
+use crate::linalg::SymmetricBand;
 
 /// Points and weights of the Gauss rule on (0, 1) used in every element.
 ///
@@ -66,71 +69,98 @@ impl RadialMesh {
     }
 }
 
+/// Unknowns of two neighbouring nodes share an element: three diagonals beside the main one.
+pub type Band = SymmetricBand<3>;
+
 /// Stiffness, mass and uniform load of one harmonic.
 #[derive(Clone, Debug)]
 pub struct HarmonicMatrices {
     /// Stiffness, N/m per unit shape.
-    pub stiffness: SquareMatrix,
+    pub stiffness: Band,
     /// Mass, kg.
-    pub mass: SquareMatrix,
+    pub mass: Band,
     /// Inertia along the rigid motion of the harmonic: ∫ ρ h φ dA of a unit displacement for n = 0,
     /// kg; ∫ ρ h φ r cos²θ dA of a unit tilt for n = 1, kg m; zero above.
     pub rigid_load: Vec<f64>,
 }
 
-/// Assembles harmonic `n`.
-pub fn assemble(
-    disk: &DiskParameters,
-    stress: &MembraneStress,
-    mesh: &RadialMesh,
-    n: usize,
-) -> HarmonicMatrices {
-    let size = mesh.n_unknowns();
-    let (mut k, mut m) = (SquareMatrix::zeros(size), SquareMatrix::zeros(size));
-    let mut load = vec![0.0; size];
-    let nu = disk.poisson;
-    let d = disk.youngs_modulus_pa * disk.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu));
-    let angular = if n == 0 { 2.0 } else { 1.0 } * std::f64::consts::PI;
-    let n2 = (n * n) as f64;
-    for e in 0..mesh.n_elements {
-        for (x, weight) in GAUSS {
-            let r = mesh.inner_radius_m + (e as f64 + x) * mesh.element_m;
-            let shape = hermite(x, mesh.element_m);
-            let (sr, st) = stress.at(r);
-            let area = angular * weight * mesh.element_m * r;
-            let bending = area * d;
-            let membrane = area * disk.thickness_m;
-            let mass = area * disk.density_kg_per_m3 * disk.thickness_m;
-            for (a, &[va, da, dda]) in shape.iter().enumerate() {
-                let Some(i) = unknown(e, a) else { continue };
-                let (ka, ta) = (da / r - n2 * va / (r * r), da / r - va / (r * r));
-                match n {
-                    0 => load[i] += mass * va,
-                    1 => load[i] += mass * r * va,
-                    _ => {}
-                }
-                for (b, &[vb, db, ddb]) in shape.iter().enumerate() {
-                    let Some(j) = unknown(e, b) else { continue };
-                    let (kb, tb) = (db / r - n2 * vb / (r * r), db / r - vb / (r * r));
-                    k.add(
-                        i,
-                        j,
-                        bending
-                            * (dda * ddb
-                                + ka * kb
-                                + nu * (dda * kb + ka * ddb)
-                                + 2.0 * (1.0 - nu) * n2 * ta * tb)
-                            + membrane * (sr * da * db + st * n2 * va * vb / (r * r)),
-                    );
-                    m.add(i, j, mass * va * vb);
+/// What the matrices of all harmonics are made of, per radian of angular weight g.
+#[derive(Clone, Debug)]
+pub struct HarmonicFamily {
+    /// Factors of 1, n² and n⁴ in the stiffness.
+    stiffness: [Band; 3],
+    mass: Band,
+    /// ∫ ρ h φ r dr and ∫ ρ h φ r² dr.
+    loads: [Vec<f64>; 2],
+}
+
+impl HarmonicFamily {
+    /// Integrates over the mesh.
+    pub fn new(disk: &DiskParameters, stress: &MembraneStress, mesh: &RadialMesh) -> Self {
+        let size = mesh.n_unknowns();
+        let mut all = Self {
+            stiffness: std::array::from_fn(|_| Band::zeros(size)),
+            mass: Band::zeros(size),
+            loads: [vec![0.0; size], vec![0.0; size]],
+        };
+        let nu = disk.poisson;
+        let d = disk.youngs_modulus_pa * disk.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu));
+        let shapes = GAUSS.map(|(x, _)| hermite(x, mesh.element_m));
+        for e in 0..mesh.n_elements {
+            for ((x, weight), shape) in GAUSS.into_iter().zip(&shapes) {
+                let r = mesh.inner_radius_m + (e as f64 + x) * mesh.element_m;
+                let (sr, st) = stress.at(r);
+                let area = weight * mesh.element_m * r;
+                let bending = area * d;
+                let membrane = area * disk.thickness_m;
+                let mass = area * disk.density_kg_per_m3 * disk.thickness_m;
+                // κ = slope − n² over, τ = slope − over.
+                let parts = shape.map(|[value, first, second]| {
+                    let (slope, over) = (first / r, value / (r * r));
+                    [value, first, second, slope, over, slope - over]
+                });
+                for (a, &[va, da, dda, sa, oa, ta]) in parts.iter().enumerate() {
+                    let Some(i) = unknown(e, a) else { continue };
+                    all.loads[0][i] += mass * va;
+                    all.loads[1][i] += mass * r * va;
+                    for (b, &[vb, db, ddb, sb, ob, tb]) in parts.iter().enumerate().take(a + 1) {
+                        let Some(j) = unknown(e, b) else { continue };
+                        let plain = bending * (dda * ddb + sa * sb + nu * (dda * sb + sa * ddb))
+                            + membrane * sr * da * db;
+                        let turned = bending
+                            * (2.0 * (1.0 - nu) * ta * tb
+                                - (sa * ob + oa * sb)
+                                - nu * (dda * ob + oa * ddb))
+                            + membrane * st * va * ob;
+                        all.stiffness[0].add(i, j, plain);
+                        all.stiffness[1].add(i, j, turned);
+                        all.stiffness[2].add(i, j, bending * oa * ob);
+                        all.mass.add(i, j, mass * va * vb);
+                    }
                 }
             }
         }
+        all
     }
-    HarmonicMatrices {
-        stiffness: k,
-        mass: m,
-        rigid_load: load,
+
+    /// Matrices of harmonic `n`.
+    pub fn harmonic(&self, n: usize) -> HarmonicMatrices {
+        let size = self.mass.order();
+        let angular = if n == 0 { 2.0 } else { 1.0 } * std::f64::consts::PI;
+        let n2 = (n * n) as f64;
+        let (mut stiffness, mut mass) = (Band::zeros(size), Band::zeros(size));
+        for (power, part) in [1.0, n2, n2 * n2].into_iter().zip(&self.stiffness) {
+            stiffness.add_scaled(angular * power, part);
+        }
+        mass.add_scaled(angular, &self.mass);
+        let load = self.loads.get(n).cloned();
+        let mut rigid_load = load.unwrap_or_else(|| vec![0.0; size]);
+        rigid_load.iter_mut().for_each(|load| *load *= angular);
+        HarmonicMatrices {
+            stiffness,
+            mass,
+            rigid_load,
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Linear algebra that grows with a mesh; the only module that names the matrix library.
 
+pub mod band;
 pub mod banded;
 pub mod dense;
 pub mod general;
@@ -7,4 +8,5 @@ pub mod lowest;
 pub mod pivoted;
 mod triangles;
 
+pub use band::SymmetricBand;
 pub use dense::{DenseError, EigenPairs, SquareMatrix};

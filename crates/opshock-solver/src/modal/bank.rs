@@ -4,10 +4,11 @@
 //! whole chunks and sums have one fixed order.
 
 use super::{Flow, Oscillator};
+use crate::lanes::{self, Kernel, SUMS};
 use nalgebra::Complex;
 
 /// Chunk length of the loops over modes.
-pub const LANES: usize = 4;
+pub const LANES: usize = SUMS;
 
 /// Amplitudes and velocities of all modes in the fixed frame.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -140,23 +141,12 @@ impl BankFlow {
 
     /// `after` := flow of `before`.
     pub fn apply(&self, before: &ModalState, after: &mut ModalState) {
-        let n = self.qq.re.len();
-        let (qq, qr, rq, rr) = (&self.qq, &self.qr, &self.rq, &self.rr);
-        let (ar, ai) = (&qq.re[..n], &qq.im[..n]);
-        let (br, bi) = (&qr.re[..n], &qr.im[..n]);
-        let (cr, ci) = (&rq.re[..n], &rq.im[..n]);
-        let (dr, di) = (&rr.re[..n], &rr.im[..n]);
-        let (xr, xi) = (&before.q_re[..n], &before.q_im[..n]);
-        let (yr, yi) = (&before.r_re[..n], &before.r_im[..n]);
-        let (ur, ui) = (&mut after.q_re[..n], &mut after.q_im[..n]);
-        let (vr, vi) = (&mut after.r_re[..n], &mut after.r_im[..n]);
-        for i in 0..n {
-            let (qr, qi, rr, ri) = (xr[i], xi[i], yr[i], yi[i]);
-            ur[i] = qr + ((ar[i] * qr - ai[i] * qi) + (br[i] * rr - bi[i] * ri));
-            ui[i] = qi + ((ar[i] * qi + ai[i] * qr) + (br[i] * ri + bi[i] * rr));
-            vr[i] = rr + ((cr[i] * qr - ci[i] * qi) + (dr[i] * rr - di[i] * ri));
-            vi[i] = ri + ((cr[i] * qi + ci[i] * qr) + (dr[i] * ri + di[i] * rr));
-        }
+        let flow = self;
+        lanes::widest(Apply {
+            flow,
+            before,
+            after,
+        });
     }
 
     /// Adds to `after` what an impulse of the real `shape` at the start of the flow leads to.
@@ -172,7 +162,7 @@ impl BankFlow {
 
     /// Displacement of `shape` after the flow per unit impulse on `shape` at its start.
     pub fn compliance(&self, shape: &[f64]) -> f64 {
-        shape.iter().zip(&self.qr.re).map(|(b, s)| b * b * s).sum()
+        self.compliance_across(shape, shape)
     }
 
     /// Displacement of `to` after the flow per unit impulse on `from` at its start.
@@ -182,20 +172,63 @@ impl BankFlow {
     }
 }
 
+struct Apply<'a> {
+    flow: &'a BankFlow,
+    before: &'a ModalState,
+    after: &'a mut ModalState,
+}
+
+impl Kernel for Apply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let BankFlow { qq, qr, rq, rr } = self.flow;
+        let flow = [qq, qr, rq, rr].map(|column| (chunks(&column.re), chunks(&column.im)));
+        let [(ar, ai), (br, bi), (cr, ci), (dr, di)] = flow;
+        let (xr, xi) = (chunks(&self.before.q_re), chunks(&self.before.q_im));
+        let (yr, yi) = (chunks(&self.before.r_re), chunks(&self.before.r_im));
+        let (ur, _) = self.after.q_re.as_chunks_mut::<LANES>();
+        let (ui, _) = self.after.q_im.as_chunks_mut::<LANES>();
+        let (vr, _) = self.after.r_re.as_chunks_mut::<LANES>();
+        let (vi, _) = self.after.r_im.as_chunks_mut::<LANES>();
+        for i in 0..ar.len() {
+            let (qr, qi, rr, ri) = (xr[i], xi[i], yr[i], yi[i]);
+            let mut to = [[0.0; LANES]; 4];
+            for l in 0..LANES {
+                let (qr, qi, rr, ri) = (qr[l], qi[l], rr[l], ri[l]);
+                to[0][l] = qr + ((ar[i][l] * qr - ai[i][l] * qi) + (br[i][l] * rr - bi[i][l] * ri));
+                to[1][l] = qi + ((ar[i][l] * qi + ai[i][l] * qr) + (br[i][l] * ri + bi[i][l] * rr));
+                to[2][l] = rr + ((cr[i][l] * qr - ci[i][l] * qi) + (dr[i][l] * rr - di[i][l] * ri));
+                to[3][l] = ri + ((cr[i][l] * qi + ci[i][l] * qr) + (dr[i][l] * ri + di[i][l] * rr));
+            }
+            [ur[i], ui[i], vr[i], vi[i]] = to;
+        }
+    }
+}
+
+/// The whole chunks of a padded column.
+#[inline(always)]
+pub fn chunks(column: &[f64]) -> &[[f64; LANES]] {
+    column.as_chunks().0
+}
+
 impl Readout {
     /// Displacement (or velocity, given velocities) of the point.
     pub fn read(&self, re: &[f64], im: &[f64]) -> f64 {
         dot(&self.re, re) + dot(&self.im, im)
     }
+
+    /// The same of three points.
+    pub fn read_three(rows: &[Self; 3], re: &[f64], im: &[f64]) -> [f64; 3] {
+        let [a, b, c] = rows;
+        let real = lanes::products([&a.re, &b.re, &c.re], re);
+        let imaginary = lanes::products([&a.im, &b.im, &c.im], im);
+        std::array::from_fn(|k| real[k] + imaginary[k])
+    }
 }
 
-/// Sum of products in chunks of [`LANES`], one fixed order; lengths are multiples of it.
+/// Sum of products, one fixed order.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = [0.0; LANES];
-    for (x, y) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for l in 0..LANES {
-            sum[l] += x[l] * y[l];
-        }
-    }
-    (sum[0] + sum[2]) + (sum[1] + sum[3])
+    lanes::product(a, b)
 }

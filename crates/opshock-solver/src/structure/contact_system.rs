@@ -16,10 +16,13 @@ use super::rotor::{Leap, RotorState};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
-use crate::modal::{BankFlow, ModalState};
+use crate::modal::{BankFlow, ModalState, Readout};
 
 /// Impacts closer than this share an event of the head's integration, s.
 pub(super) const EVENT_SPACING_S: f64 = 2e-6;
+/// In a fixed window the peaks of the energies are looked for in every node of so many. Books of work
+/// and losses are kept at every step.
+const ENERGY_NODES: usize = 8;
 
 /// All that changes in a run; kept in the workspace so that runs reuse its memory.
 #[derive(Default)]
@@ -53,6 +56,10 @@ pub(super) struct ContactSystem<'a> {
     /// Time from now to the instant ahead.
     reach_s: f64,
     awake: bool,
+    /// `gaps` are those of the node at `k`.
+    is_settled: bool,
+    /// `total_forced` is the state now.
+    is_totalled: bool,
     gaps: [Gap; 2],
     gaps_ahead: [Gap; 2],
     sample_ahead: Sample,
@@ -119,6 +126,8 @@ impl<'a> ContactSystem<'a> {
             offset_s: 0.0,
             reach_s: 0.0,
             awake: false,
+            is_settled: false,
+            is_totalled: false,
             gaps: [Gap::default(); 2],
             gaps_ahead: [Gap::default(); 2],
             sample_ahead: Sample::default(),
@@ -163,7 +172,15 @@ impl<'a> ContactSystem<'a> {
             self.ledger.work = LongSum::from_value(a2 * sample.work);
             self.ledger.damping = LongSum::from_value(a2 * sample.loss);
         }
-        self.gaps = self.gaps_now();
+        self.settle();
+    }
+
+    /// Takes the gaps at the node reached, where the step before has not left them.
+    fn settle(&mut self) {
+        if !self.is_settled {
+            self.gaps = self.gaps_at_node();
+            self.is_settled = true;
+        }
     }
 
     /// Settles at the next node.
@@ -171,8 +188,8 @@ impl<'a> ContactSystem<'a> {
         self.k += 1;
         self.offset_s = 0.0;
         self.accumulated_steps += u64::from(report.accumulated);
-        let gaps = self.gaps_now();
-        for gap in gaps.iter().take(self.shared.n_contacts) {
+        self.settle();
+        for gap in self.gaps.iter().take(self.shared.n_contacts) {
             let depth = -gap.value_m;
             let largest = &mut self.complementarity.max_penetration_m;
             *largest = largest.max(depth);
@@ -180,7 +197,7 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Gaps at the node reached.
-    fn gaps_now(&self) -> [Gap; 2] {
+    fn gaps_at_node(&self) -> [Gap; 2] {
         self.gaps_of(&self.state.now, &self.state.rotor_now, self.sample())
     }
 
@@ -241,13 +258,16 @@ impl<'a> ContactSystem<'a> {
         if self.awake {
             let n = self.shared.n_disk;
             let now = &self.state.now;
-            let [w, p, r] = &self.shared.slider;
-            pose.displacement_m += w.read(&now.q_re[..n], &now.q_im[..n]);
-            pose.pitch_rad += p.read(&now.q_re[..n], &now.q_im[..n]);
-            pose.roll_rad += r.read(&now.q_re[..n], &now.q_im[..n]);
-            rate.displacement_m += w.read(&now.r_re[..n], &now.r_im[..n]);
-            rate.pitch_rad += p.read(&now.r_re[..n], &now.r_im[..n]);
-            rate.roll_rad += r.read(&now.r_re[..n], &now.r_im[..n]);
+            let rows = &self.shared.slider;
+            let driven = [
+                Readout::read_three(rows, &now.q_re[..n], &now.q_im[..n]),
+                Readout::read_three(rows, &now.r_re[..n], &now.r_im[..n]),
+            ];
+            for (pose, [w, pitch, roll]) in [&mut pose, &mut rate].into_iter().zip(driven) {
+                pose.displacement_m += w;
+                pose.pitch_rad += pitch;
+                pose.roll_rad += roll;
+            }
         }
         (pose, rate)
     }
@@ -299,27 +319,13 @@ impl<'a> ContactSystem<'a> {
                     *x += shared.arm_shape[side][j] * now.q_re[j];
                 }
             }
-            self.total_state();
-            self.energies = shared.weights.energies(&self.state.total);
-            if let Some(rotor) = &shared.free.rotor {
-                let ForcedState {
-                    rotor: total,
-                    scratch,
-                    ..
-                } = &mut self.state.total_forced;
-                self.energies.add(&rotor.energies(total, scratch));
-            }
-        } else {
-            let energy = a * a * sample.energy;
-            // Where the disk's motion is axisymmetric both energies agree.
-            self.energies = Energies {
-                kinetic: a * a * sample.kinetic,
-                elastic: energy - a * a * sample.kinetic,
-                fixed_frame: energy,
-            };
-            if sample.excess != 0.0 {
-                self.energies.fixed_frame += a * a * sample.excess;
-            }
+        }
+        let is_look = match shared.window {
+            Window::Fixed { .. } => self.k.is_multiple_of(ENERGY_NODES),
+            Window::UntilDecayed { .. } => true,
+        };
+        if is_look || self.state.record {
+            self.energies = self.energies_now();
         }
         if self.state.keeps_motion {
             self.state.history.pose.push(pose);
@@ -337,21 +343,62 @@ impl<'a> ContactSystem<'a> {
         };
         self.extremes.include(&node);
         self.record_hub();
-        let material = self.energies.material();
-        let ledger = &mut self.ledger;
-        ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
-        ledger.peak_material = ledger.peak_material.max(material);
-        if let Window::UntilDecayed { share, .. } = shared.window {
-            self.decayed =
-                time_s >= shared.free.pulse_end_s && material <= share * self.ledger.peak_material;
+        if is_look {
+            let material = self.energies.material();
+            let ledger = &mut self.ledger;
+            ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
+            ledger.peak_material = ledger.peak_material.max(material);
+            if let Window::UntilDecayed { share, .. } = shared.window {
+                self.decayed =
+                    time_s >= shared.free.pulse_end_s && material <= share * ledger.peak_material;
+            }
         }
         if self.state.record {
             self.state.columns.push(&node);
         }
     }
 
+    /// Energies at the node reached.
+    fn energies_now(&mut self) -> Energies {
+        let shared = self.shared;
+        if self.awake {
+            self.total_forced();
+            let state = &mut *self.state;
+            state.total.copy_from(&state.now);
+            for (j, &i) in shared.forced_index.iter().enumerate() {
+                state.total.q_re[i] = state.total_forced.x[j];
+                state.total.r_re[i] = state.total_forced.v[j];
+            }
+            let mut energies = shared.weights.energies(&state.total);
+            if let Some(rotor) = &shared.free.rotor {
+                let ForcedState {
+                    rotor: total,
+                    scratch,
+                    ..
+                } = &mut state.total_forced;
+                energies.add(&rotor.energies(total, scratch));
+            }
+            return energies;
+        }
+        let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
+        let energy = a2 * sample.energy;
+        // Where the disk's motion is axisymmetric both energies agree.
+        let mut energies = Energies {
+            kinetic: a2 * sample.kinetic,
+            elastic: energy - a2 * sample.kinetic,
+            fixed_frame: energy,
+        };
+        if sample.excess != 0.0 {
+            energies.fixed_frame += a2 * sample.excess;
+        }
+        energies
+    }
+
     /// Books the hub at the node reached.
     fn record_hub(&mut self) {
+        if self.hub.is_some() && self.awake {
+            self.total_forced();
+        }
         let (Some(book), Some(rotor)) = (&mut self.hub, &self.shared.free.rotor) else {
             return;
         };
@@ -363,15 +410,17 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
-    /// Fills the total state: contact-driven plus amplitude times unit response.
-    fn total_state(&mut self) {
+    /// Fills the total state of the forced modes: contact-driven plus amplitude times unit response.
+    fn total_forced(&mut self) {
+        if self.is_totalled {
+            return;
+        }
+        self.is_totalled = true;
         let state = &mut *self.state;
         // At a node the unit response in `unit_now` is the one behind the samples.
-        state.total.copy_from(&state.now);
         for (j, &i) in self.shared.forced_index.iter().enumerate() {
             let x = state.now.q_re[i] + self.amplitude * state.unit_now.x[j];
             let v = state.now.r_re[i] + self.amplitude * state.unit_now.v[j];
-            (state.total.q_re[i], state.total.r_re[i]) = (x, v);
             (state.total_forced.x[j], state.total_forced.v[j]) = (x, v);
         }
         let total = &mut state.total_forced.rotor;
@@ -382,7 +431,7 @@ impl<'a> ContactSystem<'a> {
     /// Work and loss from now to the instant ahead.
     fn book_free_motion(&mut self) {
         let (shared, reach) = (self.shared, self.reach_s);
-        self.total_state();
+        self.total_forced();
         let is_whole = self.is_whole_step();
         let now_s = self.now_s();
         let state = &mut *self.state;
@@ -390,7 +439,7 @@ impl<'a> ContactSystem<'a> {
         let exchange = if is_whole {
             self.ledger
                 .damping
-                .add(shared.weights.step_loss(&state.total));
+                .add(shared.weights.step_loss(&state.now));
             free.exchange(&mut state.total_forced, self.k, self.amplitude)
         } else {
             for (i, o) in shared.oscillators.iter().enumerate() {
@@ -422,7 +471,8 @@ impl<'a> ContactSystem<'a> {
     ///
     /// # Errors
     /// [`StructureError::NotFinite`].
-    pub fn finish(self) -> Result<StructureRun, StructureError> {
+    pub fn finish(mut self) -> Result<StructureRun, StructureError> {
+        let energies = self.energies_now();
         let mut ledger = self.ledger;
         if !self.awake {
             let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
@@ -436,7 +486,7 @@ impl<'a> ContactSystem<'a> {
             shared: self.shared,
             k: self.k,
             not_finite: self.not_finite,
-            energies: self.energies,
+            energies,
             ledger,
             extremes: self.extremes,
             complementarity: self.complementarity,
@@ -578,6 +628,7 @@ impl UnilateralSystem for ContactSystem<'_> {
 
         self.book_jump(on_disk, kind);
 
+        (self.is_settled, self.is_totalled) = (false, false);
         let state = &mut *self.state;
         let flow = if self.offset_s == 0.0 && self.reach_s == shared.free.step_s {
             &shared.step_flow
@@ -621,6 +672,8 @@ impl UnilateralSystem for ContactSystem<'_> {
         }
         self.offset_s += self.reach_s;
         self.gaps = self.gaps_ahead;
+        // A whole step ends on the node, to the bit.
+        (self.is_settled, self.is_totalled) = (whole, false);
     }
 }
 

@@ -4,7 +4,8 @@
 //! step comes from the roots of its motion and not from the energies at its ends, so that the
 //! book closes only when flow, forcing, impulses and losses agree.
 
-use crate::modal::bank::LANES;
+use crate::lanes::{self, Kernel};
+use crate::modal::bank::{LANES, chunks};
 use crate::modal::{ModalState, Oscillator};
 
 /// Energies at one instant, J.
@@ -62,24 +63,10 @@ impl EnergyWeights {
     }
 
     /// Energies of a total state.
-    #[expect(clippy::needless_range_loop, reason = "one index through many columns")]
     pub fn energies(&self, state: &ModalState) -> Energies {
-        let mut sums = [[0.0; LANES]; 4];
-        let n = self.turn.len();
-        for i in (0..n).step_by(LANES) {
-            for l in 0..LANES {
-                let j = i + l;
-                let (xr, xi) = (state.q_re[j], state.q_im[j]);
-                let (vr, vi) = (state.r_re[j], state.r_im[j]);
-                let qq = xr * xr + xi * xi;
-                let turn = self.turn[j];
-                sums[0][l] += vr * vr + vi * vi;
-                sums[1][l] += turn * (vi * xr - vr * xi);
-                sums[2][l] += turn * turn * qq;
-                sums[3][l] += self.stiffness[j] * qq;
-            }
-        }
-        let [rr, turned, turn2, spring] = sums.map(|s| 0.5 * ((s[0] + s[2]) + (s[1] + s[3])));
+        let weights = self;
+        let sums = lanes::widest(EnergySums { weights, state });
+        let [rr, turned, turn2, spring] = sums.map(|s| 0.5 * lanes::total(s));
         Energies {
             kinetic: rr + 2.0 * turned + turn2,
             elastic: spring,
@@ -88,23 +75,82 @@ impl EnergyWeights {
     }
 
     /// Loss of the modes without forcing over one whole step.
-    #[expect(clippy::needless_range_loop, reason = "one index through many columns")]
     pub fn step_loss(&self, state: &ModalState) -> f64 {
-        let mut sum = [0.0; LANES];
-        let n = self.turn.len();
-        for i in (0..n).step_by(LANES) {
+        let weights = self;
+        lanes::total(lanes::widest(LossSums { weights, state }))
+    }
+}
+
+struct EnergySums<'a> {
+    weights: &'a EnergyWeights,
+    state: &'a ModalState,
+}
+
+impl Kernel for EnergySums<'_> {
+    type Output = [[f64; LANES]; 4];
+
+    #[inline(always)]
+    fn call(self) -> [[f64; LANES]; 4] {
+        let ModalState {
+            q_re,
+            q_im,
+            r_re,
+            r_im,
+        } = self.state;
+        let (turn, stiffness) = (chunks(&self.weights.turn), chunks(&self.weights.stiffness));
+        let (q_re, q_im) = (chunks(q_re), chunks(q_im));
+        let (r_re, r_im) = (chunks(r_re), chunks(r_im));
+        let mut sums = [[0.0; LANES]; 4];
+        for i in 0..turn.len() {
             for l in 0..LANES {
-                let j = i + l;
-                let (xr, xi) = (state.q_re[j], state.q_im[j]);
-                let (vr, vi) = (state.r_re[j], state.r_im[j]);
-                // q* r = (xr vr + xi vi) + i (xr vi − xi vr)
-                sum[l] += self.loss_qq[j] * (xr * xr + xi * xi)
-                    + self.loss_rr[j] * (vr * vr + vi * vi)
-                    + self.loss_qr_re[j] * (xr * vr + xi * vi)
-                    + self.loss_qr_im[j] * (xr * vi - xi * vr);
+                let (xr, xi) = (q_re[i][l], q_im[i][l]);
+                let (vr, vi) = (r_re[i][l], r_im[i][l]);
+                let qq = xr * xr + xi * xi;
+                let turn = turn[i][l];
+                sums[0][l] += vr * vr + vi * vi;
+                sums[1][l] += turn * (vi * xr - vr * xi);
+                sums[2][l] += turn * turn * qq;
+                sums[3][l] += stiffness[i][l] * qq;
             }
         }
-        (sum[0] + sum[2]) + (sum[1] + sum[3])
+        sums
+    }
+}
+
+struct LossSums<'a> {
+    weights: &'a EnergyWeights,
+    state: &'a ModalState,
+}
+
+impl Kernel for LossSums<'_> {
+    type Output = [f64; LANES];
+
+    #[inline(always)]
+    fn call(self) -> [f64; LANES] {
+        let EnergyWeights {
+            loss_qq,
+            loss_rr,
+            loss_qr_re,
+            loss_qr_im,
+            ..
+        } = self.weights;
+        let (qq, rr) = (chunks(loss_qq), chunks(loss_rr));
+        let (qr_re, qr_im) = (chunks(loss_qr_re), chunks(loss_qr_im));
+        let (q_re, q_im) = (chunks(&self.state.q_re), chunks(&self.state.q_im));
+        let (r_re, r_im) = (chunks(&self.state.r_re), chunks(&self.state.r_im));
+        let mut sum = [0.0; LANES];
+        for i in 0..qq.len() {
+            for l in 0..LANES {
+                let (xr, xi) = (q_re[i][l], q_im[i][l]);
+                let (vr, vi) = (r_re[i][l], r_im[i][l]);
+                // q* r = (xr vr + xi vi) + i (xr vi − xi vr)
+                sum[l] += qq[i][l] * (xr * xr + xi * xi)
+                    + rr[i][l] * (vr * vr + vi * vi)
+                    + qr_re[i][l] * (xr * vr + xi * vi)
+                    + qr_im[i][l] * (xr * vi - xi * vr);
+            }
+        }
+        sum
     }
 }
 

@@ -31,6 +31,28 @@ pub(super) struct ForcedShapes {
     pub bottom: Vec<f64>,
 }
 
+/// Points read, to whole registers.
+const POINTS: usize = 8;
+
+impl ForcedShapes {
+    /// Contact, slider, its slope, top, bottom and rim of every mode, and two zeros; zero where a
+    /// point has no entry (modes of the disk come first, then those of arms).
+    fn by_mode(&self) -> Vec<[f64; POINTS]> {
+        let rows = [
+            &self.contact,
+            &self.slider,
+            &self.slider_slope,
+            &self.top,
+            &self.bottom,
+            &self.rim,
+        ];
+        let entry = |j: usize, k: usize| rows.get(k).and_then(|row| row.get(j)).copied();
+        let mode = |j: usize| std::array::from_fn(|k| entry(j, k).unwrap_or(0.0));
+        let n = rows.iter().map(|row| row.len()).max().unwrap_or(0);
+        (0..n).map(mode).collect()
+    }
+}
+
 /// Displacement and velocity of one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Motion {
@@ -107,7 +129,8 @@ pub(super) struct FreeMotion {
     /// Modal states every [`CHECKPOINT_STEPS`] nodes.
     checkpoints: Vec<ForcedState>,
     pub modes: ForcedModes,
-    pub shapes: ForcedShapes,
+    /// Shapes by mode, so that all points are read at once.
+    points: Vec<[f64; POINTS]>,
     /// The disk's harmonics on a hub.
     pub rotor: Option<Rotor>,
     /// Its hub at every node.
@@ -209,8 +232,8 @@ impl FreeMotion {
                 })
                 .collect(),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
+            points: shapes.by_mode(),
             modes,
-            shapes,
             rotor,
             hub: Vec::new(),
             stretches,
@@ -250,18 +273,24 @@ impl FreeMotion {
 
     /// Unit response of the points for `state`.
     pub fn sample(&self, state: &ForcedState) -> Sample {
-        let read = |shape: &[f64]| Motion {
-            value: sum(shape, &state.x),
-            rate: sum(shape, &state.v),
+        let (mut x, mut v) = ([0.0; POINTS], [0.0; POINTS]);
+        for ((shape, q), r) in self.points.iter().zip(&state.x).zip(&state.v) {
+            for k in 0..POINTS {
+                x[k] += shape[k] * q;
+                v[k] += shape[k] * r;
+            }
+        }
+        let motion = |k: usize| Motion {
+            value: x[k],
+            rate: v[k],
         };
-        let s = &self.shapes;
         let mut sample = Sample {
-            contact: read(&s.contact),
-            slider: read(&s.slider),
-            slider_slope: read(&s.slider_slope),
-            top: read(&s.top),
-            bottom: read(&s.bottom),
-            rim: sum(&s.rim, &state.x),
+            contact: motion(0),
+            slider: motion(1),
+            slider_slope: motion(2),
+            top: motion(3),
+            bottom: motion(4),
+            rim: x[5],
             ..Sample::default()
         };
         if let Some(rotor) = &self.rotor {
@@ -550,8 +579,4 @@ fn carry(f: &Flow, x: f64, v: f64) -> (f64, f64) {
         x + (f.qq.re * x + f.qr.re * v),
         v + (f.rq.re * x + f.rr.re * v),
     )
-}
-
-fn sum(shape: &[f64], x: &[f64]) -> f64 {
-    shape.iter().zip(x).map(|(a, b)| a * b).sum()
 }
