@@ -1,6 +1,7 @@
 //! `make verify-accuracy`: do the bars hold the truth? 300 answers that are known (laws, and disk
 //! and ramp alone) and 40 whole shocks against ten times finer ones. Every answer is a line of
-//! `results/accuracy/coverage.csv`; run again with the same program it goes on from there. A random
+//! `results/accuracy/coverage.csv`; run again with the same program it goes on from there. A program
+//! with other bars and the same physics finds the truths in it and makes the bars alone. A random
 //! study without a critical shock in its range, or whose finer one has no verdict, is a line without
 //! figures; a bar that says that a part is missing (`bar_partial`) makes no claim. In both cases the
 //! next seed stands in.
@@ -32,60 +33,123 @@ const LAWS: usize = 260;
 const STRUCTURES: usize = 40;
 const WHOLE: usize = 40;
 
+/// Last survivor and first failure of a ten times finer scene, G.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Truth {
+    low_g: f64,
+    high_g: f64,
+}
+
+impl Truth {
+    fn middle_g(self) -> f64 {
+        0.5 * (self.low_g + self.high_g)
+    }
+}
+
 /// One bar against the truth, G.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Covered {
     a_crit_g: f64,
     low_g: f64,
     high_g: f64,
-    truth_g: f64,
+    truth: Truth,
     /// A part could not be found and is missing in the bar, which says so by its flag.
     is_partial: bool,
 }
 
 impl Covered {
     fn inside(&self) -> bool {
-        (self.a_crit_g - self.low_g..=self.a_crit_g + self.high_g).contains(&self.truth_g)
+        (self.a_crit_g - self.low_g..=self.a_crit_g + self.high_g).contains(&self.truth.middle_g())
     }
 
     fn ratio(&self) -> f64 {
-        0.5 * (self.low_g + self.high_g) / (self.a_crit_g - self.truth_g).abs().max(1e-9)
+        0.5 * (self.low_g + self.high_g) / (self.a_crit_g - self.truth.middle_g()).abs().max(1e-9)
     }
+}
+
+/// A line of the table.
+#[derive(Clone, Debug, PartialEq)]
+struct Line {
+    /// Digest of scene and physics that the truth belongs to; empty for laws.
+    scene: String,
+    /// `None`: no critical shock in range, or no verdict of the finer scene.
+    covered: Option<Covered>,
 }
 
 /// What was measured, by kind and seed.
 struct Log {
     path: PathBuf,
-    rows: BTreeMap<(String, u64), Option<Covered>>,
+    rows: BTreeMap<(String, u64), Line>,
+    /// Truths that programs of before left behind.
+    truths: BTreeMap<(String, u64), (String, Truth)>,
 }
 
-const HEADER: &str = "kind,seed,a_crit_g,err_low_g,err_high_g,truth_g,inside,partial";
+const HEADER: &str =
+    "kind,seed,scene,a_crit_g,err_low_g,err_high_g,truth_low_g,truth_high_g,inside,partial";
 
 impl Log {
-    /// What this program has measured so far.
+    /// What this program has measured so far, and the truths that others have.
     fn open() -> Log {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/accuracy/coverage.csv");
         let text = std::fs::read_to_string(&path).unwrap_or_default();
-        let mut rows = BTreeMap::new();
+        let mut log = Log {
+            path,
+            rows: BTreeMap::new(),
+            truths: BTreeMap::new(),
+        };
         let mut lines = text.lines();
-        if lines.next() == Some(&provenance_line()) {
-            for line in lines.skip(1) {
-                let cells: Vec<&str> = line.split(',').collect();
-                let number = |place: usize| cells[place].parse().ok();
-                let covered = || {
-                    Some(Covered {
-                        a_crit_g: number(2)?,
-                        low_g: number(3)?,
-                        high_g: number(4)?,
-                        truth_g: number(5)?,
-                        is_partial: cells[7] == "true",
-                    })
-                };
-                let seed = cells[1].parse().expect("a seed");
-                rows.insert((cells[0].to_owned(), seed), covered());
+        let is_own = lines.next() == Some(&provenance_line());
+        if lines.next() != Some(HEADER) {
+            return log;
+        }
+        for line in lines {
+            if let Some(kept) = line.strip_prefix("# ") {
+                log.keep(kept);
+                continue;
+            }
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |place: usize| cells[place].parse().ok();
+            let covered = || {
+                Some(Covered {
+                    a_crit_g: number(3)?,
+                    low_g: number(4)?,
+                    high_g: number(5)?,
+                    truth: Truth {
+                        low_g: number(6)?,
+                        high_g: number(7)?,
+                    },
+                    is_partial: cells[9] == "true",
+                })
+            };
+            let key = (cells[0].to_owned(), cells[1].parse().expect("a seed"));
+            let (scene, covered) = (cells[2].to_owned(), covered());
+            match covered {
+                _ if is_own => _ = log.rows.insert(key, Line { scene, covered }),
+                Some(known) if !scene.is_empty() => {
+                    log.truths.insert(key, (scene, known.truth));
+                }
+                _ => {}
             }
         }
-        Log { path, rows }
+        log
+    }
+
+    /// Takes over a truth without bar: kind, seed, scene, low, high.
+    fn keep(&mut self, line: &str) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |place: usize| cells[place].parse().expect("a number");
+        let truth = Truth {
+            low_g: number(3),
+            high_g: number(4),
+        };
+        let key = (cells[0].to_owned(), cells[1].parse().expect("a seed"));
+        self.truths.insert(key, (cells[2].to_owned(), truth));
+    }
+
+    /// The truth that is known of a scene.
+    fn truth(&self, kind: &str, seed: u64, scene: &str) -> Option<Truth> {
+        let (of, truth) = self.truths.get(&(kind.to_owned(), seed))?;
+        (of == scene).then_some(*truth)
     }
 
     fn has(&self, kind: &str, seed: u64) -> bool {
@@ -95,28 +159,41 @@ impl Log {
     /// Answers of a kind.
     fn answered(&self, kind: &str) -> usize {
         let of = self.rows.iter().filter(|((known, _), _)| known == kind);
-        of.filter(|(_, covered)| covered.is_some_and(|covered| !covered.is_partial))
+        of.filter(|(_, line)| line.covered.is_some_and(|covered| !covered.is_partial))
             .count()
     }
 
-    fn put(&mut self, kind: &str, seed: u64, covered: Option<Covered>) {
-        self.rows.insert((kind.to_owned(), seed), covered);
+    fn put(&mut self, kind: &str, seed: u64, line: Line) {
+        self.rows.insert((kind.to_owned(), seed), line);
         let mut text = format!("{}\n{HEADER}\n", provenance_line());
-        for ((kind, seed), covered) in &self.rows {
-            let Some(c) = covered else {
-                let _ = writeln!(text, "{kind},{seed},,,,,,");
+        for ((kind, seed), line) in &self.rows {
+            let scene = &line.scene;
+            let Some(c) = line.covered else {
+                let _ = writeln!(text, "{kind},{seed},{scene},,,,,,,");
                 continue;
             };
             let _ = writeln!(
                 text,
-                "{kind},{seed},{:.4},{:.4},{:.4},{:.4},{},{}",
+                "{kind},{seed},{scene},{:.4},{:.4},{:.4},{:.4},{:.4},{},{}",
                 c.a_crit_g,
                 c.low_g,
                 c.high_g,
-                c.truth_g,
+                c.truth.low_g,
+                c.truth.high_g,
                 c.inside(),
                 c.is_partial
             );
+        }
+        // Truths that this program has not come to yet stay for it, or for the next.
+        for (key, (scene, truth)) in &self.truths {
+            if !self.rows.contains_key(key) {
+                let (kind, seed) = key;
+                let _ = writeln!(
+                    text,
+                    "# {kind},{seed},{scene},{:.4},{:.4}",
+                    truth.low_g, truth.high_g
+                );
+            }
         }
         std::fs::create_dir_all(self.path.parent().expect("a folder")).expect("a folder");
         std::fs::write(&self.path, text).expect("written");
@@ -128,7 +205,7 @@ impl Log {
             .rows
             .iter()
             .filter(|((kind, _), _)| kinds.contains(&kind.as_str()))
-            .filter_map(|(_, covered)| covered.as_ref())
+            .filter_map(|(_, line)| line.covered.as_ref())
             .filter(|covered| !covered.is_partial)
             .collect();
         let inside = of.iter().filter(|one| one.inside()).count();
@@ -149,26 +226,38 @@ fn provenance_line() -> String {
     format!("# {}", provenance::program())
 }
 
-/// Critical amplitude near `from_g` to a `share`, by galloping and halving; `None` without verdicts
-/// or farther off than a factor 4.
-fn truth_g(from_g: f64, share: f64, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<f64> {
+/// Critical amplitude near `from_g` to a `share`, by galloping and halving, going on from what is
+/// `known` of it; `None` without verdicts or farther off than a factor 4.
+fn truth(
+    from_g: f64,
+    share: f64,
+    known: Option<Truth>,
+    fails: &mut dyn FnMut(f64) -> Option<bool>,
+) -> Option<Truth> {
     let (mut low, mut high) = (None, None);
     let (mut at, mut stride) = (from_g, 1.01_f64);
+    if let Some(known) = known {
+        (low, high) = (Some(known.low_g), Some(known.high_g));
+    }
     loop {
+        match (low, high) {
+            (Some(low_g), Some(high_g)) if high_g / low_g < 1.0 + share => {
+                return Some(Truth { low_g, high_g });
+            }
+            (Some(low), Some(high)) => at = f64::sqrt(low * high),
+            (Some(low), None) => at = low * stride,
+            (None, Some(high)) => at = high / stride,
+            (None, None) => {}
+        }
+        if low.is_some() != high.is_some() {
+            stride *= stride;
+        }
+        if (at / from_g).ln().abs() > 4_f64.ln() {
+            return None;
+        }
         match fails(at)? {
             true => high = Some(at),
             false => low = Some(at),
-        }
-        match (low, high) {
-            (Some(low), Some(high)) if high / low < 1.0 + share => return Some(0.5 * (low + high)),
-            (Some(low), Some(high)) => at = (low * high).sqrt(),
-            (Some(low), None) => at = low * stride,
-            (None, Some(high)) => at = high / stride,
-            (None, None) => unreachable!("a verdict was told"),
-        }
-        stride *= stride;
-        if (at / from_g).ln().abs() > 4_f64.ln() {
-            return None;
         }
     }
 }
@@ -256,12 +345,16 @@ impl StructureSimulator {
 
     fn lead(&self, scene: &Scene, amplitude_m_per_s2: f64) -> f64 {
         let model = Model::build(scene, Scope::Structure, None).expect("builds");
+        self.lead_of(&model, amplitude_m_per_s2)
+    }
+
+    fn lead_of(&self, model: &Model, amplitude_m_per_s2: f64) -> f64 {
         let request = Request {
             amplitude_m_per_s2,
             stop_at_failure: true,
             record: false,
         };
-        let outcome = simulate(&model, &request, &mut Workspace::default());
+        let outcome = simulate(model, &request, &mut Workspace::default());
         self.limit / self.load(&outcome) - 1.0
     }
 }
@@ -290,7 +383,7 @@ impl Simulator for StructureSimulator {
     }
 }
 
-fn structure(seed: u64) -> Option<Covered> {
+fn structure(seed: u64, known: Known<'_>) -> Line {
     let study = small_study("structure", seed);
     let scene = study.points[0].scene.clone();
     let sign = study.points[0].sign.factor();
@@ -315,27 +408,32 @@ fn structure(seed: u64) -> Option<Covered> {
         climbs: 0,
     });
     let row = swept(&input, &simulator);
-    let fine = ten_times_finer(&scene);
-    covered(&row, &mut |amplitude_g| {
-        Some(simulator.lead(&fine, simulator.sign * m_per_s2_from_g(amplitude_g)) <= 0.0)
+    let mut model = None;
+    line(&input, &row, known, &mut |amplitude_g| {
+        let model = model.get_or_insert_with(|| {
+            Model::build(&ten_times_finer(&scene), Scope::Structure, None).expect("builds finer")
+        });
+        Some(simulator.lead_of(model, simulator.sign * m_per_s2_from_g(amplitude_g)) <= 0.0)
     })
 }
 
-fn whole(seed: u64) -> Option<Covered> {
+fn whole(seed: u64, known: Known<'_>) -> Line {
     let study = small_study("whole", seed);
     let input = SweepInput::of(&study).expect("input");
     let row = swept(&input, &Physics::of(&study));
     let point = &study.points[0];
-    let model =
-        Model::build(&ten_times_finer(&point.scene), Scope::Full, None).expect("builds finer");
+    let mut model = None;
     let mut workspace = Workspace::default();
-    covered(&row, &mut |amplitude_g| {
+    line(&input, &row, known, &mut |amplitude_g| {
+        let model = model.get_or_insert_with(|| {
+            Model::build(&ten_times_finer(&point.scene), Scope::Full, None).expect("builds finer")
+        });
         let request = Request {
             amplitude_m_per_s2: point.sign.factor() * m_per_s2_from_g(amplitude_g),
             stop_at_failure: true,
             record: false,
         };
-        match simulate(&model, &request, &mut workspace).verdict {
+        match simulate(model, &request, &mut workspace).verdict {
             SolverVerdict::Survives => Some(false),
             SolverVerdict::Fails { .. } => Some(true),
             SolverVerdict::Undecided { cause } => {
@@ -363,7 +461,26 @@ fn swept(input: &SweepInput, simulator: &dyn Simulator) -> Row {
     row
 }
 
-fn covered(row: &Row, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Covered> {
+/// What is known of the truth of a scene, by its digest.
+type Known<'a> = &'a dyn Fn(&str) -> Option<Truth>;
+
+fn line(
+    input: &SweepInput,
+    row: &Row,
+    known: Known<'_>,
+    fails: &mut dyn FnMut(f64) -> Option<bool>,
+) -> Line {
+    let digest = &input.points[0].digest.0[..8];
+    let scene: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let covered = covered(row, known(&scene), fails);
+    Line { scene, covered }
+}
+
+fn covered(
+    row: &Row,
+    known: Option<Truth>,
+    fails: &mut dyn FnMut(f64) -> Option<bool>,
+) -> Option<Covered> {
     if row.status != Status::Ok {
         println!("no critical shock: {:?}", row.status);
         return None;
@@ -376,13 +493,13 @@ fn covered(row: &Row, fails: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Cove
         a_crit_g,
         low_g,
         high_g,
-        truth_g: truth_g(a_crit_g, share, fails)?,
+        truth: truth(a_crit_g, share, known, fails)?,
         is_partial: row.flags.contains(&Flag::BarPartial),
     })
 }
 
 /// Measures what the log does not have yet, on all cores.
-fn measure(log: &Mutex<Log>, kind: &str, n: usize, one: &(dyn Fn(u64) -> Option<Covered> + Sync)) {
+fn measure(log: &Mutex<Log>, kind: &str, n: usize, one: &(dyn Fn(u64, Known<'_>) -> Line + Sync)) {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
@@ -397,10 +514,11 @@ fn measure(log: &Mutex<Log>, kind: &str, n: usize, one: &(dyn Fn(u64) -> Option<
                     if log.lock().expect("whole").has(kind, seed) {
                         continue;
                     }
-                    let covered = one(seed);
-                    let inside = covered.map(|covered| covered.inside());
-                    println!("{kind} {seed}: {covered:.1?} {inside:?}");
-                    log.lock().expect("whole").put(kind, seed, covered);
+                    let known = |scene: &str| log.lock().expect("whole").truth(kind, seed, scene);
+                    let line = one(seed, &known);
+                    let inside = line.covered.map(|covered| covered.inside());
+                    println!("{kind} {seed}: {:.1?} {inside:?}", line.covered);
+                    log.lock().expect("whole").put(kind, seed, line);
                 }
             });
         }
@@ -417,10 +535,17 @@ fn laws(log: &Mutex<Log>) {
             a_crit_g: row.a_crit_g.expect("bracketed"),
             low_g: row.err_low_g.expect("a bar"),
             high_g: row.err_high_g.expect("a bar"),
-            truth_g: law.exact_g,
+            truth: Truth {
+                low_g: law.exact_g,
+                high_g: law.exact_g,
+            },
             is_partial: row.flags.contains(&Flag::BarPartial),
         };
-        log.put("law", seed as u64, Some(covered));
+        let line = Line {
+            scene: String::new(),
+            covered: Some(covered),
+        };
+        log.put("law", seed as u64, line);
     }
 }
 
@@ -442,7 +567,9 @@ fn accuracy_slow_the_truth_lies_inside_the_bars() {
 #[test]
 fn the_truth_lies_inside_the_bars_of_disk_and_ramp_alone() {
     for seed in 0..1 {
-        let covered = structure(seed).expect("a critical shock");
+        let covered = structure(seed, &|_| None)
+            .covered
+            .expect("a critical shock");
         assert!(covered.inside(), "seed {seed}: {covered:?}");
     }
 }

@@ -70,14 +70,6 @@ fn climbed(
         if !exceeds || climbs == 0 {
             return Ok(Answer::of(&at, bar));
         }
-        let mut walk = Walk::new(&at, lookup, log);
-        // A narrower bracket alone may do.
-        if let Some(narrow) = narrowed(&mut walk, &bar)? {
-            at.survivor = narrow.low;
-            at.failure = narrow.high;
-            let bar = super::whole(&Walk::new(&at, lookup, log), &pieces);
-            return Ok(Answer::of(&at, bar));
-        }
         let turned = match left {
             0 => Vec::new(),
             _ => turned(&at, &bar),
@@ -117,20 +109,6 @@ impl Answer {
 fn floored(mut bar: Bar) -> Bar {
     bar.flags.insert(Flag::BarFloor);
     bar
-}
-
-/// The bracket as narrow as a climb would make it, where that alone meets what was asked.
-fn narrowed(walk: &mut Walk<'_>, bar: &Bar) -> Result<Option<Bracket>, Ask> {
-    let input = walk.input;
-    let own = Bracket {
-        low: input.survivor,
-        high: input.failure,
-    };
-    let saved = walk.share(own.high - own.low) - walk.share(WIDTH);
-    if bar.half_length() - 0.5 * saved > input.accuracy {
-        return Ok(None);
-    }
-    verdicts::narrowed(walk, Levels::NONE, own, WIDTH)
 }
 
 /// Knobs to turn, with the steps that their parts call for: those whose part counts, the largest

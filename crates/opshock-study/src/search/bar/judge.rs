@@ -116,6 +116,15 @@ pub(super) fn with_finer(knobs: &[Knob], near: f64, fine: f64) -> Estimate {
     }
 }
 
+/// Error from one step finer alone: what it moved is certain, and no order was observed.
+pub(super) fn finer_alone(knobs: &[Knob], fine: f64) -> Estimate {
+    Estimate {
+        known: fine.abs(),
+        share: fine.abs() / (slowest(knobs) - 1.0),
+        factor: WIDE,
+    }
+}
+
 /// Bound from verdicts that agree with those of the reference at both ends of its bracket, `nodes`
 /// wide: the answer moved by less. The narrow factor is for knobs that move it against each other.
 pub(super) fn agreement(lattice: &Lattice, nodes: i32, knobs: &[Knob]) -> Estimate {

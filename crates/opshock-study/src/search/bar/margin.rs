@@ -7,6 +7,7 @@
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
+use super::verdicts::DEEP;
 use super::{Ask, Limits, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 
@@ -61,7 +62,7 @@ impl Reference {
             return Ok(None);
         };
         let has_film = input.knobs.contains(&Knob::FilmGrid);
-        if (has_film && input.film_halvings < 2)
+        if (has_film && input.film_halvings < DEEP)
             || !input
                 .t_fail_s
                 .is_some_and(|t_fail_s| is_same_event(t_fail_s, at.t_min_s))

@@ -12,7 +12,7 @@
 //!   which the lowest failure touches, δA = δh / |dh/dA|, a run per group;
 //! * *verdicts* (`verdicts`): where survival ends abruptly (a dimple opens, the slider is thrown),
 //!   the critical amplitude of each turned scene itself, bracketed to an eighth of the tolerance
-//!   or to a 32nd of what is in the bar already.
+//!   or to a 16th of what is in the bar already.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
 //! 1994, J. Fluids Eng. 116, 405); the change seen by turning finer is certain and only what is left
@@ -67,7 +67,7 @@ const GROUPS: [Group; 2] = [
 ];
 
 /// Part of what a bar holds already to which brackets of further parts are narrowed.
-const GRAIN: f64 = 1.0 / 32.0;
+const GRAIN: f64 = 1.0 / 16.0;
 
 /// Narrowest bracket of turned knobs, nodes.
 const FINEST: i32 = 2;
@@ -308,7 +308,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
         false => margin::Reference::find(walk)?,
     };
     let [film, groups @ ..] = kept;
-    let mut proxy = None;
+    let (mut proxy, mut agreed) = (None, None);
     let mut sum = search_part(walk);
     let film = match film {
         Some(film) => film,
@@ -319,30 +319,105 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
                     Some(reference) => reference.film(walk, Limits::of(walk, &sum))?,
                     None => None,
                 };
-                let (estimate, found) = match by_margin {
-                    Some(estimate) => (Some(estimate), None),
+                let found = match by_margin {
+                    Some(_) => verdicts::Film {
+                        estimate: by_margin,
+                        ..Default::default()
+                    },
                     None => {
                         let limits = Limits::of(walk, &sum);
                         verdicts::film(walk, limits)?
                     }
                 };
-                proxy = found;
-                film.add(Knob::FilmGrid.as_str(), estimate, input.accuracy);
+                (proxy, agreed) = (found.proxy, found.agreed);
+                film.add(Knob::FilmGrid.as_str(), found.estimate, input.accuracy);
             }
             film
         }
     };
+    // What halving on would take off the film's part and the bracket is room for the others.
+    let spare = match agreed {
+        Some(both) if verdicts::may_go_on(both) => {
+            sum = search_part(walk);
+            sum.half_length() + film.half_length() - least_by_half(walk, both)
+        }
+        _ => 0.0,
+    };
     sum.extend(&film);
     let mut found = [film, Bar::default(), Bar::default()];
-    for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate() {
+    // The head first: with its knobs loose the structure costs half as much to compare.
+    for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate().rev() {
         let piece = match kept {
             Some(piece) => piece,
-            None => group.look(walk, margin.as_ref(), &mut proxy, &sum)?,
+            None => group.look(walk, margin.as_ref(), &mut proxy, (&sum, spare))?,
         };
         sum.extend(&piece);
         found[place + 1] = piece;
     }
+    if let Some(both) = agreed.filter(|&both| verdicts::may_go_on(both)) {
+        found[0] = narrow_film(walk, &found, both)?;
+    }
+    narrow_bracket(walk, &found)?;
     Ok(found)
+}
+
+/// Least that bracket and film can come to where half the cells agree with the scene.
+fn least_by_half(walk: &Walk<'_>, both: verdicts::Bracket) -> f64 {
+    let one = verdicts::Bracket {
+        high: both.low + 1,
+        ..both
+    };
+    0.5 * walk.share(1) + verdicts::agreed(walk, one).error()
+}
+
+/// Film's part after its bracket, in which half the cells agree with the scene, was halved on for as
+/// long as the bar exceeds what was asked and that can mend it.
+fn narrow_film(
+    walk: &mut Walk<'_>,
+    pieces: &Pieces,
+    mut both: verdicts::Bracket,
+) -> Result<Bar, Ask> {
+    let [mut film, groups @ ..] = pieces.clone();
+    let accuracy = walk.input.accuracy;
+    let others: f64 = groups.iter().map(Bar::half_length).sum();
+    if others + least_by_half(walk, both) > accuracy {
+        return Ok(film);
+    }
+    loop {
+        let half = others + search_part(walk).half_length() + film.half_length();
+        let own = verdicts::own(walk);
+        let narrower = (both.high - both.low) / 2;
+        if half <= accuracy || narrower < 1 {
+            return Ok(film);
+        }
+        match verdicts::by_half(walk, own, narrower)? {
+            Some(now) if now != both => both = now,
+            _ => return Ok(film),
+        }
+        film = Bar::default();
+        let estimate = verdicts::agreed(walk, both);
+        film.add(Knob::FilmGrid.as_str(), Some(estimate), accuracy);
+    }
+}
+
+/// Halves the bracket of the scene itself, where that alone meets what was asked and until it does.
+fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
+    let accuracy = walk.input.accuracy;
+    let others: f64 = pieces.iter().map(Bar::half_length).sum();
+    if others + 0.5 * walk.share(FINEST) > accuracy {
+        return Ok(());
+    }
+    loop {
+        let (low, high) = bracket(walk);
+        let from = verdicts::Bracket { low, high };
+        let nodes = high - low;
+        if nodes <= FINEST || others + 0.5 * walk.share(nodes) <= accuracy {
+            return Ok(());
+        }
+        if verdicts::narrowed(walk, Levels::NONE, from, nodes / 2)?.is_none() {
+            return Ok(());
+        }
+    }
 }
 
 /// The bar that these pieces make.
@@ -392,15 +467,17 @@ impl Limits {
 
 impl Group {
     /// The part of its knobs turned together, or those of each of them where turned together they
-    /// have no answer. The bar holds `sum` without it; `proxy` is the film found by verdicts.
+    /// have no answer. The bar holds `sum` without it, of which `spare` can be halved away; `proxy` is the
+    /// cheap scene found by verdicts.
     fn look(
         &self,
         walk: &mut Walk<'_>,
         margin: Option<&margin::Reference>,
-        proxy: &mut Option<verdicts::OnFilm>,
-        sum: &Bar,
+        proxy: &mut Option<verdicts::Proxy>,
+        (sum, spare): (&Bar, f64),
     ) -> Result<Bar, Ask> {
-        let limits = Limits::of(walk, sum);
+        let mut limits = Limits::of(walk, sum);
+        limits.room += spare;
         let mut turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
             let by_margin = match margin {
                 Some(reference) => reference.knobs(walk, knobs, limits)?,
@@ -410,9 +487,13 @@ impl Group {
                 return Ok(by_margin);
             }
             if proxy.is_none() {
-                *proxy = verdicts::film(walk, limits)?.1;
+                *proxy = verdicts::film(walk, limits)?.proxy;
             }
-            verdicts::knobs(walk, knobs, *proxy, limits)
+            let (estimate, cheaper) = verdicts::knobs(walk, knobs, *proxy, limits)?;
+            if knobs.len() > 1 {
+                *proxy = cheaper.or(*proxy);
+            }
+            Ok(estimate)
         };
         let is_turned = |knob: &Knob| walk.input.knobs.contains(knob);
         let knobs: Vec<Knob> = self.knobs.iter().copied().filter(is_turned).collect();

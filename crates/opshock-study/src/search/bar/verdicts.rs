@@ -31,11 +31,12 @@ struct Width {
 
 /// Of the coarse films when they are held against the scene itself.
 const OF_FILM: Width = Width {
-    nodes: 4,
+    nodes: 8,
     distance_over: 4,
     farthest: 0.5,
 };
-/// Farthest answer of a film on which the other knobs are turned, as a share.
+/// Farthest answer of a quarter of the cells on which the other knobs are turned where half is known,
+/// and that an eighth is held against, as a share: beyond it there is no order.
 const NEAR: f64 = 0.05;
 
 /// Brackets the turned scene's answer beginning at `from`. `None` without verdicts or too far away.
@@ -96,6 +97,11 @@ pub(super) fn located(
     locate(walk, Levels::NONE, from, width)
 }
 
+/// Half the cells have agreed with the scene in every halving so far, so that more may follow.
+pub(super) fn may_go_on(both: Bracket) -> bool {
+    both.high - both.low <= OF_FILM.nodes
+}
+
 /// Halves a bracket down to `nodes`. `None` without verdicts.
 pub(super) fn narrowed(
     walk: &mut Walk<'_>,
@@ -114,11 +120,21 @@ pub(super) fn narrowed(
     Ok(Some(bracket))
 }
 
-/// A coarser film with its bracket.
+/// A cheaper scene on which knobs are turned, with its bracket.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OnFilm {
-    halvings: i8,
+pub(super) struct Proxy {
+    levels: Levels,
     bracket: Bracket,
+}
+
+impl Proxy {
+    /// The scene on a film halved so often.
+    fn on_film(halvings: i8, bracket: Bracket) -> Proxy {
+        Proxy {
+            levels: halved(halvings),
+            bracket,
+        }
+    }
 }
 
 fn halved(halvings: i8) -> Levels {
@@ -126,7 +142,7 @@ fn halved(halvings: i8) -> Levels {
 }
 
 /// The bracket of the scene itself, as wide as the tolerance.
-fn own(walk: &Walk<'_>) -> Bracket {
+pub(super) fn own(walk: &Walk<'_>) -> Bracket {
     Bracket {
         low: walk.input.survivor,
         high: walk.input.failure,
@@ -145,40 +161,54 @@ fn distance(walk: &Walk<'_>, a: Bracket, b: Bracket) -> f64 {
     up.abs().max(down.abs())
 }
 
-/// Error of knobs but the film's grid turned together by one step on the film found by [`film`], and
-/// by one step finer where that is not little and the bar may still meet what was asked.
+/// Error of knobs but the film's grid turned together by one step on the scene `found`, and by one
+/// step finer where that is not little and the bar may still meet what was asked. Where the coarser
+/// knobs move the answer by little, other knobs can be turned with them, which is told, too.
 pub(super) fn knobs(
     walk: &mut Walk<'_>,
     knobs: &[Knob],
-    found: Option<OnFilm>,
+    found: Option<Proxy>,
     limits: Limits,
-) -> Result<Option<Estimate>, Ask> {
+) -> Result<(Option<Estimate>, Option<Proxy>), Ask> {
     let Some(found) = found else {
-        return Ok(None);
+        return Ok((None, None));
     };
     let width = Width {
         nodes: limits.grain,
         distance_over: 4,
         farthest: FARTHEST,
     };
-    let film = halved(found.halvings);
-    let Some(base) = narrowed(walk, film, found.bracket, limits.grain)? else {
-        return Ok(None);
+    let proxy = found.levels;
+    let Some(base) = narrowed(walk, proxy, found.bracket, limits.grain)? else {
+        return Ok((None, None));
     };
-    let Some(coarse) = locate(walk, judge::coarser(film, knobs), base, width)? else {
-        return Ok(None);
+    let coarser = judge::coarser(proxy, knobs);
+    let Some(coarse) = locate(walk, coarser, base, width)? else {
+        return Ok((None, None));
     };
     let nodes = base.high - base.low;
     if coarse == base {
-        return Ok(Some(judge::agreement(&walk.input.lattice, nodes, knobs)));
+        let alike = Proxy {
+            levels: coarser,
+            bracket: base,
+        };
+        let estimate = judge::agreement(&walk.input.lattice, nodes, knobs);
+        return Ok((Some(estimate), Some(alike)));
     }
     let near = shift(walk, base, coarse);
     let estimate = judge::one_step(knobs, near);
-    if !limits.is_worth(estimate.error()) {
-        return Ok(Some(estimate));
+    if estimate.error() <= limits.little {
+        let near_by = Proxy {
+            levels: coarser,
+            bracket: coarse,
+        };
+        return Ok((Some(estimate), Some(near_by)));
     }
-    let Some(finer) = locate(walk, judge::finer(film, knobs), base, width)? else {
-        return Ok(Some(estimate));
+    if !limits.is_worth(estimate.error()) {
+        return Ok((Some(estimate), None));
+    }
+    let Some(finer) = locate(walk, judge::finer(proxy, knobs), base, width)? else {
+        return Ok((Some(estimate), None));
     };
     // What was seen is certain only up to the brackets it was seen with.
     let sense = match finer == base {
@@ -186,62 +216,130 @@ pub(super) fn knobs(
         false => shift(walk, finer, base),
     };
     let fine = distance(walk, base, finer).copysign(sense);
-    Ok(Some(judge::with_finer(knobs, near, fine)))
+    Ok((Some(judge::with_finer(knobs, near, fine)), None))
 }
 
-/// Error of the film's grid from the answer on a quarter of the cells: with that on half where it is
-/// another than the scene's and half may tell better, else with that on an eighth.
+/// Halvings of the film from which on coarser films alone tell its error.
+pub(super) const DEEP: i8 = 3;
+
+/// What is known of the film's grid.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Film {
+    /// Its error; `None` where it could not be found.
+    pub estimate: Option<Estimate>,
+    /// Scene on which the other knobs are turned.
+    pub proxy: Option<Proxy>,
+    /// Half the cells answer as the scene does, in this bracket.
+    pub agreed: Option<Bracket>,
+}
+
+impl Film {
+    fn new(estimate: Option<Estimate>, proxy: Proxy) -> Film {
+        Film {
+            estimate,
+            proxy: Some(proxy),
+            agreed: None,
+        }
+    }
+}
+
+/// Error of the film's grid from half the cells where they answer as the scene does and a quarter does
+/// not; else from the answer on a quarter of the cells with that on an eighth. A film that cannot be
+/// halved so often is held against half and twice the cells.
 ///
 /// A film is told, too, for the other knobs to be turned on: the coarsest whose answer is near, since
 /// an answer far off is another failure.
-pub(super) fn film(
-    walk: &mut Walk<'_>,
-    limits: Limits,
-) -> Result<(Option<Estimate>, Option<OnFilm>), Ask> {
+pub(super) fn film(walk: &mut Walk<'_>, limits: Limits) -> Result<Film, Ask> {
     let own = own(walk);
     if !walk.input.knobs.contains(&Knob::FilmGrid) || walk.input.film_halvings < 1 {
         // Without a film the scene itself is as cheap as it gets.
-        let itself = OnFilm {
-            halvings: 0,
-            bracket: own,
-        };
-        return Ok((None, Some(itself)));
+        return Ok(Film::new(None, Proxy::on_film(0, own)));
     }
-    let Some(near) = quarter(walk, own)? else {
-        return Ok((None, None));
+    if walk.input.film_halvings < DEEP {
+        return by_double(walk, own);
+    }
+    if limits.room > 0.0
+        && !answers_alike(walk, halved(2), own)?
+        && let Some(both) = by_half(walk, own, OF_FILM.nodes)?
+    {
+        let width = Width {
+            farthest: 2.0 * NEAR,
+            ..OF_FILM
+        };
+        let near = locate(walk, halved(2), own, width)?
+            .filter(|near| distance(walk, own, *near) <= NEAR)
+            .map(|near| Proxy::on_film(2, near));
+        return Ok(Film {
+            estimate: Some(agreed(walk, both)),
+            proxy: Some(near.unwrap_or_else(|| Proxy::on_film(1, both))),
+            agreed: Some(both),
+        });
+    }
+    let Some((halvings, near)) = quarter(walk, own)? else {
+        return Ok(Film::default());
     };
     // One coarse film alone shows no order, and films so coarse have none: one halving counts.
-    let has_two = near.halvings == 2 && walk.input.film_halvings >= 3;
+    let has_two = halvings == 2;
     let formal = Knob::FilmGrid.formal_ratio();
-    let rise = formal.powi(i32::from(near.halvings));
+    let rise = formal.powi(i32::from(halvings));
+    let off = distance(walk, own, near.bracket);
     let coarse = Estimate::unseen(
-        distance(walk, own, near.bracket) / if has_two { rise - 1.0 } else { formal - 1.0 },
+        off / if has_two { rise - 1.0 } else { formal - 1.0 },
         judge::WIDE,
     );
-    let is_alike = near.bracket.low >= own.low && near.bracket.high <= own.high;
-    let half = match !is_alike && near.halvings == 2 && limits.is_worth(coarse.error()) {
-        true => by_half(walk, own)?,
-        false => None,
-    };
-    if let Some((half, on_half)) = half {
-        let is_near = distance(walk, own, near.bracket) <= NEAR;
-        return Ok((Some(half), Some(if is_near { near } else { on_half })));
-    }
-    if !has_two {
-        return Ok((Some(coarse), Some(near)));
+    if !has_two || off > NEAR {
+        return Ok(Film::new(Some(coarse), near));
     }
     let (estimate, coarsest) = with_eighth(walk, own, near, coarse)?;
-    Ok((Some(estimate), Some(coarsest)))
+    Ok(Film::new(Some(estimate), coarsest))
+}
+
+/// A turned scene fails and survives where the scene itself does.
+fn answers_alike(walk: &mut Walk<'_>, levels: Levels, own: Bracket) -> Result<bool, Ask> {
+    // The failure first: it ends early.
+    Ok(walk.see(levels, own.high)?.verdict == NodeVerdict::Fails
+        && walk.see(levels, own.low)?.verdict == NodeVerdict::Survives)
 }
 
 /// A quarter of the cells, half where a quarter has no answer.
-fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<OnFilm>, Ask> {
+fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(i8, Proxy)>, Ask> {
     for halvings in (1..=walk.input.film_halvings.min(2)).rev() {
         if let Some(bracket) = locate(walk, halved(halvings), own, OF_FILM)? {
-            return Ok(Some(OnFilm { halvings, bracket }));
+            return Ok(Some((halvings, Proxy::on_film(halvings, bracket))));
         }
     }
     Ok(None)
+}
+
+/// From the answers on half and on twice the cells. A film of few cells may fly elsewhere than finer ones
+/// do, and coarser ones with it, or they do not fly at all: only a finer one tells. The other knobs
+/// are turned on half the cells, on the scene itself where those have no answer.
+fn by_double(walk: &mut Walk<'_>, own: Bracket) -> Result<Film, Ask> {
+    const FILM: [Knob; 1] = [Knob::FilmGrid];
+    // Strides grow fourfold, so that a factor of four reaches answers at half and twice the scene's.
+    let width = Width {
+        nodes: 4,
+        distance_over: 4,
+        farthest: 3.0,
+    };
+    // Beside the finer film's runs those of the scene itself cost little.
+    let Some(own) = narrowed(walk, Levels::NONE, own, width.nodes)? else {
+        return Ok(Film::default());
+    };
+    let coarse = locate(walk, halved(1), own, width)?;
+    let fine = locate(walk, halved(-1), own, width)?;
+    let seen = fine.map(|fine| distance(walk, own, fine).copysign(shift(walk, fine, own)));
+    let near = coarse.map(|coarse| shift(walk, own, coarse));
+    let estimate = match (near, seen) {
+        (Some(near), Some(seen)) => Some(judge::with_finer(&FILM, near, seen)),
+        (None, Some(seen)) => Some(judge::finer_alone(&FILM, seen)),
+        (Some(_), None) | (None, None) => None,
+    };
+    let proxy = match coarse {
+        Some(coarse) => Proxy::on_film(1, coarse),
+        None => Proxy::on_film(0, own),
+    };
+    Ok(Film::new(estimate, proxy))
 }
 
 /// From the answers on a quarter of the cells, `coarse` by themselves, and an eighth.
@@ -251,16 +349,13 @@ fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<OnFilm>, Ask> {
 fn with_eighth(
     walk: &mut Walk<'_>,
     own: Bracket,
-    near: OnFilm,
+    near: Proxy,
     coarse: Estimate,
-) -> Result<(Estimate, OnFilm), Ask> {
+) -> Result<(Estimate, Proxy), Ask> {
     let Some(far) = locate(walk, halved(3), near.bracket, OF_FILM)? else {
         return Ok((coarse, near));
     };
-    let coarsest = OnFilm {
-        halvings: 3,
-        bracket: far,
-    };
+    let coarsest = Proxy::on_film(3, far);
     let formal = Knob::FilmGrid.formal_ratio();
     let rise = formal.powi(2);
     let middle = |bracket: Bracket| f64::from(bracket.low + bracket.high) / 2.0;
@@ -278,18 +373,25 @@ fn with_eighth(
     Ok((estimate, coarsest))
 }
 
+/// Bound on the film's error where half the cells answer as the scene does in this bracket.
+pub(super) fn agreed(walk: &Walk<'_>, both: Bracket) -> Estimate {
+    let nodes = both.high - both.low;
+    judge::agreement(&walk.input.lattice, nodes, &[Knob::FilmGrid])
+}
+
 /// From half the cells, where they answer as the scene does: both brackets are halved together for as
-/// long as they stay one, and its width bounds the change.
-fn by_half(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(Estimate, OnFilm)>, Ask> {
+/// long as they stay one and are wider than `nodes`.
+pub(super) fn by_half(
+    walk: &mut Walk<'_>,
+    own: Bracket,
+    nodes: i32,
+) -> Result<Option<Bracket>, Ask> {
     let half = halved(1);
-    // The failure first: it ends early.
-    if walk.see(half, own.high)?.verdict != NodeVerdict::Fails
-        || walk.see(half, own.low)?.verdict != NodeVerdict::Survives
-    {
+    if !answers_alike(walk, half, own)? {
         return Ok(None);
     }
     let mut both = own;
-    while both.high - both.low > OF_FILM.nodes {
+    while both.high - both.low > nodes {
         let middle = both.low + (both.high - both.low) / 2;
         let verdict = walk.see(half, middle)?.verdict;
         if verdict != walk.see(Levels::NONE, middle)?.verdict {
@@ -301,11 +403,5 @@ fn by_half(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(Estimate, OnFilm
             NodeVerdict::Fails => both.high = middle,
         }
     }
-    let nodes = both.high - both.low;
-    let estimate = judge::agreement(&walk.input.lattice, nodes, &[Knob::FilmGrid]);
-    let on_half = OnFilm {
-        halvings: 1,
-        bracket: both,
-    };
-    Ok(Some((estimate, on_half)))
+    Ok(Some(both))
 }
