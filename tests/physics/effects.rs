@@ -246,6 +246,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
                     "shock.oblique",
                     "head.limiters",
                     "head.lift_tab",
+                    "disk.run_out",
                 ];
                 let may_stay = effect.state != State::Off || absent.contains(&effect.name);
                 assert!(is_covered || may_stay, "{}", effect.name);

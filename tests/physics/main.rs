@@ -23,5 +23,6 @@ mod limiters;
 mod oblique;
 mod plate;
 mod pressure_fields;
+mod run_out;
 mod surface_forces;
 mod suspension;

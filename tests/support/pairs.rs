@@ -5,7 +5,7 @@
 //! to 1e-13 of the peak energy.
 
 use opshock_solver::air_bearing::SurfaceForces;
-use opshock_solver::disk::{DiskDamping, HubParameters};
+use opshock_solver::disk::{DiskDamping, HubParameters, Wave};
 use opshock_solver::mutant;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::ramp::{ArmMode, RampModel};
@@ -263,6 +263,14 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         scene.suspension.limiters = vec![limiter(-3e-4), limiter(3e-4)];
         let gap_m = seeded.between(0.0, 2e-5);
         scene.suspension.lift_tab = Some(LiftTab { gap_m, contact });
+    }
+    if seeded.once_in(4) {
+        scene.run_out = vec![Wave {
+            harmonic: *seeded.one_of(&[1, 7, 15]),
+            amplitude_m: seeded.between(0.0, 1e-8),
+            phase_rad: seeded.between(0.0, 6.0),
+            grows_with_radius: seeded.once_in(2),
+        }];
     }
     if seeded.once_in(4) {
         scene.surface_forces = Some(SurfaceForces {

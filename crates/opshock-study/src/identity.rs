@@ -6,7 +6,7 @@
 //! it has a place in its digest.
 
 use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
@@ -123,6 +123,7 @@ impl Digester {
             oblique,
             window,
             disk,
+            run_out: _,
             ramp,
             slider,
             disk_resolution,
@@ -191,7 +192,8 @@ impl Digester {
             oblique: _,
             pulse: _,
             window: _,
-            disk: _,
+            disk,
+            run_out,
             ramp: _,
             disk_resolution: _,
             structure_resolution: _,
@@ -232,6 +234,20 @@ impl Digester {
         });
         self.integer(*max_steps);
         // Nothing without them: what was stored before there were any keeps its name.
+        for wave in run_out {
+            let Wave {
+                harmonic,
+                amplitude_m,
+                phase_rad,
+                grows_with_radius,
+            } = wave;
+            self.text(match grows_with_radius {
+                true => "run_out",
+                false => "wave",
+            });
+            self.integer(u64::from(*harmonic));
+            self.numbers(&[*amplitude_m, *phase_rad, disk.outer_radius_m]);
+        }
         if let Some(SurfaceForces {
             hamaker_j,
             repulsion_j_m6,

@@ -21,6 +21,12 @@ pub enum ImpedanceError {
     /// The complex system could not be factored.
     #[error("the film's dynamic matrix could not be factored: {0}")]
     Singular(#[from] BandedError),
+    /// The matrix of film, slider and suspension is singular.
+    #[error("film, slider and suspension resonate without damping at {frequency_hz} Hz")]
+    Resonance {
+        /// Frequency, Hz.
+        frequency_hz: f64,
+    },
     /// A mode did not settle.
     #[error("air-bearing mode {mode} did not settle, last value {frequency_hz} Hz")]
     Mode {
@@ -122,6 +128,19 @@ impl<'a> SmallMotion<'a> {
             }
             sum
         }))
+    }
+
+    /// ψ̂ = −(A + s M)⁻¹ C q̂ of every cell at the s of the last [`SmallMotion::at`], Pa m.
+    pub fn film(&self, q: [Complex<f64>; 3]) -> Vec<Complex<f64>> {
+        let cells = 0..self.film.n_cells();
+        let of_cell = |i: usize| {
+            let mut psi = Complex::new(0.0, 0.0);
+            for (column, q) in self.columns.iter().zip(q) {
+                psi -= Complex::new(column[2 * i], column[2 * i + 1]) * q;
+            }
+            psi
+        };
+        cells.map(of_cell).collect()
     }
 
     /// Z at a frequency: stiffness Re Z (N/m, N, N m/rad) and damping Im Z/ω.

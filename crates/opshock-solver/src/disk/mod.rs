@@ -5,10 +5,12 @@ pub mod basis;
 pub mod harmonic;
 pub mod hub;
 pub mod membrane;
+pub mod run_out;
 
 pub use basis::{DiskBasis, DiskError, DiskMode, Harmonics};
 pub use hub::HubParameters;
 pub use membrane::MembraneStress;
+pub use run_out::{SurfaceMotion, Track, Wave};
 
 /// How the disk loses energy.
 #[derive(Clone, Copy, Debug, PartialEq)]

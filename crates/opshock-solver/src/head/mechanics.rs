@@ -22,6 +22,7 @@ use crate::linalg::pivoted::PivotedLu;
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
 use crate::suspension::{ContactLaw, ReducedSuspension, SuspensionParameters};
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// Index of the slider's z among the coordinates.
 const SLIDER_Z: usize = 0;
@@ -268,6 +269,31 @@ impl Mechanics {
             out[DIMPLE_Z * n + SLIDER_Z] -= contact;
         }
         self.stops.add_matrix(d_s, closed, out);
+    }
+
+    /// s² M + s C + K with the dimple closed and every stop open, as in steady flight.
+    pub fn dynamic_matrix(&self, s: Complex<f64>) -> DMatrix<Complex<f64>> {
+        let n = self.n;
+        let mut out = DMatrix::from_fn(n, n, |i, j| {
+            let at = i * n + j;
+            s * s * self.mass[at] + s * self.damping[at] + self.stiffness[at]
+        });
+        let contact = s * self.contact_n_s_per_m + self.contact_n_per_m;
+        out[(SLIDER_Z, SLIDER_Z)] += contact;
+        out[(DIMPLE_Z, DIMPLE_Z)] += contact;
+        out[(SLIDER_Z, DIMPLE_Z)] -= contact;
+        out[(DIMPLE_Z, SLIDER_Z)] -= contact;
+        out
+    }
+
+    /// Load of every coordinate per inertia load a.
+    pub fn inertia_load(&self) -> DVector<f64> {
+        DVector::from_column_slice(&self.inertia_load)
+    }
+
+    /// Index of the dimple's z among the coordinates.
+    pub fn dimple_index(&self) -> usize {
+        DIMPLE_Z
     }
 
     /// Right-hand side of the filter: M e_v/d + (M/d² + C/d) e_x.

@@ -22,10 +22,12 @@
 
 mod correction;
 mod fields;
+mod following;
 mod mechanics;
 mod model;
 mod outcome;
 mod partitioned;
+pub mod response;
 mod run;
 mod stage;
 mod stops;

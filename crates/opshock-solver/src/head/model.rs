@@ -5,6 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::HeadResolution;
+use super::following::Following;
 use super::mechanics::Mechanics;
 use super::outcome::Place;
 use crate::air_bearing::steady::Flight;
@@ -43,6 +44,14 @@ pub enum HeadError {
         place: Place,
         /// Failure limit, m.
         fail_below_m: f64,
+    },
+    /// The slider cannot follow the disk's surface.
+    #[error(
+        "run-out and waviness take {lost:.2} of what the slider can lose of clearance or gas before the shock"
+    )]
+    RunOut {
+        /// Share of the clearance above the failure limit, or of half of a cell's gas, that the waves take.
+        lost: f64,
     },
     /// The flight has another number of cells than the film.
     #[error("the flight has {flight} cells, the film {film}")]
@@ -84,6 +93,8 @@ pub struct HeadModel {
     pub(super) velocity_to_gap_s: f64,
     /// Times at which pressure fields are kept, ascending, s; none by default.
     pub(super) field_times_s: Vec<f64>,
+    /// The disk's surface where it moves by itself; none by default.
+    pub(super) following: Option<Following>,
 }
 
 impl HeadModel {
@@ -158,6 +169,7 @@ impl HeadModel {
             film_n_per_m,
             velocity_to_gap_s: (mass / film_n_per_m).sqrt(),
             field_times_s: Vec::new(),
+            following: None,
             film,
             flight,
         })

@@ -1,6 +1,7 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
 use super::fields::{FieldRecord, StepEnds};
+use super::following::Following;
 use super::model::{HeadModel, ShockLoad};
 use super::outcome::{
     Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, StopRecord, Verdict,
@@ -8,6 +9,7 @@ use super::outcome::{
 use super::stage::{StageFailure, StageScratch, Stages};
 use crate::air_bearing::Attitude;
 use crate::disk::DiskMotion;
+use crate::disk::run_out::WavyDisk;
 use crate::fixed_point::FixedPoint;
 use crate::integrator::{StepControl, Stepper, hermite};
 use crate::mutant;
@@ -75,6 +77,17 @@ impl HeadModel {
         workspace: &mut HeadWorkspace,
     ) -> HeadRun {
         assert_eq!(workspace.y.len(), self.n_unknowns());
+        let wavy;
+        let motion = match &self.following {
+            Some(Following { surface, .. }) => {
+                wavy = WavyDisk {
+                    under: motion,
+                    surface,
+                };
+                &wavy
+            }
+            None => motion,
+        };
         let mut run = Run::start(self, motion, *load, record, workspace);
         let end = run.advance(window_s, stop_at_failure);
         run.finish(end)
@@ -116,8 +129,13 @@ impl<'a> Run<'a> {
         w: &'a mut HeadWorkspace,
     ) -> Self {
         let n_cells = model.film.n_cells();
-        w.y.fill(0.0);
-        w.y[..n_cells].copy_from_slice(&model.flight.psi);
+        match &model.following {
+            Some(Following { start, .. }) => w.y.copy_from_slice(start),
+            None => {
+                w.y.fill(0.0);
+                w.y[..n_cells].copy_from_slice(&model.flight.psi);
+            }
+        }
         w.rate.fill(0.0);
         w.scratch.reset();
         w.stepper.forget();
@@ -126,7 +144,7 @@ impl<'a> Run<'a> {
         let clearance = model.film.min_clearance(&attitude);
         let preload = model
             .mechanics
-            .dimple_force(&w.y[n_cells..], &w.y[n_cells..]);
+            .dimple_force(&w.y[n_cells..], &w.y[n_cells + model.mechanics.len()..]);
         let mut run = Self {
             model,
             motion,
@@ -176,6 +194,7 @@ impl<'a> Run<'a> {
         let film = model.film.force(psi, attitude, &mut w.scratch.film);
         let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
         let (x, v) = w.y[n_cells..].split_at(n);
+        w.rate[n_cells..n_cells + n].copy_from_slice(v);
         let a = self.load.amplitude_m_per_s2 * just_after(self.load.pulse, 0.0);
         let out = &mut w.rate[n_cells + n..];
         model

@@ -6,7 +6,7 @@ pub mod plan;
 mod refine;
 
 use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, SurfaceForces};
-use crate::disk::{DiskParameters, DiskResolution};
+use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
 pub use crate::head::{Coupling, HeadResolution};
 use crate::ramp::RampParameters;
@@ -27,6 +27,8 @@ pub struct Scene {
     pub window: Window,
     /// Disk.
     pub disk: DiskParameters,
+    /// Waves of the disk's surface that turn with it under the slider; none: a plane disk.
+    pub run_out: Vec<Wave>,
     /// Ramp.
     pub ramp: RampParameters,
     /// Slider.
@@ -52,6 +54,18 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Motion of the disk's surface under the slider; `None` of a plane disk.
+    pub fn surface_motion(&self) -> Option<SurfaceMotion> {
+        let track = Track {
+            radius_m: self.slider.radius_m,
+            angle_rad: self.slider.angle_rad,
+            skew_rad: self.slider.skew_rad,
+            outer_radius_m: self.disk.outer_radius_m,
+            spin_rad_per_s: self.disk.spin_rad_per_s,
+        };
+        (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
+    }
+
     /// The film under the slider, over the disk at its speed, and surface forces beside it.
     ///
     /// # Errors

@@ -337,6 +337,10 @@ impl Plan {
                 _ => effect("ramp.arms", State::Off, None),
             },
             needs("head.steady_flight", Needs::Flight),
+            match scene.run_out.is_empty() {
+                false => needs("disk.run_out", Needs::Head),
+                true => effect("disk.run_out", State::Off, None),
+            },
             match scene.surface_forces {
                 Some(_) => needs("head.surface_forces", Needs::Flight),
                 None => effect("head.surface_forces", State::Off, None),
@@ -402,8 +406,11 @@ impl Plan {
                 "R2",
                 "harmonics n >= 1 of the disk asleep until the first touch, not built without a ramp",
                 self.wake == Wake::AtTouch,
-                "axial shock, axisymmetric disk, no tilt or run-out: only n = 0 is driven",
+                "axial shock, axisymmetric disk, no tilt: only n = 0 is driven; run-out turns with the disk and drives no mode",
                 match scene.oblique {
+                    None if !scene.run_out.is_empty() => {
+                        "participation of n >= 1 is 0; run-out moves the surface under the slider alone".to_owned()
+                    }
                     None => "participation of n >= 1 is 0".to_owned(),
                     Some(_) => {
                         "the shock drives n = 1, which is awake; that of n >= 2 is 0".to_owned()

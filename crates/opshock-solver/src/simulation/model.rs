@@ -145,7 +145,11 @@ impl Model {
                     &scene.head_resolution,
                     scene.fail_below_m,
                 )?;
-                Some(head.with_fields(&plan.field_times_s))
+                let head = head.with_fields(&plan.field_times_s);
+                Some(match scene.surface_motion() {
+                    Some(surface) => head.with_run_out(surface)?,
+                    None => head,
+                })
             }
             _ => None,
         };

@@ -211,6 +211,9 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     if model.bearing().is_some() && model.head.is_none() {
         names.push("head.steady_flight");
     }
+    if model.head.is_some() && !model.scene.run_out.is_empty() {
+        names.push("disk.run_out");
+    }
     if model.bearing().is_some() && model.scene.surface_forces.is_some() {
         names.push("head.surface_forces");
     }

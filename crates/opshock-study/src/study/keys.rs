@@ -104,6 +104,12 @@ pub static KEYS: &[Key] = &[
     Key::together("disk.damping.rayleigh.beta_s", Number(FROM_ZERO), "1.0e-7", "Material damping, share of the stiffness matrix, in the rotating frame.").usual(0.0, 1e-4).code("E132"),
     Key::optional("disk.damping.modal_ratio", RATIO, "Rayleigh damping", "0.004", "The same damping ratio for every mode of the disk, in the rotating frame.").code("E132"),
     Key::or("disk.space_fixed_damping_per_s", Number(FROM_ZERO), "0.0", "Damping fixed in space (air): force per mass and velocity.").usual(0.0, 1000.0).code("E132"),
+    Key::optional("disk.run_out_um", Number(FROM_ZERO), "a plane disk", "5.0", "Axial run-out under the slider once a revolution: amplitude at the rim, growing with the radius.").usual(0.0, 100.0).code("E126"),
+    Key::optional("disk.run_out_deg", Number(closed(-360.0, 360.0)), "0", "90.0", "Angle of its highest point at the onset of the shock, in the disk's sense of rotation.").code("E126"),
+    Key::optional("disk.waves", Tables, "a plane disk", "[{ harmonic = 12, amplitude_nm = 20.0 }]", "Waves of the disk's surface that turn with it under the slider.").code("E126"),
+    Key::required("disk.waves[].harmonic", Integer(1, 10000), "12", "Waves a revolution.").code("E126"),
+    Key::required("disk.waves[].amplitude_nm", Number(FROM_ZERO), "20.0", "Amplitude, the same at every radius.").usual(0.0, 1e4).code("E126"),
+    Key::optional("disk.waves[].phase_deg", Number(closed(-360.0, 360.0)), "0", "90.0", "Phase at angle 0 at the onset of the shock.").code("E126"),
     // hub
     Key::optional("hub.axial_stiffness_n_per_m", LENGTH, "the disk is clamped to the base", "8.0e6", "Axial stiffness of the hub's bearing; with both stiffnesses the disk stands on a hub.").usual(1e4, 1e12).code("E137"),
     Key::optional("hub.tilt_stiffness_n_m_per_rad", LENGTH, "the disk is clamped to the base", "300.0", "Stiffness of the bearing against tilt of the hub.").usual(0.1, 1e7).code("E137"),

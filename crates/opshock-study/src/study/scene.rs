@@ -3,7 +3,7 @@
 //! Every number passes [`View::si`] here and nowhere else.
 
 use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters};
+use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
@@ -22,6 +22,8 @@ use super::{imported_suspension, ramp_geometry, ramp_mesh};
 
 /// Key of the times of pressure fields.
 pub const FIELD_TIMES: &str = "fields.times_ms";
+/// Waves of the disk.
+pub const WAVES: &str = "disk.waves";
 
 /// Builds the scene of one point. `width_ms` is its pulse width.
 pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
@@ -36,6 +38,7 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         oblique: oblique(view),
         window: window(view),
         disk: disk_parameters(view),
+        run_out: run_out(view),
         ramp: ramp_parameters(view, ramp),
         slider: slider(view),
         suspension: suspension(view),
@@ -198,6 +201,31 @@ fn disk_parameters(view: &View<'_>) -> DiskParameters {
         space_fixed_damping_per_s: view.si("disk.space_fixed_damping_per_s"),
         hub: hub(view),
     }
+}
+
+/// Run-out once a revolution, then the waves as listed; what has no amplitude is left out.
+fn run_out(view: &View<'_>) -> Vec<Wave> {
+    let once = Wave {
+        harmonic: 1,
+        amplitude_m: view.maybe_si("disk.run_out_um").unwrap_or(0.0),
+        phase_rad: -view.maybe_si("disk.run_out_deg").unwrap_or(0.0),
+        grows_with_radius: true,
+    };
+    let listed = (0..view.entries(WAVES)).map(|position| {
+        let member = |name: &str| format!("{WAVES}[{position}].{name}");
+        let harmonic = view.maybe_integer(&member("harmonic")).unwrap_or(1);
+        Wave {
+            // The table of keys bounds it.
+            harmonic: harmonic as u32,
+            amplitude_m: view.si(&member("amplitude_nm")),
+            phase_rad: view.maybe_si(&member("phase_deg")).unwrap_or(0.0),
+            grows_with_radius: false,
+        }
+    });
+    std::iter::once(once)
+        .chain(listed)
+        .filter(|wave| wave.amplitude_m > 0.0)
+        .collect()
 }
 
 /// Modes of both arms as one body, as listed.

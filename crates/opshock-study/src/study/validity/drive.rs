@@ -2,11 +2,15 @@
 
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
-use super::Check;
+use super::{Check, trim};
+use crate::study::scene::WAVES;
 use crate::study::{imported_suspension, ramp_geometry, ramp_mesh, scene, unit};
 use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;
 use opshock_solver::suspension::ReducedSuspension;
+
+/// Lengths of the slider that a wave of the disk has at least: a plane then misses 8 % of its amplitude at the ends.
+const LENGTHS_A_WAVE: f64 = 8.0;
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
@@ -130,6 +134,32 @@ impl Check<'_, '_> {
             let fault = self.fault("E138", &given, message);
             fault.allowed = "a study with a [hub]".to_string();
             fault.hint = "give the hub's stiffnesses, however large".to_string();
+        }
+    }
+
+    /// Waves are so long that the slider sees a plane.
+    pub(super) fn waves(&mut self) {
+        const PATHS: [&str; 2] = ["slider.radius_mm", "slider.length_mm"];
+        let members: Vec<String> = (0..self.view.entries(WAVES))
+            .map(|position| format!("{WAVES}[{position}].harmonic"))
+            .collect();
+        let paths: Vec<&str> = members.iter().map(String::as_str).collect();
+        if !self.sound(&PATHS) || !self.sound(&paths) {
+            return;
+        }
+        let [radius_mm, length_mm] = PATHS.map(|path| self.view.number(path));
+        let round_mm = std::f64::consts::TAU * radius_mm;
+        let most = (round_mm / (LENGTHS_A_WAVE * length_mm)).floor();
+        for path in paths {
+            let harmonic = self.view.maybe_integer(path).unwrap_or(1) as f64;
+            if harmonic > most {
+                let message = format!(
+                    "waves of {} mm under a slider of {length_mm} mm, which would see them bend",
+                    trim(round_mm / harmonic)
+                );
+                let fault = self.fault("E126", &[path, PATHS[0], PATHS[1]], message);
+                fault.allowed = format!("at most {most}: {LENGTHS_A_WAVE} slider lengths a wave");
+            }
         }
     }
 

@@ -68,12 +68,13 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 12] = [
+const POINT_RULES: [PointRule; 13] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
     |check, _| check.gas(),
     |check, _| check.surface_forces(),
+    |check, _| check.waves(),
     |check, _| check.slider_place(),
     |check, _| check.rails(),
     |check, _| check.suspension(),
