@@ -23,6 +23,7 @@ mod limiters;
 mod oblique;
 mod plate;
 mod pressure_fields;
+mod responses;
 mod run_out;
 mod surface_forces;
 mod suspension;

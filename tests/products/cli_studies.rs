@@ -189,6 +189,58 @@ fn modes_have_the_documented_keys_and_the_waves_of_a_spinning_disk() {
     assert_eq!(rigid["ramp"].as_array().map(Vec::len), Some(0));
 }
 
+/// A push on the slider: what the film gives back is its printed stiffness times the printed motion; a shock
+/// moves every point; sources and frequencies that do not exist are named.
+#[test]
+fn modes_tell_responses_of_every_point_and_the_film() {
+    let folder = tempfile::tempdir().unwrap();
+    new_study(folder.path());
+    let asked = |more: &[&str]| {
+        let cells = ["--set", "solver.film_cells=500", "--json"];
+        let all: Vec<&str> = ["modes", "s.toml"]
+            .iter()
+            .chain(&cells)
+            .chain(more)
+            .copied()
+            .collect();
+        Done::of(folder.path(), &all)
+    };
+    let push = asked(&["--response", "slider", "--hz", "0,20000"]).json();
+    let row = &push["response"]["rows"][0];
+    let point = |name: &str| {
+        row["points"][name][0]
+            .as_f64()
+            .unwrap_or_else(|| panic!("{name}"))
+    };
+    let stiffness = numbers(&row["stiffness"], 3);
+    let motion = [point("slider"), point("slider.pitch"), point("slider.roll")];
+    let back: f64 = stiffness.iter().zip(motion).map(|(k, q)| -k * q).sum();
+    assert!((point("film.force") - back).abs() < 1e-9, "{back}");
+    assert!(
+        (back + 1.0).abs() < 1e-3,
+        "the film carries all but what the suspension takes: {back}"
+    );
+    assert_eq!(point("film.height"), point("slider"));
+    assert_eq!(push["response"]["rows"][1]["frequency_hz"], 20000.0);
+
+    let shock = asked(&["--response", "shock", "--hz", "500"]).json();
+    let points = shock["response"]["rows"][0]["points"].as_object().unwrap();
+    assert_eq!(points.len(), 13);
+    for (name, value) in points {
+        let size: f64 = numbers(value, 2).iter().map(|part| part * part).sum();
+        // Without skew an axisymmetric disk only rolls.
+        assert_eq!(size > 0.0, name != "disk.pitch", "{name}");
+    }
+    for (more, key) in [
+        (["--response", "rim", "--hz", "500"], "--response"),
+        (["--response", "shock", "--hz=-1", "--quiet"], "--hz"),
+    ] {
+        let done = asked(&more);
+        assert_eq!(done.code, 2, "{}", done.stderr);
+        assert_eq!(done.errors()[0]["key"], key);
+    }
+}
+
 #[test]
 fn a_free_axis_is_exit_2_and_listed() {
     let folder = tempfile::tempdir().unwrap();

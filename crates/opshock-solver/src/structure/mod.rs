@@ -13,6 +13,7 @@ mod modes;
 mod moreau_jean_run;
 mod node;
 mod record;
+mod response;
 mod rotor;
 
 pub use history::StructuralHistory;
@@ -24,6 +25,7 @@ pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
 };
+pub use response::{Source, StructureAnswer};
 pub use rotor::HubModeRow;
 
 /// How disk and ramp are brought into contact.

@@ -23,6 +23,7 @@ mod modes;
 mod new;
 mod plan;
 mod report;
+mod responses;
 mod run;
 mod schema;
 mod selection;

@@ -1,9 +1,10 @@
-//! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film.
+//! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film; responses.
 
 use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::responses::responses;
 use super::selection::{PointArgs, unshaken_point};
 use super::steady::{ModeJson, air_bearing_modes};
 use super::study_file;
@@ -22,6 +23,18 @@ pub struct ModesArgs {
     study: PathBuf,
     #[command(flatten)]
     point: PointArgs,
+    /// Also print what every point answers to the shock, or to a force at disk.ramp, disk.slider, ramp.top,
+    /// ramp.bottom, slider or dimple
+    #[arg(long, value_name = "SOURCE", requires = "hz")]
+    response: Option<String>,
+    /// Frequencies of the responses, Hz
+    #[arg(
+        long,
+        value_name = "HZ,...",
+        value_delimiter = ',',
+        requires = "response"
+    )]
+    hz: Vec<f64>,
 }
 
 /// Runs the command.
@@ -34,10 +47,20 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
     let suspension =
         ReducedSuspension::build(&scene.suspension, kept).context("no modes of the suspension")?;
     let head = air_bearing_modes(&study, &scene)?;
+    let asked = arguments.response.as_deref();
+    let responses = asked
+        .map(|source| responses(&study, &scene, source, &arguments.hz))
+        .transpose()?;
     if console.json {
-        console.result_json(&as_json(&structure, &suspension, &head))?;
+        let mut all = as_json(&structure, &suspension, &head);
+        if let Some(responses) = responses {
+            all["response"] = responses.as_json();
+        }
+        console.result_json(&all)?;
     } else {
-        console.result(&as_text(&structure, &suspension, &head))?;
+        let mut all = as_text(&structure, &suspension, &head);
+        all.extend(responses.map(|responses| responses.as_text()));
+        console.result(&all)?;
     }
     Ok(Exit::Complete)
 }
