@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
-use opshock_solver::air_bearing::steady::{Flight, SteadyError, fixed_attitude, fly};
+use opshock_solver::air_bearing::steady::{
+    Flight, SteadyError, fixed_attitude, fly, lower_equilibria,
+};
 use opshock_solver::air_bearing::{Attitude, Film, FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::head::{Coupling, HeadRun, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::quantity::{GRAM_FORCE_N, rad_per_s_from_rpm};
@@ -291,13 +293,16 @@ fn determinant(flight: &Flight) -> f64 {
     k[0][0] * k[1][1] - k[0][1] * k[1][0]
 }
 
-fn at_potential(bare: &Film, potential_v: f64) -> Result<Flight, SteadyError> {
+fn under_potential(bare: &Film, potential_v: f64) -> Film {
     let forces = SurfaceForces {
         potential_v,
         ..SurfaceForces::default()
     };
-    let film = bare.clone().with_surface_forces(&default_slider(), forces);
-    fly(&film, [LOAD_N, 0.0, 0.0])
+    bare.clone().with_surface_forces(&default_slider(), forces)
+}
+
+fn at_potential(bare: &Film, potential_v: f64) -> Result<Flight, SteadyError> {
+    fly(&under_potential(bare, potential_v), [LOAD_N, 0.0, 0.0])
 }
 
 /// Rising potential lowers the slider until its stiffness is spent and it meets the unstable equilibrium
@@ -326,10 +331,12 @@ fn surface_forces_pull_the_slider_in_at_a_fold() {
         }
     }
     let left = |share: f64| {
-        let flight = at_potential(&bare, low * (1.0 - share)).unwrap();
+        let film = under_potential(&bare, low * (1.0 - share));
+        let flight = fly(&film, [LOAD_N, 0.0, 0.0]).unwrap();
         // The unstable partner of the flight, with which it merges at the fold.
-        let apart = flight.min_clearance_m - flight.others[0].min_clearance_m;
-        assert!(!flight.others[0].stable);
+        let lower = lower_equilibria(&film, [LOAD_N, 0.0, 0.0], &flight).unwrap();
+        let apart = flight.min_clearance_m - lower[0].min_clearance_m;
+        assert!(!lower[0].stable);
         [determinant(&flight).powi(2), apart.powi(2)]
     };
     let (near, nearer) = (left(4e-4), left(1e-4));

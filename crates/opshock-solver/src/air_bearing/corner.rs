@@ -59,6 +59,7 @@ pub(super) fn conductance_factors(kappa: [f64; 4], widths: &Widths) -> [f64; 4] 
     // Per quadrant: extent along its first and along its second edge.
     let extents = [[left, below], [below, right], [right, above], [above, left]];
 
+    let quarter = quarter_turn(alpha);
     let mut edge = start;
     let mut pressure = [0.0; 4];
     let mut flux = [0.0; 4];
@@ -72,7 +73,7 @@ pub(super) fn conductance_factors(kappa: [f64; 4], widths: &Widths) -> [f64; 4] 
         edge = if k == 3 {
             start
         } else {
-            turned(alpha, kappa[k], edge)
+            turned(alpha, quarter, kappa[k], edge)
         };
         flux[k] = -edge[1] * b.powf(alpha) / alpha;
     }
@@ -103,9 +104,13 @@ pub(super) fn conductance_factors(kappa: [f64; 4], widths: &Widths) -> [f64; 4] 
     })
 }
 
+/// sin β and cos β.
+fn quarter_turn(alpha: f64) -> (f64, f64) {
+    (alpha * FRAC_PI_2).sin_cos()
+}
+
 /// (f, κ f′) at the end of a quadrant.
-fn turned(alpha: f64, kappa: f64, [f, g]: [f64; 2]) -> [f64; 2] {
-    let (sin, cos) = (alpha * FRAC_PI_2).sin_cos();
+fn turned(alpha: f64, (sin, cos): (f64, f64), kappa: f64, [f, g]: [f64; 2]) -> [f64; 2] {
     [
         f * cos + g * sin / (alpha * kappa),
         g * cos - f * alpha * kappa * sin,
@@ -114,8 +119,12 @@ fn turned(alpha: f64, kappa: f64, [f, g]: [f64; 2]) -> [f64; 2] {
 
 /// Once around: columns of the product of the four transfer matrices.
 fn circuit(alpha: f64, kappa: &[f64; 4]) -> [[f64; 2]; 2] {
-    [[1.0, 0.0], [0.0, 1.0]]
-        .map(|start| kappa.iter().fold(start, |edge, k| turned(alpha, *k, edge)))
+    let quarter = quarter_turn(alpha);
+    [[1.0, 0.0], [0.0, 1.0]].map(|start| {
+        kappa
+            .iter()
+            .fold(start, |edge, k| turned(alpha, quarter, *k, edge))
+    })
 }
 
 /// Smallest exponent below [`REGULAR`].
@@ -126,8 +135,12 @@ fn exponent(kappa: &[f64; 4]) -> Option<f64> {
     };
     const STEPS: usize = 200;
     let at = |k: usize| 0.02 + (REGULAR - 0.02) * k as f64 / STEPS as f64;
-    let k = (0..STEPS).find(|&k| excess(at(k)) < 0.0 && excess(at(k + 1)) >= 0.0)?;
-    let (mut low, mut high) = (at(k), at(k + 1));
+    let mut was_below = excess(at(0)) < 0.0;
+    let crossed = (1..=STEPS).find(|&k| {
+        let is_below = excess(at(k)) < 0.0;
+        std::mem::replace(&mut was_below, is_below) && !is_below
+    })?;
+    let (mut low, mut high) = (at(crossed - 1), at(crossed));
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if excess(middle) < 0.0 {

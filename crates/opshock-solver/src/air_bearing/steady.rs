@@ -86,8 +86,6 @@ pub struct Flight {
     pub damping: [[f64; 3]; 3],
     /// Linearisations spent on this equilibrium, from the start it was reached from.
     pub n_iterations: usize,
-    /// Other equilibria met, stable or not, lower than this one.
-    pub others: Vec<Equilibrium>,
 }
 
 /// An equilibrium apart from the one flown.
@@ -137,8 +135,9 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 
 /// As [`fly`], from `start`, which may be far from the answer.
 ///
-/// Of several stable equilibria the one with the largest clearance is flown; the others are listed.
-/// Where surface forces act, one within the range of the film's floor is no flight.
+/// Of several stable equilibria met on the way the one with the largest clearance is flown
+/// ([`lower_equilibria`] looks for those below). Where surface forces act, one within the range of the
+/// film's floor is no flight.
 ///
 /// # Errors
 ///
@@ -229,21 +228,38 @@ fn seek(
             }
         }
     }
-    // Lower equilibria lie where the surface presses on the film's floor.
-    if let Some(best) = search.best() {
-        let flown = search.found[best].attitude;
-        for clearance in [2.0 * film.floor_m(), 8.0 * film.floor_m()] {
-            let mut below = flown;
-            below.centre_height_m += clearance - film.min_clearance(&flown).value_m;
-            let mut psi = film.ambient(&below);
-            let (flown, ambient) = (&search.found[best], film.ambient(&flown));
-            for (psi, (flown, ambient)) in psi.iter_mut().zip(flown.psi.iter().zip(&ambient)) {
-                *psi *= flown / ambient;
-            }
-            search.attempt(&below, psi)?;
-        }
-    }
     search.finish()
+}
+
+/// Equilibria under the same load below a flight, where the surface presses on the film's floor: stable
+/// ones are states in which a slider may remain after a touch.
+///
+/// # Errors
+///
+/// [`SteadyError::Singular`].
+pub fn lower_equilibria(
+    film: &Film,
+    load: [f64; 3],
+    flight: &Flight,
+) -> Result<Vec<Equilibrium>, SteadyError> {
+    let mut search = Search {
+        newton: Newton::new(film),
+        load: Vector3::from(load),
+        found: vec![Found::of(flight)],
+        last: flight.attitude,
+    };
+    let flown = flight.attitude;
+    for clearance in [2.0 * film.floor_m(), 8.0 * film.floor_m()] {
+        let mut below = flown;
+        below.centre_height_m += clearance - film.min_clearance(&flown).value_m;
+        let mut psi = film.ambient(&below);
+        let ambient = film.ambient(&flown);
+        for (psi, (flown, ambient)) in psi.iter_mut().zip(flight.psi.iter().zip(&ambient)) {
+            *psi *= flown / ambient;
+        }
+        search.attempt(&below, psi)?;
+    }
+    Ok(search.found[1..].iter().map(Found::equilibrium).collect())
 }
 
 /// Clearance of the usual attitude, m.
@@ -278,6 +294,27 @@ struct Found {
     clearance_m: f64,
     stable: bool,
     n_iterations: usize,
+}
+
+impl Found {
+    fn of(flight: &Flight) -> Self {
+        Self {
+            attitude: flight.attitude,
+            psi: flight.psi.clone(),
+            stiffness: Matrix3::from(flight.stiffness).transpose(),
+            clearance_m: flight.min_clearance_m,
+            stable: true,
+            n_iterations: flight.n_iterations,
+        }
+    }
+
+    fn equilibrium(&self) -> Equilibrium {
+        Equilibrium {
+            attitude: self.attitude,
+            min_clearance_m: self.clearance_m,
+            stable: self.stable,
+        }
+    }
 }
 
 impl Search<'_> {
@@ -388,15 +425,6 @@ impl Search<'_> {
             stiffness: rows(&found.stiffness),
             damping: rows(&damping),
             n_iterations: found.n_iterations,
-            others: self
-                .found
-                .iter()
-                .map(|f| Equilibrium {
-                    attitude: f.attitude,
-                    min_clearance_m: f.clearance_m,
-                    stable: f.stable,
-                })
-                .collect(),
             psi: found.psi,
         })
     }

@@ -23,6 +23,26 @@ impl RailOutline {
         }
     }
 
+    /// Whether its edge may run through an axis-parallel rectangle; false when it does not.
+    fn cuts(&self, [x_m, y_m]: [[f64; 2]; 2]) -> bool {
+        match self {
+            RailOutline::Rectangle {
+                x_m: own_x,
+                y_m: own_y,
+            } => {
+                let meets = |a: &[f64; 2], b: [f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+                let holds = |a: &[f64; 2], b: [f64; 2]| a[0] <= b[0] && b[1] <= a[1];
+                let is_inside = holds(own_x, x_m) && holds(own_y, y_m);
+                meets(own_x, x_m) && meets(own_y, y_m) && !is_inside
+            }
+            RailOutline::Polygon { points_m } => {
+                let starts = points_m.iter().cycle().skip(points_m.len() - 1);
+                let mut sides = starts.zip(points_m);
+                sides.any(|(a, b)| side_meets(*a, *b, [x_m, y_m]))
+            }
+        }
+    }
+
     /// Corners in order.
     pub fn corners_m(&self) -> Vec<[f64; 2]> {
         match self {
@@ -35,6 +55,27 @@ impl RailOutline {
             RailOutline::Polygon { points_m } => points_m.clone(),
         }
     }
+}
+
+/// Whether the side from `a` to `b` has a point in a closed axis-parallel rectangle: all of it must not
+/// lie beyond one of the rectangle's lines, nor all of the rectangle on one side of its own.
+fn side_meets(a: [f64; 2], b: [f64; 2], rectangle: [[f64; 2]; 2]) -> bool {
+    let is_beyond = |d: usize| {
+        let [low, high] = rectangle[d];
+        a[d].max(b[d]) < low || a[d].min(b[d]) > high
+    };
+    if is_beyond(0) || is_beyond(1) {
+        return false;
+    }
+    let [x, y] = rectangle;
+    let turn = |px: f64, py: f64| (b[0] - a[0]) * (py - a[1]) - (b[1] - a[1]) * (px - a[0]);
+    let turns = [
+        turn(x[0], y[0]),
+        turn(x[1], y[0]),
+        turn(x[1], y[1]),
+        turn(x[0], y[1]),
+    ];
+    !(turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0))
 }
 
 /// Even-odd rule.
@@ -132,6 +173,10 @@ impl Surface {
             range[0] + (range[1] - range[0]) * ((k as f64 + 0.5) / SAMPLES as f64)
         };
         let centre = self.recess_m(at(x_m, SAMPLES / 2), at(y_m, SAMPLES / 2));
+        let sampled = [x_m, y_m].map(|range| [at(range, 0), at(range, SAMPLES - 1)]);
+        if !self.rails.iter().any(|rail| rail.outline.cuts(sampled)) {
+            return centre;
+        }
         let mut excess = 0.0;
         for i in 0..SAMPLES {
             for j in 0..SAMPLES {
@@ -223,4 +268,53 @@ fn tidy(mut values: Vec<f64>, length: f64) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     values.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * length);
     values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever a rectangle counts as not cut, all points of a fine raster in it agree; and cells cut by
+    /// a side are found, also where no corner lies in either of the two.
+    #[test]
+    fn a_rectangle_that_no_side_cuts_has_one_recess() {
+        // Multiples of a logarithm's digits, far apart: no two sequences of seven alike.
+        let mut count = 0.0;
+        let mut next = || {
+            count += 1.0;
+            (count * count * std::f64::consts::LN_2 * 0.1).fract()
+        };
+        let (mut n_even, mut n_cut) = (0, 0);
+        for _ in 0..4000 {
+            let [a, b, c] = [0, 1, 2].map(|_| [next(), next()]);
+            let x = next();
+            let outlines = [
+                RailOutline::Polygon {
+                    points_m: vec![a, b, c],
+                },
+                RailOutline::Rectangle {
+                    x_m: [a[0].min(b[0]), a[0].max(b[0])],
+                    y_m: [a[1].min(b[1]), a[1].max(b[1])],
+                },
+            ];
+            let (y, size) = (next(), [0.4 * next(), 0.4 * next()]);
+            let rectangle = [[x, x + size[0]], [y, y + size[1]]];
+            for outline in outlines {
+                let at = |d: usize, k: usize| rectangle[d][0] + size[d] * k as f64 / 24.0;
+                let raster = |k: usize| outline.contains(at(0, k % 25), at(1, k / 25));
+                let is_even = (0..625).all(|k| raster(k) == raster(0));
+                if outline.cuts(rectangle) {
+                    n_cut += 1;
+                } else {
+                    n_even += 1;
+                    assert!(is_even, "{outline:?} {rectangle:?}");
+                }
+            }
+        }
+        assert!(n_even > 4000 && n_cut > 1000, "{n_even} {n_cut}");
+        let band = RailOutline::Polygon {
+            points_m: vec![[-1.0, -0.9], [-0.9, -1.0], [1.0, 0.9], [0.9, 1.0]],
+        };
+        assert!(band.cuts([[-0.5, 0.5], [-0.5, 0.5]]));
+    }
 }

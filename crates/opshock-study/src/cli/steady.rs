@@ -10,7 +10,7 @@ use crate::study::Study;
 use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
-use opshock_solver::air_bearing::steady::{fixed_attitude, fly};
+use opshock_solver::air_bearing::steady::{Equilibrium, fixed_attitude, fly, lower_equilibria};
 use opshock_solver::air_bearing::{Attitude, Film};
 use opshock_solver::scene::Scene;
 use opshock_solver::slider::body::Inertia;
@@ -63,6 +63,8 @@ struct SteadyJson {
     /// Slider free on its film; null when a held attitude has none.
     modes: Option<Vec<ModeJson>>,
     unknowns: usize,
+    /// Equilibria below the flight; null for a held slider.
+    lower: Option<Vec<LowerJson>>,
     /// Share of the forces between slider and disk beside the air.
     #[serde(skip_serializing_if = "Option::is_none")]
     surface_forces: Option<SurfaceJson>,
@@ -77,6 +79,16 @@ struct SurfaceJson {
     pitch_moment_n_m: f64,
     roll_moment_n_m: f64,
     stiffness: Matrix,
+}
+
+/// An equilibrium below the flight.
+#[derive(Debug, Serialize)]
+struct LowerJson {
+    min_clearance_m: f64,
+    centre_height_m: f64,
+    pitch_rad: f64,
+    roll_rad: f64,
+    stable: bool,
 }
 
 /// A mode of the slider on its film.
@@ -148,9 +160,11 @@ fn film(study: &Study, scene: &Scene) -> Result<Film, Failure> {
 fn flying_state(film: &Film, study: &Study, scene: &Scene) -> Result<State, Failure> {
     let load = [scene.suspension.gram_load_n, 0.0, 0.0];
     let flight = fly(film, load).map_err(|error| study_file::cannot_be_simulated(study, &error))?;
+    let lower = lower_equilibria(film, load, &flight).context("no search below the flight")?;
     let mut state = described(film, flight.psi, flight.attitude);
     state.json.stiffness = flight.stiffness;
     state.json.damping = flight.damping;
+    state.json.lower = Some(lower.iter().map(lower_json).collect());
     let mut motion = SmallMotion::new(film, &state.psi, &state.attitude);
     let modes = motion.free_modes(Inertia::of(&scene.slider).diagonal());
     state.json.modes = Some(modes_json(
@@ -224,6 +238,7 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         damping: [[0.0; 3]; 3],
         modes: None,
         unknowns: n,
+        lower: None,
         surface_forces,
         impedance: None,
     };
@@ -287,6 +302,16 @@ fn modes_json(modes: &[AirBearingMode]) -> Vec<ModeJson> {
             damping_ratio: mode.damping_ratio,
         })
         .collect()
+}
+
+fn lower_json(below: &Equilibrium) -> LowerJson {
+    LowerJson {
+        min_clearance_m: below.min_clearance_m,
+        centre_height_m: below.attitude.centre_height_m,
+        pitch_rad: below.attitude.pitch_rad,
+        roll_rad: below.attitude.roll_rad,
+        stable: below.stable,
+    }
 }
 
 fn attitude(numbers: &[f64]) -> Result<Attitude, Failure> {
@@ -357,6 +382,11 @@ fn as_text(steady: &SteadyJson) -> String {
     }
     matrix(&mut text, "stiffness", &steady.stiffness);
     matrix(&mut text, "damping", &steady.damping);
+    for below in steady.lower.iter().flatten() {
+        let kind = if below.stable { "stable" } else { "unstable" };
+        let clearance_nm = 1e9 * below.min_clearance_m;
+        text.push_str(&format!("below          {clearance_nm:.4} nm, {kind}\n"));
+    }
     for mode in steady.modes.iter().flatten() {
         let _ = writeln!(
             text,
