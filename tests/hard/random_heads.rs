@@ -124,6 +124,7 @@ fn one(seed: u64) -> Option<bool> {
         width_s,
     };
     let load = ShockLoad {
+        base: None,
         pulse: &pulse,
         amplitude_m_per_s2,
     };

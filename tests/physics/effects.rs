@@ -103,7 +103,7 @@ struct Poison {
     poison: fn(&mut Scene),
 }
 
-/// Every effect that a plan can leave out, but arms, hub, oblique shock, limiters and lift tab: where a scene has none it has
+/// Every effect that a plan can leave out, but arms, hub, oblique shock, base, limiters and lift tab: where a scene has none it has
 /// no numbers of them.
 const POISONS: [Poison; 9] = [
     Poison {
@@ -243,6 +243,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
                 let absent = [
                     "ramp.arms",
                     "disk.hub",
+                    "base.modes",
                     "shock.oblique",
                     "head.limiters",
                     "head.lift_tab",

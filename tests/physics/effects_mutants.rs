@@ -138,6 +138,7 @@ fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     for (name, change) in OF_SHARING {
         is_needed(&scene, name, change);
     }
+    is_needed(&scene, "R9 base", |s| s.base = super::base::BASE.to_vec());
     // Only a disk on a hub takes an oblique shock.
     scene.disk.hub = Some(super::hub::spindle());
     is_needed(&scene, "R9 direction", |s| {

@@ -19,6 +19,7 @@ fn run(coupling: Coupling) -> HeadRun {
     let amplitude_m_per_s2 = -2500.0;
     let disk = SingleModeDisk::new(amplitude_m_per_s2, PULSE.width_s);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2,
     };

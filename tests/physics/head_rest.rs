@@ -16,6 +16,7 @@ fn hard_e1_zero_amplitude_keeps_the_steady_clearance() {
     let mut workspace = HeadWorkspace::new(&model);
     for amplitude in [0.0, 1e-300] {
         let load = ShockLoad {
+            base: None,
             pulse: &PULSE,
             amplitude_m_per_s2: amplitude,
         };
@@ -39,6 +40,7 @@ fn a_run_has_the_same_bits_in_a_used_workspace() {
     let model = default_head(300, &default_resolution());
     let disk = SingleModeDisk::new(2000.0, 2e-3);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: 2000.0,
     };
@@ -46,6 +48,7 @@ fn a_run_has_the_same_bits_in_a_used_workspace() {
     let first = model.run(&disk, &load, 1e-3, true, true, &mut workspace);
     let other = SingleModeDisk::new(-4000.0, 2e-3);
     let other_load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: -4000.0,
     };
@@ -60,6 +63,7 @@ fn the_step_limit_leaves_a_run_undecided() {
     resolution.max_steps = 20;
     let model = default_head(300, &resolution);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: 0.0,
     };

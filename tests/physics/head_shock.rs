@@ -28,6 +28,7 @@ fn smallest_clearance_converges_with_the_tolerance() {
         }
         let disk = SingleModeDisk::new(400.0 * G, PULSE.width_s);
         let load = ShockLoad {
+            base: None,
             pulse: &PULSE,
             amplitude_m_per_s2: 400.0 * G,
         };
@@ -62,6 +63,7 @@ fn positive_failure_without_a_ramp_is_abrupt() {
     let mut at = |g: f64| {
         let disk = SingleModeDisk::new(g * G, PULSE.width_s);
         let load = ShockLoad {
+            base: None,
             pulse: &PULSE,
             amplitude_m_per_s2: g * G,
         };

@@ -15,6 +15,7 @@ const PULSE: Pulse = Pulse {
     width_s: 2e-3,
 };
 const NO_LOAD: ShockLoad<'static> = ShockLoad {
+    base: None,
     pulse: &PULSE,
     amplitude_m_per_s2: 0.0,
 };
@@ -93,6 +94,7 @@ fn going_on_after_touch_keeps_the_first_touch() {
     let mut workspace = HeadWorkspace::new(&model);
     let disk = SingleModeDisk::new(900.0 * G, 2e-3);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: 900.0 * G,
     };
@@ -115,6 +117,7 @@ fn a_run_that_stops_ends_at_the_instant_of_touch() {
     let amplitude_m_per_s2 = 900.0 * G;
     let disk = SingleModeDisk::new(amplitude_m_per_s2, 2e-3);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2,
     };

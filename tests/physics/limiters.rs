@@ -53,6 +53,7 @@ impl Bench {
         let model = HeadModel::build(suspension, &slider, film, flight, &resolution, 0.0);
         let model = model.expect("head builds");
         let load = ShockLoad {
+            base: None,
             pulse: &PULSE,
             amplitude_m_per_s2: SHOCK_G * G,
         };

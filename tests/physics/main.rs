@@ -1,5 +1,6 @@
 //! Physics against references, invariants and relations.
 
+mod base;
 mod bodies;
 mod contact;
 mod contact_method;

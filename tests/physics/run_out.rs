@@ -117,6 +117,7 @@ fn no_shock() -> Pulse {
 fn columns_over(head: &HeadModel, window_s: f64) -> HeadColumns {
     let pulse = no_shock();
     let load = ShockLoad {
+        base: None,
         pulse: &pulse,
         amplitude_m_per_s2: 0.0,
     };

@@ -368,6 +368,7 @@ fn shock(film: &Arc<Film>, coupling: Coupling, tolerance: f64, amplitude: f64) -
         width_s: 2e-4,
     };
     let load = ShockLoad {
+        base: None,
         pulse: &pulse,
         amplitude_m_per_s2: amplitude,
     };

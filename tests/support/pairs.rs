@@ -11,7 +11,7 @@ use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
-use opshock_solver::shock::{ObliqueShock, PulseShape};
+use opshock_solver::shock::{BaseMode, ObliqueShock, PulseShape};
 use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Verdict, Warning, Workspace, simulate,
 };
@@ -248,6 +248,18 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
                 rotation_per_m: [share(10.0), share(10.0)],
             });
         }
+    }
+    if scene.disk.hub.is_none() && seeded.once_in(3) {
+        let mut shape = || seeded.between(-1.0, 1.0);
+        let shapes = [shape(), shape(), shape(), shape()];
+        scene.base = vec![BaseMode {
+            frequency_hz: seeded.between(300.0, 5e3),
+            damping_ratio: seeded.between(0.0, 0.05),
+            participation_sqrt_kg: 0.3 * shapes[0],
+            spindle_per_sqrt_kg: shapes[1],
+            ramp_per_sqrt_kg: shapes[2],
+            pivot_per_sqrt_kg: shapes[3],
+        }];
     }
     let contact = ContactLaw {
         stiffness_n_per_m: 1e5,

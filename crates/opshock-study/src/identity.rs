@@ -10,7 +10,7 @@ use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParam
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
-use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
+use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::{ContactMethod, StructureResolution};
 use opshock_solver::suspension::{
@@ -121,6 +121,7 @@ impl Digester {
         let Scene {
             pulse,
             oblique,
+            base,
             window,
             disk,
             run_out: _,
@@ -145,6 +146,28 @@ impl Digester {
             self.text("oblique");
             self.numbers(in_plane);
             self.numbers(rotation_per_m);
+        }
+        if !base.is_empty() {
+            self.text("base");
+            self.integer(base.len() as u64);
+        }
+        for BaseMode {
+            frequency_hz,
+            damping_ratio,
+            participation_sqrt_kg,
+            spindle_per_sqrt_kg,
+            ramp_per_sqrt_kg,
+            pivot_per_sqrt_kg,
+        } in base
+        {
+            self.numbers(&[
+                *frequency_hz,
+                *damping_ratio,
+                *participation_sqrt_kg,
+                *spindle_per_sqrt_kg,
+                *ramp_per_sqrt_kg,
+                *pivot_per_sqrt_kg,
+            ]);
         }
         match window {
             Window::Fixed { length_s } => {
@@ -190,6 +213,7 @@ impl Digester {
             film_resolution,
             head_resolution,
             oblique: _,
+            base: _,
             pulse: _,
             window: _,
             disk,

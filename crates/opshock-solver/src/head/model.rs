@@ -12,7 +12,7 @@ use crate::air_bearing::steady::Flight;
 use crate::air_bearing::{Attitude, Film};
 use crate::disk::DiskPose;
 use crate::integrator::{TR_BDF2, Tableau};
-use crate::shock::Pulse;
+use crate::shock::{BaseMotion, Mount, Pulse};
 use crate::slider::SliderParameters;
 use crate::suspension::{ReducedSuspension, SuspensionError, SuspensionParameters};
 
@@ -70,6 +70,40 @@ pub struct ShockLoad<'a> {
     pub pulse: &'a Pulse,
     /// Inertia load per mass at the pulse's peak, m/s2.
     pub amplitude_m_per_s2: f64,
+    /// The base, when it vibrates: the suspension's pivot then moves with it, and the disk's motion is
+    /// that over the pivot.
+    pub base: Option<&'a BaseMotion>,
+}
+
+impl ShockLoad<'_> {
+    /// Inertia load per mass that the suspension feels at `time_s`, m/s2.
+    pub(super) fn value(&self, time_s: f64) -> f64 {
+        self.amplitude_m_per_s2 * self.unit(time_s, time_s)
+    }
+
+    /// Its limit from the right.
+    pub(super) fn just_after(&self, time_s: f64) -> f64 {
+        self.amplitude_m_per_s2 * self.unit(time_s, right_of(time_s))
+    }
+
+    /// Its jump.
+    pub(super) fn jump(&self, time_s: f64) -> f64 {
+        let jump = self.unit(time_s, right_of(time_s)) - self.unit(time_s, time_s);
+        jump * self.amplitude_m_per_s2
+    }
+
+    /// Load per unit amplitude, the pulse taken at `pulse_s`.
+    fn unit(&self, time_s: f64, pulse_s: f64) -> f64 {
+        let pulse = self.pulse.value(pulse_s);
+        match self.base {
+            None => pulse,
+            Some(base) => base.load(Mount::Pivot, time_s, pulse),
+        }
+    }
+}
+
+fn right_of(time_s: f64) -> f64 {
+    time_s * (1.0 + 1e-12) + f64::MIN_POSITIVE
 }
 
 /// Film, slider, gimbal and suspension of one head, ready to run any shock.

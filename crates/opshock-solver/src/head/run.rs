@@ -195,7 +195,7 @@ impl<'a> Run<'a> {
         let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
         let (x, v) = w.y[n_cells..].split_at(n);
         w.rate[n_cells..n_cells + n].copy_from_slice(v);
-        let a = self.load.amplitude_m_per_s2 * just_after(self.load.pulse, 0.0);
+        let a = self.load.just_after(0.0);
         let out = &mut w.rate[n_cells + n..];
         model
             .mechanics
@@ -359,10 +359,8 @@ impl<'a> Run<'a> {
         w.stepper.accept(dt_s);
         self.clearance = step.clearance;
 
-        let pulse = self.load.pulse;
-        let jump = just_after(pulse, self.time_s) - pulse.value(self.time_s);
-        if jump != 0.0 {
-            let da = jump * self.load.amplitude_m_per_s2;
+        let da = self.load.jump(self.time_s);
+        if da != 0.0 {
             let velocities = model.film.n_cells() + model.mechanics.len();
             model
                 .mechanics
@@ -601,9 +599,4 @@ fn pulse_events(pulse: &Pulse, out: &mut Vec<f64>) {
         | PulseShape::DampedSine { .. } => {}
     }
     out.push(pulse.width_s);
-}
-
-/// Limit of the pulse from the right.
-fn just_after(pulse: &Pulse, time_s: f64) -> f64 {
-    pulse.value(time_s * (1.0 + 1e-12) + f64::MIN_POSITIVE)
 }

@@ -174,7 +174,7 @@ impl Stages<'_> {
     fn instant(&self, time_s: f64, d_s: f64) -> Instant {
         Instant {
             pose: self.motion.pose(time_s),
-            a: self.load.amplitude_m_per_s2 * self.load.pulse.value(time_s),
+            a: self.load.value(time_s),
             d_s,
         }
     }

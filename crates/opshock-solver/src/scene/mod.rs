@@ -10,7 +10,7 @@ use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
 pub use crate::head::{Coupling, HeadResolution};
 use crate::ramp::RampParameters;
-use crate::shock::{ObliqueShock, Pulse};
+use crate::shock::{BaseMode, ObliqueShock, Pulse};
 use crate::slider::SliderParameters;
 use crate::structure::StructureResolution;
 pub use crate::structure::{ContactMethod, Window};
@@ -23,6 +23,8 @@ pub struct Scene {
     pub pulse: Pulse,
     /// What else shakes the base in step with it; `None`: a straight shock.
     pub oblique: Option<ObliqueShock>,
+    /// Modes of base plate and housing; none: the base is rigid.
+    pub base: Vec<BaseMode>,
     /// Simulated time after the onset.
     pub window: Window,
     /// Disk.

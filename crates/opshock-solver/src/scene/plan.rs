@@ -320,6 +320,10 @@ impl Plan {
                 Some(_) => on("shock.oblique"),
                 None => effect("shock.oblique", State::Off, None),
             },
+            match scene.base.is_empty() {
+                true => effect("base.modes", State::Off, None),
+                false => on("base.modes"),
+            },
             match self.harmonics(scene) {
                 Harmonics::Tilting => on("disk.travelling_waves"),
                 Harmonics::Symmetric => effect("disk.travelling_waves", State::Off, Some("R2")),

@@ -178,6 +178,7 @@ impl Model {
             ("R9 ramp", own.ramp == scene.ramp),
             ("R9 pulse", own.pulse == scene.pulse),
             ("R9 direction", own.oblique == scene.oblique),
+            ("R9 base", own.base == scene.base),
             ("R9 window", own.window == scene.window),
             ("R9 structure steps", steps),
             ("R9 slider's place", place),
@@ -237,6 +238,7 @@ fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, Structu
         slider: slider_place(scene),
         pulse: &scene.pulse,
         oblique: scene.oblique.as_ref(),
+        base: &scene.base,
         window: scene.window,
         resolution: &scene.structure_resolution,
     };

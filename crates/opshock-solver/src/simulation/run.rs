@@ -72,6 +72,7 @@ pub fn simulate_head(
         };
         let load = ShockLoad {
             pulse: &model.scene.pulse,
+            base: model.structure.base_motion(),
             // A turning base shakes the suspension by another axial load than the spindle.
             amplitude_m_per_s2: match &model.scene.oblique {
                 Some(shock) => {
@@ -201,6 +202,9 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     if model.scene.oblique.is_some() {
         names.push("shock.oblique");
     }
+    if !model.scene.base.is_empty() {
+        names.push("base.modes");
+    }
     match model.scene.ramp.model {
         RampModel::None => {}
         RampModel::Rigid => names.extend(["ramp.contact", "disk.travelling_waves"]),
@@ -257,6 +261,14 @@ fn describe(warning: &StructureWarning) -> Warning {
         StructureWarning::BothArmsOnePoint => (
             "both_arms_one_point",
             "both arms held one point: only the net force is determined".to_string(),
+        ),
+        StructureWarning::BaseReaction { share } => (
+            "base_reaction",
+            format!(
+                "the disk has {:.1} % of the mass of a mode of the base at the spindle, which is taken not to \
+                 feel it",
+                100.0 * share
+            ),
         ),
         StructureWarning::HubInstability {
             nodal_diameters,

@@ -327,11 +327,12 @@ impl<'a> ContactSystem<'a> {
         if is_look || self.state.record {
             self.energies = self.energies_now();
         }
+        let time_s = self.k as f64 * shared.free.step_s;
         if self.state.keeps_motion {
+            let (pose, rate) = shared.over_pivot(a, time_s, pose, rate);
             self.state.history.pose.push(pose);
             self.state.history.rate.push(rate);
         }
-        let time_s = self.k as f64 * shared.free.step_s;
         let node = Node {
             time_s,
             shock_m_per_s2: a * shared.pulse.value(time_s),
@@ -541,7 +542,7 @@ impl UnilateralSystem for ContactSystem<'_> {
             }
             state.unit_ahead.copy_from(&state.unit_now);
             free.advance(&mut state.unit_ahead, start_s, h_s, 1.0);
-            self.sample_ahead = free.sample(&state.unit_ahead);
+            self.sample_ahead = free.sample(&state.unit_ahead, start_s + h_s);
         }
         self.gaps_ahead = self.gaps_at_reach();
     }
@@ -603,6 +604,11 @@ impl UnilateralSystem for ContactSystem<'_> {
             }
         }
         let on_disk = p[1] - p[0];
+        if let Some(base) = &shared.free.base {
+            // What the mounts, as they move, put in through the contact.
+            let opening = self.amplitude * base.opening_rate(time_s[0]);
+            self.ledger.work.add(on_disk * opening);
+        }
         let mut w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);
         if let Some(rotor) = &shared.free.rotor {
             w_theta += rotor.contact_turn(&self.state.rotor_now);
@@ -700,9 +706,10 @@ impl ContactSystem<'_> {
         let sample = if self.offset_s == 0.0 {
             *self.sample()
         } else {
-            self.shared.free.sample(&self.state.unit_now)
+            self.shared.free.sample(&self.state.unit_now, time_s)
         };
-        let (pose, rate_before) = self.slider(&sample);
+        let (pose, rate) = self.slider(&sample);
+        let (pose, rate_before) = self.shared.over_pivot(self.amplitude, time_s, pose, rate);
         let rate_after = jump(rate_before, 1.0);
         let history = &mut self.state.history;
         history.breaks.push(Break {

@@ -3,14 +3,17 @@
 //! An axial shock moves the axisymmetric modes of the disk and shakes the ramp's arms. Both are
 //! oscillators at rest in the drive's frame, driven by participation × a(t), and are carried over
 //! the grid t_k = k Δt by their exact forced flow, also in the steps in which the pulse has a kink.
-//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns.
+//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns. On a base that vibrates
+//! disk and ramp feel the loads of their mounts (`on_base`), and points move with them.
 
 use super::energy::LongSum;
 use crate::modal::oscillator::{GAUSS_8, phi1};
 use crate::modal::{Flow, ForcedResponse, LossForm, Oscillator, Phase};
 use crate::shock::Stretch;
 
+use super::on_base::{OnBase, Waves};
 use super::rotor::{Rotor, RotorScratch, RotorState};
+use crate::shock::BaseMotion;
 
 /// Oscillators driven by the shock, modal mass 1 kg each.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +21,8 @@ pub(super) struct ForcedModes {
     pub oscillators: Vec<Oscillator>,
     /// Generalised force per unit a(t), kg^½.
     pub participation: Vec<f64>,
+    /// How many are the disk's; the others are the ramp's.
+    pub n_on_disk: usize,
 }
 
 /// Shapes of the forced modes at the points that matter, kg^-½ (slope: kg^-½/m).
@@ -133,6 +138,8 @@ pub(super) struct FreeMotion {
     points: Vec<[f64; POINTS]>,
     /// The disk's harmonics on a hub.
     pub rotor: Option<Rotor>,
+    /// The base, when it vibrates.
+    pub base: Option<OnBase>,
     /// Its hub at every node.
     pub hub: Vec<HubSample>,
     stretches: Vec<Stretch>,
@@ -189,6 +196,7 @@ impl FreeMotion {
         modes: ForcedModes,
         shapes: ForcedShapes,
         rotor: Option<Rotor>,
+        base: Option<BaseMotion>,
         stretches: Vec<Stretch>,
         step_s: f64,
         n_steps: usize,
@@ -211,6 +219,10 @@ impl FreeMotion {
         } else {
             &GAUSS_5
         };
+        let base = base.map(|motion| {
+            let times_s = rule.iter().map(|(x, _)| x * step_s);
+            OnBase::new(motion, sigma, &modes.oscillators, step_s, times_s)
+        });
         let mut free = Self {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
@@ -235,6 +247,7 @@ impl FreeMotion {
             points: shapes.by_mode(),
             modes,
             rotor,
+            base,
             hub: Vec::new(),
             stretches,
         };
@@ -245,7 +258,7 @@ impl FreeMotion {
             if k % CHECKPOINT_STEPS == 0 {
                 free.checkpoints.push(state.clone());
             }
-            let mut sample = free.sample(&state);
+            let mut sample = free.sample(&state, k as f64 * step_s);
             (sample.kinetic, sample.energy) = free.energy(&mut state);
             if let Some(rotor) = free.rotor.as_ref().filter(|rotor| rotor.is_tilted()) {
                 let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
@@ -271,8 +284,8 @@ impl FreeMotion {
         self.stretches.iter().map(|s| s.end_s)
     }
 
-    /// Unit response of the points for `state`.
-    pub fn sample(&self, state: &ForcedState) -> Sample {
+    /// Unit response of the points for `state` at `time_s`.
+    pub fn sample(&self, state: &ForcedState, time_s: f64) -> Sample {
         let (mut x, mut v) = ([0.0; POINTS], [0.0; POINTS]);
         for ((shape, q), r) in self.points.iter().zip(&state.x).zip(&state.v) {
             for k in 0..POINTS {
@@ -296,7 +309,48 @@ impl FreeMotion {
         if let Some(rotor) = &self.rotor {
             rotor.add_sample(&state.rotor, &mut sample);
         }
+        if let Some(base) = &self.base {
+            let [spindle, ramp] = base.mounts(time_s);
+            let carried = [
+                (&mut sample.contact, spindle),
+                (&mut sample.slider, spindle),
+                (&mut sample.top, ramp),
+                (&mut sample.bottom, ramp),
+            ];
+            for (point, [value, rate]) in carried {
+                point.value += value;
+                point.rate += rate;
+            }
+            sample.rim += spindle[0];
+        }
         sample
+    }
+
+    /// Loads at the mounts of disk and ramp at `time_s`, where the pulse is `value`.
+    pub fn loads(&self, time_s: f64, value: f64) -> [f64; 2] {
+        match &self.base {
+            None => [value; 2],
+            Some(base) => base.loads(time_s, value),
+        }
+    }
+
+    /// The pulse at the mounts of disk and ramp.
+    fn phases(&self, phase: &Phase) -> [Phase; 2] {
+        match &self.base {
+            None => [*phase; 2],
+            Some(base) => base.phases(phase),
+        }
+    }
+
+    /// Mount of forced mode `j`: 0 the spindle, 1 the ramp's; one and the same on a rigid base.
+    pub fn mount(&self, j: usize) -> usize {
+        usize::from(self.base.is_some() && j >= self.modes.n_on_disk)
+    }
+
+    /// The base's ringing from `start_s` on.
+    fn ringing(&self, start_s: f64) -> Option<(&OnBase, Waves)> {
+        let base = self.base.as_ref()?;
+        Some((base, base.waves(start_s)))
     }
 
     /// (kinetic, total) energy.
@@ -340,8 +394,10 @@ impl FreeMotion {
                 .iter()
                 .zip(&self.response)
                 .zip(&self.modes.participation);
-            for (((f, r), gain), (x, v)) in modes.zip(state.x.iter_mut().zip(&mut state.v)) {
-                let (dx, dv) = r.increments(&phase);
+            let phases = self.phases(&phase);
+            let states = state.x.iter_mut().zip(&mut state.v);
+            for (j, (((f, r), gain), (x, v))) in modes.zip(states).enumerate() {
+                let (dx, dv) = r.increments(&phases[self.mount(j)]);
                 let free = carry(f, *x, *v);
                 (*x, *v) = (free.0 + gain * dx, free.1 + gain * dv);
             }
@@ -349,7 +405,14 @@ impl FreeMotion {
                 rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
             }
         } else {
-            self.advance(state, start_s, self.step_s, 1.0);
+            return self.advance(state, start_s, self.step_s, 1.0);
+        }
+        if let Some((base, waves)) = self.ringing(start_s) {
+            for (j, gain) in self.modes.participation.iter().enumerate() {
+                let (dx, dv) = base.step_increments(&waves, j, self.mount(j));
+                state.x[j] += gain * dx;
+                state.v[j] += gain * dv;
+            }
         }
     }
 
@@ -357,7 +420,8 @@ impl FreeMotion {
     /// unit pulse.
     pub fn exchange(&self, state: &mut ForcedState, k: usize, amplitude: f64) -> Exchange {
         let start_s = k as f64 * self.step_s;
-        if start_s >= self.pulse_end_s {
+        let is_over = start_s >= self.pulse_end_s;
+        if is_over && self.base.is_none() {
             let modes = self.loss.iter().zip(&state.x).zip(&state.v);
             let mut total = Exchange {
                 loss: modes
@@ -370,28 +434,44 @@ impl FreeMotion {
             }
             return total;
         }
-        let Some((stretch, phase)) = self.whole_step(start_s) else {
-            return self.exchange_within(state, start_s, self.step_s, amplitude);
+        let (sigma_per_s, phase) = match self.whole_step(start_s) {
+            Some((stretch, phase)) => (stretch.sigma_per_s, phase),
+            // A base that rings on.
+            None if is_over => Default::default(),
+            None => return self.exchange_within(state, start_s, self.step_s, amplitude),
         };
+        let phases = self.phases(&phase);
+        let ringing = self.ringing(start_s);
         let mut total = Exchange::default();
-        for point in &self.quadrature {
-            let force = amplitude * phase.later(stretch.sigma_per_s, point.tau_s).value();
-            let (mut power, mut loss) = (0.0, 0.0);
+        for (i, point) in self.quadrature.iter().enumerate() {
+            let mut forces = phases.map(|p| p.later(sigma_per_s, point.tau_s).value());
+            if let Some((base, waves)) = &ringing {
+                let added = base.ringing(waves, point.tau_s);
+                forces = std::array::from_fn(|mount| forces[mount] + added[mount]);
+            }
+            // Work at each mount.
+            let (mut power, mut loss) = ([0.0; 2], 0.0);
             for j in 0..state.x.len() {
                 let f = &point.flow[j];
                 let (x, v) = (state.x[j], state.v[j]);
                 let gain = self.modes.participation[j];
-                let v = v
+                let mount = self.mount(j);
+                let mut v = v
                     + (f.rq.re * x + f.rr.re * v)
-                    + amplitude * gain * point.response[j].velocity_increment(&phase);
-                power += gain * v;
+                    + amplitude * gain * point.response[j].velocity_increment(&phases[mount]);
+                if let Some((base, waves)) = &ringing {
+                    v += amplitude * gain * base.velocity_increment(i, waves, j, mount);
+                }
+                power[mount] += gain * v;
                 loss += 2.0 * self.modes.oscillators[j].half_damping_per_s * v * v;
             }
-            total.work += point.weight_s * force * power;
+            for (force, power) in forces.iter().zip(power) {
+                total.work += point.weight_s * (amplitude * force) * power;
+            }
             total.loss += point.weight_s * loss;
         }
         if let Some(rotor) = &self.rotor {
-            let forcing = (stretch.sigma_per_s, &phase);
+            let forcing = (sigma_per_s, &phase);
             let ForcedState {
                 rotor: own,
                 scratch,
@@ -415,9 +495,15 @@ impl FreeMotion {
             let offset = piece.start_s - start_s;
             for (x, weight) in GAUSS_8 {
                 let tau = x * piece.h_s;
-                let force = amplitude * piece.phase.later(piece.sigma_per_s, tau).value();
+                let phases = self.phases(&piece.phase);
+                let mut loads = phases.map(|p| p.later(piece.sigma_per_s, tau).value());
+                if let Some((base, waves)) = self.ringing(piece.start_s) {
+                    let added = base.ringing(&waves, tau);
+                    loads = std::array::from_fn(|mount| loads[mount] + added[mount]);
+                }
                 for (j, o) in self.modes.oscillators.iter().enumerate() {
                     let v = self.velocity_at(state, j, start_s, offset + tau, amplitude);
+                    let force = amplitude * loads[self.mount(j)];
                     total.work += weight * piece.h_s * force * self.modes.participation[j] * v;
                     total.loss += weight * piece.h_s * 2.0 * o.half_damping_per_s * v * v;
                 }
@@ -495,14 +581,19 @@ impl FreeMotion {
         piece: &Piece,
         amplitude: f64,
     ) -> (f64, f64) {
-        let free = carry(&o.flow(piece.h_s), x, v);
-        if !piece.driven {
-            return free;
-        }
-        let (dx, dv) =
-            ForcedResponse::new(o, piece.sigma_per_s, piece.h_s).increments(&piece.phase);
+        let mut to = carry(&o.flow(piece.h_s), x, v);
+        let mount = self.mount(j);
         let gain = amplitude * self.modes.participation[j];
-        (free.0 + gain * dx, free.1 + gain * dv)
+        if piece.driven {
+            let phase = &self.phases(&piece.phase)[mount];
+            let (dx, dv) = ForcedResponse::new(o, piece.sigma_per_s, piece.h_s).increments(phase);
+            to = (to.0 + gain * dx, to.1 + gain * dv);
+        }
+        if let Some(base) = &self.base {
+            let (dx, dv) = base.piece_increments(o, piece.start_s, piece.h_s, mount);
+            to = (to.0 + gain * dx, to.1 + gain * dv);
+        }
+        to
     }
 
     /// Stretch and phase when the step from `start_s` lies inside one stretch.

@@ -12,6 +12,7 @@ mod model;
 mod modes;
 mod moreau_jean_run;
 mod node;
+mod on_base;
 mod record;
 mod response;
 mod rotor;

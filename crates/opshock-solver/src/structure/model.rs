@@ -5,6 +5,7 @@ use super::contact_system::{ContactSystem, RunState};
 use super::energy::EnergyWeights;
 use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
+use super::on_base::{MOST_MODES, MOST_RIDERS};
 use super::record::{
     ArmContact, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
 };
@@ -12,12 +13,12 @@ use super::rotor::{Rotor, is_carried};
 use super::{ContactMethod, StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{
-    self, DiskBasis, DiskError, DiskParameters, DiskPose, DiskResolution, Harmonics,
+    self, DiskBasis, DiskError, DiskMode, DiskParameters, DiskPose, DiskResolution, Harmonics,
 };
 use crate::modal::{BankFlow, Oscillator, Readout};
 use crate::mutant;
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
-use crate::shock::{ObliqueShock, Pulse, PulseError};
+use crate::shock::{BaseMode, BaseMotion, Mount, ObliqueShock, Pulse, PulseError, Rider};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -32,6 +33,8 @@ const PENETRATION_WARNING_M: f64 = 1e-7;
 /// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
 /// constant compliance: it stands for stiffness, and would divide the step three to five times.
 const FASTEST_DISK_ANGLE: f64 = 3.0;
+/// Share of the disk's mass in that of a base's mode above which a run warns.
+const HEAVY_DISK: f64 = 2e-3;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
 
@@ -70,6 +73,8 @@ pub struct StructureParameters<'a> {
     pub pulse: &'a Pulse,
     /// What else shakes the base in step with it.
     pub oblique: Option<&'a ObliqueShock>,
+    /// Modes of the base that everything stands on; none: it is rigid.
+    pub base: &'a [BaseMode],
     /// Simulated time.
     pub window: Window,
     /// Numerical resolution in time.
@@ -91,6 +96,12 @@ pub enum StructureError {
     /// An oblique shock without a hub that it could tilt, or with shares that are no numbers.
     #[error("an oblique shock needs a hub, on which it tilts the disk, and finite shares")]
     Direction,
+    /// Modes of a base that cannot be, too many or too light, or beside a hub or an oblique shock.
+    #[error(
+        "a vibrating base has at most 16 modes of finite numbers, a frequency above 0 and a damping ratio \
+         in [0, 1), is heavier than the disk at the spindle, and carries a clamped disk under a straight shock"
+    )]
+    Base,
     /// Step or window.
     #[error("{name} = {value:e} is outside its range ({allowed})")]
     Time {
@@ -131,6 +142,11 @@ pub enum StructureWarning {
     },
     /// Both arms held one point: only the net force is determined.
     BothArmsOnePoint,
+    /// A disk so heavy that contact would move its base, which is left out.
+    BaseReaction {
+        /// Mass of the disk by that of the base's mode at the spindle.
+        share: f64,
+    },
     /// The hub's bearing drives a whirl of the rotor.
     HubInstability {
         /// 0: axial motion, 1: tilt.
@@ -270,12 +286,14 @@ impl StructureModel {
             slider,
             pulse,
             oblique,
+            base,
             window,
             resolution,
         } = *parameters;
         check_times(window, resolution.step_s)?;
         ramp.validate()?;
         check_direction(oblique, disk)?;
+        check_base(base, oblique, disk)?;
         disk::basis::validate_place(disk, "slider", slider.radius_m)?;
         disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
         let stretches = pulse.stretches()?;
@@ -289,6 +307,13 @@ impl StructureModel {
             // The rotor carries them with the hub.
             basis.modes.retain(|mode| !is_carried(mode));
         }
+        let base_motion = match base.is_empty() {
+            true => None,
+            false => {
+                let motion = BaseMotion::new(base, &riders(&basis, disk), &stretches, step_s);
+                Some(motion.map_err(|_| StructureError::Base)?)
+            }
+        };
         let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
         let n_steps = count_steps(window, step_s)?;
         let stiffness = match ramp.model {
@@ -329,11 +354,23 @@ impl StructureModel {
                 growth_per_s,
             });
         }
+        if let Some(share) = base_reaction(base, disk) {
+            warnings.push(StructureWarning::BaseReaction { share });
+        }
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
         let weights = EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s);
-        let free = FreeMotion::new(bank.forced, bank.shapes, rotor, stretches, step_s, n_steps);
+        let (forced, shapes) = (bank.forced, bank.shapes);
+        let free = FreeMotion::new(
+            forced,
+            shapes,
+            rotor,
+            base_motion,
+            stretches,
+            step_s,
+            n_steps,
+        );
         Ok(Self {
             shared: Arc::new(Shared {
                 free,
@@ -385,6 +422,11 @@ impl StructureModel {
             keeps_motion: false,
             ..self
         }
+    }
+
+    /// Motion of the base under the unit pulse, when it vibrates.
+    pub fn base_motion(&self) -> Option<&BaseMotion> {
+        self.shared.free.base.as_ref().map(|base| &base.motion)
     }
 
     /// When the contact-driven state starts to be marched.
@@ -522,6 +564,22 @@ impl Shared {
         }
     }
 
+    /// Pose and rate of the disk as the suspension sees them, whose pivot moves with the base.
+    pub fn over_pivot(
+        &self,
+        amplitude: f64,
+        time_s: f64,
+        mut pose: DiskPose,
+        mut rate: DiskPose,
+    ) -> (DiskPose, DiskPose) {
+        if let Some(base) = &self.free.base {
+            let [value, speed] = base.motion.displacement(Mount::Pivot, time_s);
+            pose.displacement_m -= amplitude * value;
+            rate.displacement_m -= amplitude * speed;
+        }
+        (pose, rate)
+    }
+
     /// First step in which free motion closes a gap; the number of steps when none does.
     fn first_touching_step(&self, amplitude: f64) -> usize {
         if self.n_contacts == 0 {
@@ -585,6 +643,44 @@ fn check_direction(
         Some(shock) if disk.hub.is_none() || !shock.is_finite() => Err(StructureError::Direction),
         _ => Ok(()),
     }
+}
+
+fn check_base(
+    base: &[BaseMode],
+    oblique: Option<&ObliqueShock>,
+    disk: &DiskParameters,
+) -> Result<(), StructureError> {
+    let is_alone = oblique.is_none() && disk.hub.is_none();
+    let is_sound = base.len() <= MOST_MODES && base.iter().all(BaseMode::is_sound);
+    match base.is_empty() || (is_alone && is_sound) {
+        true => Ok(()),
+        false => Err(StructureError::Base),
+    }
+}
+
+/// The disk's axisymmetric modes on its spindle.
+fn riders(basis: &DiskBasis, disk: &DiskParameters) -> Vec<Rider> {
+    let ride = |mode: &&DiskMode| mode.nodal_diameters == 0 && mode.nodal_circles.is_some();
+    let modes = basis.modes.iter().filter(ride).take(MOST_RIDERS);
+    modes
+        .map(|mode| Rider {
+            omega_rad_per_s: mode.omega_rad_per_s,
+            damping_per_s: 2.0 * mode.damping_ratio * mode.omega_rad_per_s
+                + disk.space_fixed_damping_per_s,
+            participation_sqrt_kg: mode.participation,
+        })
+        .collect()
+}
+
+/// Share of the disk's mass in that of a base's mode at the spindle, 1/φ², when it is worth a word.
+fn base_reaction(base: &[BaseMode], disk: &DiskParameters) -> Option<f64> {
+    let area = std::f64::consts::PI * (disk.outer_radius_m.powi(2) - disk.inner_radius_m.powi(2));
+    let mass = disk.density_kg_per_m3 * disk.thickness_m * area;
+    let shares = base
+        .iter()
+        .map(|mode| mode.spindle_per_sqrt_kg.powi(2) * mass);
+    let largest = shares.fold(0.0, f64::max);
+    (largest > HEAVY_DISK).then_some(largest)
 }
 
 fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {

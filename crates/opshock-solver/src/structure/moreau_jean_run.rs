@@ -110,13 +110,19 @@ impl<'a> March<'a> {
     fn step(&mut self, k: usize) {
         let shared = self.shared;
         let h = shared.free.step_s;
-        let middle = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
-        for (&i, gain) in shared
+        let middle_s = (k as f64 + 0.5) * h;
+        let middle = self.amplitude * shared.pulse.value(middle_s);
+        let loads = shared.free.loads(middle_s, shared.pulse.value(middle_s));
+        let forced = shared
             .forced_index
             .iter()
-            .zip(&shared.free.modes.participation)
-        {
-            self.force[i] = gain * middle;
+            .zip(&shared.free.modes.participation);
+        for (j, (&i, gain)) in forced.enumerate() {
+            self.force[i] = gain * (self.amplitude * loads[shared.free.mount(j)]);
+        }
+        if let Some(base) = &shared.free.base {
+            let ends = [k as f64 * h, (k + 1) as f64 * h];
+            self.system.moving = ends.map(|time_s| base.gaps(self.amplitude, time_s));
         }
         self.before.copy_from(&self.now);
         std::mem::swap(&mut self.rotor_before, &mut self.rotor_now);
@@ -188,6 +194,12 @@ impl<'a> March<'a> {
                     before + now
                 };
             }
+            if let Some(base) = &shared.free.base {
+                let ends = [start_s, start_s + h].map(|time_s| base.gaps(self.amplitude, time_s));
+                let moving = ends[0][side].rate_m_per_s + ends[1][side].rate_m_per_s;
+                rates += moving;
+                self.ledger.work.add(-0.5 * p * moving);
+            }
             self.ledger.impact -= 0.5 * p * rates;
             let product = (p * self.system.gap_m(side)).abs();
             record.max_product_n_s_m = record.max_product_n_s_m.max(product);
@@ -222,16 +234,26 @@ impl<'a> March<'a> {
                 book.include(rotor.hub(&self.rotor_now, book.now.bearing_n_s));
             }
         }
+        let mut arms_m = std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re));
+        if let Some(base) = &shared.free.base {
+            let [spindle, ramp] = base.mounts(time_s).map(|x| x.map(|x| self.amplitude * x));
+            pose.displacement_m += spindle[0];
+            rate.displacement_m += spindle[1];
+            ramp_m += spindle[0];
+            rim_m += spindle[0];
+            arms_m = arms_m.map(|x| x + ramp[0]);
+        }
         let node = Node {
             time_s,
             shock_m_per_s2: self.amplitude * shared.pulse.value(time_s),
             pose,
             ramp_m,
             rim_m,
-            arms_m: std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re)),
+            arms_m,
             energies,
         };
-        self.history.pose.push(node.pose);
+        let (pose, rate) = shared.over_pivot(self.amplitude, time_s, pose, rate);
+        self.history.pose.push(pose);
         self.history.rate.push(rate);
         self.extremes.include(&node);
         for side in 0..shared.n_contacts {

@@ -158,6 +158,7 @@ fn disk(
             },
             pulse: &scene.pulse,
             oblique: scene.oblique.as_ref(),
+            base: &scene.base,
             window: scene.window,
             resolution: &scene.structure_resolution,
         };

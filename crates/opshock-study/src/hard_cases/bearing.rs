@@ -223,6 +223,7 @@ fn sudden(velocity_m_per_s: f64, window_s: f64) -> HeadRun {
 fn moving(disk: &dyn DiskMotion, window_s: f64) -> HeadRun {
     let model = default_head(300, &default_resolution());
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: 0.0,
     };

@@ -39,6 +39,7 @@ fn shock(
     resolution.coupling_tolerance = 0.1 * tolerance;
     let model = head_on(&film, &flight, &resolution);
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2,
     };
@@ -69,6 +70,7 @@ pub(super) fn e1() -> Vec<Check> {
     high.attitude.centre_height_m += 1e-9;
     let off = head_on(&film, &Arc::new(high), &default_resolution());
     let load = ShockLoad {
+        base: None,
         pulse: &PULSE,
         amplitude_m_per_s2: 0.0,
     };

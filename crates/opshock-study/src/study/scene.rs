@@ -8,7 +8,7 @@ use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
-use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
+use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::StructureResolution;
 use opshock_solver::suspension::{
@@ -36,6 +36,7 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     Scene {
         pulse: pulse(view, width_ms),
         oblique: oblique(view),
+        base: base(view),
         window: window(view),
         disk: disk_parameters(view),
         run_out: run_out(view),
@@ -159,6 +160,23 @@ fn oblique(view: &View<'_>) -> Option<ObliqueShock> {
         ],
     };
     (shock != ObliqueShock::default()).then_some(shock)
+}
+
+/// Modes of base plate and housing.
+fn base(view: &View<'_>) -> Vec<BaseMode> {
+    const MODES: &str = "base.modes";
+    let mode = |position: usize| {
+        let si = |name: &str| view.si(&format!("{MODES}[{position}].{name}"));
+        BaseMode {
+            frequency_hz: si("frequency_hz"),
+            damping_ratio: si("damping_ratio"),
+            participation_sqrt_kg: si("participation_sqrt_kg"),
+            spindle_per_sqrt_kg: si("spindle_per_sqrt_kg"),
+            ramp_per_sqrt_kg: si("ramp_per_sqrt_kg"),
+            pivot_per_sqrt_kg: si("pivot_per_sqrt_kg"),
+        }
+    };
+    (0..view.entries(MODES)).map(mode).collect()
 }
 
 /// Times at which pressure fields are asked for, after the onset, ascending.

@@ -3,7 +3,7 @@
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
 use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
-use opshock_solver::shock::{ObliqueShock, Pulse, PulseShape};
+use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::structure::{
     ContactMethod, SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
 };
@@ -23,6 +23,8 @@ pub struct Structure {
     pub pulse: Pulse,
     /// What else shakes the base.
     pub oblique: Option<ObliqueShock>,
+    /// Modes of the base.
+    pub base: Vec<BaseMode>,
     /// Window.
     pub window: Window,
     /// Resolution in time.
@@ -47,6 +49,7 @@ impl Structure {
             slider: self.slider,
             pulse: &self.pulse,
             oblique: self.oblique.as_ref(),
+            base: &self.base,
             window: self.window,
             resolution: &self.resolution,
         }
@@ -188,6 +191,7 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
             skew_rad: 0.0,
         },
         oblique: None,
+        base: Vec::new(),
         pulse: half_sine(width_s),
         window: Window::Fixed { length_s: 5e-3 },
         resolution: StructureResolution {

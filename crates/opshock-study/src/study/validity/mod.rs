@@ -3,6 +3,7 @@
 //! Each rule names the keys it looks at and is skipped while one of them has no usable value, so
 //! that one mistake makes one message.
 
+mod base;
 mod drive;
 mod fields;
 mod pulse;
@@ -68,7 +69,7 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 13] = [
+const POINT_RULES: [PointRule; 14] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
@@ -80,6 +81,7 @@ const POINT_RULES: [PointRule; 13] = [
     |check, _| check.suspension(),
     |check, _| check.suspension_modes(),
     |check, _| check.stops(),
+    |check, _| check.base(),
     |check, widths_ms| check.pulse(widths_ms),
     |check, _| check.fields_end(),
 ];

@@ -17,6 +17,10 @@
 //! | damped sine  | −d + i2πf      | −i   | 0                   |
 //! | table        |                | 0    | piecewise linear    |
 
+mod base;
+
+pub use base::{BaseMode, BaseMotion, Mount, Rider};
+
 use crate::modal::Phase;
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
