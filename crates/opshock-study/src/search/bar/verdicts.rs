@@ -316,11 +316,11 @@ fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(i8, Proxy)>, Ask
 /// are turned on half the cells, on the scene itself where those have no answer.
 fn by_double(walk: &mut Walk<'_>, own: Bracket) -> Result<Film, Ask> {
     const FILM: [Knob; 1] = [Knob::FilmGrid];
-    // Strides grow fourfold, so that a factor of four reaches answers at half and twice the scene's.
+    // Strides grow fourfold: so far out that no answer between a half and twice the scene's is missed.
     let width = Width {
         nodes: 4,
         distance_over: 4,
-        farthest: 3.0,
+        farthest: 7.0,
     };
     // Beside the finer film's runs those of the scene itself cost little.
     let Some(own) = narrowed(walk, Levels::NONE, own, width.nodes)? else {
