@@ -178,7 +178,11 @@ fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
     wait("the end of the killed task", &store, || {
         state().trim() == "FAILED"
     });
-    slurm.ask(&parts, &["scontrol", "requeue", &task]);
+    // Refused while the failed task is still being cleared away.
+    wait("the requeued task", &store, || {
+        slurm.ask(&parts, &["scontrol", "requeue", &task]);
+        state().trim() != "FAILED"
+    });
     // Slurm would let it wait for two minutes.
     slurm.ask(
         &parts,
