@@ -80,7 +80,7 @@ pub enum GeometryError {
     },
 }
 
-/// Most elements of a ramp: two gigabytes and ten seconds.
+/// Most elements of a ramp: 1.2 GB and some ten seconds for opshock's own.
 pub const MOST_ELEMENTS: usize = 5_000;
 
 /// Millimetres without the digits of rounding.
