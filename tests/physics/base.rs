@@ -176,7 +176,7 @@ fn a_mode_of_the_base_moves_by_duhamels_integral() {
 struct Chain {
     base: Vec<BaseMode>,
     /// ω, γ, participation, mount.
-    oscillators: Vec<(f64, f64, f64, Mount)>,
+    oscillators: Vec<OnMount>,
     pulse: Pulse,
     /// Whether what stands on the base pushes back.
     reacts: bool,
@@ -270,8 +270,11 @@ impl Chain {
     }
 }
 
+/// Angular frequency, half its damping rate, gain and mount of an oscillator.
+type OnMount = (f64, f64, f64, Mount);
+
 /// n = 0 of the disk as oscillators on the spindle, and their shapes under the slider.
-fn disk_modes(structure: &Structure, radius_m: f64) -> (Vec<(f64, f64, f64, Mount)>, Vec<f64>) {
+fn disk_modes(structure: &Structure, radius_m: f64) -> (Vec<OnMount>, Vec<f64>) {
     let disk = &structure.disk;
     let radii = [radius_m];
     let resolution = &structure.disk_resolution;
