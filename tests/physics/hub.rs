@@ -9,6 +9,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Window;
 use opshock_solver::structure::{HubModeRow, StructureRun, StructureWarning, Workspace, modes};
+use opshock_tests::runge_kutta;
 use opshock_tests::structures::{Structure, paper};
 
 /// A spindle of a 2.5-inch drive: 15 g on a bearing of 8 N/um and 300 N m/rad.
@@ -269,9 +270,6 @@ fn a_flexible_disk_on_its_hub_answers_a_half_sine_as_direct_integration_does() {
     let grid_s = columns.time_s[1];
     let parts = (grid_s / 50e-9).ceil();
     let dt = grid_s / parts;
-    let step = |y: &[f64], k: &[f64], f: f64| -> Vec<f64> {
-        y.iter().zip(k).map(|(y, k)| y + f * k).collect()
-    };
     let mut y = vec![0.0; 2 * n];
     let (mut error, mut t) = (0.0_f64, 0.0);
     for w in &columns.disk_slider_m {
@@ -279,13 +277,7 @@ fn a_flexible_disk_on_its_hub_answers_a_half_sine_as_direct_integration_does() {
         let wanted = y[0] + shapes.map(|(m, q)| m.shape[0].0 * q).sum::<f64>();
         error = error.max((w - wanted).abs());
         for _ in 0..parts as usize {
-            let k1 = rate(t, &y);
-            let k2 = rate(t + dt / 2.0, &step(&y, &k1, dt / 2.0));
-            let k3 = rate(t + dt / 2.0, &step(&y, &k2, dt / 2.0));
-            let k4 = rate(t + dt, &step(&y, &k3, dt));
-            for (k, f) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-                y = step(&y, &k, f * dt / 6.0);
-            }
+            y = runge_kutta::step(t, dt, &y, rate);
             t += dt;
         }
     }

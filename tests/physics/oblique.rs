@@ -7,6 +7,7 @@ use opshock_solver::disk::{DiskBasis, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::shock::ObliqueShock;
+use opshock_tests::runge_kutta;
 use opshock_tests::structures::Structure;
 
 use super::hub::{distance, drive, largest, run, spindle};
@@ -138,9 +139,6 @@ fn the_disk_tilts_as_a_rotor_on_a_base_that_turns_and_is_pushed_aside() {
     let grid_s = found.time_s[1];
     let parts = (grid_s / 100e-9).ceil();
     let dt = grid_s / parts;
-    let step = |y: &[Complex<f64>], k: &[Complex<f64>], f: f64| -> Vec<Complex<f64>> {
-        y.iter().zip(k).map(|(y, k)| y + k * f).collect()
-    };
     let mut y = vec![Complex::from(0.0); 2 * n];
     let (mut t, mut wanted) = (0.0, [Vec::new(), Vec::new(), Vec::new()]);
     for _ in &found.time_s {
@@ -156,13 +154,7 @@ fn the_disk_tilts_as_a_rotor_on_a_base_that_turns_and_is_pushed_aside() {
         wanted[1].push(-(i * turn * w).re / radius);
         wanted[2].push((turn * slope).re);
         for _ in 0..parts as usize {
-            let k1 = rate(t, &y);
-            let k2 = rate(t + dt / 2.0, &step(&y, &k1, dt / 2.0));
-            let k3 = rate(t + dt / 2.0, &step(&y, &k2, dt / 2.0));
-            let k4 = rate(t + dt, &step(&y, &k3, dt));
-            for (k, f) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-                y = step(&y, &k, f * dt / 6.0);
-            }
+            y = runge_kutta::step(t, dt, &y, rate);
             t += dt;
         }
     }

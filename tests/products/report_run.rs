@@ -230,6 +230,7 @@ fn history(with_head: bool) -> History {
             contact_bottom_n: scaled(0.1),
             energy_j: scaled(1e-6),
             energy_h_j: scaled(1e-6),
+            ..StructureColumns::default()
         },
         head: if with_head {
             HeadColumns {

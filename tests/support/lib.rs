@@ -6,6 +6,7 @@ pub mod mock_bars;
 pub mod mock_sweep;
 pub mod pairs;
 pub mod refined;
+pub mod runge_kutta;
 pub mod scenes;
 pub mod seeded;
 pub mod tables;

@@ -237,6 +237,7 @@ impl Simulator for MockSimulator<'_> {
             contact_bottom_n: column.clone(),
             energy_j: column.clone(),
             energy_h_j: column,
+            ..StructureColumns::default()
         };
         self.records.then(|| Outcome {
             hub: None,

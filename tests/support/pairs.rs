@@ -114,6 +114,9 @@ pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
             s.ramp_bottom_m.clone(),
             s.contact_top_n.clone(),
             s.contact_bottom_n.clone(),
+            s.hub_axial_m.clone(),
+            s.hub_tilt_ramp_rad.clone(),
+            s.hub_tilt_across_rad.clone(),
         ]
     };
     assert!(moved(&a.structure) == moved(&b.structure), "{what}");

@@ -409,6 +409,9 @@ impl<'a> ContactSystem<'a> {
         } else {
             book.include(self.shared.free.hub[self.k].times(self.amplitude));
         }
+        if self.state.record {
+            self.state.columns.push_hub(&book.now);
+        }
     }
 
     /// Fills the total state of the forced modes: contact-driven plus amplitude times unit response.

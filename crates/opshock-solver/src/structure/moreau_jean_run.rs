@@ -265,6 +265,9 @@ impl<'a> March<'a> {
         ledger.peak_material = ledger.peak_material.max(node.energies.material());
         if let Some(columns) = &mut self.columns {
             columns.push(&node);
+            if let Some(book) = &self.hub {
+                columns.push_hub(&book.now);
+            }
         }
         self.last = node;
     }

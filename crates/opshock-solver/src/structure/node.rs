@@ -1,6 +1,7 @@
 //! What is booked at every node of the grid, whichever method moved the structure there.
 
 use super::energy::Energies;
+use super::free_motion::HubSample;
 use super::record::{DiskExtremes, StructureColumns};
 use crate::disk::DiskPose;
 
@@ -45,5 +46,13 @@ impl StructureColumns {
         self.ramp_bottom_m.push(node.arms_m[1]);
         self.energy_j.push(node.energies.material());
         self.energy_h_j.push(node.energies.fixed_frame);
+    }
+
+    /// The hub at the node of the last row.
+    pub(super) fn push_hub(&mut self, hub: &HubSample) {
+        let [at_ramp, across] = hub.tilt_rad;
+        self.hub_axial_m.push(hub.axial_m);
+        self.hub_tilt_ramp_rad.push(at_ramp);
+        self.hub_tilt_across_rad.push(across);
     }
 }

@@ -115,4 +115,10 @@ pub struct StructureColumns {
     pub contact_bottom_n: Vec<f64>,
     pub energy_j: Vec<f64>,
     pub energy_h_j: Vec<f64>,
+    /// Axial displacement of the hub of a disk on a bearing, over the base; else empty.
+    pub hub_axial_m: Vec<f64>,
+    /// Its tilt that lifts the disk at the ramp's angle.
+    pub hub_tilt_ramp_rad: Vec<f64>,
+    /// Its tilt that lifts the disk a quarter turn on from the ramp, with the spin.
+    pub hub_tilt_across_rad: Vec<f64>,
 }

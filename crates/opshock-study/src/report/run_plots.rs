@@ -77,6 +77,9 @@ pub fn run_figures(history: &History, caption: &RunCaption) -> Vec<NamedFigure> 
             ],
         ),
     ];
+    if !history.structure.hub_axial_m.is_empty() {
+        figures.push(draw.hub(&structure));
+    }
     if history.head.time_s.is_empty() {
         figures.push(draw.figure(
             "disk_slope",
@@ -186,6 +189,36 @@ impl Drawing<'_> {
                 )),
             }],
         }
+    }
+
+    /// Axial travel and tilts of the hub on one axis.
+    fn hub(&self, structure: &[Column]) -> NamedFigure {
+        let (across, along) = (colour::VERMILLION, colour::BLUE);
+        let curves = [
+            (
+                "hub_axial_m",
+                "travel (µm)",
+                1e6,
+                colour::BLACK,
+                Dash::Solid,
+            ),
+            (
+                "hub_tilt_ramp_rad",
+                "tilt at the ramp (µrad)",
+                1e6,
+                along,
+                Dash::Solid,
+            ),
+            (
+                "hub_tilt_across_rad",
+                "tilt a quarter turn on (µrad)",
+                1e6,
+                across,
+                Dash::Dashed,
+            ),
+        ];
+        let title = "Travel and tilt of the hub";
+        self.figure("hub", title, "Travel (µm), tilt (µrad)", structure, &curves)
     }
 
     fn disk_displacement(&self, structure: &[Column]) -> NamedFigure {

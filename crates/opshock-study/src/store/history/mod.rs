@@ -122,7 +122,7 @@ pub fn structure_columns(columns: &StructureColumns, start_s: f64) -> Vec<Column
         description,
         values: values.clone(),
     };
-    vec![
+    let mut list = vec![
         Column {
             name: "time_s",
             units: "s",
@@ -201,7 +201,30 @@ pub fn structure_columns(columns: &StructureColumns, start_s: f64) -> Vec<Column
             "H, the energy on which a space-fixed ramp does no work beyond its own motion",
             &columns.energy_h_j,
         ),
-    ]
+    ];
+    // Only of a disk on a hub.
+    let hub = [
+        column(
+            "hub_axial_m",
+            "m",
+            "axial displacement of the hub, relative to the base",
+            &columns.hub_axial_m,
+        ),
+        column(
+            "hub_tilt_ramp_rad",
+            "rad",
+            "tilt of the hub that lifts the disk at the ramp's angle",
+            &columns.hub_tilt_ramp_rad,
+        ),
+        column(
+            "hub_tilt_across_rad",
+            "rad",
+            "tilt of the hub that lifts the disk a quarter turn on from the ramp, with the spin",
+            &columns.hub_tilt_across_rad,
+        ),
+    ];
+    list.extend(hub.into_iter().filter(|column| !column.values.is_empty()));
+    list
 }
 
 /// Columns of the head at its own steps, `time_s` first, on the study's time axis.

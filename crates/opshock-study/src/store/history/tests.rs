@@ -20,6 +20,7 @@ fn history() -> History {
             contact_bottom_n: zero.clone(),
             energy_j: zero.clone(),
             energy_h_j: zero,
+            ..StructureColumns::default()
         },
         head: HeadColumns {
             time_s: vec![0.0, 1.5e-6, 2.5e-6],
