@@ -5,11 +5,12 @@ use opshock_solver::scene::knob::{Knob, Levels};
 use super::judge::{self, Estimate};
 use super::{Ask, Limits, Walk};
 use crate::search::evidence::NodeVerdict;
+use crate::search::probe::Retry;
 
 /// Farthest that the answer of turned knobs is looked for, as a share.
 const FARTHEST: f64 = 1.0;
-/// Growth of the stride while it is looked for: most of what is passed survives, which is dear.
-const GROWTH: i32 = 4;
+/// Growth of the stride while it is looked for: what is passed is halved afterwards.
+const GROWTH: i32 = 2;
 
 /// Survivor and failure of a turned scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,11 +48,31 @@ fn locate(
     width: Width,
 ) -> Result<Option<Bracket>, Ask> {
     let farthest = walk.input.lattice.nodes_within(width.farthest);
-    let (mut low, mut high) = (None, None);
-    // The upper end first: a survivor there answers for the lower end too.
-    let mut next = from.high;
+    let (mut low, mut high) = seen_about(walk, levels, from);
     let mut stride = (from.high - from.low).max(1);
     loop {
+        let next = match (low, high) {
+            (Some(low), Some(high)) => {
+                let distance = (low - from.low).abs().max((high - from.high).abs());
+                let part = distance.checked_div(width.distance_over).unwrap_or(0);
+                if high - low <= part.max(width.nodes) {
+                    return Ok(Some(Bracket { low, high }));
+                }
+                low + (high - low) / 2
+            }
+            // The upper end first: a survivor there answers for the lower end too.
+            (None, None) => from.high,
+            (Some(low), None) if low < from.high => from.high,
+            (None, Some(high)) if high > from.low => from.low,
+            (Some(low), None) => {
+                stride *= GROWTH;
+                low + stride / GROWTH
+            }
+            (None, Some(high)) => {
+                stride *= GROWTH;
+                high - stride / GROWTH
+            }
+        };
         if (next - from.low).abs() > farthest {
             return Ok(None);
         }
@@ -60,26 +81,28 @@ fn locate(
             NodeVerdict::Survives => low = Some(next),
             NodeVerdict::Fails => high = Some(next),
         }
-        match (low, high) {
-            (Some(low), Some(high)) => {
-                let distance = (low - from.low).abs().max((high - from.high).abs());
-                let part = distance.checked_div(width.distance_over).unwrap_or(0);
-                let enough = part.max(width.nodes);
-                if high - low <= enough {
-                    return Ok(Some(Bracket { low, high }));
-                }
-                next = low + (high - low) / 2;
-            }
-            (Some(low), None) => {
-                next = low + stride;
-                stride *= GROWTH;
-            }
-            (None, Some(high)) if high > from.low => next = from.low,
-            (None, _) => {
-                next -= stride;
-                stride *= GROWTH;
-            }
-        }
+    }
+}
+
+/// What was met of a turned scene already at `from` or beyond, where it leads away from there.
+fn seen_about(walk: &Walk<'_>, levels: Levels, from: Bracket) -> (Option<i32>, Option<i32>) {
+    let levels = walk.input.base.plus(levels);
+    let at = |verdict: NodeVerdict| {
+        walk.log
+            .iter()
+            .filter(move |ask| ask.levels == levels && ask.retry == Retry::None)
+            .filter(move |&&ask| (walk.lookup)(ask).is_some_and(|seen| seen.verdict == verdict))
+            .map(|ask| ask.index)
+    };
+    let low = at(NodeVerdict::Survives)
+        .filter(|&index| index >= from.low)
+        .max();
+    let high = at(NodeVerdict::Fails)
+        .filter(|&index| index <= from.high)
+        .min();
+    match (low, high) {
+        (Some(low), Some(high)) if low >= high => (None, None),
+        found => found,
     }
 }
 
@@ -162,8 +185,8 @@ fn distance(walk: &Walk<'_>, a: Bracket, b: Bracket) -> f64 {
 }
 
 /// Error of knobs but the film's grid turned together by one step on the scene `found`, and by one
-/// step finer where that is not little and the bar may still meet what was asked. Where the coarser
-/// knobs move the answer by little, other knobs can be turned with them, which is told, too.
+/// step finer where that is not little and the bar may still meet what was asked. The scene with coarser
+/// knobs is told, too, where it answers nearby: other knobs are turned with them, which takes fewer steps.
 pub(super) fn knobs(
     walk: &mut Walk<'_>,
     knobs: &[Knob],
@@ -186,29 +209,22 @@ pub(super) fn knobs(
     let Some(coarse) = locate(walk, coarser, base, width)? else {
         return Ok((None, None));
     };
-    let nodes = base.high - base.low;
+    let cheaper = (distance(walk, base, coarse) <= NEAR).then_some(Proxy {
+        levels: coarser,
+        bracket: coarse,
+    });
     if coarse == base {
-        let alike = Proxy {
-            levels: coarser,
-            bracket: base,
-        };
+        let nodes = base.high - base.low;
         let estimate = judge::agreement(&walk.input.lattice, nodes, knobs);
-        return Ok((Some(estimate), Some(alike)));
+        return Ok((Some(estimate), cheaper));
     }
     let near = shift(walk, base, coarse);
     let estimate = judge::one_step(knobs, near);
-    if estimate.error() <= limits.little {
-        let near_by = Proxy {
-            levels: coarser,
-            bracket: coarse,
-        };
-        return Ok((Some(estimate), Some(near_by)));
-    }
-    if !limits.is_worth(estimate.error()) {
-        return Ok((Some(estimate), None));
+    if estimate.error() <= limits.little || !limits.is_worth(estimate.error()) {
+        return Ok((Some(estimate), cheaper));
     }
     let Some(finer) = locate(walk, judge::finer(proxy, knobs), base, width)? else {
-        return Ok((Some(estimate), None));
+        return Ok((Some(estimate), cheaper));
     };
     // What was seen is certain only up to the brackets it was seen with.
     let sense = match finer == base {
@@ -216,7 +232,7 @@ pub(super) fn knobs(
         false => shift(walk, finer, base),
     };
     let fine = distance(walk, base, finer).copysign(sense);
-    Ok((Some(judge::with_finer(knobs, near, fine)), None))
+    Ok((Some(judge::with_finer(knobs, near, fine)), cheaper))
 }
 
 /// Halvings of the film from which on coarser films alone tell its error.
@@ -380,28 +396,36 @@ pub(super) fn agreed(walk: &Walk<'_>, both: Bracket) -> Estimate {
 }
 
 /// From half the cells, where they answer as the scene does: both brackets are halved together for as
-/// long as they stay one and are wider than `nodes`.
+/// long as they stay one and are wider than `nodes`. Half the cells are asked in the middle first,
+/// whose verdict answers for one of the ends.
 pub(super) fn by_half(
     walk: &mut Walk<'_>,
     own: Bracket,
     nodes: i32,
 ) -> Result<Option<Bracket>, Ask> {
     let half = halved(1);
-    if !answers_alike(walk, half, own)? {
-        return Ok(None);
-    }
     let mut both = own;
+    let mut has_ends = false;
     while both.high - both.low > nodes {
         let middle = both.low + (both.high - both.low) / 2;
         let verdict = walk.see(half, middle)?.verdict;
+        let (end, opposite) = match verdict {
+            NodeVerdict::Survives => (both.high, NodeVerdict::Fails),
+            NodeVerdict::Fails => (both.low, NodeVerdict::Survives),
+            NodeVerdict::Undecided => break,
+        };
+        if !has_ends && walk.see(half, end)?.verdict != opposite {
+            return Ok(None);
+        }
+        has_ends = true;
         if verdict != walk.see(Levels::NONE, middle)?.verdict {
             break;
         }
         match verdict {
-            NodeVerdict::Undecided => break,
-            NodeVerdict::Survives => both.low = middle,
             NodeVerdict::Fails => both.high = middle,
+            NodeVerdict::Survives | NodeVerdict::Undecided => both.low = middle,
         }
     }
-    Ok(Some(both))
+    let is_alike = has_ends || answers_alike(walk, half, own)?;
+    Ok(is_alike.then_some(both))
 }
