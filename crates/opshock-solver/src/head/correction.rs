@@ -49,12 +49,14 @@ impl Kernel for Correct<'_> {
         let mut squares = [0.0; SUMS];
         let mut losses = [0.0_f64; SUMS];
         for ((((delta, z0), z1), z2), psi) in delta.iter_mut().zip(z0).zip(z1).zip(z2).zip(psi) {
-            let mut relative = [0.0; SUMS];
+            // In a place of its own: stores into `delta` could change the rest, for all the compiler knows.
+            let (mut change, mut relative) = ([0.0; SUMS], [0.0; SUMS]);
             for k in 0..SUMS {
-                delta[k] =
+                change[k] =
                     -delta[k] - (z0[k] * self.dq[0] + z1[k] * self.dq[1] + z2[k] * self.dq[2]);
-                relative[k] = delta[k] / psi[k];
+                relative[k] = change[k] / psi[k];
             }
+            *delta = change;
             for k in 0..SUMS {
                 squares[k] += relative[k] * relative[k];
             }

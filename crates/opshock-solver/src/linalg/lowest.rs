@@ -163,7 +163,7 @@ impl Basis {
         self.rows.extend_from_slice(x);
     }
 
-    /// Takes from `x` its part along every vector, one after the other.
+    /// Takes from `x` its part along every vector, a few at a time.
     fn remove_from(&self, x: &mut [f64]) {
         let rows = &self.rows;
         lanes::widest(Removal { rows, x });
@@ -181,6 +181,9 @@ impl Basis {
     }
 }
 
+/// Vectors whose shares are taken at once: one alone waits for its sums.
+const ABREAST: usize = 4;
+
 struct Removal<'a> {
     rows: &'a [f64],
     x: &'a mut [f64],
@@ -192,27 +195,58 @@ impl Kernel for Removal<'_> {
     #[inline(always)]
     fn call(self) {
         let n = self.x.len();
-        let (x, x_rest) = self.x.as_chunks_mut::<SUMS>();
-        for row in self.rows.chunks_exact(n) {
-            let (q, q_rest) = row.as_chunks::<SUMS>();
-            let mut sums = [0.0; SUMS];
-            for (q, x) in q.iter().zip(x.iter()) {
-                for k in 0..SUMS {
-                    sums[k] += q[k] * x[k];
-                }
+        let (many, few) = self
+            .rows
+            .split_at(self.rows.len() / (ABREAST * n) * (ABREAST * n));
+        for rows in many.chunks_exact(ABREAST * n) {
+            remove::<ABREAST>(rows, self.x);
+        }
+        for row in few.chunks_exact(n) {
+            remove::<1>(row, self.x);
+        }
+    }
+}
+
+/// Takes from `x` its parts along `K` rows.
+#[inline(always)]
+fn remove<const K: usize>(rows: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    let (x, x_rest) = x.as_chunks_mut::<SUMS>();
+    let mut q: [&[[f64; SUMS]]; K] = [&[]; K];
+    let mut q_rest: [&[f64]; K] = [&[]; K];
+    for (i, row) in rows.chunks_exact(n).enumerate() {
+        (q[i], q_rest[i]) = row.as_chunks::<SUMS>();
+        q[i] = &q[i][..x.len()];
+    }
+    let mut sums = [[0.0; SUMS]; K];
+    for (j, x) in x.iter().enumerate() {
+        for i in 0..K {
+            for k in 0..SUMS {
+                sums[i][k] += q[i][j][k] * x[k];
             }
-            let mut share = lanes::total(sums);
-            for (q, x) in q_rest.iter().zip(x_rest.iter()) {
-                share += q * x;
+        }
+    }
+    let mut shares = [0.0; K];
+    for i in 0..K {
+        shares[i] = lanes::total(sums[i]);
+        for (q, x) in q_rest[i].iter().zip(x_rest.iter()) {
+            shares[i] += q * x;
+        }
+    }
+    for (j, x) in x.iter_mut().enumerate() {
+        // In a place of its own: stores into `x` could change `q`, for all the compiler knows.
+        let mut less = *x;
+        for i in 0..K {
+            let q = &q[i][j];
+            for k in 0..SUMS {
+                less[k] -= shares[i] * q[k];
             }
-            for (q, x) in q.iter().zip(x.iter_mut()) {
-                for k in 0..SUMS {
-                    x[k] -= share * q[k];
-                }
-            }
-            for (q, x) in q_rest.iter().zip(x_rest.iter_mut()) {
-                *x -= share * q;
-            }
+        }
+        *x = less;
+    }
+    for i in 0..K {
+        for (q, x) in q_rest[i].iter().zip(x_rest.iter_mut()) {
+            *x -= shares[i] * q;
         }
     }
 }

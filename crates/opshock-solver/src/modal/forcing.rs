@@ -37,17 +37,24 @@ pub struct Phase {
 /// Response of one oscillator over one time to the four parts of a [`Phase`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForcedResponse {
-    displacement: [f64; 4],
-    velocity: [f64; 4],
+    /// Of the displacement per c₀, c₁, Re C and Im C, s² (per c₁: s³).
+    pub displacement: [f64; 4],
+    /// Of the velocity, s (per c₁: s²).
+    pub velocity: [f64; 4],
 }
 
 impl Phase {
     /// The phase `h_s` later, for a wave of rate `sigma_per_s`.
     pub fn later(&self, sigma_per_s: Complex<f64>, h_s: f64) -> Self {
+        self.turned(h_s, (sigma_per_s * h_s).exp())
+    }
+
+    /// The phase `h_s` later, over which the wave is multiplied by `factor`.
+    pub fn turned(&self, h_s: f64, factor: Complex<f64>) -> Self {
         Self {
             constant: self.constant + self.slope_per_s * h_s,
             slope_per_s: self.slope_per_s,
-            wave: self.wave * (sigma_per_s * h_s).exp(),
+            wave: self.wave * factor,
         }
     }
 

@@ -59,7 +59,7 @@ impl HubBook {
 
     fn record(&self, shared: &Shared, end_s: f64) -> HubRecord {
         let load_kg = shared.free.rotor.as_ref().map_or(0.0, Rotor::load_kg);
-        let shock_n_s = self.amplitude * load_kg * shared.free.pulse_integral_s(end_s);
+        let shock_n_s = self.amplitude * load_kg * shared.free.pulse.integral_s(end_s);
         let impulses = shock_n_s + self.now.bearing_n_s + self.contact_n_s;
         let left = (self.now.momentum_n_s - impulses).abs();
         HubRecord {
@@ -104,7 +104,7 @@ impl Closing<'_> {
         ));
         let [top, bottom] = self.logs.each_ref().map(|log| log.summary(step_s));
         let mut history = self.history;
-        let kinks = self.shared.free.kinks_s().filter(|&t| t <= end_s);
+        let kinks = self.shared.free.pulse.kinks_s().filter(|&t| t <= end_s);
         history.events_s.extend(kinks);
         history.events_s.sort_by(f64::total_cmp);
         history.events_s.dedup();

@@ -15,7 +15,7 @@ use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{Leap, RotorState};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
-use crate::modal::bank::dot;
+use crate::modal::bank::{dot, padded};
 use crate::modal::{BankFlow, ModalState, Readout};
 
 /// Impacts closer than this share an event of the head's integration, s.
@@ -92,7 +92,7 @@ impl RunState {
             Some(rotor) => rotor.is_of(&self.rotor_now),
             None => self.rotor_now.parts.is_empty(),
         };
-        if self.unit_now.x.len() != n_forced || !has_shape {
+        if self.unit_now.x.len() != padded(n_forced) || !has_shape {
             self.unit_now = ForcedState::at_rest(n_forced, rotor);
             self.unit_ahead = self.unit_now.clone();
             self.total_forced = self.unit_now.clone();
@@ -100,6 +100,9 @@ impl RunState {
             self.rotor_ahead = self.unit_now.rotor.clone();
             self.part_leap = rotor.map_or_else(Leap::default, |rotor| rotor.step.clone());
         }
+        // Padding stays at rest, whatever an earlier model left there.
+        self.total_forced.x.fill(0.0);
+        self.total_forced.v.fill(0.0);
         self.rotor_now.reset();
         self.logs.iter_mut().for_each(ContactLog::clear);
         let n_nodes = if keeps_motion { shared.n_steps + 1 } else { 0 };

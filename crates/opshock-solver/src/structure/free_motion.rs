@@ -7,13 +7,14 @@
 //! disk and ramp feel the loads of their mounts (`on_base`), and points move with them.
 
 use super::energy::LongSum;
-use crate::modal::oscillator::{GAUSS_8, phi1};
-use crate::modal::{Flow, ForcedResponse, LossForm, Oscillator, Phase};
-use crate::shock::Stretch;
-
+use super::forced_columns::ForcedColumns;
 use super::on_base::{OnBase, Waves};
 use super::rotor::{Rotor, RotorScratch, RotorState};
-use crate::shock::BaseMotion;
+use super::stretches::{Piece, Stretches};
+use crate::modal::bank::padded;
+use crate::modal::oscillator::GAUSS_8;
+use crate::modal::{Flow, ForcedResponse, Oscillator, Phase};
+use crate::shock::{BaseMotion, Stretch};
 
 /// Oscillators driven by the shock, modal mass 1 kg each.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +38,7 @@ pub(super) struct ForcedShapes {
 }
 
 /// Points read, to whole registers.
-const POINTS: usize = 8;
+pub(super) const POINTS: usize = 8;
 
 impl ForcedShapes {
     /// Contact, slider, its slope, top, bottom and rim of every mode, and two zeros; zero where a
@@ -101,7 +102,7 @@ pub(super) struct HubSample {
     pub bearing_n_s: f64,
 }
 
-/// Displacements and velocities of the forced modes.
+/// Displacements and velocities of the forced modes, padded.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ForcedState {
     pub x: Vec<f64>,
@@ -120,13 +121,6 @@ pub(super) struct Exchange {
     pub bearing_n_s: f64,
 }
 
-struct QuadraturePoint {
-    tau_s: f64,
-    weight_s: f64,
-    flow: Vec<Flow>,
-    response: Vec<ForcedResponse>,
-}
-
 /// Response to the unit pulse on the grid, and the tables that continue it from any state.
 pub(super) struct FreeMotion {
     pub step_s: f64,
@@ -134,20 +128,16 @@ pub(super) struct FreeMotion {
     /// Modal states every [`CHECKPOINT_STEPS`] nodes.
     checkpoints: Vec<ForcedState>,
     pub modes: ForcedModes,
-    /// Shapes by mode, so that all points are read at once.
-    points: Vec<[f64; POINTS]>,
+    /// The same over a grid step.
+    columns: ForcedColumns,
     /// The disk's harmonics on a hub.
     pub rotor: Option<Rotor>,
     /// The base, when it vibrates.
     pub base: Option<OnBase>,
     /// Its hub at every node.
     pub hub: Vec<HubSample>,
-    stretches: Vec<Stretch>,
+    pub pulse: Stretches,
     pub pulse_end_s: f64,
-    flow: Vec<Flow>,
-    loss: Vec<LossForm>,
-    response: Vec<ForcedResponse>,
-    quadrature: Vec<QuadraturePoint>,
 }
 
 /// Nodes between stored modal states: a run that wakes redoes at most so many steps.
@@ -176,8 +166,8 @@ impl HubSample {
 impl ForcedState {
     pub fn at_rest(n: usize, rotor: Option<&Rotor>) -> Self {
         Self {
-            x: vec![0.0; n],
-            v: vec![0.0; n],
+            x: vec![0.0; padded(n)],
+            v: vec![0.0; padded(n)],
             rotor: rotor.map_or_else(RotorState::default, Rotor::at_rest),
             scratch: rotor.map_or_else(RotorScratch::default, Rotor::scratch),
         }
@@ -203,14 +193,6 @@ impl FreeMotion {
     ) -> Self {
         // One rate per pulse shape: a half-sine has one stretch, piecewise linear ones have none.
         let sigma = stretches[0].sigma_per_s;
-        let flows = |h: f64| modes.oscillators.iter().map(|o| o.flow(h)).collect();
-        let responses = |h: f64| {
-            modes
-                .oscillators
-                .iter()
-                .map(|o| ForcedResponse::new(o, sigma, h))
-                .collect()
-        };
         // Work and loss of a mode swing at twice its frequency: where that is several radians a
         // step, five points leave 1e-8 of it out of the book.
         let swiftest = modes.oscillators.iter().map(|o| o.omega_rad_per_s);
@@ -227,29 +209,20 @@ impl FreeMotion {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
             checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
-            flow: flows(step_s),
-            loss: modes
-                .oscillators
-                .iter()
-                .map(|o| o.loss_form(step_s))
-                .collect(),
-            response: responses(step_s),
-            quadrature: rule
-                .iter()
-                .map(|&(x, weight)| QuadraturePoint {
-                    tau_s: x * step_s,
-                    weight_s: weight * step_s,
-                    flow: flows(x * step_s),
-                    response: responses(x * step_s),
-                })
-                .collect(),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
-            points: shapes.by_mode(),
+            columns: ForcedColumns::new(
+                &modes,
+                shapes.by_mode(),
+                base.is_some(),
+                sigma,
+                step_s,
+                rule,
+            ),
             modes,
             rotor,
             base,
             hub: Vec::new(),
-            stretches,
+            pulse: Stretches(stretches),
         };
         let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
@@ -279,20 +252,9 @@ impl FreeMotion {
         free
     }
 
-    /// Number of stretch borders, which are kinks of the pulse, s.
-    pub fn kinks_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.stretches.iter().map(|s| s.end_s)
-    }
-
     /// Unit response of the points for `state` at `time_s`.
     pub fn sample(&self, state: &ForcedState, time_s: f64) -> Sample {
-        let (mut x, mut v) = ([0.0; POINTS], [0.0; POINTS]);
-        for ((shape, q), r) in self.points.iter().zip(&state.x).zip(&state.v) {
-            for k in 0..POINTS {
-                x[k] += shape[k] * q;
-                v[k] += shape[k] * r;
-            }
-        }
+        let [x, v] = self.columns.read(&state.x, &state.v);
         let motion = |k: usize| Motion {
             value: x[k],
             rate: v[k],
@@ -355,12 +317,7 @@ impl FreeMotion {
 
     /// (kinetic, total) energy.
     fn energy(&self, state: &mut ForcedState) -> (f64, f64) {
-        let (mut kinetic, mut elastic) = (0.0, 0.0);
-        for ((o, x), v) in self.modes.oscillators.iter().zip(&state.x).zip(&state.v) {
-            let spring = o.omega_rad_per_s * x;
-            kinetic += 0.5 * v * v;
-            elastic += 0.5 * spring * spring;
-        }
+        let [mut kinetic, mut elastic] = self.columns.energy(&state.x, &state.v);
         if let Some(rotor) = &self.rotor {
             let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
             kinetic += of_rotor.kinetic;
@@ -382,25 +339,13 @@ impl FreeMotion {
     pub fn step(&self, state: &mut ForcedState, k: usize) {
         let start_s = k as f64 * self.step_s;
         if start_s >= self.pulse_end_s {
-            for ((f, x), v) in self.flow.iter().zip(&mut state.x).zip(&mut state.v) {
-                (*x, *v) = carry(f, *x, *v);
-            }
+            self.columns.carry(&mut state.x, &mut state.v);
             if let Some(rotor) = &self.rotor {
                 rotor.step(None, &mut state.rotor, &mut state.scratch);
             }
-        } else if let Some((_, phase)) = self.whole_step(start_s) {
-            let modes = self
-                .flow
-                .iter()
-                .zip(&self.response)
-                .zip(&self.modes.participation);
+        } else if let Some((_, phase)) = self.pulse.whole_step(start_s, self.step_s) {
             let phases = self.phases(&phase);
-            let states = state.x.iter_mut().zip(&mut state.v);
-            for (j, (((f, r), gain), (x, v))) in modes.zip(states).enumerate() {
-                let (dx, dv) = r.increments(&phases[self.mount(j)]);
-                let free = carry(f, *x, *v);
-                (*x, *v) = (free.0 + gain * dx, free.1 + gain * dv);
-            }
+            self.columns.drive(&phases, &mut state.x, &mut state.v);
             if let Some(rotor) = &self.rotor {
                 rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
             }
@@ -422,11 +367,8 @@ impl FreeMotion {
         let start_s = k as f64 * self.step_s;
         let is_over = start_s >= self.pulse_end_s;
         if is_over && self.base.is_none() {
-            let modes = self.loss.iter().zip(&state.x).zip(&state.v);
             let mut total = Exchange {
-                loss: modes
-                    .map(|((l, x), v)| l.qq * x * x + l.rr * v * v + 2.0 * l.qr.re * x * v)
-                    .sum(),
+                loss: self.columns.free_loss(&state.x, &state.v),
                 ..Exchange::default()
             };
             if let Some(rotor) = &self.rotor {
@@ -434,7 +376,7 @@ impl FreeMotion {
             }
             return total;
         }
-        let (sigma_per_s, phase) = match self.whole_step(start_s) {
+        let (sigma_per_s, phase) = match self.pulse.whole_step(start_s, self.step_s) {
             Some((stretch, phase)) => (stretch.sigma_per_s, phase),
             // A base that rings on.
             None if is_over => Default::default(),
@@ -443,32 +385,28 @@ impl FreeMotion {
         let phases = self.phases(&phase);
         let ringing = self.ringing(start_s);
         let mut total = Exchange::default();
-        for (i, point) in self.quadrature.iter().enumerate() {
-            let mut forces = phases.map(|p| p.later(sigma_per_s, point.tau_s).value());
+        for (i, (tau_s, weight_s, turn)) in self.columns.instants().enumerate() {
+            let mut forces = phases.map(|p| p.turned(tau_s, turn).value());
             if let Some((base, waves)) = &ringing {
-                let added = base.ringing(waves, point.tau_s);
-                forces = std::array::from_fn(|mount| forces[mount] + added[mount]);
+                let loads = base.ringing(waves, tau_s);
+                forces = std::array::from_fn(|mount| forces[mount] + loads[mount]);
             }
-            // Work at each mount.
-            let (mut power, mut loss) = ([0.0; 2], 0.0);
-            for j in 0..state.x.len() {
-                let f = &point.flow[j];
-                let (x, v) = (state.x[j], state.v[j]);
-                let gain = self.modes.participation[j];
-                let mount = self.mount(j);
-                let mut v = v
-                    + (f.rq.re * x + f.rr.re * v)
-                    + amplitude * gain * point.response[j].velocity_increment(&phases[mount]);
-                if let Some((base, waves)) = &ringing {
-                    v += amplitude * gain * base.velocity_increment(i, waves, j, mount);
+            let by_ringing = |j: usize| match &ringing {
+                Some((base, waves)) if j < self.modes.oscillators.len() => {
+                    base.velocity_increment(i, waves, j, self.mount(j))
                 }
-                power[mount] += gain * v;
-                loss += 2.0 * self.modes.oscillators[j].half_damping_per_s * v * v;
+                _ => 0.0,
+            };
+            let added: Option<&dyn Fn(usize) -> f64> = match ringing {
+                Some(_) => Some(&by_ringing),
+                None => None,
+            };
+            let load = (amplitude, &phases);
+            let rates = self.columns.rates(i, load, added, &state.x, &state.v);
+            for (force, power) in forces.iter().zip(rates.power) {
+                total.work += weight_s * (amplitude * force) * power;
             }
-            for (force, power) in forces.iter().zip(power) {
-                total.work += point.weight_s * (amplitude * force) * power;
-            }
-            total.loss += point.weight_s * loss;
+            total.loss += weight_s * rates.loss;
         }
         if let Some(rotor) = &self.rotor {
             let forcing = (sigma_per_s, &phase);
@@ -491,7 +429,7 @@ impl FreeMotion {
         amplitude: f64,
     ) -> Exchange {
         let mut total = Exchange::default();
-        self.pieces(start_s, h_s, |piece| {
+        self.pulse.pieces(start_s, h_s, |piece| {
             let offset = piece.start_s - start_s;
             for (x, weight) in GAUSS_8 {
                 let tau = x * piece.h_s;
@@ -516,26 +454,12 @@ impl FreeMotion {
                 ..
             } = state;
             scratch.walk.copy_from(own);
-            self.pieces(start_s, h_s, |piece| {
+            self.pulse.pieces(start_s, h_s, |piece| {
                 let one = rotor.piece_exchange(piece.h_s, piece.forcing(), amplitude, scratch);
                 total.add(&one);
             });
         }
         total
-    }
-
-    /// ∫ s dt of the unit pulse until `end_s`.
-    pub fn pulse_integral_s(&self, end_s: f64) -> f64 {
-        let mut sum = 0.0;
-        for stretch in &self.stretches {
-            let h = stretch.end_s.min(end_s) - stretch.start_s;
-            if h > 0.0 {
-                let phase = &stretch.phase;
-                let wave = phase.wave * phi1(stretch.sigma_per_s * h) * h;
-                sum += phase.constant * h + 0.5 * phase.slope_per_s * h * h + wave.re;
-            }
-        }
-        sum
     }
 
     fn velocity_at(
@@ -548,7 +472,7 @@ impl FreeMotion {
     ) -> f64 {
         let o = &self.modes.oscillators[j];
         let (mut x, mut v) = (state.x[j], state.v[j]);
-        self.pieces(start_s, h_s, |piece| {
+        self.pulse.pieces(start_s, h_s, |piece| {
             (x, v) = self.carry_piece(j, o, x, v, &piece, amplitude);
         });
         v
@@ -556,7 +480,7 @@ impl FreeMotion {
 
     /// Carries `state` under `amplitude` times the unit pulse over any time.
     pub fn advance(&self, state: &mut ForcedState, start_s: f64, h_s: f64, amplitude: f64) {
-        self.pieces(start_s, h_s, |piece| {
+        self.pulse.pieces(start_s, h_s, |piece| {
             for (j, o) in self.modes.oscillators.iter().enumerate() {
                 (state.x[j], state.v[j]) =
                     self.carry_piece(j, o, state.x[j], state.v[j], &piece, amplitude);
@@ -594,66 +518,6 @@ impl FreeMotion {
             to = (to.0 + gain * dx, to.1 + gain * dv);
         }
         to
-    }
-
-    /// Stretch and phase when the step from `start_s` lies inside one stretch.
-    fn whole_step(&self, start_s: f64) -> Option<(&Stretch, Phase)> {
-        let i = self.stretches.partition_point(|s| s.end_s <= start_s);
-        let stretch = self.stretches.get(i)?;
-        (start_s + self.step_s <= stretch.end_s).then(|| {
-            let phase = stretch
-                .phase
-                .later(stretch.sigma_per_s, start_s - stretch.start_s);
-            (stretch, phase)
-        })
-    }
-
-    /// Cuts [start, start + h] at the kinks of the pulse.
-    fn pieces(&self, start_s: f64, h_s: f64, mut visit: impl FnMut(Piece)) {
-        let end_s = start_s + h_s;
-        let mut t = start_s;
-        let first = self.stretches.partition_point(|s| s.end_s <= start_s);
-        for stretch in &self.stretches[first..] {
-            if t >= end_s {
-                return;
-            }
-            let until = stretch.end_s.min(end_s);
-            // The only piece keeps the exact length asked for.
-            let whole = t == start_s && until == end_s;
-            visit(Piece {
-                start_s: t,
-                h_s: if whole { h_s } else { until - t },
-                sigma_per_s: stretch.sigma_per_s,
-                phase: stretch
-                    .phase
-                    .later(stretch.sigma_per_s, t - stretch.start_s),
-                driven: true,
-            });
-            t = until;
-        }
-        if t < end_s {
-            visit(Piece {
-                start_s: t,
-                h_s: if t == start_s { h_s } else { end_s - t },
-                sigma_per_s: nalgebra::Complex::from(0.0),
-                phase: Phase::default(),
-                driven: false,
-            });
-        }
-    }
-}
-
-struct Piece {
-    start_s: f64,
-    h_s: f64,
-    sigma_per_s: nalgebra::Complex<f64>,
-    phase: Phase,
-    driven: bool,
-}
-
-impl Piece {
-    fn forcing(&self) -> Option<(nalgebra::Complex<f64>, &Phase)> {
-        self.driven.then_some((self.sigma_per_s, &self.phase))
     }
 }
 

@@ -6,6 +6,7 @@ mod closing;
 mod contact_log;
 mod contact_system;
 mod energy;
+mod forced_columns;
 mod free_motion;
 mod history;
 mod model;
@@ -16,6 +17,7 @@ mod on_base;
 mod record;
 mod response;
 mod rotor;
+mod stretches;
 
 pub use history::StructuralHistory;
 pub use model::{

@@ -1,0 +1,414 @@
+//! The forced modes in columns of eight: their step, what points see of them, their energy and loss.
+//!
+//! Columns are padded with modes that rest and touch nothing, so that loops run on whole chunks and
+//! every sum has one order, whatever the registers.
+
+use super::free_motion::{ForcedModes, POINTS};
+use crate::lanes::{Kernel, SUMS, total, widest};
+use crate::modal::{ForcedResponse, Phase};
+use nalgebra::Complex;
+
+/// Loads at the mounts of disk and ramp: the same one on a rigid base.
+pub(super) type MountPhases = [Phase; 2];
+
+/// Eight modes over one grid step.
+#[derive(Clone, Debug, Default)]
+struct Eight {
+    /// Flow less the identity: x from x and v, v from x and v.
+    flow: [[f64; SUMS]; 4],
+    /// Loss by damping over the step: weights of x², v² and x v.
+    loss: [[f64; SUMS]; 3],
+    /// Response to the four parts of a [`Phase`].
+    displacement: [[f64; SUMS]; 4],
+    velocity: [[f64; SUMS]; 4],
+    omega: [f64; SUMS],
+    /// 2γ, 1/s.
+    damping: [f64; SUMS],
+    gain: [f64; SUMS],
+    on_ramp: [bool; SUMS],
+}
+
+/// Velocity of eight modes at one instant within the step, from the state at its start.
+#[derive(Clone, Debug, Default)]
+struct Within {
+    from_x: [f64; SUMS],
+    from_v: [f64; SUMS],
+    /// Response to the four parts of a [`Phase`].
+    forced: [[f64; SUMS]; 4],
+}
+
+struct Instant {
+    tau_s: f64,
+    weight_s: f64,
+    /// Factor of the wave since the start of the step.
+    turn: Complex<f64>,
+    within: Vec<Within>,
+}
+
+/// Forced modes over one grid step.
+pub(super) struct ForcedColumns {
+    eights: Vec<Eight>,
+    /// Shapes at the points that are read, by mode.
+    points: Vec<[f64; POINTS]>,
+    /// Disk and ramp feel different loads.
+    has_mounts: bool,
+    /// Gauss points of the step, for work and loss under the pulse.
+    instants: Vec<Instant>,
+}
+
+/// Rate of work at each mount, per unit load, and of loss.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Rates {
+    /// At the mounts of disk and ramp, m/s kg^½ kg^½.
+    pub power: [f64; 2],
+    /// W.
+    pub loss: f64,
+}
+
+impl ForcedColumns {
+    /// `modes` with their `points` over `step_s`, for a pulse of rate `sigma_per_s`; `rule` is the
+    /// quadrature of the step. `has_mounts` when disk and ramp feel different loads.
+    pub fn new(
+        modes: &ForcedModes,
+        points: Vec<[f64; POINTS]>,
+        has_mounts: bool,
+        sigma_per_s: Complex<f64>,
+        step_s: f64,
+        rule: &[(f64, f64)],
+    ) -> Self {
+        let n = modes.oscillators.len();
+        let mut eights = vec![Eight::default(); n.div_ceil(SUMS)];
+        for (j, o) in modes.oscillators.iter().enumerate() {
+            let (eight, k) = (&mut eights[j / SUMS], j % SUMS);
+            let (flow, loss) = (o.flow(step_s), o.loss_form(step_s));
+            let flow = [flow.qq.re, flow.qr.re, flow.rq.re, flow.rr.re];
+            set(&mut eight.flow, k, flow);
+            set(&mut eight.loss, k, [loss.qq, loss.rr, 2.0 * loss.qr.re]);
+            let response = ForcedResponse::new(o, sigma_per_s, step_s);
+            set(&mut eight.displacement, k, response.displacement);
+            set(&mut eight.velocity, k, response.velocity);
+            eight.omega[k] = o.omega_rad_per_s;
+            eight.damping[k] = 2.0 * o.half_damping_per_s;
+            eight.gain[k] = modes.participation[j];
+            eight.on_ramp[k] = has_mounts && j >= modes.n_on_disk;
+        }
+        let instants = rule.iter().map(|&(x, weight)| {
+            let tau_s = x * step_s;
+            let mut within = vec![Within::default(); eights.len()];
+            for (j, o) in modes.oscillators.iter().enumerate() {
+                let (within, k) = (&mut within[j / SUMS], j % SUMS);
+                let flow = o.flow(tau_s);
+                (within.from_x[k], within.from_v[k]) = (flow.rq.re, flow.rr.re);
+                let response = ForcedResponse::new(o, sigma_per_s, tau_s);
+                set(&mut within.forced, k, response.velocity);
+            }
+            Instant {
+                tau_s,
+                weight_s: weight * step_s,
+                turn: (sigma_per_s * tau_s).exp(),
+                within,
+            }
+        });
+        Self {
+            instants: instants.collect(),
+            points,
+            eights,
+            has_mounts,
+        }
+    }
+
+    /// What the points see of states `x`, `v`: Σ shape × x and Σ shape × v.
+    pub fn read(&self, x: &[f64], v: &[f64]) -> [[f64; POINTS]; 2] {
+        let points = &self.points;
+        widest(Read { points, x, v })
+    }
+
+    /// (kinetic, elastic) energy, J.
+    pub fn energy(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
+        let eights = &self.eights;
+        widest(Energy { eights, x, v })
+    }
+
+    /// Loss over a step without load, J.
+    pub fn free_loss(&self, x: &[f64], v: &[f64]) -> f64 {
+        let eights = &self.eights;
+        widest(FreeLoss { eights, x, v })
+    }
+
+    /// A step without load.
+    pub fn carry(&self, x: &mut [f64], v: &mut [f64]) {
+        let eights = &self.eights;
+        widest(Carry { eights, x, v });
+    }
+
+    /// A step under `phases`.
+    pub fn drive(&self, phases: &MountPhases, x: &mut [f64], v: &mut [f64]) {
+        let (eights, parts) = (&self.eights, phases.map(|phase| parts(&phase)));
+        if self.has_mounts {
+            widest(Drive::<true> {
+                eights,
+                parts,
+                x,
+                v,
+            });
+        } else {
+            widest(Drive::<false> {
+                eights,
+                parts,
+                x,
+                v,
+            });
+        }
+    }
+
+    /// Instants of the quadrature: (time since the start of the step, weight), s, and the wave's factor.
+    pub fn instants(&self) -> impl Iterator<Item = (f64, f64, Complex<f64>)> + '_ {
+        self.instants.iter().map(|i| (i.tau_s, i.weight_s, i.turn))
+    }
+
+    /// Rates at quadrature instant `i` under `amplitude` times `phases`, from the state at the start of
+    /// the step; `added` is the velocity of a mode per unit gain by other loads, also asked of padding.
+    pub fn rates(
+        &self,
+        i: usize,
+        (amplitude, phases): (f64, &MountPhases),
+        added: Option<&dyn Fn(usize) -> f64>,
+        x: &[f64],
+        v: &[f64],
+    ) -> Rates {
+        let (eights, within) = (&self.eights, &self.instants[i].within);
+        let parts = phases.map(|phase| parts(&phase));
+        if self.has_mounts {
+            widest(RatesWithin::<true> {
+                eights,
+                within,
+                amplitude,
+                parts,
+                added,
+                x,
+                v,
+            })
+        } else {
+            widest(RatesWithin::<false> {
+                eights,
+                within,
+                amplitude,
+                parts,
+                added,
+                x,
+                v,
+            })
+        }
+    }
+}
+
+fn set<const N: usize>(columns: &mut [[f64; SUMS]; N], k: usize, values: [f64; N]) {
+    for (column, value) in columns.iter_mut().zip(values) {
+        column[k] = value;
+    }
+}
+
+fn parts(phase: &Phase) -> [f64; 4] {
+    let wave = phase.wave;
+    [phase.constant, phase.slope_per_s, wave.re, wave.im]
+}
+
+struct Read<'a> {
+    points: &'a [[f64; POINTS]],
+    x: &'a [f64],
+    v: &'a [f64],
+}
+
+impl Kernel for Read<'_> {
+    type Output = [[f64; POINTS]; 2];
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let (mut x, mut v) = ([0.0; POINTS], [0.0; POINTS]);
+        for ((shape, q), r) in self.points.iter().zip(self.x).zip(self.v) {
+            for k in 0..POINTS {
+                x[k] += shape[k] * q;
+                v[k] += shape[k] * r;
+            }
+        }
+        [x, v]
+    }
+}
+
+struct Energy<'a> {
+    eights: &'a [Eight],
+    x: &'a [f64],
+    v: &'a [f64],
+}
+
+impl Kernel for Energy<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn call(self) -> [f64; 2] {
+        let (mut kinetic, mut elastic) = ([0.0; SUMS], [0.0; SUMS]);
+        let states = self.x.as_chunks::<SUMS>().0.iter();
+        let states = states.zip(self.v.as_chunks::<SUMS>().0);
+        for (eight, (x, v)) in self.eights.iter().zip(states) {
+            for k in 0..SUMS {
+                let spring = eight.omega[k] * x[k];
+                kinetic[k] += 0.5 * v[k] * v[k];
+                elastic[k] += 0.5 * spring * spring;
+            }
+        }
+        [total(kinetic), total(elastic)]
+    }
+}
+
+struct FreeLoss<'a> {
+    eights: &'a [Eight],
+    x: &'a [f64],
+    v: &'a [f64],
+}
+
+impl Kernel for FreeLoss<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let mut loss = [0.0; SUMS];
+        let states = self.x.as_chunks::<SUMS>().0.iter();
+        let states = states.zip(self.v.as_chunks::<SUMS>().0);
+        for (eight, (x, v)) in self.eights.iter().zip(states) {
+            let [xx, vv, xv] = &eight.loss;
+            for k in 0..SUMS {
+                loss[k] += xx[k] * x[k] * x[k] + vv[k] * v[k] * v[k] + xv[k] * x[k] * v[k];
+            }
+        }
+        total(loss)
+    }
+}
+
+struct Carry<'a> {
+    eights: &'a [Eight],
+    x: &'a mut [f64],
+    v: &'a mut [f64],
+}
+
+impl Kernel for Carry<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let states = self.x.as_chunks_mut::<SUMS>().0.iter_mut();
+        let states = states.zip(self.v.as_chunks_mut::<SUMS>().0);
+        for (eight, (x, v)) in self.eights.iter().zip(states) {
+            carry(&eight.flow, x, v);
+        }
+    }
+}
+
+struct Drive<'a, const MOUNTS: bool> {
+    eights: &'a [Eight],
+    parts: [[f64; 4]; 2],
+    x: &'a mut [f64],
+    v: &'a mut [f64],
+}
+
+impl<const MOUNTS: bool> Kernel for Drive<'_, MOUNTS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let states = self.x.as_chunks_mut::<SUMS>().0.iter_mut();
+        let states = states.zip(self.v.as_chunks_mut::<SUMS>().0);
+        for (eight, (x, v)) in self.eights.iter().zip(states) {
+            carry(&eight.flow, x, v);
+            let by_x = respond::<MOUNTS>(&eight.displacement, &self.parts, &eight.on_ramp);
+            let by_v = respond::<MOUNTS>(&eight.velocity, &self.parts, &eight.on_ramp);
+            let (mut to, mut to_v) = (*x, *v);
+            for k in 0..SUMS {
+                to[k] += eight.gain[k] * by_x[k];
+                to_v[k] += eight.gain[k] * by_v[k];
+            }
+            (*x, *v) = (to, to_v);
+        }
+    }
+}
+
+struct RatesWithin<'a, const MOUNTS: bool> {
+    eights: &'a [Eight],
+    within: &'a [Within],
+    amplitude: f64,
+    parts: [[f64; 4]; 2],
+    added: Option<&'a dyn Fn(usize) -> f64>,
+    x: &'a [f64],
+    v: &'a [f64],
+}
+
+impl<const MOUNTS: bool> Kernel for RatesWithin<'_, MOUNTS> {
+    type Output = Rates;
+
+    #[inline(always)]
+    fn call(self) -> Rates {
+        let (mut disk, mut ramp, mut loss) = ([0.0; SUMS], [0.0; SUMS], [0.0; SUMS]);
+        let states = self.x.as_chunks::<SUMS>().0.iter();
+        let states = states.zip(self.v.as_chunks::<SUMS>().0);
+        let columns = self.eights.iter().zip(self.within);
+        for (i, ((eight, within), (x, v))) in columns.zip(states).enumerate() {
+            let by = respond::<MOUNTS>(&within.forced, &self.parts, &eight.on_ramp);
+            let mut rate = [0.0; SUMS];
+            for k in 0..SUMS {
+                rate[k] = v[k]
+                    + (within.from_x[k] * x[k] + within.from_v[k] * v[k])
+                    + self.amplitude * eight.gain[k] * by[k];
+            }
+            if let Some(added) = self.added {
+                for (k, (rate, gain)) in rate.iter_mut().zip(&eight.gain).enumerate() {
+                    *rate += self.amplitude * gain * added(SUMS * i + k);
+                }
+            }
+            for k in 0..SUMS {
+                let power = eight.gain[k] * rate[k];
+                let on_ramp = MOUNTS && eight.on_ramp[k];
+                disk[k] += if on_ramp { 0.0 } else { power };
+                ramp[k] += if on_ramp { power } else { 0.0 };
+                loss[k] += eight.damping[k] * rate[k] * rate[k];
+            }
+        }
+        Rates {
+            power: [total(disk), total(ramp)],
+            loss: total(loss),
+        }
+    }
+}
+
+#[inline(always)]
+fn carry(flow: &[[f64; SUMS]; 4], x: &mut [f64; SUMS], v: &mut [f64; SUMS]) {
+    let [xx, xv, vx, vv] = flow;
+    // In a place of its own: stores into `x` could change `flow`, for all the compiler knows.
+    let (mut to, mut to_v) = (*x, *v);
+    for k in 0..SUMS {
+        to[k] += xx[k] * x[k] + xv[k] * v[k];
+        to_v[k] += vx[k] * x[k] + vv[k] * v[k];
+    }
+    (*x, *v) = (to, to_v);
+}
+
+/// Responses to the load at every mode's own mount.
+#[inline(always)]
+fn respond<const MOUNTS: bool>(
+    response: &[[f64; SUMS]; 4],
+    parts: &[[f64; 4]; 2],
+    on_ramp: &[bool; SUMS],
+) -> [f64; SUMS] {
+    let [a, b, c, d] = response;
+    let [disk, ramp] = parts;
+    let mut out = [0.0; SUMS];
+    for k in 0..SUMS {
+        let part = |i: usize| {
+            if MOUNTS && on_ramp[k] {
+                ramp[i]
+            } else {
+                disk[i]
+            }
+        };
+        out[k] = (a[k] * part(0) + b[k] * part(1)) + (c[k] * part(2) + d[k] * part(3));
+    }
+    out
+}
