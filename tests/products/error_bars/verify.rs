@@ -315,6 +315,10 @@ fn small_study(kind: &str, seed: u64) -> Study {
         ("search.tolerance_pct", "2.0".to_owned()),
         ("solver.accuracy", "\"5%\"".to_owned()),
         ("solver.film_cells", "240".to_owned()),
+        // What the truths of before were made with.
+        ("solver.disk_harmonics", "56".to_owned()),
+        ("solver.disk_elements", "40".to_owned()),
+        ("solver.structure_step_us", "0.5".to_owned()),
         ("output.keep_histories", "\"none\"".to_owned()),
     ];
     let sets: Vec<(&str, &str)> = sets.iter().map(|(k, v)| (*k, v.as_str())).collect();
