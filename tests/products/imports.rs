@@ -351,6 +351,45 @@ fn a_cmlair_surface_flies() {
     assert!((force / (2.5e-3 * 9.80665) - 1.0).abs() < 1e-6, "{flight}");
 }
 
+/// What `run.dat` says of forces beside the air is in the scene, and pulls the slider down.
+#[test]
+fn a_cmlair_run_brings_its_surface_forces() {
+    let at = tempfile::tempdir().unwrap();
+    let plain = std::fs::read(folder("cmlair").join("sound.run.dat")).unwrap();
+    // Latin-1, as the file is.
+    let plain: String = plain.into_iter().map(char::from).collect();
+    let none = "icmodel stdasp dnsasp A B\n0 0 0 0 0\n";
+    assert!(plain.contains(none));
+    let some = "icmodel stdasp dnsasp A B\n0 0 0 1.8e-19 1.0e-76\n\
+                rdsasp eyoung yldstr elecpot\n0 0 0 0.5\n";
+    let flight = |out: &str, text: &str| {
+        let file = at.path().join(format!("{out}.run.dat"));
+        std::fs::write(&file, text).unwrap();
+        let mut words = cmlair(Some(&file));
+        *words.last_mut().unwrap() = out.to_owned();
+        let done = run(at.path(), &words);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let study = format!("{out}/study.toml");
+        let scene = Study::from_path(&at.path().join(&study), &[])
+            .unwrap()
+            .points[0]
+            .scene
+            .clone();
+        (scene.surface_forces, steady(at.path(), &study))
+    };
+    let (absent, free) = flight("none", &plain);
+    let (present, pulled) = flight("some", &plain.replace(none, some));
+    assert_eq!(absent, None);
+    let forces = present.expect("surface forces");
+    assert_eq!(
+        (forces.hamaker_j, forces.repulsion_j_m6, forces.potential_v),
+        (1.8e-19, 1.0e-76, 0.5)
+    );
+    let height = |flight: &serde_json::Value| flight["min_clearance_m"].as_f64().unwrap();
+    assert!(height(&pulled) < height(&free), "{pulled} {free}");
+    assert!(pulled["surface_forces"]["force_n"].as_f64().unwrap() < 0.0);
+}
+
 /// The default surface, written as rail.dat and imported, flies as the default surface does.
 #[test]
 fn a_surface_that_went_through_rail_dat_flies_as_before() {

@@ -3,7 +3,10 @@
 //! Two lines of header, then sections that a line of asterisks opens. In a section a line of names is
 //! followed by a line of values; behind `irad irpm ialt` come the radii, their skews, the speeds
 //! and the altitudes, a line each. What is read here: places and speeds, the gas, the load, the
-//! slip model; the rest are settings of another solver.
+//! slip model, the forces between slider and disk beside the air; the rest are settings of another
+//! solver.
+//!
+//! `A` and `B` are short enough to be anything's names: they are read beside `icmodel` alone.
 
 use super::{Reader, short};
 use crate::fault::{Fault, Faults};
@@ -39,6 +42,12 @@ pub struct RunFile {
     pub slip: Slip,
     /// Contact model; 0 for none.
     pub contact_model: usize,
+    /// Hamaker's constant A of the attraction A/(6 π h³) per area, J; 0 for none.
+    pub hamaker_j: f64,
+    /// Constant B of the repulsion B/(45 π h⁹) per area, J m⁶; 0 for none.
+    pub repulsion_j_m6: f64,
+    /// Potential difference of slider and disk, V; 0 for none.
+    pub potential_v: f64,
 }
 
 /// How the flow is rarefied.
@@ -153,6 +162,7 @@ fn name_values<'a>(
             continue;
         };
         let words: Vec<Word<'a>> = values.words().collect();
+        let is_contact = names.iter().any(|name| plain(name) == "icmodel");
         if wanted && words.len() < names.len() {
             return Err(Fault::of("E175", reader.file, "fewer values than names")
                 .line(values.number)
@@ -165,6 +175,9 @@ fn name_values<'a>(
             if name == "irad" {
                 behind = Some(values.number);
             }
+            if BESIDE_CONTACT.contains(&name.as_str()) && !is_contact {
+                continue;
+            }
             settings.entry(name).or_insert((word, values.number));
         }
     }
@@ -172,10 +185,13 @@ fn name_values<'a>(
 }
 
 /// Names that are read.
-const WANTED: [&str; 14] = [
+const WANTED: [&str; 15] = [
     "irad", "irpm", "ialt", "p0", "al", "vis", "f0", "xf0", "yf0", "psa", "rsa", "imodel",
-    "icmodel", "usestiff",
+    "icmodel", "usestiff", "elecpot",
 ];
+
+/// Names that are read where `icmodel` is one of the line's.
+const BESIDE_CONTACT: [&str; 2] = ["a", "b"];
 
 fn flights(
     reader: &Reader<'_>,
@@ -270,6 +286,17 @@ fn flights(
         number("psa", "rad", any, false)?,
         number("rsa", "rad", any, false)?,
     ];
+    let hamaker_j = number("a", "J", (0.0, 1e-15), false)?;
+    let repulsion_j_m6 = number("b", "J m6", (0.0, 1e-60), false)?;
+    let potential_v = number("elecpot", "V", (-1e3, 1e3), false)?;
+    if repulsion_j_m6 > 0.0 && hamaker_j == 0.0 {
+        let fault = Fault::of("E175", file, "a repulsion without an attraction").what("B");
+        let fault = match settings.get("b") {
+            Some((word, _)) => fault.at(word.place()).value(word.text),
+            None => fault,
+        };
+        faults.push(fault.allowed("B beside an A above 0, or 0"));
+    }
     let slip = match count("imodel")? {
         1 => Slip::First,
         2 => Slip::Second,
@@ -303,6 +330,9 @@ fn flights(
         static_angles_rad,
         slip,
         contact_model,
+        hamaker_j,
+        repulsion_j_m6,
+        potential_v,
     })
 }
 
@@ -378,8 +408,13 @@ pub fn write(file: &RunFile) -> String {
         "imodel".to_owned(),
         model.to_string(),
         stars,
-        "icmodel".to_owned(),
-        file.contact_model.to_string(),
+        "icmodel A B".to_owned(),
+        format!(
+            "{} {:e} {:e}",
+            file.contact_model, file.hamaker_j, file.repulsion_j_m6
+        ),
+        "elecpot".to_owned(),
+        format!("{:e}", file.potential_v),
     ]);
     lines.join("\n") + "\n"
 }

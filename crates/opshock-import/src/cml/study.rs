@@ -166,6 +166,7 @@ pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result
             shortest(run.mean_free_path_m, 1e9),
             shortest(run.load_kgf, 1e3),
         );
+        text += &surface_forces(run);
         left_out = run_left_out(run, asked.run_file);
     }
     let _ = write!(
@@ -178,6 +179,24 @@ pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result
     );
     text += &slider;
     Ok(Written { text, left_out })
+}
+
+/// Section of the forces that the file has; nothing without one.
+fn surface_forces(run: &RunFile) -> String {
+    let mut text = String::new();
+    for (key, value) in [
+        ("hamaker_j", run.hamaker_j),
+        ("repulsion_j_m6", run.repulsion_j_m6),
+        ("potential_v", run.potential_v),
+    ] {
+        if value != 0.0 {
+            let _ = writeln!(text, "{key} = {value:?}");
+        }
+    }
+    match text.is_empty() {
+        true => text,
+        false => format!("[surface_forces]\n{text}\n"),
+    }
 }
 
 fn run_left_out(run: &RunFile, file: &str) -> Vec<Fault> {

@@ -78,6 +78,9 @@ fn flights() -> RunFile {
         static_angles_rad: [0.0; 2],
         slip: Slip::FukuiKaneko,
         contact_model: 0,
+        hamaker_j: 1.8e-19,
+        repulsion_j_m6: 1.1e-76,
+        potential_v: -0.5,
     }
 }
 
@@ -93,6 +96,56 @@ fn runs_go_round() {
     let file = flights();
     let text = run::write(&file);
     assert_eq!(run::read(&source("run.dat", &text)).unwrap(), file);
+}
+
+/// The flights' file with one line in place of another.
+fn with_line(old: &str, new: &str) -> Source {
+    let text = run::write(&flights());
+    assert!(text.lines().any(|line| line == old), "{old}\n{text}");
+    let lines = text
+        .lines()
+        .map(|line| if line == old { new } else { line });
+    source("run.dat", &lines.collect::<Vec<_>>().join("\n"))
+}
+
+/// A and B count beside `icmodel` alone, by their names and not by their place; what is not there is 0.
+#[test]
+fn surface_forces_are_read_by_name() {
+    let values = |source: &Source| {
+        let file = run::read(source).unwrap();
+        (file.hamaker_j, file.repulsion_j_m6, file.potential_v)
+    };
+    let names = "icmodel A B";
+    let full = with_line(names, "icmodel B A");
+    // Exchanged names exchange the values: the repulsion's is then out of range.
+    assert_eq!(codes(&run::read(&full).unwrap_err()), ["E175"]);
+    assert_eq!(
+        values(&with_line("elecpot", "frcoe")),
+        (1.8e-19, 1.1e-76, 0.0)
+    );
+    let alone = with_line(names, "icmodel stdasp dnsasp");
+    assert_eq!(values(&alone), (0.0, 0.0, -0.5));
+    // Another section may call anything A.
+    let elsewhere = with_line("imodel", "imodel A\n3 7.0\nx");
+    assert_eq!(values(&elsewhere), (1.8e-19, 1.1e-76, -0.5));
+    for (line, what, told) in [
+        ("0 -1.8e-19 0", "a", "-1.8e-19 J"),
+        ("0 180 0", "a", "180 J"),
+        ("0 1.8e-19 1e-9", "b", "1e-9 J m6"),
+        ("0 0 1.1e-76", "B", "1.1e-76"),
+        ("0 1,8e-19 0", "a", "1,8e-19"),
+    ] {
+        let faults = run::read(&with_line("0 1.8e-19 1.1e-76", line)).unwrap_err();
+        let fault = &faults.listed[0];
+        assert_eq!(
+            (fault.what.as_str(), fault.value.as_str()),
+            (what, told),
+            "{faults}"
+        );
+        assert!(fault.line > 0, "{faults}");
+    }
+    let faults = run::read(&with_line("-5e-1", "5000")).unwrap_err();
+    assert_eq!(faults.listed[0].allowed, "-1000 to 1000 V");
 }
 
 /// Titles between the lists, a micro sign of Latin-1, comments behind the values, other sections.
@@ -160,6 +213,10 @@ fn flights_become_a_study() {
         "mean_free_path_nm = 63.5",
         "length_mm = 1.25",
         "model = \"fukui_kaneko\"",
+        "[surface_forces]",
+        "hamaker_j = 1.8e-19",
+        "repulsion_j_m6 = 1.1e-76",
+        "potential_v = -0.5",
     ] {
         assert!(
             written.text.lines().any(|found| found == line),
@@ -169,6 +226,14 @@ fn flights_become_a_study() {
     }
     // Two radii, one of which is taken.
     assert_eq!(written.left_out.len(), 1);
+    let mut without = flights();
+    (
+        without.hamaker_j,
+        without.repulsion_j_m6,
+        without.potential_v,
+    ) = (0.0, 0.0, 0.0);
+    let plain = study::study(&surface(), Some(&without), asked).unwrap();
+    assert!(!plain.text.contains("surface_forces"));
     let other = study::Asked { radius: 3, ..asked };
     let faults = study::study(&surface(), Some(&flights()), other).unwrap_err();
     assert_eq!(faults.listed[0].allowed, "1 to 2");
