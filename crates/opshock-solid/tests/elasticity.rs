@@ -21,23 +21,14 @@ const FREE: Support<'static> = Support {
 };
 
 /// Edges with a node in their middle, as corners of the element.
-fn edges(shape: Shape) -> &'static [[usize; 2]] {
+fn edges(shape: Shape) -> Vec<[usize; 2]> {
     match shape {
-        Shape::Hexahedron20 => &[
-            [0, 1],
-            [1, 2],
-            [2, 3],
-            [3, 0],
-            [4, 5],
-            [5, 6],
-            [6, 7],
-            [7, 4],
-            [0, 4],
-            [1, 5],
-            [2, 6],
-            [3, 7],
-        ],
-        Shape::Tetrahedron10 => &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
+        Shape::Hexahedron20 => {
+            let around = |first: usize| (0..4).map(move |k| [first + k, first + (k + 1) % 4]);
+            let upright = (0..4).map(|k| [k, k + 4]);
+            around(0).chain(around(4)).chain(upright).collect()
+        }
+        Shape::Tetrahedron10 => vec![[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
     }
 }
 
@@ -88,7 +79,7 @@ fn block(shape: Shape, size_m: [f64; 3], cells: [usize; 3]) -> Mesh {
                     for c in 0..element.len() {
                         connectivity.push(node(corner(c)));
                     }
-                    for [a, b] in edges {
+                    for [a, b] in &edges {
                         let (a, b) = (corner(*a), corner(*b));
                         let middle = std::array::from_fn(|d| (a[d] + b[d]) / 2);
                         connectivity.push(node(middle));

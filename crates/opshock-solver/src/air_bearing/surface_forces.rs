@@ -171,80 +171,83 @@ impl Film {
     /// What the surface forces do at `attitude`; `None` without any.
     pub fn surface_load(&self, attitude: &Attitude) -> Option<SurfaceLoad> {
         let interaction = self.interaction.as_ref()?;
-        Some(widest(Linearised {
+        Some(widest(Linearised(Posed {
             film: self,
             interaction,
             attitude,
-        }))
+        })))
     }
 
     /// Their force and moments alone; zero without any.
     pub(super) fn surface_force(&self, attitude: &Attitude) -> [f64; 3] {
         match &self.interaction {
-            Some(interaction) => widest(Loads {
+            Some(interaction) => widest(Loads(Posed {
                 film: self,
                 interaction,
                 attitude,
-            }),
+            })),
             None => [0.0; 3],
         }
     }
 }
 
-/// Force and moments as a kernel.
-struct Loads<'a> {
+/// The points of a film at an attitude.
+struct Posed<'a> {
     film: &'a Film,
     interaction: &'a Interaction,
     attitude: &'a Attitude,
 }
+
+impl Posed<'_> {
+    /// First points of the blocks.
+    #[inline(always)]
+    fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.interaction.area.len()).step_by(BLOCK)
+    }
+
+    /// Height that the film sees, its slope by the true height, and area of a block of points.
+    #[inline(always)]
+    fn block(&self, first: usize) -> ([f64; BLOCK], [f64; BLOCK], &[f64; BLOCK]) {
+        let height = self.interaction.places.heights(first, self.attitude);
+        let [h, floor_slope] = self.film.floored_block(&height, &[0.0; BLOCK]);
+        (h, floor_slope, block(&self.interaction.area, first))
+    }
+}
+
+/// Force and moments as a kernel.
+struct Loads<'a>(Posed<'a>);
 
 impl Kernel for Loads<'_> {
     type Output = [f64; 3];
 
     #[inline(always)]
     fn call(self) -> [f64; 3] {
-        let Interaction {
-            forces,
-            places,
-            area,
-        } = self.interaction;
+        let forces = &self.0.interaction.forces;
         let mut moments = Moments::default();
-        for first in (0..area.len()).step_by(BLOCK) {
-            let height = places.heights(first, self.attitude);
-            let [h, _] = self.film.floored_block(&height, &[0.0; BLOCK]);
-            let area = block(area, first);
+        for first in self.0.blocks() {
+            let (h, _, area) = self.0.block(first);
             let mut load = [0.0; BLOCK];
             for k in 0..BLOCK {
                 load[k] = area[k] * forces.pressure(h[k]).0;
             }
-            moments.add(&load, places, first);
+            moments.add(&load, &self.0.interaction.places, first);
         }
         moments.total()
     }
 }
 
 /// Force, moments and derivatives as a kernel.
-struct Linearised<'a> {
-    film: &'a Film,
-    interaction: &'a Interaction,
-    attitude: &'a Attitude,
-}
+struct Linearised<'a>(Posed<'a>);
 
 impl Kernel for Linearised<'_> {
     type Output = SurfaceLoad;
 
     #[inline(always)]
     fn call(self) -> SurfaceLoad {
-        let Interaction {
-            forces,
-            places,
-            area,
-        } = self.interaction;
+        let Interaction { forces, places, .. } = self.0.interaction;
         let mut totals = Totals::default();
-        for first in (0..area.len()).step_by(BLOCK) {
-            let height = places.heights(first, self.attitude);
-            let [h, floor_slope] = self.film.floored_block(&height, &[0.0; BLOCK]);
-            let area = block(area, first);
+        for first in self.0.blocks() {
+            let (h, floor_slope, area) = self.0.block(first);
             let arms = [&places.x, &places.y].map(|column| *block(column, first));
             let mut load = [0.0; BLOCK];
             let mut by_attitude = [[0.0; BLOCK]; 3];

@@ -164,19 +164,14 @@ fn oblique(view: &View<'_>) -> Option<ObliqueShock> {
 
 /// Modes of base plate and housing.
 fn base(view: &View<'_>) -> Vec<BaseMode> {
-    const MODES: &str = "base.modes";
-    let mode = |position: usize| {
-        let si = |name: &str| view.si(&format!("{MODES}[{position}].{name}"));
-        BaseMode {
-            frequency_hz: si("frequency_hz"),
-            damping_ratio: si("damping_ratio"),
-            participation_sqrt_kg: si("participation_sqrt_kg"),
-            spindle_per_sqrt_kg: si("spindle_per_sqrt_kg"),
-            ramp_per_sqrt_kg: si("ramp_per_sqrt_kg"),
-            pivot_per_sqrt_kg: si("pivot_per_sqrt_kg"),
-        }
-    };
-    (0..view.entries(MODES)).map(mode).collect()
+    view.tables("base.modes", |si| BaseMode {
+        frequency_hz: si("frequency_hz"),
+        damping_ratio: si("damping_ratio"),
+        participation_sqrt_kg: si("participation_sqrt_kg"),
+        spindle_per_sqrt_kg: si("spindle_per_sqrt_kg"),
+        ramp_per_sqrt_kg: si("ramp_per_sqrt_kg"),
+        pivot_per_sqrt_kg: si("pivot_per_sqrt_kg"),
+    })
 }
 
 /// Times at which pressure fields are asked for, after the onset, ascending.

@@ -288,6 +288,14 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Every table of a list, made by what reads a number of it in SI by its key.
+    pub fn tables<T>(&self, list: &str, make: impl Fn(&dyn Fn(&str) -> f64) -> T) -> Vec<T> {
+        let positions = 0..self.entries(list);
+        positions
+            .map(|position| make(&|key| self.si(&format!("{list}[{position}].{key}"))))
+            .collect()
+    }
+
     /// Number of entries of a list of tables.
     pub fn entries(&self, path: &str) -> usize {
         match self.get(path) {
