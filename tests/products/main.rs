@@ -16,6 +16,7 @@ mod hdf5_readers;
 mod identity;
 mod imported_suspension;
 mod imports;
+mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
 mod real_sweep;

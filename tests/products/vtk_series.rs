@@ -42,7 +42,7 @@ fn export(folder: &Path, amplitude_g: &str, more: &[&str]) -> Done {
 }
 
 /// Values of a named array.
-fn array(text: &str, name: &str) -> Vec<f64> {
+pub(super) fn array(text: &str, name: &str) -> Vec<f64> {
     let from = text.find(&format!("Name=\"{name}\"")).expect("the array");
     let start = from + text[from..].find('>').unwrap() + 1;
     let end = start + text[start..].find('<').unwrap();
@@ -53,7 +53,7 @@ fn array(text: &str, name: &str) -> Vec<f64> {
 }
 
 /// Panics when tags do not nest or arrays have the wrong length.
-fn assert_grid(text: &str) {
+pub(super) fn assert_grid(text: &str) {
     let mut open = Vec::new();
     for tag in text
         .split('<')

@@ -191,37 +191,40 @@ impl ReducedSolid {
     /// # Errors
     /// A mass that is not positive definite, no convergence.
     pub fn point_modes(&self) -> Result<Vec<PointMode>, SparseError> {
-        let (values, vectors) = dense_general_eigen(&self.stiffness, &self.mass)?;
-        let pairs = values.iter().zip(&vectors);
-        Ok(pairs
-            .map(|(value, vector)| {
-                let mut shape = vector[..self.n_points].to_vec();
-                let mut participation = dot(vector, &self.base_load);
-                // The sign of a mode is free: that of a number which is not rounding alone.
-                let largest = shape.iter().fold(0.0_f64, |most, s| s.abs().max(most));
-                let sign = shape.iter().find(|s| s.abs() > 1e-3 * largest);
-                if sign.is_some_and(|s| *s < 0.0) {
-                    participation = -participation;
-                    shape.iter_mut().for_each(|s| *s = -*s);
-                }
-                PointMode {
-                    frequency_hz: value.max(0.0).sqrt() / std::f64::consts::TAU,
-                    shape,
-                    participation,
-                }
-            })
-            .collect())
+        let found = self.oscillators()?.into_iter();
+        Ok(found.map(|(mode, _)| mode).collect())
     }
 
-    /// Displacements of all unknowns of mode `k`, of unit modal mass.
+    /// The oscillators, lowest first, each with the displacements of all unknowns, 1/√kg.
     ///
     /// # Errors
-    /// A mass that is not positive definite, no convergence.
-    ///
-    /// # Panics
-    /// Without such a mode.
-    pub fn mode_shape(&self, k: usize) -> Result<Vec<f64>, SparseError> {
-        let (_, vectors) = dense_general_eigen(&self.stiffness, &self.mass)?;
-        Ok(combination(&self.basis, &vectors[k]))
+    /// As [`ReducedSolid::point_modes`].
+    pub fn mode_shapes(&self) -> Result<Vec<(PointMode, Vec<f64>)>, SparseError> {
+        let found = self.oscillators()?.into_iter();
+        let whole = |(mode, reduced): (_, Vec<f64>)| (mode, combination(&self.basis, &reduced));
+        Ok(found.map(whole).collect())
+    }
+
+    /// The oscillators with their reduced unknowns.
+    fn oscillators(&self) -> Result<Vec<(PointMode, Vec<f64>)>, SparseError> {
+        let (values, vectors) = dense_general_eigen(&self.stiffness, &self.mass)?;
+        let pairs = values.iter().zip(vectors);
+        Ok(pairs
+            .map(|(value, mut vector)| {
+                // The sign of a mode is free: that of a number which is not rounding alone.
+                let points = &vector[..self.n_points];
+                let largest = points.iter().fold(0.0_f64, |most, s| s.abs().max(most));
+                let sign = points.iter().find(|s| s.abs() > 1e-3 * largest);
+                if sign.is_some_and(|s| *s < 0.0) {
+                    vector.iter_mut().for_each(|x| *x = -*x);
+                }
+                let mode = PointMode {
+                    frequency_hz: value.max(0.0).sqrt() / std::f64::consts::TAU,
+                    shape: vector[..self.n_points].to_vec(),
+                    participation: dot(&vector, &self.base_load),
+                };
+                (mode, vector)
+            })
+            .collect())
     }
 }

@@ -3,10 +3,12 @@
 mod geometry;
 mod mesh;
 mod shape;
+mod shapes;
 
 pub use geometry::{GeometryError, MOST_ELEMENTS, RampGeometry};
 pub use mesh::{Extent, RampMesh};
 pub use shape::{RampFaces, ShapeError};
+pub use shapes::RampShape;
 
 use crate::assembly::{AssemblyError, ElasticFaces, SolidSystem, Support};
 use crate::material::Material;

@@ -12,7 +12,7 @@
 use super::Attitude;
 use super::film::Film;
 use crate::linalg::banded::{Band, BandMatrix, BandedError, BandedLu};
-use nalgebra::{Complex, Matrix3};
+use nalgebra::{Complex, Matrix3, Vector3};
 use thiserror::Error;
 
 /// Why a dynamic property of the film could not be found.
@@ -44,6 +44,9 @@ pub struct AirBearingMode {
     pub frequency_hz: f64,
     /// −Re s/|s|.
     pub damping_ratio: f64,
+    /// Complex amplitudes of centre height (1/√kg), pitch and roll (1/(m √kg)) with q̂ᴴ J q̂ = 1, turned so
+    /// that q̂ᵀ J q̂ is real and positive: the real part is then as large as it can be.
+    pub shape: [Complex<f64>; 3],
 }
 
 /// Film linearised about a state.
@@ -164,9 +167,10 @@ impl<'a> SmallMotion<'a> {
     pub fn free_modes(&mut self, inertia: [f64; 3]) -> Result<[AirBearingMode; 3], ImpedanceError> {
         // Mass-scaled Z has eigenvalues −s².
         let roots = inertia.map(f64::sqrt);
+        let scaled =
+            |z: Matrix3<Complex<f64>>| Matrix3::from_fn(|i, j| z[(i, j)] / (roots[i] * roots[j]));
         let spectrum = |z: Matrix3<Complex<f64>>| {
-            let scaled = Matrix3::from_fn(|i, j| z[(i, j)] / (roots[i] * roots[j]));
-            let mut values: [Complex<f64>; 3] = scaled.schur().unpack().1.diagonal().into();
+            let mut values: [Complex<f64>; 3] = scaled(z).schur().unpack().1.diagonal().into();
             values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
             values
         };
@@ -178,6 +182,7 @@ impl<'a> SmallMotion<'a> {
         let mut modes = [AirBearingMode {
             frequency_hz: 0.0,
             damping_ratio: 0.0,
+            shape: [Complex::new(0.0, 0.0); 3],
         }; 3];
         for (k, mode) in modes.iter_mut().enumerate() {
             let mut s = root(start[k]);
@@ -207,11 +212,28 @@ impl<'a> SmallMotion<'a> {
             *mode = AirBearingMode {
                 frequency_hz,
                 damping_ratio: -s.re / s.norm(),
+                shape: {
+                    let balance = scaled(self.at(s)?) + Matrix3::identity() * (s * s);
+                    let shape = null_vector(&balance);
+                    std::array::from_fn(|i| shape[i] / roots[i])
+                },
             };
         }
         modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         Ok(modes)
     }
+}
+
+/// Vector v of length 1 that a singular matrix of rank two maps to zero, with vᵀ v real and positive.
+fn null_vector(matrix: &Matrix3<Complex<f64>>) -> Vector3<Complex<f64>> {
+    // At right angles to two rows, without conjugation; of the three pairs the most independent one.
+    let row = |i: usize| matrix.row(i % 3).transpose();
+    let crossed = (0..3).map(|i| row(i).cross(&row(i + 1)));
+    let best = crossed.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    let best = best.unwrap_or_else(Vector3::zeros);
+    let square: Complex<f64> = best.iter().map(|x| x * x).sum();
+    let turn = Complex::from_polar(best.norm(), 0.5 * square.arg());
+    best.map(|x| x / turn)
 }
 
 /// Frequency whose impedance the search for modes starts from, Hz; the film is stiff there.

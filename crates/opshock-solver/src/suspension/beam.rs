@@ -233,7 +233,7 @@ const GAUSS_4: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-fn hermite(s: f64, length: f64) -> [f64; 4] {
+pub(super) fn hermite(s: f64, length: f64) -> [f64; 4] {
     let (s2, s3) = (s * s, s * s * s);
     [
         1.0 - 3.0 * s2 + 2.0 * s3,

@@ -22,11 +22,13 @@ mod beam;
 mod modes;
 mod reduction;
 mod section;
+mod shapes;
 
 pub use beam::{BeamMatrices, RootedBeam, SuspensionError};
 pub use modes::SuspensionMode;
 pub use reduction::{ReducedSuspension, Reduction};
 pub use section::{FLANGED_TORSION_FACTOR, FLEXURE_ROLL_RADIUS_M, HINGE_TORSION_FACTOR, Section};
+pub use shapes::{Held, SuspensionShape, SuspensionShapes};
 
 /// Geometry and material of the suspension; x is measured from the root of the hinge.
 #[derive(Clone, Debug, PartialEq)]

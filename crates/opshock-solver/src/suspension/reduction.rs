@@ -268,7 +268,7 @@ fn attachment(
 ///
 /// With K = L Lᵀ it solves (L⁻¹ M L⁻ᵀ) y = ω⁻² y: the wanted modes are then the largest
 /// eigenvalues and keep full relative accuracy, however high the highest frequency is.
-fn lowest_modes(
+pub(super) fn lowest_modes(
     stiffness: DMatrix<f64>,
     mass: &DMatrix<f64>,
     n_modes: usize,

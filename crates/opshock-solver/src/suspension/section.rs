@@ -42,18 +42,29 @@ pub struct Section {
 }
 
 impl Section {
-    /// Section at `x_m` from the root of the hinge.
-    pub fn at(parameters: &SuspensionParameters, x_m: f64) -> Self {
+    /// Width of hinge, load beam or tab at `x_m` from the root of the hinge.
+    pub fn width_m(parameters: &SuspensionParameters, x_m: f64) -> f64 {
         let (beam, hinge) = (&parameters.load_beam, &parameters.hinge);
-        let in_hinge = x_m < hinge.length_m;
-        let (width, thickness) = if in_hinge {
-            (hinge.width_m, hinge.thickness_m)
+        if x_m < hinge.length_m {
+            hinge.width_m
         } else if x_m < beam.dimple_m {
             let share = (x_m - hinge.length_m) / (beam.dimple_m - hinge.length_m);
-            let width = beam.width_root_m + share * (beam.width_dimple_m - beam.width_root_m);
-            (width, beam.web_m)
+            beam.width_root_m + share * (beam.width_dimple_m - beam.width_root_m)
         } else {
-            (beam.tab_width_m, beam.web_m)
+            beam.tab_width_m
+        }
+    }
+
+    /// Section at `x_m` from the root of the hinge.
+    pub fn at(parameters: &SuspensionParameters, x_m: f64) -> Self {
+        let hinge = &parameters.hinge;
+        let beam = &parameters.load_beam;
+        let in_hinge = x_m < hinge.length_m;
+        let width = Self::width_m(parameters, x_m);
+        let thickness = if in_hinge {
+            hinge.thickness_m
+        } else {
+            beam.web_m
         };
         let rho = parameters.density_kg_per_m3;
         let web_area = width * thickness;

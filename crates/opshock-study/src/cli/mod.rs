@@ -19,6 +19,7 @@ mod hard_cases;
 mod import;
 mod memory;
 mod merge;
+mod mode_shapes;
 mod modes;
 mod new;
 mod plan;

@@ -4,6 +4,7 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::mode_shapes;
 use super::responses::responses;
 use super::selection::{PointArgs, unshaken_point};
 use super::steady::{ModeJson, air_bearing_modes};
@@ -35,10 +36,16 @@ pub struct ModesArgs {
         requires = "response"
     )]
     hz: Vec<f64>,
+    /// Write the shapes of the modes into a folder: vtu grids for ParaView, plots as SVG, PNG and CSV
+    #[arg(long, value_name = "DIR")]
+    shapes: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    // What cannot be written is said before anything is computed.
+    let folder = arguments.shapes.as_deref();
+    folder.map_or(Ok(()), mode_shapes::check_folder)?;
     let study = study_file::read(&arguments.study, global, console)?;
     let scene = unshaken_point(&study, &arguments.point)?.scene;
     let structure = modes(&scene.disk, &scene.disk_resolution, &scene.ramp)
@@ -51,6 +58,17 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
     let responses = asked
         .map(|source| responses(&study, &scene, source, &arguments.hz))
         .transpose()?;
+    if let Some(folder) = folder {
+        let written = mode_shapes::write(folder, &study, &scene, &head)?;
+        console.tell(&format!(
+            "wrote {} files into {}",
+            written.len(),
+            folder.display()
+        ));
+        if !scene.suspension.modes.is_empty() {
+            console.tell("no shapes of the suspension: its modes tell of its dimple alone");
+        }
+    }
     if console.json {
         let mut all = as_json(&structure, &suspension, &head);
         if let Some(responses) = responses {

@@ -9,6 +9,7 @@ use super::study_file;
 use crate::study::Study;
 use anyhow::Context as _;
 use clap::Args;
+use nalgebra::Complex;
 use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
 use opshock_solver::air_bearing::steady::{Equilibrium, fixed_attitude, fly, lower_equilibria};
 use opshock_solver::air_bearing::{Attitude, Film};
@@ -96,6 +97,9 @@ struct LowerJson {
 pub struct ModeJson {
     pub frequency_hz: f64,
     pub damping_ratio: f64,
+    /// As [`AirBearingMode::shape`].
+    #[serde(skip)]
+    pub shape: [Complex<f64>; 3],
 }
 
 #[derive(Debug, Serialize)]
@@ -300,6 +304,7 @@ fn modes_json(modes: &[AirBearingMode]) -> Vec<ModeJson> {
         .map(|mode| ModeJson {
             frequency_hz: mode.frequency_hz,
             damping_ratio: mode.damping_ratio,
+            shape: mode.shape,
         })
         .collect()
 }

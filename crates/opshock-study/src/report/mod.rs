@@ -9,6 +9,7 @@ mod crossings;
 mod files;
 pub mod html;
 mod margin_curves;
+pub mod mode_shapes;
 mod outcome_map;
 pub mod paper;
 pub mod run_json;
@@ -19,6 +20,7 @@ pub mod savings;
 pub mod table;
 mod terminal_plot;
 pub mod vtk_files;
+mod vtu;
 
 pub use accuracy_files::write_accuracy;
 pub use claims_files::{ClaimTable, tornado, write_claims, write_sensitivity};

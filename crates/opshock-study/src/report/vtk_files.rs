@@ -11,10 +11,10 @@
 //! are seconds on the study's axis. The arms' boxes have the place and clearance of the scene; their
 //! width and length are drawn, not simulated.
 
+use super::files::{WriteError, write_all};
+use super::vtu::{Cell, Grid, polar_grid};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-
-use super::files::{WriteError, write_all};
 
 /// Disk over time on a polar grid, innermost circle first, angle running fastest.
 #[derive(Clone, Debug)]
@@ -131,138 +131,44 @@ fn collection(part: &str, times: &[f64]) -> String {
     text
 }
 
-/// Kind of the cells.
-#[derive(Clone, Copy)]
-enum Cell {
-    Quadrilateral,
-    Hexahedron,
-}
-
-/// Named values, with the number of components.
-type Array<'a> = (&'a str, usize, Vec<f64>);
-
-/// One unstructured grid.
-fn piece(
-    points: &[[f64; 3]],
-    cells: &[Vec<usize>],
-    kind: Cell,
-    point_data: &[Array<'_>],
-    cell_data: &[Array<'_>],
-) -> String {
-    let mut text = format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
-         <UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-        points.len(),
-        cells.len()
-    );
-    for (section, data) in [("PointData", point_data), ("CellData", cell_data)] {
-        let _ = writeln!(text, "<{section}>");
-        for (name, components, values) in data {
-            floats(&mut text, name, *components, values.iter().copied());
-        }
-        let _ = writeln!(text, "</{section}>");
-    }
-    text.push_str("<Points>\n");
-    floats(&mut text, "points", 3, points.iter().flatten().copied());
-    text.push_str("</Points>\n<Cells>\n");
-    let connectivity = cells.iter().flatten().copied();
-    integers(&mut text, "Int64", "connectivity", connectivity);
-    let mut end = 0;
-    let offsets = cells.iter().map(|cell| {
-        end += cell.len();
-        end
-    });
-    integers(&mut text, "Int64", "offsets", offsets);
-    // VTK's numbers of cell types.
-    let number = match kind {
-        Cell::Quadrilateral => 9,
-        Cell::Hexahedron => 12,
-    };
-    integers(&mut text, "UInt8", "types", cells.iter().map(|_| number));
-    text.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-    text
-}
-
-fn floats(text: &mut String, name: &str, components: usize, values: impl Iterator<Item = f64>) {
-    let _ = write!(
-        text,
-        "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
-    );
-    for value in values {
-        let _ = write!(text, "{value:e} ");
-    }
-    text.push_str("</DataArray>\n");
-}
-
-fn integers(text: &mut String, kind: &str, name: &str, values: impl Iterator<Item = usize>) {
-    let _ = write!(
-        text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">"
-    );
-    for value in values {
-        let _ = write!(text, "{value} ");
-    }
-    text.push_str("</DataArray>\n");
-}
-
 fn disk_piece(disk: &DiskSeries, deflection: &[f64]) -> String {
-    let around = disk.angles_rad.len();
-    let points: Vec<[f64; 3]> = disk
-        .radii_m
-        .iter()
-        .flat_map(|&r| {
-            let angles = disk.angles_rad.iter();
-            angles.map(move |&a| [r * a.cos(), r * a.sin(), 0.0])
-        })
-        .collect();
-    let mut cells = Vec::new();
-    for ring in 0..disk.radii_m.len().saturating_sub(1) {
-        for at in 0..around {
-            let next = (at + 1) % around;
-            let (inner, outer) = (ring * around, (ring + 1) * around);
-            cells.push(vec![inner + at, outer + at, outer + next, inner + next]);
-        }
-    }
+    let (points, cells) = polar_grid(&disk.radii_m, &disk.angles_rad);
     let displacement = deflection.iter().flat_map(|&w| [0.0, 0.0, w]).collect();
-    piece(
-        &points,
-        &cells,
-        Cell::Quadrilateral,
-        &[
-            ("deflection_m", 1, deflection.to_vec()),
-            ("displacement_m", 3, displacement),
-        ],
-        &[],
-    )
+    let mut grid = Grid::new(Cell::Quadrilateral, points, cells);
+    grid.at_points("deflection_m", 1, deflection.to_vec());
+    grid.at_points("displacement_m", 3, displacement);
+    grid.text()
 }
 
-fn ramp_piece(ramp: &RampSeries, frame: usize) -> String {
-    let (sine, cosine) = ramp.angle_rad.sin_cos();
-    let (near, far) = (
-        ramp.radius_m - ARM_REACH_M[0],
-        ramp.radius_m + ARM_REACH_M[1],
-    );
+/// Both arms as boxes, top first, eight corners each.
+pub(super) fn arm_boxes(
+    radius_m: f64,
+    angle_rad: f64,
+    rest_m: [f64; 2],
+) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let (sine, cosine) = angle_rad.sin_cos();
+    let (near, far) = (radius_m - ARM_REACH_M[0], radius_m + ARM_REACH_M[1]);
     let mut points = Vec::new();
-    let mut displacement = Vec::new();
-    for (arm, outwards) in [1.0, -1.0].into_iter().enumerate() {
-        let surface = ramp.rest_m[arm];
+    for (surface, outwards) in rest_m.into_iter().zip([1.0, -1.0]) {
         let away = surface + outwards * ARM_THICK_M;
         for z in [surface.min(away), surface.max(away)] {
             for (r, t) in [(near, -1.0), (far, -1.0), (far, 1.0), (near, 1.0)] {
                 let t = t * ARM_HALF_M;
                 points.push([r * cosine - t * sine, r * sine + t * cosine, z]);
-                displacement.extend([0.0, 0.0, ramp.displacement_m[frame][arm]]);
             }
         }
     }
-    let cells = vec![(0..8).collect(), (8..16).collect()];
-    piece(
-        &points,
-        &cells,
-        Cell::Hexahedron,
-        &[("displacement_m", 3, displacement)],
-        &[("contact_force_n", 1, ramp.force_n[frame].to_vec())],
-    )
+    (points, vec![(0..8).collect(), (8..16).collect()])
+}
+
+fn ramp_piece(ramp: &RampSeries, frame: usize) -> String {
+    let (points, cells) = arm_boxes(ramp.radius_m, ramp.angle_rad, ramp.rest_m);
+    let moved = ramp.displacement_m[frame].into_iter();
+    let displacement = moved.flat_map(|w| [[0.0, 0.0, w]; 8]).flatten().collect();
+    let mut grid = Grid::new(Cell::Hexahedron, points, cells);
+    grid.at_points("displacement_m", 3, displacement);
+    grid.in_cells("contact_force_n", 1, ramp.force_n[frame].to_vec());
+    grid.text()
 }
 
 fn film_piece(film: &FilmSeries, frame: usize) -> String {
@@ -284,16 +190,10 @@ fn film_piece(film: &FilmSeries, frame: usize) -> String {
             ]);
         }
     }
-    piece(
-        &points,
-        &cells,
-        Cell::Quadrilateral,
-        &[],
-        &[
-            ("pressure_pa", 1, film.pressure_pa[frame].clone()),
-            ("gap_m", 1, film.gap_m[frame].clone()),
-        ],
-    )
+    let mut grid = Grid::new(Cell::Quadrilateral, points, cells);
+    grid.in_cells("pressure_pa", 1, film.pressure_pa[frame].clone());
+    grid.in_cells("gap_m", 1, film.gap_m[frame].clone());
+    grid.text()
 }
 
 #[cfg(test)]

@@ -28,11 +28,10 @@ use super::fault::StudyError;
 use super::included::Location;
 use super::matrices::solid;
 use super::ramp_geometry::rounded;
-use super::ramp_mesh::lonely;
+use super::ramp_mesh::{lonely, put, refuse_files};
 use super::read::Reader;
 use super::settings::View;
-use super::source::{Origin, Source};
-use super::tree;
+use super::source::Source;
 
 /// Table of the files.
 pub const TABLE: &str = "suspension.imported";
@@ -64,25 +63,13 @@ pub fn read(reader: &mut Reader, location: &Location) {
         return;
     }
     match modes(&view, &location.folder) {
-        Err(faults) => {
-            let errors = faults.listed.into_iter().map(|mut fault| {
-                if fault.message.starts_with("cannot be read") {
-                    fault.hint = "file paths start from the study's folder".to_owned();
-                }
-                StudyError::from(fault)
-            });
-            reader.errors.extend(errors);
-            reader.settings.spoil(TABLE);
-        }
+        Err(faults) => refuse_files(reader, TABLE, faults),
         Ok((modes, warnings)) => {
             reader
                 .remarks
                 .extend(warnings.into_iter().map(StudyError::from));
             let source = Source::new("modes of the imported suspension", written(&modes));
-            // What is written here reads back.
-            if let Ok(node) = tree::parse(&source, Origin::Included) {
-                reader.table(&node, "suspension", "suspension");
-            }
+            put(reader, &source, "suspension");
         }
     }
 }
@@ -238,17 +225,13 @@ fn split(reduced: &[PointMode], system: &System) -> Result<Vec<SuspensionMode>, 
 
 /// Modes of a view, in SI.
 pub fn listed(view: &View<'_>) -> Vec<SuspensionMode> {
-    let mode = |position: usize| {
-        let si = |name: &str| view.si(&format!("{MODES}[{position}].{name}"));
-        SuspensionMode {
-            frequency_hz: si("frequency_hz"),
-            vertical_per_sqrt_kg: si("vertical_per_sqrt_kg"),
-            slope_per_m_sqrt_kg: si("slope_per_m_sqrt_kg"),
-            roll_per_m_sqrt_kg: si("roll_per_m_sqrt_kg"),
-            participation_sqrt_kg: si("participation_sqrt_kg"),
-        }
-    };
-    (0..view.entries(MODES)).map(mode).collect()
+    view.tables(MODES, |si| SuspensionMode {
+        frequency_hz: si("frequency_hz"),
+        vertical_per_sqrt_kg: si("vertical_per_sqrt_kg"),
+        slope_per_m_sqrt_kg: si("slope_per_m_sqrt_kg"),
+        roll_per_m_sqrt_kg: si("roll_per_m_sqrt_kg"),
+        participation_sqrt_kg: si("participation_sqrt_kg"),
+    })
 }
 
 /// Files of a suspension as rows of numbers in mN, mm, kg: stiffness, mass, places, and the section of

@@ -19,6 +19,7 @@ use opshock_solid::ramp::{Mount, RampFaces, RampMesh, RampModes, ShapeError, Sol
 use super::fault::StudyError;
 use super::included::Location;
 use super::ramp_geometry::{CUT_HZ, material_of, mount_of, rounded};
+use super::ramp_solid::RampSolid;
 use super::read::Reader;
 use super::settings::View;
 use super::source::{Origin, Source};
@@ -64,16 +65,7 @@ pub fn read(reader: &mut Reader, location: &Location) {
     let answer = ramp(&view, &location.folder.join(&named));
     let place = view.place(&file_key).cloned();
     match answer {
-        Err(faults) => {
-            let errors = faults.listed.into_iter().map(|mut fault| {
-                if fault.message.starts_with("cannot be read") {
-                    fault.hint = "file paths start from the study's folder".to_owned();
-                }
-                StudyError::from(fault)
-            });
-            reader.errors.extend(errors);
-            reader.settings.spoil(TABLE);
-        }
+        Err(faults) => refuse_files(reader, TABLE, faults),
         Ok((modes, gap_m)) => {
             let clearance_m = |side: &str| {
                 view.maybe_si(side)
@@ -97,11 +89,28 @@ pub fn read(reader: &mut Reader, location: &Location) {
                 );
             }
             let source = Source::new(format!("modes of {named}"), written(&modes));
-            // What is written here reads back.
-            if let Ok(node) = tree::parse(&source, Origin::Included) {
-                reader.table(&node, "ramp.deformable", "ramp.deformable");
-            }
+            put(reader, &source, "ramp.deformable");
         }
+    }
+}
+
+/// Takes what is wrong with the files of a table to the study's errors.
+pub fn refuse_files(reader: &mut Reader, table: &str, faults: Faults) {
+    let errors = faults.listed.into_iter().map(|mut fault| {
+        if fault.message.starts_with("cannot be read") {
+            fault.hint = "file paths start from the study's folder".to_owned();
+        }
+        StudyError::from(fault)
+    });
+    reader.errors.extend(errors);
+    reader.settings.spoil(table);
+}
+
+/// Reads what was written of files into a section.
+pub fn put(reader: &mut Reader, source: &Arc<Source>, section: &str) {
+    // What is written here reads back.
+    if let Ok(node) = tree::parse(source, Origin::Included) {
+        reader.table(&node, section, section);
     }
 }
 
@@ -148,12 +157,10 @@ fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64)
     type Known = HashMap<([u8; 32], String), (Arc<RampModes>, f64)>;
     static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
     let source = text::Source::read(path)?;
-    let unit = view.word(&format!("{TABLE}.unit"));
-    let metres = LENGTH_UNITS.iter().find(|(name, _)| *name == unit);
-    let metres = metres.map_or(LENGTH_UNITS[0].1, |(_, metres)| *metres);
+    let metres = metres(view);
     let material = material_of(view, TABLE);
     let mount = mount_of(view, TABLE);
-    let cut_hz = view.maybe_si(&format!("{TABLE}.cut_khz")).unwrap_or(CUT_HZ);
+    let cut_hz = cut_hz(view);
     let digest = *blake3::hash(source.text().as_bytes()).as_bytes();
     let key = (
         digest,
@@ -175,6 +182,31 @@ fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64)
     let found = (Arc::new(modes), gap_m);
     known.insert(key, found.clone());
     Ok(found)
+}
+
+/// Length of the file's unit, m.
+fn metres(view: &View<'_>) -> f64 {
+    let unit = view.word(&format!("{TABLE}.unit"));
+    let metres = LENGTH_UNITS.iter().find(|(name, _)| *name == unit);
+    metres.map_or(LENGTH_UNITS[0].1, |(_, metres)| *metres)
+}
+
+fn cut_hz(view: &View<'_>) -> f64 {
+    view.maybe_si(&format!("{TABLE}.cut_khz")).unwrap_or(CUT_HZ)
+}
+
+/// The solid of a file that a study names.
+///
+/// # Errors
+/// As [`ramp_mesh`], and what the reader of meshes refuses.
+pub fn solid(view: &View<'_>, path: &std::path::Path) -> Result<RampSolid, Faults> {
+    let file = gmsh::read(&text::Source::read(path)?)?;
+    Ok(RampSolid {
+        mesh: ramp_mesh(&file, metres(view))?,
+        material: material_of(view, TABLE),
+        mount: mount_of(view, TABLE),
+        cut_hz: cut_hz(view),
+    })
 }
 
 /// A file's solid as a ramp, in m.
