@@ -31,8 +31,9 @@ impl<'a> Reader<'a> {
     /// Checks the header and goes behind it.
     ///
     /// # Errors
-    /// E160 for another header, E173 for another version.
+    /// E160 for another header, E173 for another version and for the dynamic program's file.
     fn of(source: &'a Source) -> Result<(Self, String), Faults> {
+        refuse_dynamic(source)?;
         let mut lines = source.lines();
         let first = lines.next();
         let text = first.map_or("", |line| line.text);
@@ -128,6 +129,37 @@ impl<'a> Reader<'a> {
         }
         Ok(counts)
     }
+}
+
+/// Name of the dynamic program's file.
+const DYNAMIC_FILE: &str = "dynluls.def";
+
+/// Names that only the dynamic program's file has: its solver's option, and its radii.
+const DYNAMIC_NAMES: [&str; 3] = ["iqpo", "ra_if", "ra_of"];
+
+/// Refuses `DynLULS.def`, whose first line need not say what it is. Its sections of shock, disk, ramp and
+/// contact hold values by position that differ from version to version.
+fn refuse_dynamic(source: &Source) -> Result<(), Faults> {
+    let named = source.name.to_lowercase().ends_with(DYNAMIC_FILE);
+    let is_name = |word: Word<'_>| {
+        let plain = word.text.split('(').next().unwrap_or_default();
+        DYNAMIC_NAMES
+            .iter()
+            .any(|name| plain.eq_ignore_ascii_case(name))
+    };
+    let line = source.lines().find(|line| line.words().any(is_name));
+    let place = match (named, &line) {
+        (_, Some(line)) => line.number,
+        (true, None) => 1,
+        (false, None) => return Ok(()),
+    };
+    Err(Fault::of("E173", &source.name, "files of the dynamic program are not read")
+        .line(place)
+        .what("DynLULS.def")
+        .value(line.map_or("", |line| line.text.trim()))
+        .allowed("rail.dat, and the run.dat of the same slider")
+        .hint("its shock, disk and ramp go into [pulse], [disk], [ramp]; its matrices through import matrices")
+        .into())
 }
 
 /// Number behind "Version", or the first number with a point.

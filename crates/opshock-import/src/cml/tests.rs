@@ -265,3 +265,33 @@ fn no_damaged_number_of_a_surface_is_read() {
     }
     assert_eq!(n, 50);
 }
+
+/// The dynamic program's file is told by its name or by names in it, whatever its first line says.
+#[test]
+fn the_dynamic_programs_file_is_refused_by_name() {
+    for (name, text, line) in [
+        ("a/DynLULS.def", "anything\n1 2 3\n", 1),
+        (
+            "run.dat",
+            "CML Version 8.0\n\n***\nra(m) ra_if(m) ra_of(m)\n1 1 1\n",
+            4,
+        ),
+        (
+            "rail.dat",
+            "a title\niqpo akmax emax idisc\n5 1e-7 1e-3 1\n",
+            2,
+        ),
+    ] {
+        let source = source(name, text);
+        for faults in [
+            rail::read(&source).unwrap_err(),
+            run::read(&source).unwrap_err(),
+        ] {
+            let fault = &faults.listed[0];
+            assert_eq!(
+                (fault.code, fault.what.as_str(), fault.line),
+                ("E173", "DynLULS.def", line)
+            );
+        }
+    }
+}
