@@ -130,7 +130,8 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
     for (factor, is_reference) in rungs([0.2, 0.5, 1.0, 2.0, 4.0], 100.0) {
         let mut at = small.clone();
         at.head_resolution.tolerance /= factor;
-        let value = at.head_resolution.tolerance.to_string();
+        // 0.02 / 0.2 is 0.1 for people.
+        let value = ((at.head_resolution.tolerance * 1e12).round() / 1e12).to_string();
         all.push(setting("head_tolerance", value, factor, is_reference, at));
     }
     for (factor, is_reference) in rungs([0.25, 0.5, 1.0, 4.0, 16.0], 100.0) {
