@@ -12,6 +12,7 @@ const START_S: f64 = 5e-4;
 fn failing() -> Outcome {
     Outcome {
         hub: None,
+        base: None,
         verdict: Verdict::Fails {
             t_fail_s: 1.25e-3,
             place: Place {

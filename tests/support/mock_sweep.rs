@@ -241,6 +241,7 @@ impl Simulator for MockSimulator<'_> {
         };
         self.records.then(|| Outcome {
             hub: None,
+            base: None,
             verdict: match result.verdict {
                 Verdict::Survives => simulation::Verdict::Survives,
                 Verdict::Fails { t_fail_s, x_m, y_m } => simulation::Verdict::Fails {

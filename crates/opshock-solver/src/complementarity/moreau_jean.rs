@@ -13,7 +13,7 @@
 //! by O(Δt); energy never rises. Source: Jean, The non-smooth contact dynamics method, Comput.
 //! Methods Appl. Mech. Engrg. 177 (1999); Acary and Brogliato (2008), ch. 10.
 
-use super::{Gap, lcp};
+use super::lcp;
 use crate::modal::{CoupledState, PointReadout};
 use nalgebra::Complex;
 
@@ -59,8 +59,6 @@ pub struct MoreauJean {
     free: Vec<Complex<f64>>,
     /// Coupled oscillators beside the modes.
     pub coupled: Vec<FirstOrderModes>,
-    /// What moving mounts add to the gaps, at the start and at the end of the step in hand.
-    pub moving: [[Gap; 2]; 2],
 }
 
 impl MoreauJean {
@@ -88,7 +86,6 @@ impl MoreauJean {
             free: zero.clone(),
             velocity: zero,
             coupled: Vec::new(),
-            moving: Default::default(),
         }
     }
 
@@ -97,13 +94,8 @@ impl MoreauJean {
         self.coupled.push(modes);
     }
 
-    /// Gap of contact `i` at the end of the latest step, m.
+    /// Gap of contact `i`, m.
     pub fn gap_m(&self, i: usize) -> f64 {
-        self.own_gap_m(i) + self.moving[1][i].value_m
-    }
-
-    /// That on mounts that rest.
-    fn own_gap_m(&self, i: usize) -> f64 {
         let coupled = self.coupled.iter().map(|c| c.gaps[i].read(&c.state).0);
         self.clearance_m[i] + read(&self.shapes[i], &self.amplitude) + coupled.sum::<f64>()
     }
@@ -113,11 +105,8 @@ impl MoreauJean {
     pub fn step(&mut self, force: &[f64], coupled_force: f64) -> [f64; 2] {
         let h = self.step_s;
         let n = self.shapes.len();
-        let [start, end] = self.moving;
-        let before: [f64; 2] =
-            std::array::from_fn(|i| self.gap_rate(i, &self.velocity) + start[i].rate_m_per_s);
-        let gap_m = |i: usize| self.own_gap_m(i) + start[i].value_m;
-        let closed = std::array::from_fn(|i| i < n && gap_m(i) + 0.5 * h * before[i] <= 0.0);
+        let before: [f64; 2] = std::array::from_fn(|i| self.gap_rate(i, &self.velocity));
+        let closed = std::array::from_fn(|i| i < n && self.gap_m(i) + 0.5 * h * before[i] <= 0.0);
 
         // Effective inertia 1 + Δt d/2 + Δt² k/4 of the implicit step.
         let inertia = |m: &LinearMode| {
@@ -145,7 +134,7 @@ impl MoreauJean {
                 }
             }
             let target = std::array::from_fn(|i| {
-                self.gap_rate(i, &self.free) + end[i].rate_m_per_s + self.restitution * before[i]
+                self.gap_rate(i, &self.free) + self.restitution * before[i]
             });
             p = lcp::solve(w, target, closed).unwrap_or([0.0; 2]);
         }

@@ -152,4 +152,8 @@ impl DiskMotion for WavyDisk<'_> {
     fn events_s(&self) -> &[f64] {
         self.under.events_s()
     }
+
+    fn pivot(&self, time_s: f64) -> [f64; 2] {
+        self.under.pivot(time_s)
+    }
 }

@@ -38,6 +38,8 @@ pub(super) struct Mechanics {
     damping: Vec<f64>,
     stiffness: Vec<f64>,
     inertia_load: Vec<f64>,
+    /// e = M⁻¹ f: the motion of every coordinate that an acceleration of the pivot asks for.
+    rigid: Vec<f64>,
     preload_n: f64,
     contact_n_per_m: f64,
     contact_n_s_per_m: f64,
@@ -116,6 +118,9 @@ impl Mechanics {
             }
         }
 
+        let mut rigid = vec![0.0; n];
+        multiply(&inverse_mass, &inertia_load, &mut rigid);
+
         // Force at the dimple that an error of a suspension coordinate causes through the mass
         // coupling at its own frequency, or directly for the interface coordinates.
         let mut suspension_weights = vec![0.0; n];
@@ -156,6 +161,7 @@ impl Mechanics {
             damping,
             stiffness,
             inertia_load,
+            rigid,
             preload_n: parameters.gram_load_n,
             contact_n_per_m: dimple.stiffness_n_per_m,
             contact_n_s_per_m: 2.0
@@ -241,6 +247,16 @@ impl Mechanics {
     pub fn add_acceleration_jump(&self, da: f64, out: &mut [f64]) {
         for (out, row) in out.iter_mut().zip(self.inverse_mass.chunks_exact(self.n)) {
             *out += da * dot(row, &self.inertia_load);
+        }
+    }
+
+    /// `out` := coordinates, or velocities, over a pivot that has moved by `moved`.
+    ///
+    /// With x = x' + e u and u the pivot's motion the equations of x' in the pivot's frame, M ẍ' = f (a − ü) + ...,
+    /// become M ẍ = f a + ... with the other forces at x': a jump of u̇ is no force on x.
+    pub fn over_pivot(&self, moved: f64, x: &[f64], out: &mut [f64]) {
+        for ((out, x), e) in out.iter_mut().zip(x).zip(&self.rigid) {
+            *out = x - e * moved;
         }
     }
 

@@ -12,7 +12,7 @@ use crate::air_bearing::steady::Flight;
 use crate::air_bearing::{Attitude, Film};
 use crate::disk::DiskPose;
 use crate::integrator::{TR_BDF2, Tableau};
-use crate::shock::{BaseMotion, Mount, Pulse};
+use crate::shock::{BaseMotion, Pulse};
 use crate::slider::SliderParameters;
 use crate::suspension::{ReducedSuspension, SuspensionError, SuspensionParameters};
 
@@ -81,6 +81,12 @@ impl ShockLoad<'_> {
         self.amplitude_m_per_s2 * self.unit(time_s, time_s)
     }
 
+    /// Displacement of the pivot by that load over the rigid base, m.
+    pub(super) fn carried_m(&self, time_s: f64) -> f64 {
+        let unit = self.base.map_or(0.0, |base| base.displacement(time_s)[0]);
+        self.amplitude_m_per_s2 * unit
+    }
+
     /// Its limit from the right.
     pub(super) fn just_after(&self, time_s: f64) -> f64 {
         self.amplitude_m_per_s2 * self.unit(time_s, right_of(time_s))
@@ -97,7 +103,7 @@ impl ShockLoad<'_> {
         let pulse = self.pulse.value(pulse_s);
         match self.base {
             None => pulse,
-            Some(base) => base.load(Mount::Pivot, time_s, pulse),
+            Some(base) => base.load(time_s, pulse),
         }
     }
 }

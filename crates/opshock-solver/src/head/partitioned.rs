@@ -151,7 +151,7 @@ impl Stages<'_> {
             for ((v, x), known) in self.scratch.velocity.iter_mut().zip(&*x).zip(x_known) {
                 *v = (x - known) / instant.d_s;
             }
-            let now = self.model.mechanics.closed(x, &self.scratch.velocity);
+            let now = self.closed(instant, x);
             if closed == Some(now) {
                 return Ok(());
             }

@@ -35,6 +35,8 @@ pub struct HeadWorkspace {
     scratch: StageScratch,
     exchange: Option<FixedPoint>,
     pressure: Vec<f64>,
+    /// Coordinates and velocities over the pivot.
+    seen: [Vec<f64>; 2],
     pulse_events_s: Vec<f64>,
 }
 
@@ -53,6 +55,7 @@ impl HeadWorkspace {
                 .method()
                 .map(|m| FixedPoint::new(m, 3)),
             pressure: vec![0.0; model.film.n_cells()],
+            seen: [0, 1].map(|_| vec![0.0; model.mechanics.len()]),
             pulse_events_s: Vec::new(),
         }
     }
@@ -366,7 +369,30 @@ impl<'a> Run<'a> {
                 .mechanics
                 .add_acceleration_jump(da, &mut w.rate[velocities..]);
         }
+        self.jump_of_pivot();
         self.book(dt_s, &step.attitude);
+    }
+
+    /// Takes over a jump of the pivot's velocity now: dampers feel it at once.
+    fn jump_of_pivot(&mut self) {
+        let [moved, after] = self.motion.pivot(self.time_s);
+        let [_, before] = self.motion.pivot(self.time_s * (1.0 - 1e-12));
+        if after == before {
+            return;
+        }
+        let (mechanics, w) = (&self.model.mechanics, &mut *self.w);
+        let (n_cells, n) = (self.model.film.n_cells(), mechanics.len());
+        let (x, v) = w.y[n_cells..].split_at(n);
+        let [seen, seen_rate] = &mut w.seen;
+        mechanics.over_pivot(moved, x, seen);
+        for (rate, sign) in [(before, -1.0), (after, 1.0)] {
+            mechanics.over_pivot(rate, v, seen_rate);
+            let (force, out) = (&mut w.scratch.small, &mut w.scratch.mechanical);
+            mechanics.acceleration(0.0, [0.0; 3], seen, seen_rate, force, out);
+            for (rate, out) in w.rate[n_cells + n..].iter_mut().zip(&*out) {
+                *rate += sign * out;
+            }
+        }
     }
 
     /// Ends the run at a touch inside the trial step. The state there is that of the cubic through
@@ -412,6 +438,11 @@ impl<'a> Run<'a> {
         let (model, w) = (self.model, &mut *self.w);
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (x, v) = w.y[n_cells..].split_at(n);
+        let [moved, rate] = self.motion.pivot(self.time_s);
+        let [seen, seen_rate] = &mut w.seen;
+        model.mechanics.over_pivot(moved, x, seen);
+        model.mechanics.over_pivot(rate, v, seen_rate);
+        let (x, v) = (&*seen, &*seen_rate);
         let before = self.dimple_force_n;
         self.dimple_force_n = model.mechanics.dimple_force(x, v);
         self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
@@ -502,7 +533,9 @@ impl<'a> Run<'a> {
         let x = &self.w.y[n_cells..];
         let steady = &self.model.flight.attitude;
         columns.time_s.push(self.time_s);
-        columns.slider_z_m.push(x[0]);
+        // Over the base as it would move rigidly, as the disk is told.
+        let carried_m = self.load.carried_m(self.time_s);
+        columns.slider_z_m.push(x[0] + carried_m);
         columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
         columns.slider_roll_rad.push(steady.roll_rad + x[2]);
         columns.min_clearance_m.push(self.clearance.value_m);

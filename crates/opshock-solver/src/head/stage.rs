@@ -75,6 +75,8 @@ pub(super) struct StageScratch {
     pub mechanical: Vec<f64>,
     pub velocity: Vec<f64>,
     pub small: Vec<f64>,
+    /// Coordinates, velocities and known velocities over a pivot that moves.
+    seen: [Vec<f64>; 3],
     /// S + film's condensed stiffness, factored, and what it was made for.
     lu_small: PivotedLu,
     small_key: Option<SmallKey>,
@@ -121,6 +123,7 @@ impl StageScratch {
             mechanical: vec![0.0; n],
             velocity: vec![0.0; n],
             small: vec![0.0; n],
+            seen: [0, 1, 2].map(|_| vec![0.0; n]),
             lu_small: PivotedLu::new(n),
             small_key: None,
             contraction: FIRST_CONTRACTION,
@@ -167,6 +170,8 @@ pub(super) struct Stages<'a> {
 pub(super) struct Instant {
     pub pose: DiskPose,
     pub a: f64,
+    /// Motion of the pivot that `a` does not tell, and its rate.
+    pub pivot: [f64; 2],
     pub d_s: f64,
 }
 
@@ -175,6 +180,7 @@ impl Stages<'_> {
         Instant {
             pose: self.motion.pose(time_s),
             a: self.load.value(time_s),
+            pivot: self.motion.pivot(time_s),
             d_s,
         }
     }
@@ -301,6 +307,19 @@ impl Stages<'_> {
         s.lu_small.solve(&mut s.mechanical)
     }
 
+    /// Contacts that are closed at `x` with the velocities in the scratch.
+    pub fn closed(&mut self, instant: &Instant, x: &[f64]) -> Closed {
+        let (mechanics, s) = (&self.model.mechanics, &mut *self.scratch);
+        let [moved, rate] = instant.pivot;
+        if instant.pivot == [0.0; 2] {
+            return mechanics.closed(x, &s.velocity);
+        }
+        let [seen, v, _] = &mut s.seen;
+        mechanics.over_pivot(moved, x, seen);
+        mechanics.over_pivot(rate, &s.velocity, v);
+        mechanics.closed(seen, v)
+    }
+
     /// One mechanical correction δx for residual r_m and film term `condensed`, left in
     /// `scratch.mechanical`. Without film when `condensed` is `None`.
     pub fn mechanical_step(
@@ -308,8 +327,8 @@ impl Stages<'_> {
         state: &MechanicalIterate<'_>,
         condensed: Option<[f64; 3]>,
     ) -> Result<(), StageFailure> {
-        let s = &mut *self.scratch;
-        let stage = StageState {
+        let (mechanics, s) = (&self.model.mechanics, &mut *self.scratch);
+        let mut stage = StageState {
             d_s: state.instant.d_s,
             a: state.instant.a,
             film: state.film,
@@ -317,10 +336,16 @@ impl Stages<'_> {
             v: &s.velocity,
             v_known: state.v_known,
         };
-        self.model
-            .mechanics
-            .residual(&stage, &mut s.mechanical, &mut s.small);
-        let closed = self.model.mechanics.closed(state.x, &s.velocity);
+        let pivot = state.instant.pivot;
+        if pivot != [0.0; 2] {
+            let [x, v, v_known] = &mut s.seen;
+            mechanics.over_pivot(pivot[0], stage.x, x);
+            mechanics.over_pivot(pivot[1], stage.v, v);
+            mechanics.over_pivot(pivot[1], stage.v_known, v_known);
+            (stage.x, stage.v, stage.v_known) = (x, v, v_known);
+        }
+        mechanics.residual(&stage, &mut s.mechanical, &mut s.small);
+        let closed = mechanics.closed(stage.x, stage.v);
         s.last_closed = closed;
         s.mechanical.iter_mut().for_each(|r| *r = -*r);
         if let Some(condensed) = condensed {

@@ -19,7 +19,7 @@
 
 mod base;
 
-pub use base::{BaseMode, BaseMotion, Mount, Rider};
+pub use base::{BaseMode, BaseMotion};
 
 use crate::modal::Phase;
 use nalgebra::Complex;

@@ -4,7 +4,8 @@ pub use crate::head::{
     Cause, DimpleRecord, HeadColumns, Place, PressureFields, StopRecord, Verdict,
 };
 pub use crate::structure::{
-    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord,
+    MomentumBook, StructureColumns,
 };
 
 /// Steady flying state before the shock.
@@ -70,6 +71,8 @@ pub struct Outcome {
     pub complementarity: Complementarity,
     /// Hub, of a disk on a bearing.
     pub hub: Option<HubRecord>,
+    /// Base, when it vibrates.
+    pub base: Option<BaseRecord>,
     /// Names of the effects that were simulated.
     pub effects: Vec<&'static str>,
     /// Rules of [`crate::scene::plan`] that were applied.

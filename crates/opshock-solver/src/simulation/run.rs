@@ -146,6 +146,7 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
         energy: run.energy,
         complementarity: run.complementarity,
         hub: run.hub,
+        base: run.base,
         effects: effects(model),
         rules: model.plan().applied(&model.scene, touched),
         warnings,
@@ -178,6 +179,7 @@ fn without_structure(error: &StructureError) -> Outcome {
         energy: EnergyBook::default(),
         complementarity: Default::default(),
         hub: None,
+        base: None,
         effects: Vec::new(),
         rules: Vec::new(),
         warnings: Vec::new(),
@@ -261,14 +263,6 @@ fn describe(warning: &StructureWarning) -> Warning {
         StructureWarning::BothArmsOnePoint => (
             "both_arms_one_point",
             "both arms held one point: only the net force is determined".to_string(),
-        ),
-        StructureWarning::BaseReaction { share } => (
-            "base_reaction",
-            format!(
-                "the disk has {:.1} % of the mass of a mode of the base at the spindle, which is taken not to \
-                 feel it",
-                100.0 * share
-            ),
         ),
         StructureWarning::HubInstability {
             nodal_diameters,

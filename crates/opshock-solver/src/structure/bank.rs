@@ -2,6 +2,7 @@
 
 use super::free_motion::{ForcedModes, ForcedShapes};
 use super::model::{Arm, SliderPlace};
+use super::rotor::RidingMode;
 use crate::disk::{DiskBasis, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
@@ -32,6 +33,8 @@ pub(super) struct Bank {
     pub rim: Vec<f64>,
     pub slider: [Readout; 3],
     pub slope_to_pose: [f64; 2],
+    /// Modes of arms that a vibrating base shakes, left to the rotor; `None` on a rigid base.
+    pub riding: Option<Vec<RidingMode>>,
 }
 
 impl Bank {
@@ -41,6 +44,7 @@ impl Bank {
         disk: &DiskParameters,
         slider: SliderPlace,
         ramp_angle: f64,
+        is_on_base: bool,
     ) -> Self {
         let n_disk = padded(basis.modes.len());
         let zero = || vec![0.0; n_disk];
@@ -64,6 +68,7 @@ impl Bank {
                 im: zero(),
             }),
             slope_to_pose: [pitch[0], roll[0]],
+            riding: is_on_base.then(Vec::new),
         };
         for (i, mode) in basis.modes.iter().enumerate() {
             let n = mode.nodal_diameters as f64;
@@ -147,15 +152,17 @@ impl Bank {
                 mode.damping_ratio,
             );
             let shape = mode.mass_kg.sqrt().recip();
+            let gain = mode.mass_kg.sqrt() * mode.participation;
+            let shapes = std::array::from_fn(|side| if side == self.n_arms { shape } else { 0.0 });
+            if self.is_riding(&o, gain, shapes) {
+                continue;
+            }
             self.forced_index.push(self.oscillators.len());
             self.forced.oscillators.push(o);
-            self.forced
-                .participation
-                .push(mode.mass_kg.sqrt() * mode.participation);
+            self.forced.participation.push(gain);
             self.oscillators.push(o);
-            for side in 0..2 {
-                let own = if side == self.n_arms { shape } else { 0.0 };
-                self.arm_shape[side].push(own);
+            for (column, own) in self.arm_shape.iter_mut().zip(shapes) {
+                column.push(own);
             }
             // Shapes of the arms follow those of the disk in the forced columns.
             let column = if self.n_arms == 0 {
@@ -196,11 +203,13 @@ impl Bank {
             self.n_slowed += usize::from(share < 1.0);
             let omega = std::f64::consts::TAU * mode.frequency_hz * share;
             let o = Oscillator::fixed(omega, mode.damping_ratio);
+            let gain = share * mode.participation_sqrt_kg;
+            if self.is_riding(&o, gain, mode.shape_per_sqrt_kg.map(|shape| share * shape)) {
+                continue;
+            }
             self.forced_index.push(self.oscillators.len());
             self.forced.oscillators.push(o);
-            self.forced
-                .participation
-                .push(share * mode.participation_sqrt_kg);
+            self.forced.participation.push(gain);
             self.oscillators.push(o);
             let before = self.forced.oscillators.len() - 1;
             for (side, column) in [&mut self.shapes.top, &mut self.shapes.bottom]
@@ -218,6 +227,22 @@ impl Bank {
         [0, 1].map(|_| Arm {
             modes: modes.clone(),
         })
+    }
+
+    /// Leaves a mode of an arm to the rotor, when there is a base that shakes it.
+    fn is_riding(&mut self, o: &Oscillator, gain: f64, shape_per_sqrt_kg: [f64; 2]) -> bool {
+        match &mut self.riding {
+            Some(riding) if gain != 0.0 => {
+                riding.push(RidingMode {
+                    omega_rad_per_s: o.omega_rad_per_s,
+                    half_damping_per_s: o.half_damping_per_s,
+                    participation_sqrt_kg: gain,
+                    shape_per_sqrt_kg,
+                });
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Scales the base's load on the arms, which come behind the disk in the forced columns.

@@ -2,11 +2,13 @@
 
 use super::contact_log::ContactLog;
 use super::energy::{Energies, Ledger};
-use super::free_motion::HubSample;
 use super::history::StructuralHistory;
 use super::model::{Shared, StructureError, StructureRun};
-use super::record::{Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns};
-use super::rotor::Rotor;
+use super::record::{
+    BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, MomentumBook,
+    StructureColumns,
+};
+use super::rotor::Body;
 
 /// What a method of contact leaves behind.
 pub(super) struct Closing<'a> {
@@ -20,26 +22,66 @@ pub(super) struct Closing<'a> {
     pub ledger: Ledger,
     pub extremes: DiskExtremes,
     pub complementarity: Complementarity,
-    pub hub: Option<HubBook>,
+    /// Hub and base, where the disk stands on one.
+    pub bodies: Option<BodyBook>,
     pub logs: &'a [ContactLog; 2],
     pub history: StructuralHistory,
     pub columns: Option<StructureColumns>,
 }
 
-/// The hub along a run.
+/// Hub and base at one instant, per unit amplitude or in total. Of two: hub, base.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct HubBook {
+pub(super) struct BodySample {
+    /// Axial displacement of the hub over its bearing, m.
+    pub axial_m: f64,
+    /// Its tilt towards the ramp and across, rad.
+    pub tilt_rad: [f64; 2],
+    /// Displacement of spindle, ramp's mount and pivot over the rigid base, m.
+    pub mounts_m: [f64; 3],
+    /// Momentum of hub and disk, and of the base with all it carries, N s.
+    pub momentum_n_s: [f64; 2],
+    /// Impulses of what holds them so far, N s.
+    pub support_n_s: [f64; 2],
+}
+
+impl BodySample {
+    pub fn times(&self, factor: f64) -> Self {
+        Self {
+            axial_m: factor * self.axial_m,
+            tilt_rad: self.tilt_rad.map(|x| factor * x),
+            mounts_m: self.mounts_m.map(|x| factor * x),
+            momentum_n_s: self.momentum_n_s.map(|x| factor * x),
+            support_n_s: self.support_n_s.map(|x| factor * x),
+        }
+    }
+
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        Self {
+            axial_m: self.axial_m + other.axial_m,
+            tilt_rad: sum(self.tilt_rad, other.tilt_rad),
+            mounts_m: std::array::from_fn(|k| self.mounts_m[k] + other.mounts_m[k]),
+            momentum_n_s: sum(self.momentum_n_s, other.momentum_n_s),
+            support_n_s: sum(self.support_n_s, other.support_n_s),
+        }
+    }
+}
+
+/// Hub and base along a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BodyBook {
     pub amplitude: f64,
     /// Now.
-    pub now: HubSample,
+    pub now: BodySample,
     /// Impulse of the ramp on the disk so far, N s.
     pub contact_n_s: f64,
     axial_max_m: f64,
     tilt_max_rad: f64,
-    momentum_max_n_s: f64,
+    mounts_max_m: [f64; 3],
+    momentum_max_n_s: [f64; 2],
 }
 
-impl HubBook {
+impl BodyBook {
     /// A book of one amplitude.
     pub fn of(amplitude: f64) -> Self {
         Self {
@@ -48,32 +90,62 @@ impl HubBook {
         }
     }
 
-    /// Books the hub at a node.
-    pub fn include(&mut self, now: HubSample) {
+    /// Adds impulses of the supports.
+    pub fn add_supports(&mut self, impulse_n_s: [f64; 2]) {
+        for (sum, impulse) in self.now.support_n_s.iter_mut().zip(impulse_n_s) {
+            *sum += impulse;
+        }
+    }
+
+    /// Books hub and base at a node.
+    pub fn include(&mut self, now: BodySample) {
         self.now = now;
         self.axial_max_m = self.axial_max_m.max(now.axial_m.abs());
         let tilt = f64::hypot(now.tilt_rad[0], now.tilt_rad[1]);
         self.tilt_max_rad = self.tilt_max_rad.max(tilt);
-        self.momentum_max_n_s = self.momentum_max_n_s.max(now.momentum_n_s.abs());
+        for (most, x) in self.mounts_max_m.iter_mut().zip(now.mounts_m) {
+            *most = most.max(x.abs());
+        }
+        for (most, x) in self.momentum_max_n_s.iter_mut().zip(now.momentum_n_s) {
+            *most = most.max(x.abs());
+        }
     }
 
-    fn record(&self, shared: &Shared, end_s: f64) -> HubRecord {
-        let load_kg = shared.free.rotor.as_ref().map_or(0.0, Rotor::load_kg);
-        let shock_n_s = self.amplitude * load_kg * shared.free.pulse.integral_s(end_s);
-        let impulses = shock_n_s + self.now.bearing_n_s + self.contact_n_s;
-        let left = (self.now.momentum_n_s - impulses).abs();
-        HubRecord {
-            axial_max_m: self.axial_max_m,
-            tilt_max_rad: self.tilt_max_rad,
+    /// The momentum book of body `i`.
+    fn momentum(&self, i: usize, body: &Body, shared: &Shared, end_s: f64) -> MomentumBook {
+        let shock_n_s = self.amplitude * body.load_kg * shared.free.pulse.integral_s(end_s);
+        let contact_n_s = self.contact_n_s * body.contact_share;
+        let (support_n_s, end_n_s) = (self.now.support_n_s[i], self.now.momentum_n_s[i]);
+        let left = (end_n_s - (shock_n_s + support_n_s + contact_n_s)).abs();
+        let largest = self.momentum_max_n_s[i];
+        MomentumBook {
             shock_n_s,
-            bearing_n_s: self.now.bearing_n_s,
-            contact_n_s: self.contact_n_s,
-            momentum_end_n_s: self.now.momentum_n_s,
-            momentum_closure: match self.momentum_max_n_s > 0.0 {
-                true => left / self.momentum_max_n_s,
-                false => 0.0,
-            },
+            support_n_s,
+            contact_n_s,
+            end_n_s,
+            closure: if largest > 0.0 { left / largest } else { 0.0 },
         }
+    }
+
+    fn records(&self, shared: &Shared, end_s: f64) -> (Option<HubRecord>, Option<BaseRecord>) {
+        let Some(rotor) = &shared.free.rotor else {
+            return (None, None);
+        };
+        let [hub, base] = rotor.parts[0].bodies.each_ref();
+        let [spindle_max_m, ramp_max_m, pivot_max_m] = self.mounts_max_m;
+        (
+            hub.as_ref().map(|body| HubRecord {
+                axial_max_m: self.axial_max_m,
+                tilt_max_rad: self.tilt_max_rad,
+                momentum: self.momentum(0, body, shared, end_s),
+            }),
+            base.as_ref().map(|body| BaseRecord {
+                spindle_max_m,
+                ramp_max_m,
+                pivot_max_m,
+                momentum: self.momentum(1, body, shared, end_s),
+            }),
+        )
     }
 }
 
@@ -108,7 +180,8 @@ impl Closing<'_> {
         history.events_s.extend(kinks);
         history.events_s.sort_by(f64::total_cmp);
         history.events_s.dedup();
-        let hub = self.hub.map(|book| book.record(self.shared, end_s));
+        let records = self.bodies.map(|book| book.records(self.shared, end_s));
+        let (hub, base) = records.unwrap_or_default();
         let columns = self.columns.map(|mut columns| {
             let n = columns.time_s.len();
             columns.contact_top_n = self.logs[0].running_mean(step_s, n);
@@ -128,6 +201,7 @@ impl Closing<'_> {
             energy,
             complementarity: self.complementarity,
             hub,
+            base,
             first_touch_s,
             steps: self.k as u64,
             end_s,

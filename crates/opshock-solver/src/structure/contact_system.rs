@@ -4,7 +4,7 @@
 //! until the first touch; from then on it is carried by its exact flow and kicked by impulses.
 
 use super::Window;
-use super::closing::{Closing, HubBook};
+use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::energy::{Energies, Ledger, LongSum};
 use super::free_motion::{ForcedState, Sample};
@@ -12,7 +12,7 @@ use super::history::{Break, StructuralHistory};
 use super::model::{Shared, StructureError, StructureRun, StructureWarning};
 use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
-use super::rotor::{Leap, RotorState};
+use super::rotor::{self, Leap, RotorState};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::modal::bank::{dot, padded};
@@ -34,7 +34,7 @@ pub(super) struct RunState {
     unit_ahead: ForcedState,
     total_forced: ForcedState,
     part_flow: BankFlow,
-    /// The disk's harmonics on a hub: driven by contact; no parts without one.
+    /// The disk's harmonics on hub or base: driven by contact; no parts without one.
     rotor_now: RotorState,
     rotor_ahead: RotorState,
     part_leap: Leap,
@@ -69,7 +69,7 @@ pub(super) struct ContactSystem<'a> {
     complementarity: Complementarity,
     accumulated_steps: u64,
     both_arms: bool,
-    hub: Option<HubBook>,
+    bodies: Option<BodyBook>,
     decayed: bool,
     /// First node whose motion is not a finite number.
     not_finite: Option<usize>,
@@ -112,6 +112,7 @@ impl RunState {
             rate: Vec::with_capacity(n_nodes),
             breaks: Vec::new(),
             events_s: vec![0.0],
+            pivot: shared.pivot_history(n_nodes),
         };
         self.columns = StructureColumns::default();
         self.record = record;
@@ -140,7 +141,7 @@ impl<'a> ContactSystem<'a> {
             complementarity: Complementarity::default(),
             accumulated_steps: 0,
             both_arms: false,
-            hub: shared.free.rotor.is_some().then(|| HubBook::of(amplitude)),
+            bodies: (shared.free.rotor.is_some()).then(|| BodyBook::of(amplitude)),
             decayed: false,
             not_finite: None,
         }
@@ -224,6 +225,11 @@ impl<'a> ContactSystem<'a> {
             for j in shared.arms[side].modes.clone() {
                 arm.value_m += shared.arm_shape[side][j] * driven.q_re[j];
                 arm.rate_m_per_s += shared.arm_shape[side][j] * driven.r_re[j];
+            }
+            if let Some(rotor) = &shared.free.rotor {
+                let on_base = rotor.arm(side, hub);
+                arm.value_m += on_base.value_m;
+                arm.rate_m_per_s += on_base.rate_m_per_s;
             }
             let free = shared.free_gap(side, self.amplitude, sample);
             let sign = if side == 0 { 1.0 } else { -1.0 };
@@ -321,6 +327,9 @@ impl<'a> ContactSystem<'a> {
                 for j in shared.arms[side].modes.clone() {
                     *x += shared.arm_shape[side][j] * now.q_re[j];
                 }
+                if let Some(rotor) = &shared.free.rotor {
+                    *x += rotor.arm(side, &self.state.rotor_now).value_m;
+                }
             }
         }
         let is_look = match shared.window {
@@ -335,6 +344,11 @@ impl<'a> ContactSystem<'a> {
             let (pose, rate) = shared.over_pivot(a, time_s, pose, rate);
             self.state.history.pose.push(pose);
             self.state.history.rate.push(rate);
+            let (pose, rate) = self.pivot();
+            if let Some(pivot) = &mut self.state.history.pivot {
+                pivot.pose.push(pose);
+                pivot.rate.push(rate);
+            }
         }
         let node = Node {
             time_s,
@@ -346,7 +360,7 @@ impl<'a> ContactSystem<'a> {
             energies: self.energies,
         };
         self.extremes.include(&node);
-        self.record_hub();
+        self.record_bodies();
         if is_look {
             let material = self.energies.material();
             let ledger = &mut self.ledger;
@@ -398,22 +412,32 @@ impl<'a> ContactSystem<'a> {
         energies
     }
 
-    /// Books the hub at the node reached.
-    fn record_hub(&mut self) {
-        if self.hub.is_some() && self.awake {
-            self.total_forced();
-        }
-        let (Some(book), Some(rotor)) = (&mut self.hub, &self.shared.free.rotor) else {
+    /// What contact has done to the pivot by now, and its rate.
+    fn pivot(&self) -> (DiskPose, DiskPose) {
+        let along = |displacement_m: f64| DiskPose {
+            displacement_m,
+            ..DiskPose::default()
+        };
+        let rotor = self.shared.free.rotor.as_ref().filter(|_| self.awake);
+        let at = rotor.map_or_else(Gap::default, |rotor| rotor.pivot(&self.state.rotor_now));
+        (along(at.value_m), along(at.rate_m_per_s))
+    }
+
+    /// Books hub and base at the node reached: as every point, the unit response times the amplitude and what
+    /// contact adds.
+    fn record_bodies(&mut self) {
+        let (Some(book), Some(rotor)) = (&mut self.bodies, &self.shared.free.rotor) else {
             return;
         };
+        let mut now = self.shared.free.bodies[self.k].times(self.amplitude);
         if self.awake {
-            let bearing_n_s = book.now.bearing_n_s;
-            book.include(rotor.hub(&self.state.total_forced.rotor, bearing_n_s));
-        } else {
-            book.include(self.shared.free.hub[self.k].times(self.amplitude));
+            let driven = rotor.bodies(&self.state.rotor_now, [0.0; 2]);
+            now = now.plus(&driven);
+            now.support_n_s = book.now.support_n_s;
         }
+        book.include(now);
         if self.state.record {
-            self.state.columns.push_hub(&book.now);
+            self.state.columns.push_bodies(&now, rotor.has_bodies());
         }
     }
 
@@ -460,8 +484,8 @@ impl<'a> ContactSystem<'a> {
         };
         self.ledger.work.add(exchange.work);
         self.ledger.damping.add(exchange.loss);
-        if let Some(book) = &mut self.hub {
-            book.now.bearing_n_s += exchange.bearing_n_s;
+        if let Some(book) = &mut self.bodies {
+            book.add_supports(exchange.support_n_s);
         }
     }
 
@@ -497,7 +521,7 @@ impl<'a> ContactSystem<'a> {
             ledger,
             extremes: self.extremes,
             complementarity: self.complementarity,
-            hub: self.hub,
+            bodies: self.bodies,
             logs: &state.logs,
             history,
             columns: state.record.then_some(columns),
@@ -548,7 +572,7 @@ impl UnilateralSystem for ContactSystem<'_> {
             }
             state.unit_ahead.copy_from(&state.unit_now);
             free.advance(&mut state.unit_ahead, start_s, h_s, 1.0);
-            self.sample_ahead = free.sample(&state.unit_ahead, start_s + h_s);
+            self.sample_ahead = free.sample(&state.unit_ahead);
         }
         self.gaps_ahead = self.gaps_at_reach();
     }
@@ -568,20 +592,21 @@ impl UnilateralSystem for ContactSystem<'_> {
         } else {
             &self.state.part_flow
         };
-        let mut disk = flow.compliance(&shared.contact);
-        if let Some(rotor) = &shared.free.rotor {
-            let partial = (!self.is_whole_step()).then_some(&self.state.part_leap);
-            disk += rotor.compliance(partial);
-        }
+        let disk = flow.compliance(&shared.contact);
         let [top, bottom] = &shared.arm_shape;
         let across = match shared.coupled {
             true => disk + flow.compliance_across(top, bottom),
             false => disk,
         };
-        [
+        let mut compliance = [
             [disk + flow.compliance(top), -across],
             [-across, disk + flow.compliance(bottom)],
-        ]
+        ];
+        if let Some(rotor) = &shared.free.rotor {
+            let partial = (!self.is_whole_step()).then_some(&self.state.part_leap);
+            rotor::add(&mut compliance, &rotor.compliance(partial));
+        }
+        compliance
     }
 
     fn ripple_loss(&self) -> [[f64; 2]; 2] {
@@ -610,17 +635,12 @@ impl UnilateralSystem for ContactSystem<'_> {
             }
         }
         let on_disk = p[1] - p[0];
-        if let Some(base) = &shared.free.base {
-            // What the mounts, as they move, put in through the contact.
-            let opening = self.amplitude * base.opening_rate(time_s[0]);
-            self.ledger.work.add(on_disk * opening);
-        }
         let mut w_theta = -dot(&shared.contact_turn, &self.state.now.q_im);
         if let Some(rotor) = &shared.free.rotor {
             w_theta += rotor.contact_turn(&self.state.rotor_now);
             w_theta += self.amplitude * rotor.contact_turn(&self.state.unit_now.rotor);
         }
-        if let Some(book) = &mut self.hub {
+        if let Some(book) = &mut self.bodies {
             book.contact_n_s += on_disk;
         }
         self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
@@ -638,7 +658,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         let closed = |g: &Gap| g.value_m <= shared.law.gap_tolerance_m;
         self.both_arms |= singular && self.gaps.iter().all(closed);
 
-        self.book_jump(on_disk, kind);
+        self.book_jump(p, kind);
 
         (self.is_settled, self.is_totalled) = (false, false);
         let state = &mut *self.state;
@@ -652,12 +672,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         if let Some(rotor) = &shared.free.rotor {
             let is_partial = self.offset_s != 0.0 || self.reach_s != shared.free.step_s;
             let partial = is_partial.then_some(&state.part_leap);
-            rotor.kick(
-                on_disk,
-                partial,
-                &mut state.rotor_now,
-                &mut state.rotor_ahead,
-            );
+            rotor.kick(p, partial, &mut state.rotor_now, &mut state.rotor_ahead);
         }
         for (side, force) in [(0, p[0]), (1, -p[1])] {
             if force != 0.0 && !shared.arms[side].modes.is_empty() {
@@ -690,33 +705,52 @@ impl UnilateralSystem for ContactSystem<'_> {
 }
 
 impl ContactSystem<'_> {
-    /// Books the jump of the slider's rate by an impulse on the disk now.
-    fn book_jump(&mut self, on_disk: f64, kind: ImpulseKind) {
+    /// Books the jumps of the rates of slider and pivot by impulses of both contacts now.
+    fn book_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
         if !self.state.keeps_motion {
             return;
         }
-        let jump = |rate: DiskPose, share: f64| {
-            let j = self.shared.slider_jump;
-            DiskPose {
-                displacement_m: rate.displacement_m + share * on_disk * j.displacement_m,
-                pitch_rad: rate.pitch_rad + share * on_disk * j.pitch_rad,
-                roll_rad: rate.roll_rad + share * on_disk * j.roll_rad,
+        let on_disk = impulse[1] - impulse[0];
+        let (mut slider, mut pivot) = (self.shared.slider_jump.times(on_disk), 0.0);
+        if let Some([disk, top, bottom]) = &self.shared.base_jumps {
+            pivot = on_disk * disk.1;
+            for ((pose, rate), force) in [(top, impulse[0]), (bottom, -impulse[1])] {
+                slider = slider.plus(&pose.times(force));
+                pivot += force * rate;
             }
+        }
+        let pivot = DiskPose {
+            displacement_m: pivot,
+            ..DiskPose::default()
         };
         if kind == ImpulseKind::Sustained && self.offset_s == 0.0 {
-            let rate = self.state.history.rate[self.k];
-            self.state.history.rate[self.k] = jump(rate, 0.5);
+            let history = &mut self.state.history;
+            let rate = &mut history.rate[self.k];
+            *rate = rate.plus(&slider.times(0.5));
+            if let Some(history) = &mut history.pivot {
+                let rate = &mut history.rate[self.k];
+                *rate = rate.plus(&pivot.times(0.5));
+            }
             return;
         }
         let time_s = self.now_s();
         let sample = if self.offset_s == 0.0 {
             *self.sample()
         } else {
-            self.shared.free.sample(&self.state.unit_now, time_s)
+            self.shared.free.sample(&self.state.unit_now)
         };
         let (pose, rate) = self.slider(&sample);
         let (pose, rate_before) = self.shared.over_pivot(self.amplitude, time_s, pose, rate);
-        let rate_after = jump(rate_before, 1.0);
+        let rate_after = rate_before.plus(&slider);
+        let (at, before) = self.pivot();
+        if let Some(history) = &mut self.state.history.pivot {
+            history.breaks.push(Break {
+                time_s,
+                pose: at,
+                rate_before: before,
+                rate_after: before.plus(&pivot),
+            });
+        }
         let history = &mut self.state.history;
         history.breaks.push(Break {
             time_s,

@@ -3,17 +3,17 @@
 //! An axial shock moves the axisymmetric modes of the disk and shakes the ramp's arms. Both are
 //! oscillators at rest in the drive's frame, driven by participation × a(t), and are carried over
 //! the grid t_k = k Δt by their exact forced flow, also in the steps in which the pulse has a kink.
-//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns. On a base that vibrates
-//! disk and ramp feel the loads of their mounts (`on_base`), and points move with them.
+//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns. On a hub or on a
+//! base that vibrates the disk's modes are coupled with it and carried as a `rotor`.
 
+use super::closing::BodySample;
 use super::energy::LongSum;
 use super::forced_columns::ForcedColumns;
-use super::on_base::{OnBase, Waves};
 use super::rotor::{Rotor, RotorScratch, RotorState};
 use super::stretches::{Piece, Stretches};
 use crate::modal::bank::padded;
 use crate::modal::oscillator::GAUSS_8;
-use crate::modal::{Flow, ForcedResponse, Oscillator, Phase};
+use crate::modal::{Flow, ForcedResponse, Oscillator};
 use crate::shock::{BaseMotion, Stretch};
 
 /// Oscillators driven by the shock, modal mass 1 kg each.
@@ -89,19 +89,6 @@ pub(super) struct Sample {
     pub loss: f64,
 }
 
-/// The hub at one instant, per unit amplitude or in total.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct HubSample {
-    /// Axial displacement, m.
-    pub axial_m: f64,
-    /// Tilt towards the ramp and across, rad.
-    pub tilt_rad: [f64; 2],
-    /// Axial momentum of hub and disk, N s.
-    pub momentum_n_s: f64,
-    /// Impulse of the bearing on them so far, N s.
-    pub bearing_n_s: f64,
-}
-
 /// Displacements and velocities of the forced modes, padded.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ForcedState {
@@ -117,8 +104,8 @@ pub(super) struct ForcedState {
 pub(super) struct Exchange {
     pub work: f64,
     pub loss: f64,
-    /// Impulse of a hub's bearing on the rotor, N s.
-    pub bearing_n_s: f64,
+    /// Impulses of what holds hub and base, N s.
+    pub support_n_s: [f64; 2],
 }
 
 /// Response to the unit pulse on the grid, and the tables that continue it from any state.
@@ -130,12 +117,12 @@ pub(super) struct FreeMotion {
     pub modes: ForcedModes,
     /// The same over a grid step.
     columns: ForcedColumns,
-    /// The disk's harmonics on a hub.
+    /// The disk's harmonics on a hub or on a base that vibrates.
     pub rotor: Option<Rotor>,
-    /// The base, when it vibrates.
-    pub base: Option<OnBase>,
-    /// Its hub at every node.
-    pub hub: Vec<HubSample>,
+    /// Its pivot under the unit pulse, when the base vibrates.
+    pub base: Option<BaseMotion>,
+    /// Hub and base at every node.
+    pub bodies: Vec<BodySample>,
     pub pulse: Stretches,
     pub pulse_end_s: f64,
 }
@@ -151,17 +138,6 @@ const GAUSS_5: [(f64, f64); 5] = [
     (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
-
-impl HubSample {
-    pub fn times(&self, factor: f64) -> Self {
-        Self {
-            axial_m: factor * self.axial_m,
-            tilt_rad: self.tilt_rad.map(|x| factor * x),
-            momentum_n_s: factor * self.momentum_n_s,
-            bearing_n_s: factor * self.bearing_n_s,
-        }
-    }
-}
 
 impl ForcedState {
     pub fn at_rest(n: usize, rotor: Option<&Rotor>) -> Self {
@@ -186,7 +162,6 @@ impl FreeMotion {
         modes: ForcedModes,
         shapes: ForcedShapes,
         rotor: Option<Rotor>,
-        base: Option<BaseMotion>,
         stretches: Vec<Stretch>,
         step_s: f64,
         n_steps: usize,
@@ -201,37 +176,28 @@ impl FreeMotion {
         } else {
             &GAUSS_5
         };
-        let base = base.map(|motion| {
-            let times_s = rule.iter().map(|(x, _)| x * step_s);
-            OnBase::new(motion, sigma, &modes.oscillators, step_s, times_s)
-        });
+        let base = rotor.as_ref();
+        let base = base.and_then(|rotor| rotor.pivot_motion(&stretches));
         let mut free = Self {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
             checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
-            columns: ForcedColumns::new(
-                &modes,
-                shapes.by_mode(),
-                base.is_some(),
-                sigma,
-                step_s,
-                rule,
-            ),
+            columns: ForcedColumns::new(&modes, shapes.by_mode(), false, sigma, step_s, rule),
             modes,
             rotor,
             base,
-            hub: Vec::new(),
+            bodies: Vec::new(),
             pulse: Stretches(stretches),
         };
         let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
-        let mut bearing = LongSum::default();
+        let mut supports = [LongSum::default(); 2];
         for k in 0..=n_steps {
             if k % CHECKPOINT_STEPS == 0 {
                 free.checkpoints.push(state.clone());
             }
-            let mut sample = free.sample(&state, k as f64 * step_s);
+            let mut sample = free.sample(&state);
             (sample.kinetic, sample.energy) = free.energy(&mut state);
             if let Some(rotor) = free.rotor.as_ref().filter(|rotor| rotor.is_tilted()) {
                 let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
@@ -241,19 +207,22 @@ impl FreeMotion {
             sample.loss = loss.value();
             free.samples.push(sample);
             if let Some(rotor) = &free.rotor {
-                free.hub.push(rotor.hub(&state.rotor, bearing.value()));
+                let support_n_s = supports.map(|sum| sum.value());
+                free.bodies.push(rotor.bodies(&state.rotor, support_n_s));
             }
             let exchange = free.exchange(&mut state, k, 1.0);
             work.add(exchange.work);
             loss.add(exchange.loss);
-            bearing.add(exchange.bearing_n_s);
+            for (sum, impulse) in supports.iter_mut().zip(exchange.support_n_s) {
+                sum.add(impulse);
+            }
             free.step(&mut state, k);
         }
         free
     }
 
-    /// Unit response of the points for `state` at `time_s`.
-    pub fn sample(&self, state: &ForcedState, time_s: f64) -> Sample {
+    /// Unit response of the points for `state`.
+    pub fn sample(&self, state: &ForcedState) -> Sample {
         let [x, v] = self.columns.read(&state.x, &state.v);
         let motion = |k: usize| Motion {
             value: x[k],
@@ -271,48 +240,7 @@ impl FreeMotion {
         if let Some(rotor) = &self.rotor {
             rotor.add_sample(&state.rotor, &mut sample);
         }
-        if let Some(base) = &self.base {
-            let [spindle, ramp] = base.mounts(time_s);
-            let carried = [
-                (&mut sample.contact, spindle),
-                (&mut sample.slider, spindle),
-                (&mut sample.top, ramp),
-                (&mut sample.bottom, ramp),
-            ];
-            for (point, [value, rate]) in carried {
-                point.value += value;
-                point.rate += rate;
-            }
-            sample.rim += spindle[0];
-        }
         sample
-    }
-
-    /// Loads at the mounts of disk and ramp at `time_s`, where the pulse is `value`.
-    pub fn loads(&self, time_s: f64, value: f64) -> [f64; 2] {
-        match &self.base {
-            None => [value; 2],
-            Some(base) => base.loads(time_s, value),
-        }
-    }
-
-    /// The pulse at the mounts of disk and ramp.
-    fn phases(&self, phase: &Phase) -> [Phase; 2] {
-        match &self.base {
-            None => [*phase; 2],
-            Some(base) => base.phases(phase),
-        }
-    }
-
-    /// Mount of forced mode `j`: 0 the spindle, 1 the ramp's; one and the same on a rigid base.
-    pub fn mount(&self, j: usize) -> usize {
-        usize::from(self.base.is_some() && j >= self.modes.n_on_disk)
-    }
-
-    /// The base's ringing from `start_s` on.
-    fn ringing(&self, start_s: f64) -> Option<(&OnBase, Waves)> {
-        let base = self.base.as_ref()?;
-        Some((base, base.waves(start_s)))
     }
 
     /// (kinetic, total) energy.
@@ -344,20 +272,12 @@ impl FreeMotion {
                 rotor.step(None, &mut state.rotor, &mut state.scratch);
             }
         } else if let Some((_, phase)) = self.pulse.whole_step(start_s, self.step_s) {
-            let phases = self.phases(&phase);
-            self.columns.drive(&phases, &mut state.x, &mut state.v);
+            self.columns.drive(&[phase; 2], &mut state.x, &mut state.v);
             if let Some(rotor) = &self.rotor {
                 rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
             }
         } else {
             return self.advance(state, start_s, self.step_s, 1.0);
-        }
-        if let Some((base, waves)) = self.ringing(start_s) {
-            for (j, gain) in self.modes.participation.iter().enumerate() {
-                let (dx, dv) = base.step_increments(&waves, j, self.mount(j));
-                state.x[j] += gain * dx;
-                state.v[j] += gain * dv;
-            }
         }
     }
 
@@ -366,7 +286,7 @@ impl FreeMotion {
     pub fn exchange(&self, state: &mut ForcedState, k: usize, amplitude: f64) -> Exchange {
         let start_s = k as f64 * self.step_s;
         let is_over = start_s >= self.pulse_end_s;
-        if is_over && self.base.is_none() {
+        if is_over {
             let mut total = Exchange {
                 loss: self.columns.free_loss(&state.x, &state.v),
                 ..Exchange::default()
@@ -378,31 +298,14 @@ impl FreeMotion {
         }
         let (sigma_per_s, phase) = match self.pulse.whole_step(start_s, self.step_s) {
             Some((stretch, phase)) => (stretch.sigma_per_s, phase),
-            // A base that rings on.
-            None if is_over => Default::default(),
             None => return self.exchange_within(state, start_s, self.step_s, amplitude),
         };
-        let phases = self.phases(&phase);
-        let ringing = self.ringing(start_s);
+        let phases = [phase; 2];
         let mut total = Exchange::default();
         for (i, (tau_s, weight_s, turn)) in self.columns.instants().enumerate() {
-            let mut forces = phases.map(|p| p.turned(tau_s, turn).value());
-            if let Some((base, waves)) = &ringing {
-                let loads = base.ringing(waves, tau_s);
-                forces = std::array::from_fn(|mount| forces[mount] + loads[mount]);
-            }
-            let by_ringing = |j: usize| match &ringing {
-                Some((base, waves)) if j < self.modes.oscillators.len() => {
-                    base.velocity_increment(i, waves, j, self.mount(j))
-                }
-                _ => 0.0,
-            };
-            let added: Option<&dyn Fn(usize) -> f64> = match ringing {
-                Some(_) => Some(&by_ringing),
-                None => None,
-            };
+            let forces = phases.map(|p| p.turned(tau_s, turn).value());
             let load = (amplitude, &phases);
-            let rates = self.columns.rates(i, load, added, &state.x, &state.v);
+            let rates = self.columns.rates(i, load, None, &state.x, &state.v);
             for (force, power) in forces.iter().zip(rates.power) {
                 total.work += weight_s * (amplitude * force) * power;
             }
@@ -433,15 +336,10 @@ impl FreeMotion {
             let offset = piece.start_s - start_s;
             for (x, weight) in GAUSS_8 {
                 let tau = x * piece.h_s;
-                let phases = self.phases(&piece.phase);
-                let mut loads = phases.map(|p| p.later(piece.sigma_per_s, tau).value());
-                if let Some((base, waves)) = self.ringing(piece.start_s) {
-                    let added = base.ringing(&waves, tau);
-                    loads = std::array::from_fn(|mount| loads[mount] + added[mount]);
-                }
+                let load = piece.phase.later(piece.sigma_per_s, tau).value();
                 for (j, o) in self.modes.oscillators.iter().enumerate() {
                     let v = self.velocity_at(state, j, start_s, offset + tau, amplitude);
-                    let force = amplitude * loads[self.mount(j)];
+                    let force = amplitude * load;
                     total.work += weight * piece.h_s * force * self.modes.participation[j] * v;
                     total.loss += weight * piece.h_s * 2.0 * o.half_damping_per_s * v * v;
                 }
@@ -506,15 +404,10 @@ impl FreeMotion {
         amplitude: f64,
     ) -> (f64, f64) {
         let mut to = carry(&o.flow(piece.h_s), x, v);
-        let mount = self.mount(j);
         let gain = amplitude * self.modes.participation[j];
         if piece.driven {
-            let phase = &self.phases(&piece.phase)[mount];
+            let phase = &piece.phase;
             let (dx, dv) = ForcedResponse::new(o, piece.sigma_per_s, piece.h_s).increments(phase);
-            to = (to.0 + gain * dx, to.1 + gain * dv);
-        }
-        if let Some(base) = &self.base {
-            let (dx, dv) = base.piece_increments(o, piece.start_s, piece.h_s, mount);
             to = (to.0 + gain * dx, to.1 + gain * dv);
         }
         to
@@ -525,7 +418,9 @@ impl Exchange {
     pub fn add(&mut self, other: &Self) {
         self.work += other.work;
         self.loss += other.loss;
-        self.bearing_n_s += other.bearing_n_s;
+        for (sum, impulse) in self.support_n_s.iter_mut().zip(other.support_n_s) {
+            *sum += impulse;
+        }
     }
 }
 

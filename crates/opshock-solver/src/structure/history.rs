@@ -24,6 +24,8 @@ pub struct StructuralHistory {
     pub(super) rate: Vec<DiskPose>,
     pub(super) breaks: Vec<Break>,
     pub(super) events_s: Vec<f64>,
+    /// What contact does to the suspension's pivot, as displacements; `None` on a rigid base.
+    pub(super) pivot: Option<Box<StructuralHistory>>,
 }
 
 /// One end of a cubic.
@@ -120,6 +122,14 @@ impl DiskMotion for StructuralHistory {
 
     fn events_s(&self) -> &[f64] {
         &self.events_s
+    }
+
+    fn pivot(&self, time_s: f64) -> [f64; 2] {
+        let Some(pivot) = &self.pivot else {
+            return [0.0; 2];
+        };
+        let (at, rate) = (pivot.pose(time_s), pivot.pose_rate(time_s));
+        [at.displacement_m, rate.displacement_m]
     }
 }
 

@@ -13,7 +13,6 @@ mod model;
 mod modes;
 mod moreau_jean_run;
 mod node;
-mod on_base;
 mod record;
 mod response;
 mod rotor;
@@ -26,7 +25,8 @@ pub use model::{
 };
 pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use record::{
-    ArmContact, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord,
+    MomentumBook, StructureColumns,
 };
 pub use response::{Source, StructureAnswer};
 pub use rotor::HubModeRow;

@@ -5,11 +5,10 @@ use super::contact_system::{ContactSystem, RunState};
 use super::energy::EnergyWeights;
 use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
-use super::on_base::{MOST_MODES, MOST_RIDERS};
 use super::record::{
-    ArmContact, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
 };
-use super::rotor::{Rotor, is_carried};
+use super::rotor::{self, Rotor, is_carried};
 use super::{ContactMethod, StructureResolution, Window};
 use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
 use crate::disk::{
@@ -18,7 +17,7 @@ use crate::disk::{
 use crate::modal::{BankFlow, Oscillator, Readout};
 use crate::mutant;
 use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
-use crate::shock::{BaseMode, BaseMotion, Mount, ObliqueShock, Pulse, PulseError, Rider};
+use crate::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseError};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -33,8 +32,8 @@ const PENETRATION_WARNING_M: f64 = 1e-7;
 /// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
 /// constant compliance: it stands for stiffness, and would divide the step three to five times.
 const FASTEST_DISK_ANGLE: f64 = 3.0;
-/// Share of the disk's mass in that of a base's mode above which a run warns.
-const HEAVY_DISK: f64 = 2e-3;
+/// Most modes of a base.
+const MOST_BASE_MODES: usize = 16;
 /// Most steps of a grid.
 const MAX_STEPS: f64 = 2e7;
 
@@ -96,10 +95,10 @@ pub enum StructureError {
     /// An oblique shock without a hub that it could tilt, or with shares that are no numbers.
     #[error("an oblique shock needs a hub, on which it tilts the disk, and finite shares")]
     Direction,
-    /// Modes of a base that cannot be, too many or too light, or beside a hub or an oblique shock.
+    /// Modes of a base that cannot be, too many or too light, or under an oblique shock.
     #[error(
         "a vibrating base has at most 16 modes of finite numbers, a frequency above 0 and a damping ratio \
-         in [0, 1), is heavier than the disk at the spindle, and carries a clamped disk under a straight shock"
+         in [0, 1), is heavier than disk, hub and arms where they stand on it, and takes a straight shock"
     )]
     Base,
     /// Step or window.
@@ -142,11 +141,6 @@ pub enum StructureWarning {
     },
     /// Both arms held one point: only the net force is determined.
     BothArmsOnePoint,
-    /// A disk so heavy that contact would move its base, which is left out.
-    BaseReaction {
-        /// Mass of the disk by that of the base's mode at the spindle.
-        share: f64,
-    },
     /// The hub's bearing drives a whirl of the rotor.
     HubInstability {
         /// 0: axial motion, 1: tilt.
@@ -222,6 +216,8 @@ pub(super) struct Shared {
     pub slider: [Readout; 3],
     /// Jump of the slider's pose rate per impulse on the disk.
     pub slider_jump: DiskPose,
+    /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
+    pub base_jumps: Option<[(DiskPose, f64); 3]>,
     /// Pitch and roll per radial slope.
     pub slope_to_pose: [f64; 2],
     pub step_flow: BankFlow,
@@ -256,6 +252,8 @@ pub struct StructureRun {
     pub complementarity: Complementarity,
     /// Hub, of a disk on a bearing.
     pub hub: Option<HubRecord>,
+    /// Base, when it vibrates.
+    pub base: Option<BaseRecord>,
     /// First touch of either arm, s.
     pub first_touch_s: Option<f64>,
     /// Steps taken.
@@ -293,7 +291,7 @@ impl StructureModel {
         check_times(window, resolution.step_s)?;
         ramp.validate()?;
         check_direction(oblique, disk)?;
-        check_base(base, oblique, disk)?;
+        check_base(base, oblique)?;
         disk::basis::validate_place(disk, "slider", slider.radius_m)?;
         disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
         let stretches = pulse.stretches()?;
@@ -302,19 +300,16 @@ impl StructureModel {
         let step_s = divided_step_s(&basis, disk_resolution, resolution.step_s);
         slow_corrections(&mut basis, step_s);
 
-        let rotor = Rotor::build(&basis, parameters, &stretches, step_s)?;
-        if rotor.is_some() {
-            // The rotor carries them with the hub.
-            basis.modes.retain(|mode| !is_carried(mode));
+        let is_on_hub = disk.hub.is_some();
+        let has_harmonics = basis.modes.iter().any(|mode| mode.nodal_diameters > 0);
+        let mut carried = Vec::new();
+        if is_on_hub || !base.is_empty() {
+            // The rotor carries them with hub and base.
+            let all = std::mem::take(&mut basis.modes);
+            let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
+            (carried, basis.modes) = all.into_iter().partition(on_it);
         }
-        let base_motion = match base.is_empty() {
-            true => None,
-            false => {
-                let motion = BaseMotion::new(base, &riders(&basis, disk), &stretches, step_s);
-                Some(motion.map_err(|_| StructureError::Base)?)
-            }
-        };
-        let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad);
+        let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad, !base.is_empty());
         let n_steps = count_steps(window, step_s)?;
         let stiffness = match ramp.model {
             RampModel::None => None,
@@ -331,6 +326,15 @@ impl StructureModel {
             bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));
         }
         bank.pad();
+        let riding = bank.riding.take().unwrap_or_default();
+        let rotor = Rotor::build(
+            &carried,
+            &riding,
+            has_harmonics,
+            parameters,
+            &stretches,
+            step_s,
+        )?;
 
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());
         step_flow.set(&bank.oscillators, step_s);
@@ -338,10 +342,14 @@ impl StructureModel {
         let mut ripple_loss = bank.contact_matrix(|o| o.ripple_loss(step_s));
         let mut slider_jump = bank.slider_jump();
         if let Some(rotor) = &rotor {
-            add_on_disk(&mut mobility, rotor.mobility());
-            add_on_disk(&mut ripple_loss, rotor.ripple_loss());
+            rotor::add(&mut mobility, &rotor.mobility());
+            rotor::add(&mut ripple_loss, &rotor.ripple_loss());
             slider_jump = slider_jump.plus(&rotor.slider_jump());
         }
+        let base_jumps = rotor.as_ref().and_then(Rotor::base_jumps).map(|mut jumps| {
+            jumps[0].0 = slider_jump;
+            jumps
+        });
         let mut warnings = instabilities(&basis, &bank.oscillators);
         if bank.n_slowed > 0 {
             warnings.push(StructureWarning::ArmModesSlowed {
@@ -354,23 +362,12 @@ impl StructureModel {
                 growth_per_s,
             });
         }
-        if let Some(share) = base_reaction(base, disk) {
-            warnings.push(StructureWarning::BaseReaction { share });
-        }
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
         let weights = EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s);
         let (forced, shapes) = (bank.forced, bank.shapes);
-        let free = FreeMotion::new(
-            forced,
-            shapes,
-            rotor,
-            base_motion,
-            stretches,
-            step_s,
-            n_steps,
-        );
+        let free = FreeMotion::new(forced, shapes, rotor, stretches, step_s, n_steps);
         Ok(Self {
             shared: Arc::new(Shared {
                 free,
@@ -397,6 +394,7 @@ impl StructureModel {
                 rim: bank.rim,
                 slider: bank.slider,
                 slider_jump,
+                base_jumps,
                 slope_to_pose: bank.slope_to_pose,
                 step_flow,
                 weights,
@@ -424,9 +422,9 @@ impl StructureModel {
         }
     }
 
-    /// Motion of the base under the unit pulse, when it vibrates.
+    /// Motion of the base's pivot under the unit pulse, when it vibrates.
     pub fn base_motion(&self) -> Option<&BaseMotion> {
-        self.shared.free.base.as_ref().map(|base| &base.motion)
+        self.shared.free.base.as_ref()
     }
 
     /// When the contact-driven state starts to be marched.
@@ -447,10 +445,12 @@ impl StructureModel {
 
     /// Number of modes of both arms.
     pub fn n_arm_modes(&self) -> usize {
-        match self.shared.coupled {
+        let rotor = self.shared.free.rotor.as_ref();
+        let alone: usize = match self.shared.coupled {
             true => self.shared.arms[0].modes.len(),
             false => self.shared.arms.iter().map(|arm| arm.modes.len()).sum(),
-        }
+        };
+        alone + rotor.map_or(0, Rotor::n_arm_modes)
     }
 
     /// Number of modes carried: disk (with static corrections), hub and arms.
@@ -564,7 +564,10 @@ impl Shared {
         }
     }
 
-    /// Pose and rate of the disk as the suspension sees them, whose pivot moves with the base.
+    /// Pose and rate of the disk over the pivot as the unit response alone moves it.
+    ///
+    /// What contact does to the pivot is told apart ([`StructuralHistory`]): impulses make its velocity jump,
+    /// which no load b(t) could tell the head.
     pub fn over_pivot(
         &self,
         amplitude: f64,
@@ -573,11 +576,23 @@ impl Shared {
         mut rate: DiskPose,
     ) -> (DiskPose, DiskPose) {
         if let Some(base) = &self.free.base {
-            let [value, speed] = base.motion.displacement(Mount::Pivot, time_s);
+            let [value, speed] = base.displacement(time_s);
             pose.displacement_m -= amplitude * value;
             rate.displacement_m -= amplitude * speed;
         }
         (pose, rate)
+    }
+
+    /// An empty history of what contact does to the pivot, on a base that vibrates.
+    pub fn pivot_history(&self, n_nodes: usize) -> Option<Box<StructuralHistory>> {
+        self.base_jumps.map(|_| {
+            Box::new(StructuralHistory {
+                step_s: self.free.step_s,
+                pose: Vec::with_capacity(n_nodes),
+                rate: Vec::with_capacity(n_nodes),
+                ..StructuralHistory::default()
+            })
+        })
     }
 
     /// First step in which free motion closes a gap; the number of steps when none does.
@@ -597,15 +612,6 @@ impl Shared {
             let ahead = self.free_gap(side, amplitude, &self.free.samples[k + 1]);
             ahead.value_m < 0.0 || complementarity::advance::dips(now, ahead, self.free.step_s)
         })
-    }
-}
-
-/// Adds what moves the disk at both contacts.
-fn add_on_disk(matrix: &mut [[f64; 2]; 2], value: f64) {
-    for (i, row) in matrix.iter_mut().enumerate() {
-        for (j, entry) in row.iter_mut().enumerate() {
-            *entry += if i == j { value } else { -value };
-        }
     }
 }
 
@@ -645,42 +651,12 @@ fn check_direction(
     }
 }
 
-fn check_base(
-    base: &[BaseMode],
-    oblique: Option<&ObliqueShock>,
-    disk: &DiskParameters,
-) -> Result<(), StructureError> {
-    let is_alone = oblique.is_none() && disk.hub.is_none();
-    let is_sound = base.len() <= MOST_MODES && base.iter().all(BaseMode::is_sound);
-    match base.is_empty() || (is_alone && is_sound) {
+fn check_base(base: &[BaseMode], oblique: Option<&ObliqueShock>) -> Result<(), StructureError> {
+    let is_sound = base.len() <= MOST_BASE_MODES && base.iter().all(BaseMode::is_sound);
+    match base.is_empty() || (oblique.is_none() && is_sound) {
         true => Ok(()),
         false => Err(StructureError::Base),
     }
-}
-
-/// The disk's axisymmetric modes on its spindle.
-fn riders(basis: &DiskBasis, disk: &DiskParameters) -> Vec<Rider> {
-    let ride = |mode: &&DiskMode| mode.nodal_diameters == 0 && mode.nodal_circles.is_some();
-    let modes = basis.modes.iter().filter(ride).take(MOST_RIDERS);
-    modes
-        .map(|mode| Rider {
-            omega_rad_per_s: mode.omega_rad_per_s,
-            damping_per_s: 2.0 * mode.damping_ratio * mode.omega_rad_per_s
-                + disk.space_fixed_damping_per_s,
-            participation_sqrt_kg: mode.participation,
-        })
-        .collect()
-}
-
-/// Share of the disk's mass in that of a base's mode at the spindle, 1/φ², when it is worth a word.
-fn base_reaction(base: &[BaseMode], disk: &DiskParameters) -> Option<f64> {
-    let area = std::f64::consts::PI * (disk.outer_radius_m.powi(2) - disk.inner_radius_m.powi(2));
-    let mass = disk.density_kg_per_m3 * disk.thickness_m * area;
-    let shares = base
-        .iter()
-        .map(|mode| mode.spindle_per_sqrt_kg.powi(2) * mass);
-    let largest = shares.fold(0.0, f64::max);
-    (largest > HEAVY_DISK).then_some(largest)
 }
 
 fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {

@@ -13,7 +13,7 @@
 //! event for the head.
 
 use super::Window;
-use super::closing::{Closing, HubBook};
+use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::energy::Ledger;
@@ -46,7 +46,7 @@ struct March<'a> {
     rotor_now: RotorState,
     rotor_before: RotorState,
     scratch: RotorScratch,
-    hub: Option<HubBook>,
+    bodies: Option<BodyBook>,
     last: Node,
     last_impulse_s: f64,
 }
@@ -91,6 +91,7 @@ impl<'a> March<'a> {
                 rate: Vec::with_capacity(n_nodes),
                 breaks: Vec::new(),
                 events_s: vec![0.0],
+                pivot: shared.pivot_history(n_nodes),
             },
             columns: record.then(StructureColumns::default),
             extremes: DiskExtremes::default(),
@@ -100,7 +101,7 @@ impl<'a> March<'a> {
             rotor_now: at_rest(),
             rotor_before: at_rest(),
             scratch: rotor.map_or_else(RotorScratch::default, |rotor| rotor.scratch()),
-            hub: rotor.is_some().then(|| HubBook::of(amplitude)),
+            bodies: rotor.is_some().then(|| BodyBook::of(amplitude)),
             last: Node::default(),
             last_impulse_s: f64::NEG_INFINITY,
         }
@@ -110,19 +111,13 @@ impl<'a> March<'a> {
     fn step(&mut self, k: usize) {
         let shared = self.shared;
         let h = shared.free.step_s;
-        let middle_s = (k as f64 + 0.5) * h;
-        let middle = self.amplitude * shared.pulse.value(middle_s);
-        let loads = shared.free.loads(middle_s, shared.pulse.value(middle_s));
-        let forced = shared
+        let middle = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
+        for (&i, gain) in shared
             .forced_index
             .iter()
-            .zip(&shared.free.modes.participation);
-        for (j, (&i, gain)) in forced.enumerate() {
-            self.force[i] = gain * (self.amplitude * loads[shared.free.mount(j)]);
-        }
-        if let Some(base) = &shared.free.base {
-            let ends = [k as f64 * h, (k + 1) as f64 * h];
-            self.system.moving = ends.map(|time_s| base.gaps(self.amplitude, time_s));
+            .zip(&shared.free.modes.participation)
+        {
+            self.force[i] = gain * middle;
         }
         self.before.copy_from(&self.now);
         std::mem::swap(&mut self.rotor_before, &mut self.rotor_now);
@@ -161,8 +156,8 @@ impl<'a> March<'a> {
             let exchange = rotor.midpoint_exchange(before, now, h, force, &mut self.scratch);
             self.ledger.work.add(exchange.work);
             self.ledger.damping.add(exchange.loss);
-            if let Some(book) = &mut self.hub {
-                book.now.bearing_n_s += exchange.bearing_n_s;
+            if let Some(book) = &mut self.bodies {
+                book.add_supports(exchange.support_n_s);
                 book.contact_n_s += impulse[1] - impulse[0];
             }
         }
@@ -188,17 +183,10 @@ impl<'a> March<'a> {
             if let Some(rotor) = &shared.free.rotor {
                 let [before, now] = [&self.rotor_before, &self.rotor_now]
                     .map(|state| rotor.contact(state).rate_m_per_s);
-                rates += if side == 0 {
-                    -(before + now)
-                } else {
-                    before + now
-                };
-            }
-            if let Some(base) = &shared.free.base {
-                let ends = [start_s, start_s + h].map(|time_s| base.gaps(self.amplitude, time_s));
-                let moving = ends[0][side].rate_m_per_s + ends[1][side].rate_m_per_s;
-                rates += moving;
-                self.ledger.work.add(-0.5 * p * moving);
+                let arm = [&self.rotor_before, &self.rotor_now]
+                    .map(|state| rotor.arm(side, state).rate_m_per_s);
+                let opening = arm[0] + arm[1] - (before + now);
+                rates += if side == 0 { opening } else { -opening };
             }
             self.ledger.impact -= 0.5 * p * rates;
             let product = (p * self.system.gap_m(side)).abs();
@@ -225,23 +213,18 @@ impl<'a> March<'a> {
         let (mut pose, mut rate) = (read(&s.q_re, &s.q_im), read(&s.r_re, &s.r_im));
         let mut energies = shared.weights.energies(s);
         let (mut ramp_m, mut rim_m) = (dot(&shared.contact, &s.q_re), dot(&shared.rim, &s.q_re));
+        let mut arms_m = std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re));
         if let Some(rotor) = &shared.free.rotor {
             rotor.add_slider(&self.rotor_now, &mut pose, &mut rate);
             energies.add(&rotor.energies(&self.rotor_now, &mut self.scratch));
             ramp_m += rotor.contact(&self.rotor_now).value_m;
             rim_m += rotor.rim_m(&self.rotor_now);
-            if let Some(book) = &mut self.hub {
-                book.include(rotor.hub(&self.rotor_now, book.now.bearing_n_s));
+            for (side, x) in arms_m.iter_mut().enumerate() {
+                *x += rotor.arm(side, &self.rotor_now).value_m;
             }
-        }
-        let mut arms_m = std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re));
-        if let Some(base) = &shared.free.base {
-            let [spindle, ramp] = base.mounts(time_s).map(|x| x.map(|x| self.amplitude * x));
-            pose.displacement_m += spindle[0];
-            rate.displacement_m += spindle[1];
-            ramp_m += spindle[0];
-            rim_m += spindle[0];
-            arms_m = arms_m.map(|x| x + ramp[0]);
+            if let Some(book) = &mut self.bodies {
+                book.include(rotor.bodies(&self.rotor_now, book.now.support_n_s));
+            }
         }
         let node = Node {
             time_s,
@@ -255,6 +238,18 @@ impl<'a> March<'a> {
         let (pose, rate) = shared.over_pivot(self.amplitude, time_s, pose, rate);
         self.history.pose.push(pose);
         self.history.rate.push(rate);
+        let moved = shared.free.base.as_ref().zip(shared.free.rotor.as_ref());
+        if let (Some((base, rotor)), Some(history)) = (moved, &mut self.history.pivot) {
+            // What contact does is what is left of the whole.
+            let whole = rotor.pivot(&self.rotor_now);
+            let [value, speed] = base.displacement(time_s).map(|x| self.amplitude * x);
+            let along = |displacement_m: f64| DiskPose {
+                displacement_m,
+                ..DiskPose::default()
+            };
+            history.pose.push(along(whole.value_m - value));
+            history.rate.push(along(whole.rate_m_per_s - speed));
+        }
         self.extremes.include(&node);
         for side in 0..shared.n_contacts {
             let largest = &mut self.complementarity.max_penetration_m;
@@ -265,8 +260,8 @@ impl<'a> March<'a> {
         ledger.peak_material = ledger.peak_material.max(node.energies.material());
         if let Some(columns) = &mut self.columns {
             columns.push(&node);
-            if let Some(book) = &self.hub {
-                columns.push_hub(&book.now);
+            if let (Some(book), Some(rotor)) = (&self.bodies, &shared.free.rotor) {
+                columns.push_bodies(&book.now, rotor.has_bodies());
             }
         }
         self.last = node;
@@ -293,7 +288,7 @@ impl<'a> March<'a> {
             ledger: self.ledger,
             extremes: self.extremes,
             complementarity: self.complementarity,
-            hub: self.hub,
+            bodies: self.bodies,
             logs: &self.logs,
             history: self.history,
             columns: self.columns,

@@ -1,7 +1,7 @@
 //! What is booked at every node of the grid, whichever method moved the structure there.
 
+use super::closing::BodySample;
 use super::energy::Energies;
-use super::free_motion::HubSample;
 use super::record::{DiskExtremes, StructureColumns};
 use crate::disk::DiskPose;
 
@@ -48,11 +48,19 @@ impl StructureColumns {
         self.energy_h_j.push(node.energies.fixed_frame);
     }
 
-    /// The hub at the node of the last row.
-    pub(super) fn push_hub(&mut self, hub: &HubSample) {
-        let [at_ramp, across] = hub.tilt_rad;
-        self.hub_axial_m.push(hub.axial_m);
-        self.hub_tilt_ramp_rad.push(at_ramp);
-        self.hub_tilt_across_rad.push(across);
+    /// Hub and base, whichever there is, at the node of the last row.
+    pub(super) fn push_bodies(&mut self, now: &BodySample, [has_hub, has_base]: [bool; 2]) {
+        if has_hub {
+            let [at_ramp, across] = now.tilt_rad;
+            self.hub_axial_m.push(now.axial_m);
+            self.hub_tilt_ramp_rad.push(at_ramp);
+            self.hub_tilt_across_rad.push(across);
+        }
+        if has_base {
+            let [spindle, ramp, pivot] = now.mounts_m;
+            self.base_spindle_m.push(spindle);
+            self.base_ramp_m.push(ramp);
+            self.base_pivot_m.push(pivot);
+        }
     }
 }

@@ -66,23 +66,44 @@ pub struct EnergyBook {
     pub closure: f64,
 }
 
+/// Momentum of a body along its axis against the impulses on it, N s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MomentumBook {
+    /// Impulse of the shock.
+    pub shock_n_s: f64,
+    /// Impulse of what holds it, springs and dampers.
+    pub support_n_s: f64,
+    /// Impulse of the contact between disk and ramp.
+    pub contact_n_s: f64,
+    /// Momentum at the end.
+    pub end_n_s: f64,
+    /// |momentum at the end - impulses| / largest momentum.
+    pub closure: f64,
+}
+
 /// The hub of a disk on a bearing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HubRecord {
-    /// Largest axial displacement, m.
+    /// Largest axial displacement over the bearing, m.
     pub axial_max_m: f64,
     /// Largest tilt, rad.
     pub tilt_max_rad: f64,
-    /// Axial impulse of the shock on hub and disk, N s.
-    pub shock_n_s: f64,
-    /// Axial impulse of bearing and still air on them, N s.
-    pub bearing_n_s: f64,
-    /// Axial impulse of the ramp on the disk, N s.
-    pub contact_n_s: f64,
-    /// Axial momentum of hub and disk at the end, N s.
-    pub momentum_end_n_s: f64,
-    /// |momentum at the end - impulses| / largest momentum.
-    pub momentum_closure: f64,
+    /// Axial momentum of hub and disk; bearing and still air hold them.
+    pub momentum: MomentumBook,
+}
+
+/// The base, when it vibrates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BaseRecord {
+    /// Largest displacement of the spindle over the rigid base, m.
+    pub spindle_max_m: f64,
+    /// That of the ramp's mount, m.
+    pub ramp_max_m: f64,
+    /// That of the actuator's pivot, m.
+    pub pivot_max_m: f64,
+    /// Momentum of the base and all it carries, its modes weighted by their participations: for one mode with
+    /// equal shapes and participation times shape of 1 that of the drive over its mounts.
+    pub momentum: MomentumBook,
 }
 
 /// How well 0 <= g complementary to lambda >= 0 was met.
@@ -121,4 +142,10 @@ pub struct StructureColumns {
     pub hub_tilt_ramp_rad: Vec<f64>,
     /// Its tilt that lifts the disk a quarter turn on from the ramp, with the spin.
     pub hub_tilt_across_rad: Vec<f64>,
+    /// Displacement of the spindle with a base that vibrates, over the rigid one; else empty.
+    pub base_spindle_m: Vec<f64>,
+    /// That of the ramp's mount.
+    pub base_ramp_m: Vec<f64>,
+    /// That of the actuator's pivot.
+    pub base_pivot_m: Vec<f64>,
 }

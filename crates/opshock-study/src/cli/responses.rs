@@ -44,7 +44,7 @@ pub struct Responses {
 ///
 /// # Errors
 ///
-/// A name that is no source, frequencies out of range, a disk on a hub, no steady flight.
+/// A name that is no source, frequencies out of range, a disk on a hub or a vibrating base, no steady flight.
 pub fn responses(
     study: &Study,
     scene: &Scene,
@@ -76,8 +76,10 @@ pub fn responses(
             "one or more frequencies".into(),
         ));
     }
-    if scene.disk.hub.is_some() && of_structure.is_some() {
-        let allowed = "slider or dimple: responses of a disk on a hub are not computed";
+    let stands = scene.disk.hub.is_some() || !scene.base.is_empty();
+    if stands && of_structure.is_some() {
+        let allowed =
+            "slider or dimple: responses of a disk on a hub or a vibrating base are not computed";
         return Err(usage("--response", source.to_owned(), allowed.into()));
     }
     let mut still = scene.clone();

@@ -1,7 +1,8 @@
 //! What one simulation answered, for machines: the JSON of `opshock run --json`.
 
 use opshock_solver::simulation::{
-    ArmContact, Complementarity, EnergyBook, HubRecord, Outcome, StopRecord, Verdict, Warning,
+    ArmContact, BaseRecord, Complementarity, EnergyBook, HubRecord, Outcome, StopRecord, Verdict,
+    Warning,
 };
 use serde::Serialize;
 
@@ -33,6 +34,9 @@ pub struct RunJson {
     /// Hub, of a disk on a bearing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hub: Option<HubJson>,
+    /// Base, when it vibrates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base: Option<BaseJson>,
     pub effects: Vec<&'static str>,
     /// Rules by which other effects were left out or shared.
     pub rules: Vec<&'static str>,
@@ -171,6 +175,25 @@ pub struct HubJson {
     pub momentum_closure: f64,
 }
 
+/// Base that vibrates.
+#[derive(Clone, Debug, Serialize)]
+pub struct BaseJson {
+    /// Largest displacement of the spindle over the base as it would move rigidly, m.
+    pub spindle_max_m: f64,
+    /// That of the ramp's mount, m.
+    pub ramp_max_m: f64,
+    /// That of the actuator's pivot, m.
+    pub pivot_max_m: f64,
+    /// Impulse of the shock along the modes' participations, N s.
+    pub shock_n_s: f64,
+    /// Impulse of springs and dampers of the modes, N s.
+    pub mounts_n_s: f64,
+    /// Impulse of the contact between disk and ramp, N s.
+    pub contact_n_s: f64,
+    /// What the momentum book leaves over, as a share of the largest momentum.
+    pub momentum_closure: f64,
+}
+
 /// How well 0 <= gap complementary to multiplier >= 0 was met.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
@@ -262,6 +285,7 @@ impl RunJson {
             energy: energy(&outcome.energy),
             complementarity: complementarity(&outcome.complementarity),
             hub: outcome.hub.as_ref().map(hub),
+            base: outcome.base.as_ref().map(base),
             effects: outcome.effects.clone(),
             rules: outcome.rules.clone(),
             warnings: outcome.warnings.iter().map(warning).collect(),
@@ -331,10 +355,22 @@ fn hub(record: &HubRecord) -> HubJson {
     HubJson {
         axial_max_m: record.axial_max_m,
         tilt_max_rad: record.tilt_max_rad,
-        shock_n_s: record.shock_n_s,
-        bearing_n_s: record.bearing_n_s,
-        contact_n_s: record.contact_n_s,
-        momentum_closure: record.momentum_closure,
+        shock_n_s: record.momentum.shock_n_s,
+        bearing_n_s: record.momentum.support_n_s,
+        contact_n_s: record.momentum.contact_n_s,
+        momentum_closure: record.momentum.closure,
+    }
+}
+
+fn base(record: &BaseRecord) -> BaseJson {
+    BaseJson {
+        spindle_max_m: record.spindle_max_m,
+        ramp_max_m: record.ramp_max_m,
+        pivot_max_m: record.pivot_max_m,
+        shock_n_s: record.momentum.shock_n_s,
+        mounts_n_s: record.momentum.support_n_s,
+        contact_n_s: record.momentum.contact_n_s,
+        momentum_closure: record.momentum.closure,
     }
 }
 

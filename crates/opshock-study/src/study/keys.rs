@@ -122,7 +122,7 @@ pub static KEYS: &[Key] = &[
     Key::optional("hub.cross_damping_n_m_s_per_rad", Number(ANY), "0", "1.0e-4", "Moment across the velocity of a tilt, in the sense of the gyroscopic one.").usual(-100.0, 100.0).code("E137"),
     Key::optional("hub.centre_height_mm", Number(ANY), "0", "1.5", "Centre of mass of rotor and disk above the centre of tilt: arm of a shock in the disk's plane.").usual(-20.0, 20.0).code("E137"),
     // base
-    Key::optional("base.modes", Tables, "a rigid base", "[{ frequency_hz = 900.0, damping_ratio = 0.02, participation_sqrt_kg = 0.25, spindle_per_sqrt_kg = 2.0, ramp_per_sqrt_kg = 2.4, pivot_per_sqrt_kg = 1.6 }]", "Modes of base plate and housing under the shock, of unit modal mass. Needs a clamped disk and a straight shock.").code("E189"),
+    Key::optional("base.modes", Tables, "a rigid base", "[{ frequency_hz = 900.0, damping_ratio = 0.02, participation_sqrt_kg = 0.25, spindle_per_sqrt_kg = 2.0, ramp_per_sqrt_kg = 2.4, pivot_per_sqrt_kg = 1.6 }]", "Modes of base plate and housing under the shock, of unit modal mass. Needs a straight shock.").code("E189"),
     Key::required("base.modes[].frequency_hz", LENGTH, "900.0", "Undamped natural frequency.").usual(10.0, 1e5).code("E189"),
     Key::or("base.modes[].damping_ratio", Number(below(0.0, 1.0)), "0.02", "Damping ratio.").usual(0.0, 0.5).code("E132"),
     Key::required("base.modes[].participation_sqrt_kg", Number(ANY), "0.25", "Load on the mode by a unit acceleration of the base."),

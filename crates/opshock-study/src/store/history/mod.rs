@@ -202,8 +202,8 @@ pub fn structure_columns(columns: &StructureColumns, start_s: f64) -> Vec<Column
             &columns.energy_h_j,
         ),
     ];
-    // Only of a disk on a hub.
-    let hub = [
+    // Only of a disk on a hub, of a base that vibrates.
+    let bodies = [
         column(
             "hub_axial_m",
             "m",
@@ -222,8 +222,30 @@ pub fn structure_columns(columns: &StructureColumns, start_s: f64) -> Vec<Column
             "tilt of the hub that lifts the disk a quarter turn on from the ramp, with the spin",
             &columns.hub_tilt_across_rad,
         ),
+        column(
+            "base_spindle_m",
+            "m",
+            "displacement of the spindle over the base as it would move rigidly",
+            &columns.base_spindle_m,
+        ),
+        column(
+            "base_ramp_m",
+            "m",
+            "displacement of the ramp's mount over the base as it would move rigidly",
+            &columns.base_ramp_m,
+        ),
+        column(
+            "base_pivot_m",
+            "m",
+            "displacement of the actuator's pivot over the base as it would move rigidly",
+            &columns.base_pivot_m,
+        ),
     ];
-    list.extend(hub.into_iter().filter(|column| !column.values.is_empty()));
+    list.extend(
+        bodies
+            .into_iter()
+            .filter(|column| !column.values.is_empty()),
+    );
     list
 }
 

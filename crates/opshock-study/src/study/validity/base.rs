@@ -5,14 +5,17 @@ use super::Check;
 const MODES: &str = "base.modes";
 /// Most modes that a base may have.
 const MOST: usize = 16;
-/// What a vibrating base is not combined with: its tilt would have to turn the rotor.
-const APART: [&str; 2] = [
-    "hub.axial_stiffness_n_per_m",
-    "hub.tilt_stiffness_n_m_per_rad",
+/// What a vibrating base is not combined with: its modes know no load but that along the axis.
+const APART: [&str; 4] = [
+    "pulse.in_plane_x",
+    "pulse.in_plane_y",
+    "pulse.rotation_x_per_m",
+    "pulse.rotation_y_per_m",
 ];
 
 impl Check<'_, '_> {
-    /// A vibrating base carries a clamped disk, is heavier than it, and has no more modes than there is room for.
+    /// A vibrating base takes a straight shock, is heavier than disk and hub, and has no more modes than there is
+    /// room for.
     pub(super) fn base(&mut self) {
         let n = self.view.entries(MODES);
         if n == 0 || !self.sound(&[MODES]) {
@@ -33,13 +36,19 @@ impl Check<'_, '_> {
         if self.sound(&disk) {
             let [inner_m, outer_m, thickness_m, density] = disk.map(|path| self.view.si(path));
             let area = std::f64::consts::PI * (outer_m * outer_m - inner_m * inner_m);
-            let mass_kg = density * thickness_m * area;
+            let hub_kg = self.view.maybe_si("hub.mass_mg").unwrap_or(0.0);
+            let mass_kg = density * thickness_m * area + hub_kg;
             let shape = |k: usize| self.view.si(&format!("{MODES}[{k}].spindle_per_sqrt_kg"));
             let share: f64 = (0..n).map(|k| shape(k).powi(2) * mass_kg).sum();
             if share >= 1.0 {
                 let message = format!(
-                    "modes of the base with {:.3} of the disk's mass",
-                    1.0 / share
+                    "modes of the base with {:.3} of the mass of {}",
+                    1.0 / share,
+                    if hub_kg > 0.0 {
+                        "disk and hub"
+                    } else {
+                        "the disk"
+                    }
                 );
                 let fault = self.fault("E189", &[MODES], message);
                 fault.allowed = format!(
@@ -51,13 +60,17 @@ impl Check<'_, '_> {
         }
         let given: Vec<&str> = APART
             .into_iter()
-            .filter(|path| self.view.maybe_number(path).is_some())
+            .filter(|path| {
+                self.view
+                    .maybe_number(path)
+                    .is_some_and(|share| share != 0.0)
+            })
             .collect();
         if !given.is_empty() {
-            let message = "modes of the base beside a hub";
+            let message = "modes of the base under an oblique shock";
             let fault = self.fault("E189", &[MODES], message);
-            fault.allowed = "a disk clamped to the base, or a rigid base".to_string();
-            fault.hint = "leave [hub] or base.modes out".to_string();
+            fault.allowed = "a straight shock, or a rigid base".to_string();
+            fault.hint = format!("leave {} or base.modes out", given.join(", "));
         }
     }
 }
