@@ -4,6 +4,7 @@ use std::fs::{OpenOptions, remove_file};
 use std::path::Path;
 
 use super::cli::{Done, study};
+use opshock_study::study::{SetArg, Study};
 use opshock_tests::hdf5_dump::dump;
 use serde_json::Value;
 
@@ -127,6 +128,75 @@ fn an_oblique_sweep_does_not_care_where_angle_0_is() {
         let share = number(table, "onset_g") / number(&tables[0], "onset_g");
         assert!((share - 1.0).abs() < 1e-9, "{share}");
     }
+}
+
+/// Two heads of a drive: another load, and another disk in a narrower gap.
+const HEADS: &str = r#"heads=[
+    { head = "0 up", suspension = { gram_load_gf = 1.0 } },
+    { head = "1 up", slider.surface.crown_nm = 18.0, disk.thickness_mm = 0.8, ramp.clearance_um = 80.0 },
+]"#;
+
+/// A head's row is that of a study with its values: the rest is the drive's.
+#[test]
+fn a_row_of_a_head_is_that_of_a_study_of_this_head_alone() {
+    let swept = |set: &[&str]| {
+        let folder = tempfile::tempdir().expect("folder");
+        let set: Vec<String> = set.iter().map(|value| (*value).to_owned()).collect();
+        sweep(folder.path(), &set)
+    };
+    let both = swept(&[HEADS]);
+    let names: Vec<&Value> = both.iter().map(|point| &point["head"]).collect();
+    assert_eq!(names, ["0 up", "1 up"]);
+    let alone = [
+        &["suspension.gram_load_gf=1.0"][..],
+        &[
+            "slider.surface.crown_nm=18.0",
+            "disk.thickness_mm=0.8",
+            "ramp.clearance_um=80.0",
+        ],
+    ];
+    for (row, set) in both.iter().zip(alone) {
+        let alone = &swept(set)[0];
+        for key in ["a_crit_g", "a_fail_g", "onset_g", "runs", "status"] {
+            assert_eq!(row[key], alone[key], "{key}");
+        }
+    }
+    assert_ne!(both[0]["onset_g"], both[1]["onset_g"]);
+    assert_eq!(swept(&[HEADS, "head=1 up"]), both[1..]);
+}
+
+/// The heads survive being written out with every default, and a single shock names one.
+#[test]
+fn a_shock_names_its_head_and_the_resolved_study_keeps_them() {
+    let sets: Vec<SetArg> = [HEADS]
+        .iter()
+        .map(|text| SetArg::parse(text).expect("a setting"))
+        .collect();
+    let read = Study::from_path(&study("fig13"), &sets).expect("a study");
+    let again = Study::from_text(&read.resolved_toml(), &[]).expect("a study");
+    assert_eq!(again.digest, read.digest);
+    assert_eq!(again.points.len(), 72);
+    let ids = |study: &Study| {
+        study
+            .points
+            .iter()
+            .map(|point| point.id)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(ids(&again), ids(&read));
+
+    let folder = tempfile::tempdir().expect("folder");
+    let shock = ["run", "--json", "--amplitude-g", "100"];
+    let open = program(folder.path(), &shock, &[HEADS.to_owned()]);
+    assert_eq!(open.code, 2, "{}", open.stderr);
+    assert!(
+        open.stderr.contains("0 up") && open.stderr.contains("head=VALUE"),
+        "{}",
+        open.stderr
+    );
+    let chosen = [HEADS.to_owned(), "head=0 up".to_owned()];
+    let chosen = program(folder.path(), &shock, &chosen);
+    assert_eq!(chosen.json()["verdict"], "survives");
 }
 
 /// Rows of `explain`, and the hub's columns of a history: its largest travel and tilt are those told.

@@ -72,6 +72,22 @@ pub static KEYS: &[Key] = &[
     Key::required("study_format", Integer(1, 1), "1", "Version of the study file's format."),
     Key::required("name", Text, "\"Fig. 13: three ramp models\"", "Name of the study, printed on every product."),
     Key::or("outputs", Words(OUTPUTS), "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158"),
+    // heads
+    Key::optional("head", Text, "every head", "\"0 up\"", "Of several heads the one that is simulated.").code("E191"),
+    Key::optional("heads", Tables, "one head", "[{ head = \"0 up\", slider.radius_mm = 21.0 }, { head = \"0 down\", slider.radius_mm = 21.0, suspension.gram_load_gf = 2.3 }]", "Heads of a drive, each with the disk and the ramp's gap it meets: an axis of the study. What an entry leaves out is the study's.").code("E191"),
+    Key::required("heads[].head", Text, "\"0 up\"", "Name of the head, as tables show it.").code("E191"),
+    Key::optional("heads[].disk.thickness_mm", LENGTH, "the study's", "0.635", "Thickness of its disk.").usual(0.1, 3.0),
+    Key::optional("heads[].ramp.clearance_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance between its disk and the ramp, above and below.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("heads[].ramp.clearance_top_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance above its disk, when unequal.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("heads[].ramp.clearance_bottom_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance below its disk, when unequal.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("heads[].slider.radius_mm", LENGTH, "the study's", "21.0", "Radius of its slider's centre.").usual(5.0, 70.0),
+    Key::optional("heads[].slider.angle_deg", Number(closed(-360.0, 360.0)), "the study's", "7.0", "Angle of its slider's centre in the disk's sense of rotation, measured as the ramp's."),
+    Key::optional("heads[].slider.skew_deg", Number(open(-90.0, 90.0)), "the study's", "0.0", "Angle between the disk's velocity and its slider's length, positive towards the outer side.").usual(-30.0, 30.0),
+    Key::optional("heads[].slider.surface.base_recess_um", Number(FROM_ZERO), "the study's", "1.5", "Recess of everything no rail of its surface covers.").usual(0.1, 10.0).code("E145"),
+    Key::optional("heads[].slider.surface.crown_nm", Number(ANY), "the study's", "15.0", "Rise of its surface's middle over the ends.").usual(-100.0, 100.0),
+    Key::optional("heads[].slider.surface.camber_nm", Number(ANY), "the study's", "2.0", "Rise of its surface's middle over the sides.").usual(-100.0, 100.0),
+    Key::optional("heads[].slider.surface.twist_nm", Number(ANY), "the study's", "0.0", "Twist of its surface.").usual(-100.0, 100.0),
+    Key::optional("heads[].suspension.gram_load_gf", LENGTH, "the study's", "2.2", "Load at its slider's centre.").usual(0.1, 20.0),
     // pulse
     Key::or("pulse.shape", Word(SHAPES), "\"half_sine\"", "Shape of the acceleration pulse."),
     Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.")

@@ -218,6 +218,9 @@ impl Study {
         }
         fault::tidy(&mut remarks);
         let points = points::points(&settings);
+        if let Some(fault) = points::alike(&settings, &points) {
+            return Err(fault.into());
+        }
         let view = View::first(&settings);
         Ok(Self {
             name: view.word("name").to_string(),

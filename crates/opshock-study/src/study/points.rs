@@ -1,5 +1,7 @@
 //! Axes and points, in the canonical order of the search and the natural order of tables.
 
+use std::collections::HashMap;
+
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::Rung;
 
@@ -108,31 +110,38 @@ impl Point {
 pub fn axes(settings: &Settings) -> Vec<Axis> {
     let paths = settings.axes();
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
-    paths
-        .iter()
-        .map(|path| {
-            let shared = paths
-                .iter()
-                .filter(|other| last(other) == last(path))
-                .count()
-                > 1;
-            // Columns every table has already.
-            let taken = ["ramp", "pulse_ms", "sign", "runs", "status", "flags"]
-                .contains(&last(path).as_str());
-            Axis {
-                path: path.to_string(),
-                column: if shared || taken {
-                    path.to_string()
-                } else {
-                    last(path)
-                },
-                values: settings
-                    .get(path)
-                    .map(|setting| setting.values.iter().map(AxisValue::from_datum).collect())
-                    .unwrap_or_default(),
-            }
-        })
-        .collect()
+    let heads = settings.heads();
+    let head = (!heads.is_empty()).then(|| Axis {
+        path: "head".to_string(),
+        column: "head".to_string(),
+        values: (settings.named_heads().into_iter())
+            .filter(|(_, entry)| heads.contains(entry))
+            .map(|(name, _)| AxisValue::Word(name.to_string()))
+            .collect(),
+    });
+    let others = paths.iter().map(|path| {
+        let shared = paths
+            .iter()
+            .filter(|other| last(other) == last(path))
+            .count()
+            > 1;
+        // Columns every table has already.
+        let taken =
+            ["ramp", "pulse_ms", "sign", "runs", "status", "flags"].contains(&last(path).as_str());
+        Axis {
+            path: path.to_string(),
+            column: if shared || taken {
+                path.to_string()
+            } else {
+                last(path)
+            },
+            values: settings
+                .get(path)
+                .map(|setting| setting.values.iter().map(AxisValue::from_datum).collect())
+                .unwrap_or_default(),
+        }
+    });
+    head.into_iter().chain(others).collect()
 }
 
 /// Ramp models of the study, in canonical order.
@@ -195,10 +204,10 @@ pub(super) fn combinations<'a>(settings: &'a Settings, mut each: impl FnMut(&Vie
 /// As [`combinations`], until `each` wants no more.
 fn combinations_while<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>) -> bool) {
     let length = |path| settings.get(path).map_or(1, |setting| setting.values.len());
-    let axes: Vec<(&'a str, usize)> = settings
-        .axes()
-        .into_iter()
-        .map(|path| (path, length(path)))
+    let heads = ("heads", settings.heads().len().max(1));
+    let others = settings.axes().into_iter();
+    let axes: Vec<(&'a str, usize)> = std::iter::once(heads)
+        .chain(others.map(|path| (path, length(path))))
         .filter(|(_, length)| *length != 1)
         .collect();
     let total: usize = axes.iter().map(|(_, length)| length).product();
@@ -235,6 +244,7 @@ pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
         .map(|setting| setting.values.len() as f64)
         .product::<f64>()
         * widths.len() as f64
+        * settings.heads().len().max(1) as f64
         * (ramps(settings).len() * signs(settings).len()) as f64;
     if count > MAX_POINTS as f64 {
         let blamed = axes.last().copied().unwrap_or("pulse.widths_ms");
@@ -274,6 +284,30 @@ pub fn points(settings: &Settings) -> Vec<Point> {
         }
     });
     points
+}
+
+/// Heads that are one drive in everything: one row of a table would stand for both.
+pub(super) fn alike(settings: &Settings, points: &[Point]) -> Option<StudyError> {
+    if settings.heads().len() < 2 {
+        return None;
+    }
+    let mut first: HashMap<CellId, &Point> = HashMap::new();
+    for point in points {
+        let Some(other) = first.insert(point.id, point) else {
+            continue;
+        };
+        let name = |point: &Point| point.axes.first().map(|(_, value)| value.to_string());
+        let (a, b) = (name(other)?, name(point)?);
+        let place = &settings.get("heads")?.place;
+        let message = format!("the heads {a:?} and {b:?} differ in nothing but their names");
+        let fault = StudyError::at("E191", place, "heads", message);
+        return Some(
+            fault
+                .allowed("heads that differ in disk, ramp, slider or suspension")
+                .hint("one entry stands for all that are alike"),
+        );
+    }
+    None
 }
 
 /// One point of a view.

@@ -65,7 +65,14 @@ pub struct Settings {
     map: BTreeMap<String, Setting>,
     /// Keys whose value is not usable as given; a stand-in takes its place in further checks.
     unsound: BTreeSet<String>,
+    /// Keys that some head has of its own.
+    per_head: BTreeSet<String>,
 }
+
+/// The list of heads.
+const HEADS: &str = "heads";
+/// A head's name, among its own keys; at the root the one that is chosen.
+const HEAD: &str = "head";
 
 impl Settings {
     /// The setting at a path.
@@ -80,6 +87,12 @@ impl Settings {
 
     /// Sets a key.
     pub fn put(&mut self, path: String, setting: Setting) {
+        if let Some((_, own)) = path
+            .strip_prefix("heads[")
+            .and_then(|rest| rest.split_once("]."))
+        {
+            self.per_head.insert(own.to_string());
+        }
         self.map.insert(path, setting);
     }
 
@@ -120,6 +133,43 @@ impl Settings {
             .map(|(path, setting)| (path.as_str(), setting))
     }
 
+    /// Name and entry of every head.
+    pub fn named_heads(&self) -> Vec<(&str, usize)> {
+        let n_entries = match self.get(HEADS).map(|setting| &setting.values[0]) {
+            Some(Datum::Entries(count)) => *count,
+            _ => 0,
+        };
+        (0..n_entries)
+            .filter_map(|entry| Some((self.text(&format!("heads[{entry}].{HEAD}"))?, entry)))
+            .collect()
+    }
+
+    /// Entries of the heads that are simulated: the chosen one, or all. None: the study has one head.
+    pub fn heads(&self) -> Vec<usize> {
+        let chosen = self.chosen_head();
+        let is_asked = |(name, _): &(&str, usize)| chosen.is_none_or(|asked| asked == *name);
+        let named = self.named_heads().into_iter().filter(is_asked);
+        named.map(|(_, entry)| entry).collect()
+    }
+
+    /// Name of the chosen head.
+    pub fn chosen_head(&self) -> Option<&str> {
+        self.text(HEAD)
+    }
+
+    /// Keys that some head has of its own, but for its name.
+    pub fn per_head(&self) -> impl Iterator<Item = &str> {
+        let keys = self.per_head.iter().map(String::as_str);
+        keys.filter(|path| *path != HEAD)
+    }
+
+    fn text(&self, path: &str) -> Option<&str> {
+        match self.get(path)?.values.first()? {
+            Datum::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// Paths of the axes beside widths, ramp models and signs, in the order of the table of keys:
     /// the order in which they were written is not part of a study.
     pub fn axes(&self) -> Vec<&str> {
@@ -146,6 +196,8 @@ pub struct View<'a> {
     positions: BTreeMap<&'a str, (u32, usize)>,
     /// Axes read, a bit for each number.
     read: Cell<u64>,
+    /// Entries of the heads simulated.
+    heads: Vec<usize>,
 }
 
 impl<'a> View<'a> {
@@ -155,6 +207,7 @@ impl<'a> View<'a> {
             settings,
             positions: BTreeMap::new(),
             read: Cell::new(0),
+            heads: settings.heads(),
         }
     }
 
@@ -201,8 +254,20 @@ impl<'a> View<'a> {
         }
     }
 
+    /// What the head in view has of its own at a path.
+    fn own(&self, path: &str) -> Option<&'a Setting> {
+        if !self.settings.per_head.contains(path) {
+            return None;
+        }
+        let entry = self.heads.get(self.position(HEADS))?;
+        self.settings.get(&format!("heads[{entry}].{path}"))
+    }
+
     /// The value at a path.
     pub fn get(&self, path: &str) -> Option<&'a Datum> {
+        if let Some(own) = self.own(path) {
+            return own.values.first();
+        }
         let position = self.position(path);
         self.settings
             .get(path)
@@ -211,6 +276,9 @@ impl<'a> View<'a> {
 
     /// Place of the value at a path.
     pub fn place(&self, path: &str) -> Option<&'a Place> {
+        if let Some(own) = self.own(path) {
+            return Some(&own.place);
+        }
         let position = self.position(path);
         self.settings.get(path).map(|setting| {
             if setting.is_axis {

@@ -6,6 +6,7 @@
 mod base;
 mod drive;
 mod fields;
+mod heads;
 mod pulse;
 mod rails;
 mod seen;
@@ -29,6 +30,7 @@ impl Check<'_, '_> {
     /// Every rule that does not depend on the point.
     pub fn study(&mut self) {
         self.names();
+        self.heads();
         self.outputs();
         self.fields();
         self.search();
