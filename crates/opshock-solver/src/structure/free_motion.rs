@@ -277,7 +277,7 @@ impl FreeMotion {
                 rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
             }
         } else {
-            return self.advance(state, start_s, self.step_s, 1.0);
+            self.advance(state, start_s, self.step_s, 1.0);
         }
     }
 
