@@ -6,6 +6,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::simulation::{Bearing, Model, Request, Scope, Workspace, simulate};
 use opshock_tests::scenes;
 use opshock_tests::timing::median_of;
@@ -20,6 +21,12 @@ fn shock(c: &mut Criterion) {
     let scene = scenes::scene("fig13", "deformable", 0.5, &[]);
     let full = Model::build(&scene, Scope::Full, None).expect("the scene builds");
     let structure = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
+    let rigid = Model::build(
+        &scenes::scene("fig13", "rigid", 0.5, &[]),
+        Scope::Structure,
+        None,
+    )
+    .expect("the scene builds");
     let none = Model::build(
         &scenes::scene("fig13", "none", 0.5, &[]),
         Scope::Structure,
@@ -35,6 +42,13 @@ fn shock(c: &mut Criterion) {
     });
     group.bench_function("structure", |b| {
         b.iter(|| black_box(simulate(&structure, &REQUEST, &mut workspace)));
+    });
+    group.bench_function("rigid_contact", |b| {
+        let request = Request {
+            amplitude_m_per_s2: m_per_s2_from_g(198.0),
+            ..REQUEST
+        };
+        b.iter(|| black_box(simulate(&rigid, &request, &mut workspace)));
     });
     group.bench_function("no_ramp", |b| {
         b.iter(|| black_box(simulate(&none, &REQUEST, &mut workspace)));

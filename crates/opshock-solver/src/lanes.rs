@@ -16,7 +16,7 @@ pub const SUMS: usize = 8;
 ///
 /// When a row is shorter than `x`.
 pub fn products(rows: [&[f64]; 3], x: &[f64]) -> [f64; 3] {
-    widest(Products { rows, x })
+    abreast(rows.map(|row| [row, x]))
 }
 
 /// Scalar product of `x` with a row.
@@ -25,12 +25,24 @@ pub fn products(rows: [&[f64]; 3], x: &[f64]) -> [f64; 3] {
 ///
 /// When the row is shorter than `x`.
 pub fn product(row: &[f64], x: &[f64]) -> f64 {
-    widest(Products { rows: [row], x })[0]
+    abreast([[row, x]])[0]
+}
+
+/// Scalar products of pairs of a row and a vector, side by side: one alone waits for its sums. Each has
+/// the bits of [`product`].
+///
+/// # Panics
+///
+/// When a row is shorter than its vector.
+pub fn abreast<const K: usize>(pairs: [[&[f64]; 2]; K]) -> [f64; K] {
+    let (sums, rest) = widest(Abreast { pairs });
+    std::array::from_fn(|i| total(sums[i]) + rest[i])
 }
 
 /// Sum of `x`.
 pub fn sum(x: &[f64]) -> f64 {
-    widest(Sum { x })
+    let (sums, rest) = widest(Sum { x });
+    total(sums) + rest
 }
 
 struct Sum<'a> {
@@ -38,10 +50,10 @@ struct Sum<'a> {
 }
 
 impl Kernel for Sum<'_> {
-    type Output = f64;
+    type Output = ([f64; SUMS], f64);
 
     #[inline(always)]
-    fn call(self) -> f64 {
+    fn call(self) -> Self::Output {
         let (chunks, rest) = self.x.as_chunks::<SUMS>();
         let mut sums = [0.0; SUMS];
         for chunk in chunks {
@@ -53,38 +65,63 @@ impl Kernel for Sum<'_> {
         for x in rest {
             last += x;
         }
-        total(sums) + last
+        (sums, last)
     }
 }
 
-struct Products<'a, const K: usize> {
-    rows: [&'a [f64]; K],
-    x: &'a [f64],
+struct Abreast<'a, const K: usize> {
+    pairs: [[&'a [f64]; 2]; K],
 }
 
-impl<const K: usize> Kernel for Products<'_, K> {
-    type Output = [f64; K];
+impl<const K: usize> Kernel for Abreast<'_, K> {
+    /// Sums kept apart, and those of what is left. Added up in here they would lead the compiler to
+    /// pairs of numbers in place of whole registers, ten times the instructions.
+    type Output = ([[f64; SUMS]; K], [f64; K]);
 
-    // A closure would be compiled once, for the narrowest registers: loops all along.
+    // Loops by number, which the compiler unrolls before it looks for whole registers.
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "many columns are walked in step, which an index says plainest"
+    )]
     #[inline(always)]
-    fn call(self) -> [f64; K] {
-        let (x, x_rest) = self.x.as_chunks::<SUMS>();
-        let mut out = [0.0; K];
-        for (out, row) in out.iter_mut().zip(self.rows) {
-            let (a, a_rest) = row[..self.x.len()].as_chunks::<SUMS>();
-            let mut sums = [0.0; SUMS];
-            for (a, x) in a.iter().zip(x) {
+    fn call(self) -> Self::Output {
+        let whole = |i: usize| -> [&[[f64; SUMS]]; 2] {
+            let [row, x] = self.pairs[i];
+            [row[..x.len()].as_chunks().0, x.as_chunks().0]
+        };
+        let mut together = usize::MAX;
+        for i in 0..K {
+            together = together.min(whole(i)[1].len());
+        }
+        let mut firsts: [[&[[f64; SUMS]]; 2]; K] = [[&[]; 2]; K];
+        for i in 0..K {
+            let [row, x] = whole(i);
+            firsts[i] = [&row[..together], &x[..together]];
+        }
+        let mut sums = [[0.0; SUMS]; K];
+        for j in 0..together {
+            for i in 0..K {
+                let (row, x) = (&firsts[i][0][j], &firsts[i][1][j]);
                 for k in 0..SUMS {
-                    sums[k] += a[k] * x[k];
+                    sums[i][k] += row[k] * x[k];
                 }
             }
-            let mut rest = 0.0;
-            for (a, x) in a_rest.iter().zip(x_rest) {
-                rest += a * x;
-            }
-            *out = total(sums) + rest;
         }
-        out
+        let mut rests = [0.0; K];
+        for i in 0..K {
+            let [row, x] = whole(i);
+            for (row, x) in row[together..].iter().zip(&x[together..]) {
+                for k in 0..SUMS {
+                    sums[i][k] += row[k] * x[k];
+                }
+            }
+            let done = x.len() * SUMS;
+            let [row, x] = self.pairs[i];
+            for (row, x) in row[done..].iter().zip(&x[done..]) {
+                rests[i] += row * x;
+            }
+        }
+        (sums, rests)
     }
 }
 

@@ -46,7 +46,8 @@ impl Film {
             out,
             cell_loads: None,
             scratch,
-        });
+        })
+        .total();
         match &self.interaction {
             None => force,
             Some(_) => {
@@ -138,10 +139,11 @@ struct Balance<'a> {
 }
 
 impl Kernel for Balance<'_> {
-    type Output = [f64; 3];
+    /// Added up outside, so that the sums stay in whole registers ([`crate::lanes::abreast`]).
+    type Output = Moments;
 
     #[inline(always)]
-    fn call(self) -> [f64; 3] {
+    fn call(self) -> Moments {
         let Self {
             film,
             psi,
@@ -229,7 +231,7 @@ impl Kernel for Balance<'_> {
                 }
             }
         }
-        moments.total()
+        moments
     }
 }
 
@@ -401,9 +403,7 @@ impl Moments {
         self.sums = [force, pitch, roll];
     }
 
-    #[inline(always)]
     pub(super) fn total(&self) -> [f64; 3] {
-        let [force, pitch, roll] = self.sums;
-        [total(force), total(pitch), total(roll)]
+        self.sums.map(total)
     }
 }

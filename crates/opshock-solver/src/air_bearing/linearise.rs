@@ -87,13 +87,15 @@ impl Film {
     ) {
         assert_eq!(out.residual.len(), self.n_cells());
         assert_eq!(out.by_psi.band(), self.mesh.band());
-        widest(Linearise {
+        let totals = widest(Linearise {
             film: self,
             psi,
             attitude,
             out,
             scratch,
         });
+        out.force_by_attitude = totals.force_by_attitude.map(|row| row.map(total));
+        out.force = totals.moments.total();
         if let Some(load) = self.surface_load(attitude) {
             for f in 0..3 {
                 out.force[f] += load.force[f];
@@ -114,10 +116,10 @@ struct Linearise<'a> {
 }
 
 impl Kernel for Linearise<'_> {
-    type Output = ();
+    type Output = Totals;
 
     #[inline(always)]
-    fn call(self) {
+    fn call(self) -> Totals {
         let Self {
             film,
             psi,
@@ -137,9 +139,8 @@ impl Kernel for Linearise<'_> {
         for f in 0..3 {
             let column = &out.force_columns[f][columns.front..columns.front + columns.n_cells];
             out.force_by_psi[f].copy_from_slice(column);
-            out.force_by_attitude[f] = totals.force_by_attitude[f].map(total);
         }
-        out.force = totals.moments.total();
+        totals
     }
 }
 

@@ -19,12 +19,16 @@ pub(super) fn correct_film(
     dq: [f64; 3],
 ) -> (f64, f64) {
     assert!(z.iter().all(|z| z.len() == psi.len()) && residual.len() == psi.len());
-    widest(Correct {
+    let (squares, losses, [square, loss]) = widest(Correct {
         residual,
         z: [&z[0], &z[1], &z[2]],
         psi,
         dq,
-    })
+    });
+    (
+        total(squares) + square,
+        losses.into_iter().fold(loss, f64::max),
+    )
 }
 
 struct Correct<'a> {
@@ -35,10 +39,11 @@ struct Correct<'a> {
 }
 
 impl Kernel for Correct<'_> {
-    type Output = (f64, f64);
+    /// Squares and losses kept apart, and those of what is left.
+    type Output = ([f64; SUMS], [f64; SUMS], [f64; 2]);
 
     #[inline(always)]
-    fn call(self) -> (f64, f64) {
+    fn call(self) -> Self::Output {
         let (delta, delta_rest) = self.residual.as_chunks_mut::<SUMS>();
         let (psi, psi_rest) = self.psi.as_chunks::<SUMS>();
         let [(z0, z0_rest), (z1, z1_rest), (z2, z2_rest)] = [
@@ -65,7 +70,7 @@ impl Kernel for Correct<'_> {
                 losses[k] = if loss > losses[k] { loss } else { losses[k] };
             }
         }
-        let (mut square, mut loss) = (0.0, losses.into_iter().fold(0.0, f64::max));
+        let (mut square, mut loss) = (0.0, 0.0);
         for (k, (delta, psi)) in delta_rest.iter_mut().zip(psi_rest).enumerate() {
             let change =
                 z0_rest[k] * self.dq[0] + z1_rest[k] * self.dq[1] + z2_rest[k] * self.dq[2];
@@ -74,7 +79,7 @@ impl Kernel for Correct<'_> {
             square += relative * relative;
             loss = f64::max(loss, -relative);
         }
-        (total(squares) + square, loss)
+        (squares, losses, [square, loss])
     }
 }
 

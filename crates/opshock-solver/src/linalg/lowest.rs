@@ -165,8 +165,10 @@ impl Basis {
 
     /// Takes from `x` its part along every vector, a few at a time.
     fn remove_from(&self, x: &mut [f64]) {
-        let rows = &self.rows;
-        lanes::widest(Removal { rows, x });
+        let together = self.rows.chunks_exact(ABREAST * self.n);
+        let alone = together.remainder().chunks_exact(self.n);
+        together.for_each(|rows| remove::<ABREAST>(rows, x));
+        alone.for_each(|row| remove::<1>(row, x));
     }
 
     /// Sum of the vectors times `shares`.
@@ -184,69 +186,46 @@ impl Basis {
 /// Vectors whose shares are taken at once: one alone waits for its sums.
 const ABREAST: usize = 4;
 
-struct Removal<'a> {
-    rows: &'a [f64],
+/// Takes from `x` its parts along `K` rows.
+fn remove<const K: usize>(rows: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    let rows: [&[f64]; K] = std::array::from_fn(|i| &rows[i * n..][..n]);
+    let shares = lanes::abreast(rows.map(|row| [row, &*x]));
+    lanes::widest(Removal { rows, shares, x });
+}
+
+/// `x` less its `shares` of the rows.
+struct Removal<'a, const K: usize> {
+    rows: [&'a [f64]; K],
+    shares: [f64; K],
     x: &'a mut [f64],
 }
 
-impl Kernel for Removal<'_> {
+impl<const K: usize> Kernel for Removal<'_, K> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let n = self.x.len();
-        let (many, few) = self
-            .rows
-            .split_at(self.rows.len() / (ABREAST * n) * (ABREAST * n));
-        for rows in many.chunks_exact(ABREAST * n) {
-            remove::<ABREAST>(rows, self.x);
+        let (x, x_rest) = self.x.as_chunks_mut::<SUMS>();
+        let mut rows: [&[[f64; SUMS]]; K] = [&[]; K];
+        for (chunks, row) in rows.iter_mut().zip(self.rows) {
+            *chunks = &row.as_chunks().0[..x.len()];
         }
-        for row in few.chunks_exact(n) {
-            remove::<1>(row, self.x);
-        }
-    }
-}
-
-/// Takes from `x` its parts along `K` rows.
-#[inline(always)]
-fn remove<const K: usize>(rows: &[f64], x: &mut [f64]) {
-    let n = x.len();
-    let (x, x_rest) = x.as_chunks_mut::<SUMS>();
-    let mut q: [&[[f64; SUMS]]; K] = [&[]; K];
-    let mut q_rest: [&[f64]; K] = [&[]; K];
-    for (i, row) in rows.chunks_exact(n).enumerate() {
-        (q[i], q_rest[i]) = row.as_chunks::<SUMS>();
-        q[i] = &q[i][..x.len()];
-    }
-    let mut sums = [[0.0; SUMS]; K];
-    for (j, x) in x.iter().enumerate() {
-        for i in 0..K {
-            for k in 0..SUMS {
-                sums[i][k] += q[i][j][k] * x[k];
+        for (j, x) in x.iter_mut().enumerate() {
+            // In a place of its own: stores into `x` could change rows, for all the compiler knows.
+            let mut less = *x;
+            for (row, share) in rows.iter().zip(self.shares) {
+                for k in 0..SUMS {
+                    less[k] -= share * row[j][k];
+                }
             }
+            *x = less;
         }
-    }
-    let mut shares = [0.0; K];
-    for i in 0..K {
-        shares[i] = lanes::total(sums[i]);
-        for (q, x) in q_rest[i].iter().zip(x_rest.iter()) {
-            shares[i] += q * x;
-        }
-    }
-    for (j, x) in x.iter_mut().enumerate() {
-        // In a place of its own: stores into `x` could change `q`, for all the compiler knows.
-        let mut less = *x;
-        for i in 0..K {
-            let q = &q[i][j];
-            for k in 0..SUMS {
-                less[k] -= shares[i] * q[k];
+        let done = SUMS * x.len();
+        for (row, share) in self.rows.iter().zip(self.shares) {
+            for (x, q) in x_rest.iter_mut().zip(&row[done..]) {
+                *x -= share * q;
             }
-        }
-        *x = less;
-    }
-    for i in 0..K {
-        for (q, x) in q_rest[i].iter().zip(x_rest.iter_mut()) {
-            *x -= shares[i] * q;
         }
     }
 }

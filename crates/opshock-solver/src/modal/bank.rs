@@ -216,15 +216,17 @@ pub fn chunks(column: &[f64]) -> &[[f64; LANES]] {
 impl Readout {
     /// Displacement (or velocity, given velocities) of the point.
     pub fn read(&self, re: &[f64], im: &[f64]) -> f64 {
-        dot(&self.re, re) + dot(&self.im, im)
+        let [real, imaginary] = lanes::abreast([[&self.re, re], [&self.im, im]]);
+        real + imaginary
     }
 
     /// The same of three points.
     pub fn read_three(rows: &[Self; 3], re: &[f64], im: &[f64]) -> [f64; 3] {
         let [a, b, c] = rows;
-        let real = lanes::products([&a.re, &b.re, &c.re], re);
-        let imaginary = lanes::products([&a.im, &b.im, &c.im], im);
-        std::array::from_fn(|k| real[k] + imaginary[k])
+        let [a0, b0, c0] = [a, b, c].map(|row| [&*row.re, re]);
+        let [a1, b1, c1] = [a, b, c].map(|row| [&*row.im, im]);
+        let sums = lanes::abreast([a0, b0, c0, a1, b1, c1]);
+        std::array::from_fn(|k| sums[k] + sums[k + 3])
     }
 }
 

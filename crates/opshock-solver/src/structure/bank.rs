@@ -114,7 +114,6 @@ impl Bank {
             if mode.nodal_diameters == 0 && mode.nodal_circles.is_some() {
                 bank.forced.oscillators.push(bank.oscillators[i]);
                 bank.forced.participation.push(mode.participation);
-                bank.forced.n_on_disk += 1;
                 bank.forced_index.push(i);
                 bank.shapes.contact.push(contact);
                 bank.shapes.rim.push(rim);

@@ -15,6 +15,7 @@ use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{self, Leap, RotorState};
 use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
+use crate::lanes::abreast;
 use crate::modal::bank::{dot, padded};
 use crate::modal::{BankFlow, ModalState, Readout};
 
@@ -208,9 +209,13 @@ impl<'a> ContactSystem<'a> {
     /// Gaps of a contact-driven state on top of the unit response `sample`.
     fn gaps_of(&self, driven: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
         let shared = self.shared;
+        let [value_m, rate_m_per_s] = abreast([
+            [&shared.contact, &driven.q_re],
+            [&shared.contact, &driven.r_re],
+        ]);
         let mut disk = Gap {
-            value_m: dot(&shared.contact, &driven.q_re),
-            rate_m_per_s: dot(&shared.contact, &driven.r_re),
+            value_m,
+            rate_m_per_s,
         };
         if let Some(rotor) = &shared.free.rotor {
             let on_hub = rotor.contact(hub);
@@ -317,8 +322,10 @@ impl<'a> ContactSystem<'a> {
         let mut arms = [a * sample.top.value, a * sample.bottom.value];
         if self.awake {
             let now = &self.state.now;
-            ramp += dot(&shared.contact, &now.q_re);
-            rim += dot(&shared.rim, &now.q_re);
+            let [by_contact, at_rim] =
+                abreast([[&shared.contact, &now.q_re], [&shared.rim, &now.q_re]]);
+            ramp += by_contact;
+            rim += at_rim;
             if let Some(rotor) = &shared.free.rotor {
                 ramp += rotor.contact(&self.state.rotor_now).value_m;
                 rim += rotor.rim_m(&self.state.rotor_now);

@@ -8,9 +8,6 @@ use crate::lanes::{Kernel, SUMS, total, widest};
 use crate::modal::{ForcedResponse, Phase};
 use nalgebra::Complex;
 
-/// Loads at the mounts of disk and ramp: the same one on a rigid base.
-pub(super) type MountPhases = [Phase; 2];
-
 /// Eight modes over one grid step.
 #[derive(Clone, Debug, Default)]
 struct Eight {
@@ -25,7 +22,6 @@ struct Eight {
     /// 2γ, 1/s.
     damping: [f64; SUMS],
     gain: [f64; SUMS],
-    on_ramp: [bool; SUMS],
 }
 
 /// Velocity of eight modes at one instant within the step, from the state at its start.
@@ -50,28 +46,25 @@ pub(super) struct ForcedColumns {
     eights: Vec<Eight>,
     /// Shapes at the points that are read, by mode.
     points: Vec<[f64; POINTS]>,
-    /// Disk and ramp feel different loads.
-    has_mounts: bool,
     /// Gauss points of the step, for work and loss under the pulse.
     instants: Vec<Instant>,
 }
 
-/// Rate of work at each mount, per unit load, and of loss.
+/// Rate of work per unit load, and of loss.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Rates {
-    /// At the mounts of disk and ramp, m/s kg^½ kg^½.
-    pub power: [f64; 2],
+    /// Σ gain × velocity, kg m/s.
+    pub power: f64,
     /// W.
     pub loss: f64,
 }
 
 impl ForcedColumns {
     /// `modes` with their `points` over `step_s`, for a pulse of rate `sigma_per_s`; `rule` is the
-    /// quadrature of the step. `has_mounts` when disk and ramp feel different loads.
+    /// quadrature of the step.
     pub fn new(
         modes: &ForcedModes,
         points: Vec<[f64; POINTS]>,
-        has_mounts: bool,
         sigma_per_s: Complex<f64>,
         step_s: f64,
         rule: &[(f64, f64)],
@@ -90,7 +83,6 @@ impl ForcedColumns {
             eight.omega[k] = o.omega_rad_per_s;
             eight.damping[k] = 2.0 * o.half_damping_per_s;
             eight.gain[k] = modes.participation[j];
-            eight.on_ramp[k] = has_mounts && j >= modes.n_on_disk;
         }
         let instants = rule.iter().map(|&(x, weight)| {
             let tau_s = x * step_s;
@@ -113,7 +105,6 @@ impl ForcedColumns {
             instants: instants.collect(),
             points,
             eights,
-            has_mounts,
         }
     }
 
@@ -126,13 +117,13 @@ impl ForcedColumns {
     /// (kinetic, elastic) energy, J.
     pub fn energy(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
         let eights = &self.eights;
-        widest(Energy { eights, x, v })
+        widest(Energy { eights, x, v }).map(total)
     }
 
     /// Loss over a step without load, J.
     pub fn free_loss(&self, x: &[f64], v: &[f64]) -> f64 {
         let eights = &self.eights;
-        widest(FreeLoss { eights, x, v })
+        total(widest(FreeLoss { eights, x, v }))
     }
 
     /// A step without load.
@@ -141,24 +132,15 @@ impl ForcedColumns {
         widest(Carry { eights, x, v });
     }
 
-    /// A step under `phases`.
-    pub fn drive(&self, phases: &MountPhases, x: &mut [f64], v: &mut [f64]) {
-        let (eights, parts) = (&self.eights, phases.map(|phase| parts(&phase)));
-        if self.has_mounts {
-            widest(Drive::<true> {
-                eights,
-                parts,
-                x,
-                v,
-            });
-        } else {
-            widest(Drive::<false> {
-                eights,
-                parts,
-                x,
-                v,
-            });
-        }
+    /// A step under `phase`.
+    pub fn drive(&self, phase: &Phase, x: &mut [f64], v: &mut [f64]) {
+        let (eights, parts) = (&self.eights, parts(phase));
+        widest(Drive {
+            eights,
+            parts,
+            x,
+            v,
+        });
     }
 
     /// Instants of the quadrature: (time since the start of the step, weight), s, and the wave's factor.
@@ -166,39 +148,25 @@ impl ForcedColumns {
         self.instants.iter().map(|i| (i.tau_s, i.weight_s, i.turn))
     }
 
-    /// Rates at quadrature instant `i` under `amplitude` times `phases`, from the state at the start of
-    /// the step; `added` is the velocity of a mode per unit gain by other loads, also asked of padding.
+    /// Rates at quadrature instant `i` under `amplitude` times `phase`, from the state at the start of the
+    /// step.
     pub fn rates(
         &self,
         i: usize,
-        (amplitude, phases): (f64, &MountPhases),
-        added: Option<&dyn Fn(usize) -> f64>,
+        (amplitude, phase): (f64, &Phase),
         x: &[f64],
         v: &[f64],
     ) -> Rates {
-        let (eights, within) = (&self.eights, &self.instants[i].within);
-        let parts = phases.map(|phase| parts(&phase));
-        if self.has_mounts {
-            widest(RatesWithin::<true> {
-                eights,
-                within,
-                amplitude,
-                parts,
-                added,
-                x,
-                v,
-            })
-        } else {
-            widest(RatesWithin::<false> {
-                eights,
-                within,
-                amplitude,
-                parts,
-                added,
-                x,
-                v,
-            })
-        }
+        let [power, loss] = widest(RatesWithin {
+            eights: &self.eights,
+            within: &self.instants[i].within,
+            amplitude,
+            parts: parts(phase),
+            x,
+            v,
+        })
+        .map(total);
+        Rates { power, loss }
     }
 }
 
@@ -242,10 +210,10 @@ struct Energy<'a> {
 }
 
 impl Kernel for Energy<'_> {
-    type Output = [f64; 2];
+    type Output = [[f64; SUMS]; 2];
 
     #[inline(always)]
-    fn call(self) -> [f64; 2] {
+    fn call(self) -> Self::Output {
         let (mut kinetic, mut elastic) = ([0.0; SUMS], [0.0; SUMS]);
         let states = self.x.as_chunks::<SUMS>().0.iter();
         let states = states.zip(self.v.as_chunks::<SUMS>().0);
@@ -256,7 +224,7 @@ impl Kernel for Energy<'_> {
                 elastic[k] += 0.5 * spring * spring;
             }
         }
-        [total(kinetic), total(elastic)]
+        [kinetic, elastic]
     }
 }
 
@@ -267,10 +235,10 @@ struct FreeLoss<'a> {
 }
 
 impl Kernel for FreeLoss<'_> {
-    type Output = f64;
+    type Output = [f64; SUMS];
 
     #[inline(always)]
-    fn call(self) -> f64 {
+    fn call(self) -> [f64; SUMS] {
         let mut loss = [0.0; SUMS];
         let states = self.x.as_chunks::<SUMS>().0.iter();
         let states = states.zip(self.v.as_chunks::<SUMS>().0);
@@ -280,7 +248,7 @@ impl Kernel for FreeLoss<'_> {
                 loss[k] += xx[k] * x[k] * x[k] + vv[k] * v[k] * v[k] + xv[k] * x[k] * v[k];
             }
         }
-        total(loss)
+        loss
     }
 }
 
@@ -303,14 +271,14 @@ impl Kernel for Carry<'_> {
     }
 }
 
-struct Drive<'a, const MOUNTS: bool> {
+struct Drive<'a> {
     eights: &'a [Eight],
-    parts: [[f64; 4]; 2],
+    parts: [f64; 4],
     x: &'a mut [f64],
     v: &'a mut [f64],
 }
 
-impl<const MOUNTS: bool> Kernel for Drive<'_, MOUNTS> {
+impl Kernel for Drive<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -319,8 +287,8 @@ impl<const MOUNTS: bool> Kernel for Drive<'_, MOUNTS> {
         let states = states.zip(self.v.as_chunks_mut::<SUMS>().0);
         for (eight, (x, v)) in self.eights.iter().zip(states) {
             carry(&eight.flow, x, v);
-            let by_x = respond::<MOUNTS>(&eight.displacement, &self.parts, &eight.on_ramp);
-            let by_v = respond::<MOUNTS>(&eight.velocity, &self.parts, &eight.on_ramp);
+            let by_x = respond(&eight.displacement, &self.parts);
+            let by_v = respond(&eight.velocity, &self.parts);
             let (mut to, mut to_v) = (*x, *v);
             for k in 0..SUMS {
                 to[k] += eight.gain[k] * by_x[k];
@@ -331,50 +299,39 @@ impl<const MOUNTS: bool> Kernel for Drive<'_, MOUNTS> {
     }
 }
 
-struct RatesWithin<'a, const MOUNTS: bool> {
+struct RatesWithin<'a> {
     eights: &'a [Eight],
     within: &'a [Within],
     amplitude: f64,
-    parts: [[f64; 4]; 2],
-    added: Option<&'a dyn Fn(usize) -> f64>,
+    parts: [f64; 4],
     x: &'a [f64],
     v: &'a [f64],
 }
 
-impl<const MOUNTS: bool> Kernel for RatesWithin<'_, MOUNTS> {
-    type Output = Rates;
+impl Kernel for RatesWithin<'_> {
+    /// Power and loss.
+    type Output = [[f64; SUMS]; 2];
 
     #[inline(always)]
-    fn call(self) -> Rates {
-        let (mut disk, mut ramp, mut loss) = ([0.0; SUMS], [0.0; SUMS], [0.0; SUMS]);
+    fn call(self) -> Self::Output {
+        let (mut power, mut loss) = ([0.0; SUMS], [0.0; SUMS]);
         let states = self.x.as_chunks::<SUMS>().0.iter();
         let states = states.zip(self.v.as_chunks::<SUMS>().0);
         let columns = self.eights.iter().zip(self.within);
-        for (i, ((eight, within), (x, v))) in columns.zip(states).enumerate() {
-            let by = respond::<MOUNTS>(&within.forced, &self.parts, &eight.on_ramp);
+        for ((eight, within), (x, v)) in columns.zip(states) {
+            let by = respond(&within.forced, &self.parts);
             let mut rate = [0.0; SUMS];
             for k in 0..SUMS {
                 rate[k] = v[k]
                     + (within.from_x[k] * x[k] + within.from_v[k] * v[k])
                     + self.amplitude * eight.gain[k] * by[k];
             }
-            if let Some(added) = self.added {
-                for (k, (rate, gain)) in rate.iter_mut().zip(&eight.gain).enumerate() {
-                    *rate += self.amplitude * gain * added(SUMS * i + k);
-                }
-            }
             for k in 0..SUMS {
-                let power = eight.gain[k] * rate[k];
-                let on_ramp = MOUNTS && eight.on_ramp[k];
-                disk[k] += if on_ramp { 0.0 } else { power };
-                ramp[k] += if on_ramp { power } else { 0.0 };
+                power[k] += eight.gain[k] * rate[k];
                 loss[k] += eight.damping[k] * rate[k] * rate[k];
             }
         }
-        Rates {
-            power: [total(disk), total(ramp)],
-            loss: total(loss),
-        }
+        [power, loss]
     }
 }
 
@@ -390,25 +347,13 @@ fn carry(flow: &[[f64; SUMS]; 4], x: &mut [f64; SUMS], v: &mut [f64; SUMS]) {
     (*x, *v) = (to, to_v);
 }
 
-/// Responses to the load at every mode's own mount.
+/// Responses to the four parts of a load.
 #[inline(always)]
-fn respond<const MOUNTS: bool>(
-    response: &[[f64; SUMS]; 4],
-    parts: &[[f64; 4]; 2],
-    on_ramp: &[bool; SUMS],
-) -> [f64; SUMS] {
+fn respond(response: &[[f64; SUMS]; 4], parts: &[f64; 4]) -> [f64; SUMS] {
     let [a, b, c, d] = response;
-    let [disk, ramp] = parts;
     let mut out = [0.0; SUMS];
     for k in 0..SUMS {
-        let part = |i: usize| {
-            if MOUNTS && on_ramp[k] {
-                ramp[i]
-            } else {
-                disk[i]
-            }
-        };
-        out[k] = (a[k] * part(0) + b[k] * part(1)) + (c[k] * part(2) + d[k] * part(3));
+        out[k] = (a[k] * parts[0] + b[k] * parts[1]) + (c[k] * parts[2] + d[k] * parts[3]);
     }
     out
 }

@@ -22,8 +22,6 @@ pub(super) struct ForcedModes {
     pub oscillators: Vec<Oscillator>,
     /// Generalised force per unit a(t), kg^½.
     pub participation: Vec<f64>,
-    /// How many are the disk's; the others are the ramp's.
-    pub n_on_disk: usize,
 }
 
 /// Shapes of the forced modes at the points that matter, kg^-½ (slope: kg^-½/m).
@@ -183,7 +181,7 @@ impl FreeMotion {
             samples: Vec::with_capacity(n_steps + 1),
             checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
-            columns: ForcedColumns::new(&modes, shapes.by_mode(), false, sigma, step_s, rule),
+            columns: ForcedColumns::new(&modes, shapes.by_mode(), sigma, step_s, rule),
             modes,
             rotor,
             base,
@@ -272,7 +270,7 @@ impl FreeMotion {
                 rotor.step(None, &mut state.rotor, &mut state.scratch);
             }
         } else if let Some((_, phase)) = self.pulse.whole_step(start_s, self.step_s) {
-            self.columns.drive(&[phase; 2], &mut state.x, &mut state.v);
+            self.columns.drive(&phase, &mut state.x, &mut state.v);
             if let Some(rotor) = &self.rotor {
                 rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
             }
@@ -300,15 +298,13 @@ impl FreeMotion {
             Some((stretch, phase)) => (stretch.sigma_per_s, phase),
             None => return self.exchange_within(state, start_s, self.step_s, amplitude),
         };
-        let phases = [phase; 2];
         let mut total = Exchange::default();
         for (i, (tau_s, weight_s, turn)) in self.columns.instants().enumerate() {
-            let forces = phases.map(|p| p.turned(tau_s, turn).value());
-            let load = (amplitude, &phases);
-            let rates = self.columns.rates(i, load, None, &state.x, &state.v);
-            for (force, power) in forces.iter().zip(rates.power) {
-                total.work += weight_s * (amplitude * force) * power;
-            }
+            let force = amplitude * phase.turned(tau_s, turn).value();
+            let rates = self
+                .columns
+                .rates(i, (amplitude, &phase), &state.x, &state.v);
+            total.work += weight_s * force * rates.power;
             total.loss += weight_s * rates.loss;
         }
         if let Some(rotor) = &self.rotor {
