@@ -8,6 +8,7 @@ use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_study::search::{Flag, Probe, Purpose, Retry};
 use opshock_study::store::results;
 use opshock_study::store::summary::PointSummary;
+use opshock_study::study::Ramp;
 use opshock_study::sweep::{
     Ending, Event, Physics, Silent, Simulator, SweepEnd, SweepInput, SweepOptions, sweep,
 };
@@ -175,6 +176,48 @@ fn a_retry_of_a_turned_scene_keeps_its_knobs_and_takes_finer_steps() {
     assert_eq!(retried.structure_steps, 2 * turned.structure_steps);
     let ratio = retried.steps as f64 / turned.steps as f64;
     assert!((1.5..2.6).contains(&ratio), "{ratio}");
+}
+
+/// A coarser mesh of the ramp is the study with elements of twice the size: the same motion, bit by bit.
+#[test]
+fn a_ramp_turned_coarser_is_the_study_with_larger_elements() {
+    let simulated = |size_mm: &str, mesh: i8| {
+        let sets = [
+            ("ramp.models", "[\"deformable\"]"),
+            ("ramp.deformable.geometry.mesh_size_mm", size_mm),
+            ("pulse.signs", "[\"+\"]"),
+            ("pulse.widths_ms", "[1.0]"),
+            ("pulse.window_ms", "1.5"),
+            ("solver.film_cells", "240"),
+            ("solver.disk_cut_khz", "10"),
+        ];
+        let study = study("fig13-geometry", &sets);
+        let probe = Probe {
+            is_fine: true,
+            levels: Levels::NONE.turned(Knob::RampMesh, mesh),
+            ..Probe::at(0)
+        };
+        Physics::of(&study).simulate(0, probe, m_per_s2_from_g(330.0))
+    };
+    let own = simulated("1.5", 0);
+    let coarser = simulated("1.5", -1);
+    assert_eq!(coarser, simulated("3.0", 0));
+    assert_ne!(coarser.h_min_m, own.h_min_m);
+}
+
+/// Only a deformable ramp from geometry has a mesh to turn.
+#[test]
+fn the_mesh_is_a_knob_of_ramps_from_geometry_alone() {
+    for (name, has_mesh) in [("fig13", false), ("fig13-geometry", true)] {
+        let study = study(name, &[]);
+        let input = SweepInput::of(&study).expect("a sweep");
+        for (place, point) in study.table_order().into_iter().zip(&input.points) {
+            let ramp = study.points[place].ramp;
+            let knobs = &point.bar.as_ref().expect("bars").knobs;
+            let expected = has_mesh && ramp == Ramp::Deformable;
+            assert_eq!(knobs.contains(&Knob::RampMesh), expected, "{name} {ramp}");
+        }
+    }
 }
 
 fn known_laws(first: u64, n: usize) -> (f64, f64) {

@@ -13,8 +13,11 @@
 //! | `head_tolerance` | an eighth of the tolerance | 4 | local error of a second-order step |
 //! | `coupling_tolerance` | an eighth of the tolerance | 8 | the residual itself |
 //!
-//! The modes of a ramp's arm are given by the study, not cut by the program: they are the model,
-//! so no knob turns them.
+//! | `ramp_mesh` | half the size of the ramp's elements | 2 | stress without bound at inner edges |
+//!
+//! A ramp comes to a scene as oscillators. Whoever made them of a geometry makes them of another mesh
+//! too; [`Scene::at_levels`] leaves them as they are, and `ramp_mesh` is none of [`Knob::ALL`]. Oscillators that
+//! the study itself gives are the model: no knob turns them.
 
 use super::Scene;
 use crate::ramp::RampModel;
@@ -35,10 +38,23 @@ pub enum Knob {
     HeadTolerance,
     /// Residual of the coupled solve.
     CouplingTolerance,
+    /// Elements of the solid that the ramp's oscillators were made of.
+    RampMesh,
 }
 
+/// All that can be turned.
+const EVERY: [Knob; 7] = [
+    Knob::FilmGrid,
+    Knob::DiskModes,
+    Knob::SuspensionModes,
+    Knob::StructureStep,
+    Knob::HeadTolerance,
+    Knob::CouplingTolerance,
+    Knob::RampMesh,
+];
+
 impl Knob {
-    /// Every knob.
+    /// Every knob of a scene.
     pub const ALL: [Knob; 6] = [
         Knob::FilmGrid,
         Knob::DiskModes,
@@ -57,18 +73,19 @@ impl Knob {
             Knob::StructureStep => "structure_step",
             Knob::HeadTolerance => "head_tolerance",
             Knob::CouplingTolerance => "coupling_tolerance",
+            Knob::RampMesh => "ramp_mesh",
         }
     }
 
     /// The knob of a word.
     pub fn from_word(word: &str) -> Option<Knob> {
-        Knob::ALL.into_iter().find(|knob| knob.as_str() == word)
+        EVERY.into_iter().find(|knob| knob.as_str() == word)
     }
 
     /// Factor by which one step finer divides the knob's error at its formal order.
     pub const fn formal_ratio(self) -> f64 {
         match self {
-            Knob::FilmGrid | Knob::DiskModes | Knob::StructureStep => 2.0,
+            Knob::FilmGrid | Knob::DiskModes | Knob::StructureStep | Knob::RampMesh => 2.0,
             Knob::SuspensionModes | Knob::HeadTolerance => 4.0,
             Knob::CouplingTolerance => 8.0,
         }
@@ -81,11 +98,11 @@ impl Knob {
 
 /// Steps by which each knob is turned; positive is finer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Levels([i8; Knob::ALL.len()]);
+pub struct Levels([i8; EVERY.len()]);
 
 impl Levels {
     /// The scene as it is.
-    pub const NONE: Levels = Levels([0; Knob::ALL.len()]);
+    pub const NONE: Levels = Levels([0; EVERY.len()]);
 
     /// These levels with one knob turned by `steps` more.
     #[must_use]
@@ -115,7 +132,7 @@ impl Levels {
 
     /// `film_grid-2 disk_modes+1`; empty when no knob is turned.
     pub fn label(self) -> String {
-        let turned = Knob::ALL.into_iter().filter(|&knob| self.of(knob) != 0);
+        let turned = EVERY.into_iter().filter(|&knob| self.of(knob) != 0);
         turned
             .map(|knob| format!("{}{:+}", knob.as_str(), self.of(knob)))
             .collect::<Vec<_>>()
@@ -184,8 +201,9 @@ mod tests {
     fn labels_read_back_and_leave_out_what_is_not_turned() {
         let levels = Levels::NONE
             .turned(Knob::FilmGrid, -2)
-            .turned(Knob::StructureStep, 1);
-        assert_eq!(levels.label(), "film_grid-2 structure_step+1");
+            .turned(Knob::StructureStep, 1)
+            .turned(Knob::RampMesh, -1);
+        assert_eq!(levels.label(), "film_grid-2 structure_step+1 ramp_mesh-1");
         assert_eq!(Levels::parse(&levels.label()), Some(levels));
         assert_eq!(Levels::parse(""), Some(Levels::NONE));
         assert_eq!(Levels::parse("film_grid"), None);

@@ -34,9 +34,10 @@ impl std::fmt::Display for AxisValue {
 /// Names of the parts of error bars, in the order in which they are listed.
 ///
 /// `structure` and `head` stand for all knobs of disk and ramp, and of the head, turned together.
-pub const ERROR_PARTS: [&str; 9] = [
+pub const ERROR_PARTS: [&str; 10] = [
     "search",
     "film_grid",
+    "ramp_mesh",
     "structure",
     "disk_modes",
     "structure_step",

@@ -6,6 +6,7 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::Rung;
 
 use super::fault::{Severity, StudyError};
+use super::ramp_remeshed::RemeshedRamp;
 use super::read::{self, MAX_POINTS};
 use super::scene;
 use super::settings::{Datum, Settings, View};
@@ -90,6 +91,8 @@ pub struct Point {
     pub axes: Vec<(String, AxisValue)>,
     /// The scene.
     pub scene: Scene,
+    /// Its ramp on other meshes; `None` for one that is no solid.
+    pub remeshed: Option<RemeshedRamp>,
     /// Round of refinement that added the width, 0 for the study's own.
     pub round: u32,
 }
@@ -328,6 +331,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
             })
             .collect(),
         scene,
+        remeshed: RemeshedRamp::of(view, ramp),
         round: 0,
     }
 }

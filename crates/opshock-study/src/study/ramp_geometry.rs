@@ -125,10 +125,15 @@ pub fn modes(ramp: &SolidRamp) -> Answer {
         .clone()
 }
 
-/// The oscillators as the solver takes them; none for a ramp that the checks refuse.
+/// The oscillators of a view as the solver takes them; none for a ramp that the checks refuse.
 pub fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
     let damping_ratio = view.si("ramp.deformable.damping_ratio");
-    let Ok(answer) = modes(&solid_ramp(view)) else {
+    oscillators(&solid_ramp(view), damping_ratio)
+}
+
+/// The oscillators of a ramp as the solver takes them; none for one without.
+pub fn oscillators(ramp: &SolidRamp, damping_ratio: f64) -> Vec<CoupledMode> {
+    let Ok(answer) = modes(ramp) else {
         return Vec::new();
     };
     let modes = answer.modes.iter();

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::plan::Touch;
 use opshock_solver::scene::{Scene, Window};
 use serde_json::json;
@@ -115,8 +116,10 @@ const COARSEST_FILM: usize = 60;
 
 fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
     let cells = point.scene.film_resolution.cells;
+    let mut knobs = point.scene.knobs();
+    knobs.extend(point.remeshed.as_ref().map(|_| Knob::RampMesh));
     BarPlan {
-        knobs: point.scene.knobs(),
+        knobs,
         film_halvings: (0..=3_i8)
             .rev()
             .find(|&halvings| cells >> halvings >= COARSEST_FILM)

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
     Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
@@ -23,16 +23,32 @@ use super::simulator::{Onset, Simulator};
 use crate::identity;
 use crate::provenance::PHYSICS_STRUCTURE;
 use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
-use crate::study::{Sign, Study};
+use crate::study::{Point, RemeshedRamp, Sign, Study};
 
 type Built = Result<Arc<Model>, BuildError>;
 
 /// Models of one scene.
 struct Slot {
     scene: Scene,
+    /// Its ramp on other meshes.
+    remeshed: Option<RemeshedRamp>,
     plain: OnceLock<Built>,
     /// The doubled window, kept while both signs may ask for it.
     longer: Mutex<Option<Arc<Model>>>,
+}
+
+impl Slot {
+    /// The scene with turned knobs, the ramp's mesh among them.
+    fn at_levels(&self, levels: Levels) -> Scene {
+        let mut scene = self.scene.at_levels(levels);
+        let mesh = levels.of(Knob::RampMesh);
+        if let Some(ramp) = self.remeshed.as_ref().filter(|_| mesh != 0) {
+            scene.ramp.model = RampModel::Coupled {
+                modes: ramp.modes(mesh),
+            };
+        }
+        scene
+    }
 }
 
 /// Models with turned knobs that are kept, the oldest first. An error bar asks for nine or so, each
@@ -78,21 +94,22 @@ impl Physics {
                 Sign::Plus => 1.0,
                 Sign::Minus => -1.0,
             };
-            (&point.scene, factor)
+            (point, factor)
         });
         Self::new(points, plan)
     }
 
-    /// Points given as scene and sign factor (1 or -1).
-    pub fn new<'a>(points: impl IntoIterator<Item = (&'a Scene, f64)>, plan: Plan) -> Self {
+    /// Points with their sign factor (1 or -1).
+    fn new<'a>(points: impl IntoIterator<Item = (&'a Point, f64)>, plan: Plan) -> Self {
         let mut slots: Vec<Slot> = Vec::new();
         let points = points
             .into_iter()
-            .map(|(scene, sign)| {
-                let known = slots.iter().position(|slot| slot.scene == *scene);
+            .map(|(point, sign)| {
+                let known = slots.iter().position(|slot| slot.scene == point.scene);
                 let slot = known.unwrap_or_else(|| {
                     slots.push(Slot {
-                        scene: scene.clone(),
+                        scene: point.scene.clone(),
+                        remeshed: point.remeshed.clone(),
                         plain: OnceLock::new(),
                         longer: Mutex::new(None),
                     });
@@ -155,7 +172,7 @@ impl Physics {
         if let Some(turned) = lock(&self.turned).iter().find(|turned| is_it(turned)) {
             return Ok(Arc::clone(&turned.model));
         }
-        let model = self.build(&self.slots[slot].scene.at_levels(levels))?;
+        let model = self.build(&self.slots[slot].at_levels(levels))?;
         let mut kept = lock(&self.turned);
         if !kept.iter().any(is_it) {
             if kept.len() == TURNED {
@@ -179,7 +196,7 @@ impl Physics {
             return self.model(point);
         }
         let slot = &self.slots[self.points[point].0];
-        let scene = slot.scene.at_levels(probe.levels);
+        let scene = slot.at_levels(probe.levels);
         let longer = |scene: &Scene| {
             if probe.window_factor == 1 {
                 scene.clone()

@@ -120,7 +120,8 @@ fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
         let alone = Knob::from_word(name);
         let all = group.map_or_else(|| alone.into_iter().collect(), |g| g.knobs.to_vec());
         all.into_iter()
-            .filter(|knob| at.knobs.contains(knob))
+            // The mesh is the study's own: its error is told, and `mesh_size_mm` mends it.
+            .filter(|knob| at.knobs.contains(knob) && *knob != Knob::RampMesh)
             .collect()
     };
     let mut parts: Vec<(f64, Vec<Knob>)> = bar

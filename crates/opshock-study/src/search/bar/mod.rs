@@ -4,7 +4,7 @@
 //! that its runs cost less than those of the search, and a step finer where that is not little. All
 //! knobs but the film's grid are turned on a film of a quarter or an eighth of the cells (half where
 //! those answer otherwise), because what such a knob changes hardly depends on the film; and together, in
-//! two groups (`GROUPS`): of disk and ramp, and of the head. Only where a group turned together has
+//! groups (`GROUPS`): of disk and ramp, of the head, and the mesh of a ramp from geometry. Only where a group turned together has
 //! no answer is each of its knobs turned alone.
 //! Two readings turn runs into amplitude:
 //!
@@ -50,7 +50,12 @@ struct Group {
     knobs: &'static [Knob],
 }
 
-const GROUPS: [Group; 2] = [
+const GROUPS: [Group; 3] = [
+    // Alone: its order is another one, and only some studies have it.
+    Group {
+        name: "ramp_mesh",
+        knobs: &[Knob::RampMesh],
+    },
     Group {
         name: "structure",
         knobs: &[Knob::DiskModes, Knob::StructureStep],
@@ -344,7 +349,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
         _ => 0.0,
     };
     sum.extend(&film);
-    let mut found = [film, Bar::default(), Bar::default()];
+    let mut found = [film, Bar::default(), Bar::default(), Bar::default()];
     // The head first: with its knobs loose the structure costs half as much to compare.
     for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate().rev() {
         let piece = match kept {

@@ -464,3 +464,53 @@ fn half_the_cells_and_the_scene_are_halved_together_as_far_as_is_needed() {
     // One halving less would not have met what was asked.
     assert!(met.bar.half_length() + 1.7 * width > 0.01, "{met:?}");
 }
+
+/// A ramp's mesh is a part of its own, at most what its error is times the factor; climbs leave it.
+#[test]
+fn the_mesh_of_a_ramp_has_a_part_of_its_own_and_is_not_climbed() {
+    for slope_m in [Some(1e-7), None] {
+        let law = Law::formal([0.002, 0.0, 0.0, 0.0, 0.0, 0.0], slope_m);
+        let mesh = |levels: Levels| 0.02 * 0.5f64.powi(i32::from(levels.of(Knob::RampMesh)));
+        let turned = |lattice: Lattice, ask: Ask| {
+            let law = Law {
+                exact_g: law.exact_g * (1.0 + mesh(ask.levels) / (1.0 + law.errors[0])),
+                ..Law::formal(law.errors, slope_m)
+            };
+            law.see(lattice, ask)
+        };
+        // Brackets and survivors of the mesh as the study has it.
+        let own = Law {
+            exact_g: law.exact_g * (1.0 + mesh(Levels::NONE) / (1.0 + law.errors[0])),
+            ..Law::formal(law.errors, slope_m)
+        };
+        let (without, _) = own.input(3);
+        let mut input = without.clone();
+        input.knobs.push(Knob::RampMesh);
+        let lattice = input.lattice;
+        let (log, progress) = bar(&input, &|ask| Some(turned(lattice, ask)));
+        let Progress::Done(with) = progress else {
+            panic!("{progress:?}")
+        };
+        let part = part(&with, "ramp_mesh");
+        assert!((0.018..0.04).contains(&part.high), "{slope_m:?} {part:?}");
+        assert!(with.flags.contains(&Flag::BarExceeds));
+        assert!(!with.flags.contains(&Flag::BarPartial));
+        // The other parts are those of a study that gives its ramp by modes, to a node.
+        let (plain_log, progress) = bar(&without, &|ask| Some(turned(lattice, ask)));
+        let Progress::Done(plain) = progress else {
+            panic!("{progress:?}")
+        };
+        assert!(plain.parts.iter().all(|part| part.name != "ramp_mesh"));
+        assert_eq!(plain.parts.len() + 1, with.parts.len());
+        println!("{} runs, {} without", log.len(), plain_log.len());
+        let (log, progress) = answer(&input, 3, &|ask| Some(turned(lattice, ask)));
+        let Progress::Done(answer) = progress else {
+            panic!("{progress:?}")
+        };
+        assert_eq!(answer.levels.of(Knob::RampMesh), 0);
+        assert!(
+            log.iter()
+                .all(|ask| ask.levels.of(Knob::RampMesh).abs() <= 2)
+        );
+    }
+}

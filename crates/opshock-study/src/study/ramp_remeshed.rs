@@ -1,0 +1,75 @@
+//! A ramp from geometry on finer and coarser meshes: what the mesh's part of an error bar is made of.
+
+use super::ramp_geometry;
+use super::settings::View;
+use super::words::Ramp;
+use opshock_solid::ramp::SolidRamp;
+use opshock_solver::ramp::CoupledMode;
+
+/// A deformable ramp whose mesh can be made anew.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RemeshedRamp {
+    solid: SolidRamp,
+    damping_ratio: f64,
+}
+
+impl RemeshedRamp {
+    /// That of a view; `None` for other ramps, and for those that are given by modes.
+    pub(super) fn of(view: &View<'_>, ramp: Ramp) -> Option<Self> {
+        let is_solid = ramp == Ramp::Deformable && ramp_geometry::is_given(view);
+        is_solid.then(|| Self {
+            solid: ramp_geometry::solid_ramp(view),
+            damping_ratio: view.si("ramp.deformable.damping_ratio"),
+        })
+    }
+
+    /// Oscillators on elements of half the size `level` times, or of twice where it is negative. None
+    /// where the geometry has no such mesh: a scene with them cannot be built.
+    pub fn modes(&self, level: i8) -> Vec<CoupledMode> {
+        let solid = SolidRamp {
+            mesh_size_m: self.solid.mesh_size_m / f64::from(level).exp2(),
+            ..self.solid
+        };
+        ramp_geometry::oscillators(&solid, self.damping_ratio)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::study::Study;
+    use opshock_solver::ramp::RampModel;
+
+    /// Displacements that are held to polynomials stiffen: frequencies fall from mesh to mesh.
+    #[test]
+    fn the_mesh_of_the_study_lies_between_a_coarser_and_a_finer_one() {
+        let study = |size: &str| {
+            let text = format!(
+                "study_format = 1\nname = \"a\"\noutputs = [\"contact_force\"]\n\
+                 [pulse]\nwidths_ms = [1.0]\nsigns = [\"+\"]\n\
+                 [ramp]\nmodels = [\"rigid\", \"deformable\"]\n\
+                 [ramp.deformable.geometry]\nmaterial = \"POM\"\nmesh_size_mm = {size}\n"
+            );
+            Study::from_text(&text, &[]).unwrap()
+        };
+        let one = study("3.0");
+        let [rigid, deformable] = &one.points[..] else {
+            panic!("two points")
+        };
+        assert_eq!(rigid.remeshed, None);
+        let ramp = deformable.remeshed.as_ref().expect("a solid");
+        let RampModel::Coupled { modes } = &deformable.scene.ramp.model else {
+            panic!("a body")
+        };
+        assert_eq!(ramp.modes(0), *modes);
+        // The same oscillators as those of a study with that size.
+        let RampModel::Coupled { modes: halved } = &study("1.5").points[1].scene.ramp.model else {
+            panic!("a body")
+        };
+        assert_eq!(ramp.modes(1), *halved);
+        let lowest = [-1, 0, 1].map(|level| ramp.modes(level)[0].frequency_hz);
+        assert!(
+            lowest[0] >= lowest[1] && lowest[1] > lowest[2],
+            "{lowest:?}"
+        );
+    }
+}
