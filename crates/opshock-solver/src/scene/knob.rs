@@ -12,7 +12,6 @@
 //! | `structure_step` | half the step | 2 | contact begins and ends on steps |
 //! | `head_tolerance` | an eighth of the tolerance | 4 | local error of a second-order step |
 //! | `coupling_tolerance` | an eighth of the tolerance | 8 | the residual itself |
-//!
 //! | `ramp_mesh` | half the size of the ramp's elements | 2 | stress without bound at inner edges |
 //!
 //! A ramp comes to a scene as oscillators. Whoever made them of a geometry makes them of another mesh

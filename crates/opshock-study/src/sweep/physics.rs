@@ -105,7 +105,9 @@ impl Physics {
         let points = points
             .into_iter()
             .map(|(point, sign)| {
-                let known = slots.iter().position(|slot| slot.scene == point.scene);
+                let known = slots
+                    .iter()
+                    .position(|slot| slot.scene == point.scene && slot.remeshed == point.remeshed);
                 let slot = known.unwrap_or_else(|| {
                     slots.push(Slot {
                         scene: point.scene.clone(),

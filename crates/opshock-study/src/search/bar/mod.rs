@@ -4,8 +4,8 @@
 //! that its runs cost less than those of the search, and a step finer where that is not little. All
 //! knobs but the film's grid are turned on a film of a quarter or an eighth of the cells (half where
 //! those answer otherwise), because what such a knob changes hardly depends on the film; and together, in
-//! groups (`GROUPS`): of disk and ramp, of the head, and the mesh of a ramp from geometry. Only where a group turned together has
-//! no answer is each of its knobs turned alone.
+//! groups (`GROUPS`): of disk and ramp, of the head, and the mesh of a ramp from geometry. Only where a
+//! group turned together has no answer is each of its knobs turned alone.
 //! Two readings turn runs into amplitude:
 //!
 //! * *margin* (`margin`): where the smallest clearance falls steadily to zero at the instant at
