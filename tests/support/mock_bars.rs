@@ -133,6 +133,7 @@ pub fn laws_study(n: usize) -> SweepInput {
         point.bar = Some(BarPlan {
             knobs: Knob::ALL.to_vec(),
             film_halvings: 3,
+            mesh_halvings: 0,
             accuracy: 0.01,
             climbs: 0,
         });

@@ -205,6 +205,34 @@ fn a_ramp_turned_coarser_is_the_study_with_larger_elements() {
     assert_ne!(coarser.h_min_m, own.h_min_m);
 }
 
+/// A store keeps the runs of a point: another mesh is another point, also where both ramps move alike.
+#[test]
+fn what_a_ramp_is_remeshed_from_is_content_of_its_points() {
+    let of = |size_mm: &str| {
+        let sets = [
+            ("ramp.models", "[\"rigid\", \"deformable\"]"),
+            ("ramp.deformable.geometry.mesh_size_mm", size_mm),
+            ("pulse.signs", "[\"+\"]"),
+            ("pulse.widths_ms", "[1.0]"),
+        ];
+        let study = study("fig13-geometry", &sets);
+        let input = SweepInput::of(&study).expect("a sweep");
+        let scenes: Vec<_> = study
+            .table_order()
+            .into_iter()
+            .map(|place| study.points[place].scene.clone())
+            .collect();
+        let digests: Vec<_> = input.points.iter().map(|point| point.digest).collect();
+        (scenes, digests)
+    };
+    let (one, other) = (of("3.0"), of("2.99"));
+    assert_eq!(one, of("3.0"));
+    // As many elements, so the same oscillators; halved again they would not be.
+    assert_eq!(one.0, other.0);
+    assert_eq!(one.1[0], other.1[0], "rigid");
+    assert_ne!(one.1[1], other.1[1], "deformable");
+}
+
 /// Only a deformable ramp from geometry has a mesh to turn.
 #[test]
 fn the_mesh_is_a_knob_of_ramps_from_geometry_alone() {

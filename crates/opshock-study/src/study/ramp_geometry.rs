@@ -4,7 +4,7 @@
 //! different vector instructions, and the same study must be the same study on both.
 
 use opshock_solid::material::{MATERIALS, Material};
-use opshock_solid::ramp::{Mount, RampGeometry, RampModes, SolidRamp, SolidRampError};
+use opshock_solid::ramp::{Extent, Mount, RampGeometry, RampModes, SolidRamp, SolidRampError};
 use opshock_solver::ramp::CoupledMode;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -123,6 +123,17 @@ pub fn modes(ramp: &SolidRamp) -> Answer {
         .entry(key)
         .or_insert_with(|| ramp.modes().map(Arc::new))
         .clone()
+}
+
+/// Whether the ramp can be meshed with elements of its size; each size is tried once per process.
+pub fn has_mesh(ramp: &SolidRamp) -> bool {
+    static KNOWN: OnceLock<Mutex<HashMap<String, bool>>> = OnceLock::new();
+    let known = KNOWN.get_or_init(Mutex::default);
+    let key = format!("{:?} {:?}", ramp.geometry, ramp.mesh_size_m);
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    *known
+        .entry(key)
+        .or_insert_with(|| ramp.geometry.mesh(ramp.mesh_size_m, Extent::Half).is_ok())
 }
 
 /// The oscillators of a view as the solver takes them; none for a ramp that the checks refuse.

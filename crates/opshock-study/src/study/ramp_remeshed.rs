@@ -26,11 +26,25 @@ impl RemeshedRamp {
     /// Oscillators on elements of half the size `level` times, or of twice where it is negative. None
     /// where the geometry has no such mesh: a scene with them cannot be built.
     pub fn modes(&self, level: i8) -> Vec<CoupledMode> {
-        let solid = SolidRamp {
+        ramp_geometry::oscillators(&self.at(level), self.damping_ratio)
+    }
+
+    /// Times that the elements may be halved, up to `most`, until the ramp takes too many.
+    pub fn halvings(&self, most: i8) -> i8 {
+        let has_mesh = |level: &i8| ramp_geometry::has_mesh(&self.at(*level));
+        (1..=most).take_while(has_mesh).last().unwrap_or(0)
+    }
+
+    /// All that its meshes and oscillators are made of, every number with all its digits.
+    pub fn content(&self) -> String {
+        format!("{self:?}")
+    }
+
+    fn at(&self, level: i8) -> SolidRamp {
+        SolidRamp {
             mesh_size_m: self.solid.mesh_size_m / f64::from(level).exp2(),
             ..self.solid
-        };
-        ramp_geometry::oscillators(&solid, self.damping_ratio)
+        }
     }
 }
 
@@ -66,6 +80,8 @@ mod tests {
             panic!("a body")
         };
         assert_eq!(ramp.modes(1), *halved);
+        // Elements of 0.375 mm are some 4000, of 0.1875 mm more than the 5000 that a ramp may have.
+        assert_eq!([1, 3, 6].map(|most| ramp.halvings(most)), [1, 3, 3]);
         let lowest = [-1, 0, 1].map(|level| ramp.modes(level)[0].frequency_hz);
         assert!(
             lowest[0] >= lowest[1] && lowest[1] > lowest[2],

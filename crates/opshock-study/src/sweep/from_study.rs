@@ -3,14 +3,15 @@
 use std::time::Duration;
 
 use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::Window;
 use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::plan::Touch;
-use opshock_solver::scene::{Scene, Window};
 use serde_json::json;
 
 use super::input::{BarPlan, SweepInput, SweepPoint};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use crate::search::bar::FLOOR;
 use crate::search::{Certify, Coordinates, LatticeError, RampClass, SearchSettings, Sign};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
 use crate::study::{self, Point, Ramp, Study};
@@ -106,7 +107,7 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
             round: point.round,
         },
         axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
-        digest: digest(&point.scene, sign),
+        digest: digest(point, sign),
         bar: search.error_bars.then(|| bar_plan(point, search.climbs)),
     }
 }
@@ -124,16 +125,22 @@ fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
             .rev()
             .find(|&halvings| cells >> halvings >= COARSEST_FILM)
             .unwrap_or(0),
+        mesh_halvings: match &point.remeshed {
+            Some(ramp) => ramp.halvings(FLOOR + 1),
+            None => 0,
+        },
         accuracy: point.accuracy.share(),
         climbs,
     }
 }
 
-/// Content of a point: its scene, the physics versions and the sign.
+/// Content of a point: its scene, the solid that its ramp is remade of, the physics versions and the
+/// sign.
 ///
 /// Without a ramp the clearances mean nothing: such scenes share their runs along a clearance
 /// axis.
-fn digest(scene: &Scene, sign: Sign) -> PointDigest {
+fn digest(point: &Point, sign: Sign) -> PointDigest {
+    let scene = &point.scene;
     let key = if scene.ramp.model == RampModel::None {
         let mut bare = scene.clone();
         bare.ramp.clearance_top_m = 0.0;
@@ -148,6 +155,11 @@ fn digest(scene: &Scene, sign: Sign) -> PointDigest {
     hasher.update(b"opshock point 1");
     hasher.update(&key);
     hasher.update(sign.as_str().as_bytes());
+    // Two solids may have the same oscillators, rounded as they are, and others on other meshes.
+    if let Some(ramp) = &point.remeshed {
+        hasher.update(b"remeshed 1");
+        hasher.update(ramp.content().as_bytes());
+    }
     PointDigest(*hasher.finalize().as_bytes())
 }
 

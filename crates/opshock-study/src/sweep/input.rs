@@ -16,6 +16,8 @@ pub struct BarPlan {
     pub knobs: Vec<Knob>,
     /// Times the film's cells may be halved.
     pub film_halvings: i8,
+    /// Times the study's elements of the ramp's solid may be halved.
+    pub mesh_halvings: i8,
     /// Accuracy asked for, a share.
     pub accuracy: f64,
     /// Times that the point may be turned finer where its bar exceeds that.

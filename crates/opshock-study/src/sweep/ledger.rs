@@ -359,6 +359,7 @@ impl<'a> Ledger<'a> {
             survivors,
             knobs: plan.knobs.clone(),
             film_halvings: plan.film_halvings,
+            mesh_halvings: plan.mesh_halvings,
             accuracy: plan.accuracy,
         })
     }

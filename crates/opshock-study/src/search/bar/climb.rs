@@ -3,12 +3,14 @@
 //!
 //! A climb keeps what it did not touch: only the parts of turned knobs are looked at again, around
 //! the new answer. It ends when the bar meets what was asked, when the last climb allowed is made,
-//! or at the floor: every knob whose part counts is [`FLOOR`] steps above the study.
+//! or at the floor: every knob whose part counts is [`FLOOR`] steps above the study. The mesh of a
+//! ramp is turned finer as long as one of half those elements again can be made to tell its error;
+//! where it is too coarse beyond that, other knobs are not turned in vain.
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::verdicts::{self, Bracket};
-use super::{Ask, Bar, BarInput, GROUPS, Known, Pieces, Progress, SUBNODES, Seen, Walk};
+use super::{Ask, Bar, BarInput, GROUPS, Known, Part, Pieces, Progress, SUBNODES, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 use crate::search::outcome::Flag;
 use crate::search::probe::Retry;
@@ -111,17 +113,32 @@ fn floored(mut bar: Bar) -> Bar {
     bar
 }
 
+/// Most steps by which a knob can be turned. A mesh is none whose error nothing finer can tell: what a coarser
+/// one alone says of it, thrice, is no less than what both said of the mesh before.
+fn floor(at: &BarInput, knob: Knob) -> i8 {
+    match knob {
+        Knob::RampMesh => FLOOR.min(at.mesh_halvings - 1),
+        _ => FLOOR,
+    }
+}
+
 /// Knobs to turn, with the steps that their parts call for: those whose part counts, the largest
 /// where none does. A knob on the floor stays, so that nothing may be left.
 fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
     let most = COUNTS * at.accuracy;
+    let is_last_mesh = at.base.of(Knob::RampMesh) >= floor(at, Knob::RampMesh);
+    let stays = |part: &&Part| part.name == Knob::RampMesh.as_str() && is_last_mesh;
+    let mesh = bar.parts.iter().find(stays);
+    if mesh.is_some_and(|part| 0.5 * (part.low + part.high) > at.accuracy) {
+        return Vec::new();
+    }
     let knobs = |name: &str| -> Vec<Knob> {
         let group = GROUPS.iter().find(|group| group.name == name);
         let alone = Knob::from_word(name);
         let all = group.map_or_else(|| alone.into_iter().collect(), |g| g.knobs.to_vec());
         all.into_iter()
-            // The mesh is the study's own: its error is told, and `mesh_size_mm` mends it.
-            .filter(|knob| at.knobs.contains(knob) && *knob != Knob::RampMesh)
+            .filter(|knob| at.knobs.contains(knob))
+            .filter(|knob| !(*knob == Knob::RampMesh && is_last_mesh))
             .collect()
     };
     let mut parts: Vec<(f64, Vec<Knob>)> = bar
@@ -140,7 +157,7 @@ fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
             } else {
                 1
             };
-            let steps = called.min(FLOOR - at.base.of(knob));
+            let steps = called.min(floor(at, knob) - at.base.of(knob));
             if steps > 0 {
                 turned.push((knob, steps));
             }

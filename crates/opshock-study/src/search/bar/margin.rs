@@ -167,7 +167,7 @@ impl Reference {
                 continue;
             }
             let estimate = judge::one_step(knobs, near);
-            if estimate.error() <= limits.little {
+            if estimate.error() <= limits.little || !walk.has_finer(knobs) {
                 return Ok(Some(estimate));
             }
             let finer = judge::finer(walk.proxy(), knobs);

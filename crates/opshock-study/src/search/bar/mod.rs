@@ -107,6 +107,8 @@ pub struct BarInput {
     pub knobs: Vec<Knob>,
     /// Times the film's cells may be halved; 0 where there is no film.
     pub film_halvings: i8,
+    /// Times the study's elements of the ramp's solid may be halved; 0 where it is none.
+    pub mesh_halvings: i8,
     /// Accuracy asked for, a share.
     pub accuracy: f64,
 }
@@ -249,6 +251,12 @@ impl<'a> Walk<'a> {
     /// The film on which the other knobs are compared.
     fn proxy(&self) -> Levels {
         Levels::NONE.turned(Knob::FilmGrid, -self.input.film_halvings.min(2))
+    }
+
+    /// A scene with these knobs a step finer can be made.
+    fn has_finer(&self, knobs: &[Knob]) -> bool {
+        !knobs.contains(&Knob::RampMesh)
+            || self.input.base.of(Knob::RampMesh) < self.input.mesh_halvings
     }
 
     /// Whole nodes in a share.

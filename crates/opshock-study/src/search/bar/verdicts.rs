@@ -220,7 +220,7 @@ pub(super) fn knobs(
     }
     let near = shift(walk, base, coarse);
     let estimate = judge::one_step(knobs, near);
-    if estimate.error() <= limits.little || !limits.is_worth(estimate.error()) {
+    if !limits.is_worth(estimate.error()) || !walk.has_finer(knobs) {
         return Ok((Some(estimate), cheaper));
     }
     let Some(finer) = locate(walk, judge::finer(proxy, knobs), base, width)? else {
