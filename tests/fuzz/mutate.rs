@@ -145,7 +145,7 @@ pub fn text(seeded: &mut Seeded, base: &str, others: &[String]) -> String {
                 }
             }
             6 => {
-                let key = seeded.one_of(KEYS).path;
+                let key = seeded.one_of(&KEYS).path;
                 let line = format!("{key} = {}", seeded.one_of(VALUES));
                 // Dotted paths belong to the root: above the first section.
                 let place = if seeded.once_in(2) { 0 } else { at };

@@ -21,6 +21,7 @@ mod head_shock;
 mod head_touch;
 mod hub;
 mod limiters;
+mod mirror;
 mod oblique;
 mod plate;
 mod pressure_fields;

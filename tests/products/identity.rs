@@ -28,8 +28,8 @@ fn the_structure_does_not_depend_on_the_head() {
         assert_eq!(structure_key(&base, 1), structure_key(&other, 1), "{name}");
         assert_ne!(head_key(&base, 1, 1), head_key(&other, 1, 1), "{name}");
         assert_ne!(
-            CellId::new(&base, true),
-            CellId::new(&other, true),
+            CellId::new(&base, true, false),
+            CellId::new(&other, true, false),
             "{name}"
         );
     }
@@ -48,13 +48,23 @@ fn the_contact_method_is_part_of_the_structure() {
     let scene = scene("");
     let other = scene.with_other_contact();
     assert_ne!(structure_key(&scene, 1), structure_key(&other, 1));
-    assert_ne!(CellId::new(&scene, true), CellId::new(&other, true));
+    assert_ne!(
+        CellId::new(&scene, true, false),
+        CellId::new(&other, true, false)
+    );
 }
 
 #[test]
 fn sign_and_version_are_part_of_the_identity() {
     let scene = scene("");
-    assert_ne!(CellId::new(&scene, true), CellId::new(&scene, false));
+    assert_ne!(
+        CellId::new(&scene, true, false),
+        CellId::new(&scene, false, false)
+    );
+    assert_ne!(
+        CellId::new(&scene, true, false),
+        CellId::new(&scene, true, true)
+    );
     assert_ne!(structure_key(&scene, 1), structure_key(&scene, 2));
     assert_ne!(head_key(&scene, 1, 1), head_key(&scene, 1, 2));
 }

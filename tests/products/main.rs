@@ -13,6 +13,7 @@ mod cli_studies;
 mod compare;
 mod error_bars;
 mod hdf5_readers;
+mod heads;
 mod identity;
 mod imported_suspension;
 mod imports;

@@ -37,7 +37,10 @@ fn program(folder: &Path, command: &[&str], set: &[String]) -> Done {
     let mut words = command.to_vec();
     words.insert(1, path.to_str().expect("UTF-8"));
     words.extend(["--accept", "W201"]);
-    for value in SMALL.into_iter().chain(set.iter().map(String::as_str)) {
+    let key = |value: &str| value.split('=').next().map(str::to_owned);
+    let is_left = |small: &&str| set.iter().all(|value| key(value) != key(small));
+    let small = SMALL.into_iter().filter(is_left);
+    for value in small.chain(set.iter().map(String::as_str)) {
         words.extend(["--set", value]);
     }
     Done::of(folder, &words)
@@ -48,7 +51,7 @@ fn settings<const N: usize>(more: [&str; N]) -> Vec<String> {
 }
 
 /// Sweeps to the end; the points of its table.
-fn sweep(folder: &Path, set: &[String]) -> Vec<Value> {
+pub fn sweep(folder: &Path, set: &[String]) -> Vec<Value> {
     let command = ["sweep", "--store", "s.opshock", "--quiet", "--json"];
     let swept = program(folder, &command, set);
     assert_eq!(swept.code, 0, "{}", swept.stderr);

@@ -64,7 +64,7 @@ fn comments_do_not_repeat_key_names() {
             .lines()
             .filter(|line| line.trim_start().starts_with('#'))
             .collect();
-        for key in opshock_study::study::keys::KEYS {
+        for key in opshock_study::study::keys::KEYS.iter() {
             // Names with a unit or an underscore; `name` or `rail` are words of the language.
             if key.name().contains('_') {
                 for comment in &comments {

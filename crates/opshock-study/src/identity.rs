@@ -23,12 +23,15 @@ use opshock_solver::suspension::{
 pub struct CellId(pub [u8; 16]);
 
 impl CellId {
-    /// Identity of a scene shaken with one sign of the amplitude.
-    pub fn new(scene: &Scene, positive: bool) -> Self {
+    /// Identity of a scene shaken with one sign of the amplitude, for a head that faces down or up.
+    pub fn new(scene: &Scene, positive: bool, up: bool) -> Self {
         let mut digest = Digester::new("opshock cell 1");
         digest.structure(scene);
         digest.head(scene);
         digest.flag(positive);
+        if up {
+            digest.text("faces up");
+        }
         Self(digest.short())
     }
 

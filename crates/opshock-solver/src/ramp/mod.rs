@@ -30,6 +30,19 @@ pub struct CoupledMode {
     pub damping_ratio: f64,
 }
 
+impl CoupledMode {
+    /// The mode of the ramp upside down: load and displacements change sign together, and so the mode's
+    /// coordinate, and the arms change places.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let [top, bottom] = self.shape_per_sqrt_kg;
+        Self {
+            shape_per_sqrt_kg: [bottom, top],
+            ..*self
+        }
+    }
+}
+
 /// Which ramp model stands at the rim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RampModel {

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod knob;
+mod mirror;
 pub mod plan;
 mod refine;
 

@@ -170,7 +170,7 @@ fn ladders_of(
     memory: &mut Memory,
     console: &Console,
 ) -> Result<PointLadders, Failure> {
-    let sign = point.sign.factor();
+    let sign = point.factor();
     let settings = ladders(&point.scene);
     let key = |setting: &Setting| {
         let head = identity::head_key(&setting.scene, PHYSICS_STRUCTURE, PHYSICS_HEAD);

@@ -8,12 +8,12 @@ use super::selection::ShockArgs;
 use super::thresholds::coordinates;
 use super::{stored, study_file};
 use crate::report::savings;
-use crate::study::{Point, Study};
+use crate::study::{Faces, Point, Study};
 use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::plan::{Decision, Effect, Mode, Needs, Plan, Touch};
+use opshock_solver::scene::plan::{Decision, Effect, Mode, Needs, Plan, State, Touch};
 use opshock_solver::simulation::{Bearing, Model, Request, Workspace, simulate};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -158,7 +158,7 @@ fn explain(
     };
     let model = Model::assemble(scene, &structural, None).map_err(refused)?;
     let structure = model.structure();
-    let amplitude = amplitude_g.map(|g| point.sign.factor() * m_per_s2_from_g(g));
+    let amplitude = amplitude_g.map(|g| point.factor() * m_per_s2_from_g(g));
     let touch = Touch {
         amplitude_m_per_s2: amplitude,
         threshold_m_per_s2: [true, false].map(|sign| structure.touch_amplitude_m_per_s2(sign)),
@@ -181,8 +181,18 @@ fn explain(
         }),
         None => None,
     };
+    let mut effects = plan.effects(scene, &touch);
+    // The scene is the head's own: only the point knows which way up it is in the drive.
+    effects.push(Effect {
+        name: "head.faces_up",
+        state: match point.faces {
+            Faces::Down => State::Off,
+            Faces::Up => State::On,
+        },
+        rule: None,
+    });
     Ok(Explained {
-        effects: plan.effects(scene, &touch),
+        effects,
         rules: plan.decisions(scene, &touch),
         modes: [structure.n_free_modes(), structure.n_modes()],
         film_cells,

@@ -36,7 +36,7 @@ pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
             .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
         let onset = model
             .structure()
-            .touch_amplitude_m_per_s2(point.sign.factor() > 0.0);
+            .touch_amplitude_m_per_s2(point.factor() > 0.0);
         rows.push((point, onset.map(|a| a / STANDARD_GRAVITY_M_PER_S2)));
     }
     if console.json {

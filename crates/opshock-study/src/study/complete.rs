@@ -3,36 +3,53 @@
 use super::fault::StudyError;
 use super::imported_suspension;
 use super::included::{self, Location};
-use super::key::Presence;
+use super::key::{Key, Presence};
 use super::keys::{CHOICES, KEYS};
 use super::ramp_mesh;
 use super::read::Reader;
-use super::settings::{Datum, Setting};
+use super::settings::Datum;
 use super::source::{Origin, Place};
 use super::tree::{Node, Value};
 use super::unit;
 
 /// Completes the settings read from a file and the command line. `root` is the merged tree.
 pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
-    settle_choices(reader);
+    let heads = heads(reader);
+    settle_clearances(reader);
+    for of in std::iter::once("").chain(heads.iter().map(String::as_str)) {
+        settle_choices(reader, of);
+    }
     included::surface_base(reader, location);
+    for head in &heads {
+        included::surface_of_head(reader, location, head);
+    }
     included::pulse_table(reader, location);
     defaults(reader);
     // Its slot is compared with the disk's thickness.
     ramp_mesh::read(reader, location);
-    imported_suspension::read(reader, location);
-    missing(reader, root);
+    for of in std::iter::once("").chain(heads.iter().map(String::as_str)) {
+        imported_suspension::read(reader, location, of);
+    }
+    missing(reader, root, &heads);
 }
 
-/// Of keys that exclude each other, those of the command line stay.
-fn settle_choices(reader: &mut Reader) {
-    // The general clearance from the command line replaces the special ones of the file.
-    let is_set = |reader: &Reader, path: &str| {
-        reader
-            .settings
-            .get(path)
-            .is_some_and(|setting| matches!(setting.origin(), Origin::Set(_)))
+/// What the keys of every head's own begin with: `heads[0].`, `heads[1].`, ...
+fn heads(reader: &Reader) -> Vec<String> {
+    let count = match reader.settings.get("heads").map(|list| &list.values[0]) {
+        Some(Datum::Entries(count)) => *count,
+        _ => 0,
     };
+    (0..count).map(|entry| format!("heads[{entry}].")).collect()
+}
+
+/// Whether a key comes from the command line.
+fn is_set(reader: &Reader, path: &str) -> bool {
+    let setting = reader.settings.get(path);
+    setting.is_some_and(|setting| matches!(setting.origin(), Origin::Set(_)))
+}
+
+/// The general clearance from the command line replaces the special ones of the file.
+fn settle_clearances(reader: &mut Reader) {
     if is_set(reader, "ramp.clearance_um") {
         for side in ["ramp.clearance_top_um", "ramp.clearance_bottom_um"] {
             if !is_set(reader, side) {
@@ -40,12 +57,16 @@ fn settle_choices(reader: &mut Reader) {
             }
         }
     }
+}
+
+/// Of keys that exclude each other, those of the command line stay; `of` is what stands before them.
+fn settle_choices(reader: &mut Reader, of: &str) {
     for choice in CHOICES {
-        let given: Vec<&[&str]> = choice
-            .alternatives
-            .iter()
-            .copied()
-            .filter(|paths| paths.iter().any(|path| reader.settings.has(path)))
+        let alternatives = choice.alternatives.iter();
+        let own = |paths: &&[&str]| paths.iter().map(|path| format!("{of}{path}")).collect();
+        let given: Vec<Vec<String>> = alternatives
+            .map(own)
+            .filter(|paths: &Vec<String>| paths.iter().any(|path| reader.settings.has(path)))
             .collect();
         if given.len() < 2 {
             continue;
@@ -64,7 +85,8 @@ fn settle_choices(reader: &mut Reader) {
         }
         let mut paths: Vec<&str> = given
             .iter()
-            .flat_map(|paths| paths.iter().copied())
+            .flatten()
+            .map(String::as_str)
             .filter(|path| reader.settings.has(path))
             .collect();
         paths.sort_by_key(|path| {
@@ -139,7 +161,7 @@ fn defaults(reader: &mut Reader) {
         }
     }
     // Entries of lists of tables whose value cannot be used: as above.
-    let spoilt: Vec<(String, &'static super::key::Key)> = entry_paths(reader)
+    let spoilt: Vec<(String, &'static Key)> = entry_paths(reader)
         .into_iter()
         .filter(|(path, key)| {
             key.presence == Presence::Required
@@ -153,24 +175,28 @@ fn defaults(reader: &mut Reader) {
 }
 
 /// Every member of every entry of every list of tables that is set.
-fn entry_paths(reader: &Reader) -> Vec<(String, &'static super::key::Key)> {
-    let mut paths = Vec::new();
-    for key in KEYS {
-        let Some((list, member)) = key.path.split_once("[].") else {
-            continue;
-        };
-        if let Some(Setting { values, .. }) = reader.settings.get(list)
-            && let Some(Datum::Entries(count)) = values.first()
-        {
-            paths.extend((0..*count).map(|position| (format!("{list}[{position}].{member}"), key)));
-        }
-    }
-    paths
+fn entry_paths(reader: &Reader) -> Vec<(String, &'static Key)> {
+    let members = KEYS.iter().filter(|key| key.path.contains("[]."));
+    let paths = |key: &'static Key| entries(reader, key.path).into_iter().map(move |p| (p, key));
+    members.flat_map(paths).collect()
+}
+
+/// A path of the table of keys at every entry of its lists.
+fn entries(reader: &Reader, pattern: &str) -> Vec<String> {
+    let Some((list, member)) = pattern.split_once("[]") else {
+        return vec![pattern.to_string()];
+    };
+    let count = match reader.settings.get(list).map(|setting| &setting.values[0]) {
+        Some(Datum::Entries(count)) => *count,
+        _ => 0,
+    };
+    let at = |position: usize| entries(reader, &format!("{list}[{position}]{member}"));
+    (0..count).flat_map(at).collect()
 }
 
 /// One E112 for everything that must be given and is not.
-fn missing(reader: &mut Reader, root: &Node) {
-    let mut absent: Vec<(String, &'static super::key::Key)> = KEYS
+fn missing(reader: &mut Reader, root: &Node, heads: &[String]) {
+    let mut absent: Vec<(String, &'static Key)> = KEYS
         .iter()
         .filter(|key| !key.path.contains("[]"))
         .filter(|key| matches!(key.presence, Presence::Required))
@@ -195,20 +221,16 @@ fn missing(reader: &mut Reader, root: &Node) {
             }
         })
         .collect();
-    for choice in CHOICES {
-        for paths in choice.alternatives {
-            let given = paths
-                .iter()
-                .any(|path| reader.settings.has(path) || reader.settings.is_spoilt(path));
-            if given {
-                let gone = paths
-                    .iter()
-                    .filter(|path| !reader.settings.has(path) && !reader.settings.is_spoilt(path));
-                absent.extend(
-                    gone.filter_map(|path| {
-                        super::keys::find(path).map(|key| (path.to_string(), key))
-                    }),
-                );
+    let alternatives = CHOICES.iter().flat_map(|choice| choice.alternatives);
+    for paths in alternatives {
+        for of in std::iter::once("").chain(heads.iter().map(String::as_str)) {
+            let is_there =
+                |path: &str| reader.settings.has(path) || reader.settings.is_spoilt(path);
+            let paths = paths.iter().map(|path| format!("{of}{path}"));
+            let (given, gone): (Vec<_>, Vec<_>) = paths.partition(|path| is_there(path));
+            if !given.is_empty() {
+                let key = |path: String| super::keys::find(&path).map(|key| (path, key));
+                absent.extend(gone.into_iter().filter_map(key));
             }
         }
     }
@@ -216,7 +238,7 @@ fn missing(reader: &mut Reader, root: &Node) {
     for (path, setting) in reader.settings.iter() {
         let Some(rail) = path
             .strip_suffix(".kind")
-            .filter(|rail| rail.starts_with("slider.surface.rail["))
+            .filter(|rail| rail.contains("slider.surface.rail["))
         else {
             continue;
         };

@@ -37,6 +37,26 @@ use super::source::Source;
 pub const TABLE: &str = "suspension.imported";
 /// List that takes their place.
 pub const MODES: &str = "suspension.modes";
+/// Keys of the geometry, whose place modes take.
+pub const REPLACED: [&str; 17] = [
+    "suspension.hinge.length_mm",
+    "suspension.hinge.width_mm",
+    "suspension.hinge.thickness_um",
+    "suspension.load_beam.dimple_mm",
+    "suspension.load_beam.end_mm",
+    "suspension.load_beam.web_um",
+    "suspension.load_beam.width_root_mm",
+    "suspension.load_beam.width_dimple_mm",
+    "suspension.load_beam.tab_width_mm",
+    "suspension.flange.height_um",
+    "suspension.flange.from_mm",
+    "suspension.flange.to_mm",
+    "suspension.flexure.mass_mg",
+    "suspension.flexure.from_mm",
+    "suspension.material.youngs_modulus_gpa",
+    "suspension.material.shear_modulus_gpa",
+    "suspension.material.density_kg_per_m3",
+];
 /// Default of `cut_khz`, Hz.
 pub const CUT_HZ: f64 = 1e6;
 /// Direction of the disk's axis.
@@ -46,30 +66,32 @@ const SMALL: usize = 300;
 /// Share of a mode's motion, each against the largest of its kind, below which it is rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Reads the matrices a study names into the list of modes.
-pub fn read(reader: &mut Reader, location: &Location) {
-    let path = |name: &str| format!("{TABLE}.{name}");
-    let view = View::first(&reader.settings);
+/// Reads the matrices a study names into the list of modes. `of` is what its keys begin with: nothing, or a
+/// head of its own.
+pub fn read(reader: &mut Reader, location: &Location, of: &str) {
+    let table = format!("{of}{TABLE}");
+    let path = |name: &str| format!("{table}.{name}");
+    let view = View::of_study(&reader.settings);
     let is_given = ["mass", "stiffness", "dimple"].map(|name| view.get(&path(name)).is_some());
     if is_given == [false; 3] {
         // Modes of the command line leave them without their files.
-        if !reader.settings.has(MODES) {
-            lonely(reader, TABLE, "matrices", "mass, stiffness and dimple");
+        if !reader.settings.has(&format!("{of}{MODES}")) {
+            lonely(reader, &table, "matrices", "mass, stiffness and dimple");
         }
         return;
     }
     // What is missing of the three is told with everything else that is missing.
-    if is_given != [true; 3] || !reader.settings.are_sound(&[TABLE]) {
+    if is_given != [true; 3] || !reader.settings.are_sound(&[&table]) {
         return;
     }
-    match modes(&view, &location.folder) {
-        Err(faults) => refuse_files(reader, TABLE, faults),
+    match modes(&view, &table, &location.folder) {
+        Err(faults) => refuse_files(reader, &table, faults),
         Ok((modes, warnings)) => {
             reader
                 .remarks
                 .extend(warnings.into_iter().map(StudyError::from));
             let source = Source::new("modes of the imported suspension", written(&modes));
-            put(reader, &source, "suspension");
+            put(reader, &source, &format!("{of}suspension"));
         }
     }
 }
@@ -92,9 +114,13 @@ fn written(modes: &[SuspensionMode]) -> String {
 }
 
 /// Modes of the matrices, and what was questionable about them.
-fn modes(view: &View<'_>, folder: &Path) -> Result<(Vec<SuspensionMode>, Vec<Fault>), Faults> {
+fn modes(
+    view: &View<'_>,
+    table: &str,
+    folder: &Path,
+) -> Result<(Vec<SuspensionMode>, Vec<Fault>), Faults> {
     let file = |name: &str| {
-        let word = view.word(&format!("{TABLE}.{name}"));
+        let word = view.word(&format!("{table}.{name}"));
         (!word.is_empty()).then(|| folder.join(word))
     };
     let path = |name: &str| file(name).unwrap_or_default();
@@ -102,22 +128,22 @@ fn modes(view: &View<'_>, folder: &Path) -> Result<(Vec<SuspensionMode>, Vec<Fau
     let freedoms = freedoms(dof.as_deref(), places.as_deref())?;
     let stiffness = matrix(&path("stiffness"), freedoms.as_ref(), true)?;
     let mass = matrix(&path("mass"), freedoms.as_ref(), true)?;
-    let word = view.word(&format!("{TABLE}.units"));
+    let word = view.word(&format!("{table}.units"));
     let units = Units::WORDS.iter().find(|(name, _)| *name == word);
     let units = units.map_or(Units::WORDS[0].1, |(_, units)| *units);
     let system = System::of(mass, stiffness, None, freedoms, units)?;
-    let base = view.numbers(&format!("{TABLE}.base"));
+    let base = view.numbers(&format!("{table}.base"));
     let base: Vec<u64> = base.iter().map(|number| *number as u64).collect();
     let (system, load_kg) = system.held(&base, Z)?;
     let (system, found) = check::check(system, false)?;
-    let dimple = view.maybe_integer(&format!("{TABLE}.dimple")).unwrap_or(0);
+    let dimple = view.maybe_integer(&format!("{table}.dimple")).unwrap_or(0);
     let row = |direction: u8| {
         system
             .freedoms
             .find(&format!("{dimple}.{direction}"), "dimple")
     };
     let [z, about_y, about_x] = [row(3)?, row(5)?, row(4)?];
-    let cut_hz = view.maybe_si(&format!("{TABLE}.cut_khz")).unwrap_or(CUT_HZ);
+    let cut_hz = view.maybe_si(&format!("{table}.cut_khz")).unwrap_or(CUT_HZ);
     let pieces = system.pieces();
     if pieces[z] == pieces[about_x] {
         let points = [(z, 1.0), (about_y, -1.0), (about_x, 1.0)];

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::fault::StudyError;
 use super::key::{Kind, Presence};
+use super::keys::{KEYS, find};
 use super::read::Reader;
 use super::set_arg::SetArg;
 use super::settings::{Datum, Setting};
@@ -27,7 +28,7 @@ pub struct Location {
 /// The list a `--set list[0]...` argument reaches into when the study file does not hold it: the
 /// key's default, or the rails of the surface's preset or file.
 pub fn base_list(root: &Node, sets: &[SetArg], path: &str, location: &Location) -> Option<Node> {
-    let key = super::keys::find(path)?;
+    let key = find(path)?;
     if let Presence::Default(literal) | Presence::Together(literal) = key.presence {
         return (key.kind == Kind::Tables).then(|| tree::literal(literal));
     }
@@ -67,9 +68,41 @@ pub fn base_list(root: &Node, sets: &[SetArg], path: &str, location: &Location) 
     tree::parse(&source, origin).ok()?.get(rail).cloned()
 }
 
+/// Keys of the surface.
+const SURFACE: &str = "slider.surface";
+
 /// Reads preset or file under what the study says about the surface itself.
 pub fn surface_base(reader: &mut Reader, location: &Location) {
-    const PREFIX: &str = "slider.surface";
+    surface(reader, location, SURFACE, SURFACE);
+}
+
+/// The same for a head with file, preset or rails of its own: nothing of its surface is the study's.
+/// What its keys begin with is `head`.
+pub fn surface_of_head(reader: &mut Reader, location: &Location, head: &str) {
+    let own = |name: &str| format!("{head}{SURFACE}.{name}");
+    let names = ["file", "preset", "rail"].map(own);
+    if names.iter().all(|name| !reader.settings.has(name)) {
+        return;
+    }
+    let table = format!("{head}{SURFACE}");
+    surface(reader, location, &format!("heads[].{SURFACE}"), &table);
+    for key in KEYS.iter() {
+        let is_plain = key.path.starts_with(SURFACE) && !key.path.contains("[]");
+        let path = format!("{head}{}", key.path);
+        if let (true, Presence::Default(literal)) = (is_plain, key.presence)
+            && let Some(own) = find(&path)
+            && !reader.settings.has(&path)
+            && !reader.settings.is_spoilt(&path)
+        {
+            reader.literal(own, &path, literal);
+        }
+    }
+}
+
+/// The surface whose keys lie below `prefix`, `pattern` in the table of keys.
+fn surface(reader: &mut Reader, location: &Location, pattern: &str, prefix: &str) {
+    let key = |name: &str| format!("{prefix}.{name}");
+    let [file_key, preset_key, rails] = ["file", "preset", "rail"].map(key);
     let text_of = |reader: &Reader, path: &str| match reader
         .settings
         .get(path)
@@ -78,19 +111,19 @@ pub fn surface_base(reader: &mut Reader, location: &Location) {
         Some((Datum::Word(text) | Datum::Text(text), place)) => Some((text.clone(), place)),
         _ => None,
     };
-    if let Some((file, place)) = text_of(reader, "slider.surface.file") {
-        if let Some(source) = open_named(reader, location, "slider.surface.file", &file, &place) {
+    if let Some((file, place)) = text_of(reader, &file_key) {
+        if let Some(source) = open_named(reader, location, &file_key, &file, &place) {
             match tree::parse(&source, Origin::Included) {
                 Err(faults) => {
                     reader.errors.extend(faults);
-                    reader.settings.spoil(PREFIX);
+                    reader.settings.spoil(prefix);
                 }
                 Ok(node) => {
                     if let Some(inner) = node.get("file").or(node.get("preset")) {
                         let fault = StudyError::at(
                             "E106",
                             &inner.key_place,
-                            "slider.surface.file",
+                            &file_key,
                             format!(
                                 "a surface file cannot name another one: {} -> {} -> {}",
                                 location.file.display(),
@@ -100,16 +133,15 @@ pub fn surface_base(reader: &mut Reader, location: &Location) {
                         )
                         .value(inner.place.text())
                         .allowed("the surface itself: base_recess_um, crown_nm, [[rail]], ...");
-                        reader.spoil(PREFIX, fault);
+                        reader.spoil(prefix, fault);
                     } else {
-                        reader.table(&node, PREFIX, PREFIX);
+                        reader.table(&node, pattern, prefix);
                         // Written out without rails the study would get the default surface's.
-                        let rails = "slider.surface.rail";
-                        if node.get("rail").is_none() && !reader.settings.has(rails) {
+                        if node.get("rail").is_none() && !reader.settings.has(&rails) {
                             let fault = StudyError::at(
                                 "E112",
                                 &place,
-                                rails,
+                                &rails,
                                 format!("the surface file {} has no rail", source.name),
                             )
                             .value(file)
@@ -117,7 +149,7 @@ pub fn surface_base(reader: &mut Reader, location: &Location) {
                             .hint(
                                 "a plane slider is one rail over the whole slider, recess_um = 0",
                             );
-                            reader.spoil(PREFIX, fault);
+                            reader.spoil(prefix, fault);
                         }
                     }
                 }
@@ -125,20 +157,16 @@ pub fn surface_base(reader: &mut Reader, location: &Location) {
         }
         return;
     }
-    let preset = match text_of(reader, "slider.surface.preset") {
+    let preset = match text_of(reader, &preset_key) {
         Some((name, _)) => Some(name),
-        None if reader.settings.has("slider.surface.rail")
-            || !reader.settings.are_sound(&[PREFIX]) =>
-        {
-            None
-        }
+        None if reader.settings.has(&rails) || !reader.settings.are_sound(&[prefix]) => None,
         None => Some(DEFAULT_SURFACE.to_string()),
     };
     if let Some(name) = preset
         && let Some(text) = surfaces::text(&name)
         && let Ok(node) = tree::parse(&Source::new(format!("preset {name}"), text), Origin::Preset)
     {
-        reader.table(&node, PREFIX, PREFIX);
+        reader.table(&node, pattern, prefix);
     }
 }
 

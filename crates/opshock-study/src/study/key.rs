@@ -323,6 +323,21 @@ impl Key {
         self
     }
 
+    /// The same key in the list of heads; what an entry leaves out is the study's.
+    pub(super) fn of_a_head(&self) -> Self {
+        let is_member = self.path.contains("[].");
+        Self {
+            // A handful of paths, once in a program's life.
+            path: String::leak(format!("heads[].{}", self.path)),
+            presence: match is_member {
+                true => self.presence,
+                false => Presence::Optional("the study's"),
+            },
+            example: self.example(),
+            ..*self
+        }
+    }
+
     /// Last name of the path.
     pub fn name(&self) -> &'static str {
         self.path.rsplit('.').next().unwrap_or(self.path)

@@ -7,6 +7,8 @@
 //! Sources of the default drive: disk, ramp place, ramp clearance: sample data of the CMLAir 8.01
 //! user manual (Mardan and Bogy, 2011). Suspension and air-bearing surface: opshock's own designs.
 
+use std::sync::LazyLock;
+
 use super::key::{ABOVE_ZERO, ANY, Choice, FROM_ZERO, Key, Kind, above, below, closed, open};
 use Kind::{
     Axis, Flag, Integer, Number, NumberOrWord, Numbers, Pair, Points, Tables, Text, Word, Words,
@@ -67,27 +69,48 @@ pub const SURFACES: &[&str] = &["femto-2.5in"];
 const RATIO: Kind = Number(FROM_ZERO);
 const LENGTH: Kind = Number(ABOVE_ZERO);
 
-/// The table.
-pub static KEYS: &[Key] = &[
+/// The disk's faces: over it heads face down, under it they face up.
+pub const FACES: &[&str] = &["down", "up"];
+
+/// A head's name, behind which stand the keys that it may have of its own.
+const NAME_OF_A_HEAD: &str = "heads[].head";
+/// What a head may have of its own: these keys, and all below the last two.
+const OF_A_HEAD: [&str; 10] = [
+    "disk.thickness_mm",
+    "ramp.clearance_um",
+    "ramp.clearance_top_um",
+    "ramp.clearance_bottom_um",
+    "slider.radius_mm",
+    "slider.angle_deg",
+    "slider.skew_deg",
+    "slider.faces",
+    "slider.surface.",
+    "suspension.",
+];
+
+/// The table, with what a head may have of its own.
+pub static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
+    let is_own = |key: &&Key| {
+        let all_below = |own: &str| own.ends_with('.') && key.path.starts_with(own);
+        OF_A_HEAD
+            .iter()
+            .any(|own| key.path == *own || all_below(own))
+    };
+    let own: Vec<Key> = TABLE.iter().filter(is_own).map(Key::of_a_head).collect();
+    let name = TABLE.iter().position(|key| key.path == NAME_OF_A_HEAD);
+    let (before, after) = TABLE.split_at(name.map_or(TABLE.len(), |name| name + 1));
+    [before, &own, after].concat()
+});
+
+/// The table as it is written here.
+static TABLE: &[Key] = &[
     Key::required("study_format", Integer(1, 1), "1", "Version of the study file's format."),
     Key::required("name", Text, "\"Fig. 13: three ramp models\"", "Name of the study, printed on every product."),
     Key::or("outputs", Words(OUTPUTS), "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158"),
     // heads
     Key::optional("head", Text, "every head", "\"0 up\"", "Of several heads the one that is simulated.").code("E191"),
-    Key::optional("heads", Tables, "one head", "[{ head = \"0 up\", slider.radius_mm = 21.0 }, { head = \"0 down\", slider.radius_mm = 21.0, suspension.gram_load_gf = 2.3 }]", "Heads of a drive, each with the disk and the ramp's gap it meets: an axis of the study. What an entry leaves out is the study's.").code("E191"),
-    Key::required("heads[].head", Text, "\"0 up\"", "Name of the head, as tables show it.").code("E191"),
-    Key::optional("heads[].disk.thickness_mm", LENGTH, "the study's", "0.635", "Thickness of its disk.").usual(0.1, 3.0),
-    Key::optional("heads[].ramp.clearance_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance between its disk and the ramp, above and below.").usual(10.0, 1000.0).code("E143"),
-    Key::optional("heads[].ramp.clearance_top_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance above its disk, when unequal.").usual(10.0, 1000.0).code("E143"),
-    Key::optional("heads[].ramp.clearance_bottom_um", Number(FROM_ZERO), "the study's", "100.0", "Static clearance below its disk, when unequal.").usual(10.0, 1000.0).code("E143"),
-    Key::optional("heads[].slider.radius_mm", LENGTH, "the study's", "21.0", "Radius of its slider's centre.").usual(5.0, 70.0),
-    Key::optional("heads[].slider.angle_deg", Number(closed(-360.0, 360.0)), "the study's", "7.0", "Angle of its slider's centre in the disk's sense of rotation, measured as the ramp's."),
-    Key::optional("heads[].slider.skew_deg", Number(open(-90.0, 90.0)), "the study's", "0.0", "Angle between the disk's velocity and its slider's length, positive towards the outer side.").usual(-30.0, 30.0),
-    Key::optional("heads[].slider.surface.base_recess_um", Number(FROM_ZERO), "the study's", "1.5", "Recess of everything no rail of its surface covers.").usual(0.1, 10.0).code("E145"),
-    Key::optional("heads[].slider.surface.crown_nm", Number(ANY), "the study's", "15.0", "Rise of its surface's middle over the ends.").usual(-100.0, 100.0),
-    Key::optional("heads[].slider.surface.camber_nm", Number(ANY), "the study's", "2.0", "Rise of its surface's middle over the sides.").usual(-100.0, 100.0),
-    Key::optional("heads[].slider.surface.twist_nm", Number(ANY), "the study's", "0.0", "Twist of its surface.").usual(-100.0, 100.0),
-    Key::optional("heads[].suspension.gram_load_gf", LENGTH, "the study's", "2.2", "Load at its slider's centre.").usual(0.1, 20.0),
+    Key::optional("heads", Tables, "one head", "[{ head = \"0 up\", slider.radius_mm = 21.0 }, { head = \"0 down\", slider.radius_mm = 21.0, suspension.gram_load_gf = 2.3 }]", "Heads of a drive, each with its slider, suspension, disk and gap of the ramp: an axis of the study. What an entry leaves out is the study's.").code("E191"),
+    Key::required(NAME_OF_A_HEAD, Text, "\"0 up\"", "Name of the head, as tables show it.").code("E191"),
     // pulse
     Key::or("pulse.shape", Word(SHAPES), "\"half_sine\"", "Shape of the acceleration pulse."),
     Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.")
@@ -205,6 +228,7 @@ pub static KEYS: &[Key] = &[
     Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0),
     Key::or("slider.angle_deg", Number(closed(-360.0, 360.0)), "7.0", "Angle of the slider's centre in the disk's sense of rotation, measured as the ramp's."),
     Key::or("slider.skew_deg", Number(open(-90.0, 90.0)), "0.0", "Angle between the disk's velocity and the slider's length, positive towards the outer side.").usual(-30.0, 30.0),
+    Key::optional("slider.faces", Word(FACES), "down", "\"up\"", "Way the slider faces: down, over the disk, or up, under it, where the shock has the other sign and the ramp's bottom arm is on the slider's side."),
     Key::or("slider.length_mm", LENGTH, "0.85", "Length, leading to trailing edge.").usual(0.2, 5.0),
     Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0),
     Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5),
@@ -397,7 +421,7 @@ pub fn is_table(pattern: &str) -> bool {
 /// Names that may stand directly below a table, in table order; "" is the root.
 pub fn names_below(pattern: &str) -> Vec<&'static str> {
     let mut names: Vec<&'static str> = Vec::new();
-    for key in KEYS {
+    for key in KEYS.iter() {
         let rest = if pattern.is_empty() {
             Some(key.path)
         } else {

@@ -58,7 +58,7 @@ pub use ramp_remeshed::RemeshedRamp;
 pub use ramp_solid::RampSolid;
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
 pub use set_arg::{SetArg, SetSyntaxError};
-pub use words::{Certify, Effects, KeepHistories, Ramp, Sign, coupling_word, rung_word};
+pub use words::{Certify, Effects, Faces, KeepHistories, Ramp, Sign, coupling_word, rung_word};
 
 use included::Location;
 use opshock_solver::scene::plan::{Mode, Output, Plan};

@@ -12,7 +12,7 @@ use super::scene;
 use super::settings::{Datum, Settings, View};
 use super::unit;
 use super::validity::{Check, PointRules};
-use super::words::{Ramp, Sign};
+use super::words::{Faces, Ramp, Sign};
 use crate::identity::CellId;
 
 /// A value on an axis.
@@ -85,11 +85,13 @@ pub struct Point {
     pub pulse_width_s: f64,
     /// Sign of the amplitude.
     pub sign: Sign,
+    /// The way the head faces.
+    pub faces: Faces,
     /// Accuracy asked for.
     pub accuracy: Rung,
     /// Column and value on every further axis, in axis order.
     pub axes: Vec<(String, AxisValue)>,
-    /// The scene.
+    /// The scene as the head sees it, with z from the disk to the head.
     pub scene: Scene,
     /// Its ramp on other meshes; `None` for one that is no solid.
     pub remeshed: Option<RemeshedRamp>,
@@ -98,6 +100,11 @@ pub struct Point {
 }
 
 impl Point {
+    /// Sign of the scene's amplitude: the shock's, turned for a head that faces up.
+    pub fn factor(&self) -> f64 {
+        self.sign.factor() * self.faces.factor()
+    }
+
     /// Short name: `rigid 2 ms +`, and the further axes.
     pub fn label(&self) -> String {
         let axes: String = self
@@ -315,13 +322,14 @@ pub(super) fn alike(settings: &Settings, points: &[Point]) -> Option<StudyError>
 
 /// One point of a view.
 pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Sign) -> Point {
-    let scene = scene::build(view, ramp, pulse_ms);
+    let (scene, faces) = scene::build(view, ramp, pulse_ms);
     Point {
-        id: CellId::new(&scene, sign == Sign::Plus),
+        id: CellId::new(&scene, sign == Sign::Plus, faces == Faces::Up),
         ramp,
         pulse_ms,
         pulse_width_s: unit::si("pulse.widths_ms", pulse_ms),
         sign,
+        faces,
         accuracy: scene::rung(view),
         axes: axes
             .iter()

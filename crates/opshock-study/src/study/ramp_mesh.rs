@@ -18,6 +18,7 @@ use opshock_solid::ramp::{Mount, RampFaces, RampMesh, RampModes, ShapeError, Sol
 
 use super::fault::StudyError;
 use super::included::Location;
+use super::keys;
 use super::ramp_geometry::{CUT_HZ, material_of, mount_of, rounded};
 use super::ramp_solid::RampSolid;
 use super::read::Reader;
@@ -100,17 +101,22 @@ pub fn refuse_files(reader: &mut Reader, table: &str, faults: Faults) {
         if fault.message.starts_with("cannot be read") {
             fault.hint = "file paths start from the study's folder".to_owned();
         }
-        StudyError::from(fault)
+        let mut error = StudyError::from(fault);
+        // Of several heads, the one whose files these are.
+        if table.starts_with("heads[") {
+            error.message = format!("{table}: {}", error.message);
+        }
+        error
     });
     reader.errors.extend(errors);
     reader.settings.spoil(table);
 }
 
-/// Reads what was written of files into a section.
+/// Reads what was written of files into a section, `heads[0].` and the like before its name.
 pub fn put(reader: &mut Reader, source: &Arc<Source>, section: &str) {
     // What is written here reads back.
     if let Ok(node) = tree::parse(source, Origin::Included) {
-        reader.table(&node, section, section);
+        reader.table(&node, &keys::pattern(section), section);
     }
 }
 

@@ -1,8 +1,9 @@
 //! A ramp from geometry on finer and coarser meshes: what the mesh's part of an error bar is made of.
 
 use super::ramp_geometry;
+use super::scene::FACES;
 use super::settings::View;
-use super::words::Ramp;
+use super::words::{Faces, Ramp};
 use opshock_solid::ramp::SolidRamp;
 use opshock_solver::ramp::CoupledMode;
 
@@ -11,6 +12,8 @@ use opshock_solver::ramp::CoupledMode;
 pub struct RemeshedRamp {
     solid: SolidRamp,
     damping_ratio: f64,
+    /// The way the head faces, which sees the ramp.
+    faces: Faces,
 }
 
 impl RemeshedRamp {
@@ -20,13 +23,18 @@ impl RemeshedRamp {
         is_solid.then(|| Self {
             solid: ramp_geometry::solid_ramp(view),
             damping_ratio: view.si("ramp.deformable.damping_ratio"),
+            faces: Faces::from_word(view.word(FACES)),
         })
     }
 
     /// Oscillators on elements of half the size `level` times, or of twice where it is negative. None
     /// where the geometry has no such mesh: a scene with them cannot be built.
     pub fn modes(&self, level: i8) -> Vec<CoupledMode> {
-        ramp_geometry::oscillators(&self.at(level), self.damping_ratio)
+        let modes = ramp_geometry::oscillators(&self.at(level), self.damping_ratio);
+        match self.faces {
+            Faces::Down => modes,
+            Faces::Up => modes.iter().map(CoupledMode::mirrored).collect(),
+        }
     }
 
     /// Times that the elements may be halved, up to `most`, until the ramp takes too many.
@@ -56,15 +64,17 @@ mod tests {
     /// Displacements that are held to polynomials stiffen: frequencies fall from mesh to mesh.
     #[test]
     fn the_mesh_of_the_study_lies_between_a_coarser_and_a_finer_one() {
-        let study = |size: &str| {
+        let facing = |size: &str, faces: &str| {
             let text = format!(
                 "study_format = 1\nname = \"a\"\noutputs = [\"contact_force\"]\n\
                  [pulse]\nwidths_ms = [1.0]\nsigns = [\"+\"]\n\
                  [ramp]\nmodels = [\"rigid\", \"deformable\"]\n\
-                 [ramp.deformable.geometry]\nmaterial = \"POM\"\nmesh_size_mm = {size}\n"
+                 [ramp.deformable.geometry]\nmaterial = \"POM\"\nmesh_size_mm = {size}\n\
+                 [slider]\nfaces = \"{faces}\"\n"
             );
             Study::from_text(&text, &[]).unwrap()
         };
+        let study = |size: &str| facing(size, "down");
         let one = study("3.0");
         let [rigid, deformable] = &one.points[..] else {
             panic!("two points")
@@ -80,6 +90,15 @@ mod tests {
             panic!("a body")
         };
         assert_eq!(ramp.modes(1), *halved);
+        // A head under the disk sees the ramp upside down, on every mesh.
+        let up = &facing("3.0", "up").points[1];
+        let RampModel::Coupled { modes: seen } = &up.scene.ramp.model else {
+            panic!("a body")
+        };
+        let ramp_seen = up.remeshed.as_ref().expect("a solid");
+        assert_eq!(ramp_seen.modes(0), *seen);
+        assert_ne!(*seen, *modes);
+        assert_eq!(seen[0].mirrored(), modes[0]);
         // Elements of 0.375 mm are some 4000, of 0.1875 mm more than the 5000 that a ramp may have.
         assert_eq!([1, 3, 6].map(|most| ramp.halvings(most)), [1, 3, 3]);
         let lowest = [-1, 0, 1].map(|level| ramp.modes(level)[0].frequency_hz);

@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use super::key::{Kind, Presence};
+use super::key::{Key, Kind, Presence};
 use super::keys::{self, KEYS};
 use super::scene;
 use super::settings::{Datum, Settings, View};
@@ -29,14 +29,8 @@ pub fn text(settings: &Settings) -> String {
     );
     // A table may be opened only once, so its keys are brought together first.
     let mut tables: Vec<(&str, String)> = Vec::new();
-    let single = |key: &&super::key::Key| {
-        !key.path.contains("[]")
-            && key.kind != Kind::Tables
-            && !REPLACED.contains(&key.path)
-            && !REPLACED_BELOW
-                .iter()
-                .any(|below| key.path.starts_with(below))
-    };
+    let single =
+        |key: &&Key| !key.path.contains("[]") && key.kind != Kind::Tables && !is_replaced(key.path);
     for key in KEYS.iter().filter(single) {
         let Some(value) = value_at(settings, key.path) else {
             continue;
@@ -54,22 +48,59 @@ pub fn text(settings: &Settings) -> String {
         }
         out.push_str(&lines);
     }
-    for key in KEYS.iter().filter(|key| key.kind == Kind::Tables) {
-        for position in 0..View::first(settings).entries(key.path) {
+    let lists = KEYS.iter().filter(|key| key.kind == Kind::Tables);
+    for key in lists.filter(|key| !key.path.contains("[]")) {
+        for position in 0..View::of_study(settings).entries(key.path) {
             let _ = write!(out, "\n[[{}]]\n", key.path);
-            let prefix = format!("{}[].", key.path);
-            for member in KEYS
-                .iter()
-                .filter_map(|member| member.path.strip_prefix(&prefix))
+            for (member, value) in members(settings, key.path, &format!("{}[{position}]", key.path))
             {
-                let path = format!("{}[{position}].{member}", key.path);
-                if let Some(value) = value_at(settings, &path) {
-                    let _ = writeln!(out, "{member} = {value}");
-                }
+                let _ = writeln!(out, "{member} = {value}");
             }
         }
     }
     out
+}
+
+/// Whether another key stands for this one once the study is read.
+fn is_replaced(path: &str) -> bool {
+    REPLACED.contains(&path) || REPLACED_BELOW.iter().any(|below| path.starts_with(below))
+}
+
+/// Members of an entry of a list of tables with their values; lists among them are written in one line.
+fn members(settings: &Settings, list: &str, entry: &str) -> Vec<(&'static str, String)> {
+    let prefix = format!("{list}[].");
+    let mut members = Vec::new();
+    for key in KEYS.iter() {
+        let Some(member) = key.path.strip_prefix(&prefix) else {
+            continue;
+        };
+        if member.contains("[]") || is_replaced(member) {
+            continue;
+        }
+        let path = format!("{entry}.{member}");
+        let value = match key.kind {
+            Kind::Tables => inner_list(settings, key.path, &path),
+            _ => value_at(settings, &path),
+        };
+        members.extend(value.map(|value| (member, value)));
+    }
+    members
+}
+
+/// A list of tables within an entry of another, if it has one.
+fn inner_list(settings: &Settings, list: &str, path: &str) -> Option<String> {
+    let Datum::Entries(count) = &settings.get(path)?.values[0] else {
+        return None;
+    };
+    let entry = |position: usize| {
+        let members = members(settings, list, &format!("{path}[{position}]"));
+        let pairs = members
+            .iter()
+            .map(|(member, value)| format!("{member} = {value}"));
+        format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
+    };
+    let entries: Vec<String> = (0..*count).map(entry).collect();
+    Some(format!("[{}]", entries.join(", ")))
 }
 
 /// Digest of a study: of its resolved text.

@@ -17,7 +17,7 @@ use opshock_solver::suspension::{
 
 use super::settings::{Datum, View};
 use super::unit;
-use super::words::{self, Ramp};
+use super::words::{self, Faces, Ramp};
 use super::{imported_suspension, ramp_geometry, ramp_mesh};
 
 /// Key of the times of pressure fields.
@@ -25,8 +25,21 @@ pub const FIELD_TIMES: &str = "fields.times_ms";
 /// Waves of the disk.
 pub const WAVES: &str = "disk.waves";
 
-/// Builds the scene of one point. `width_ms` is its pulse width.
-pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
+/// Key of the way the head faces.
+pub const FACES: &str = "slider.faces";
+
+/// Builds the scene of one point as its head sees it, and the way this faces. `width_ms` is its pulse width.
+pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> (Scene, Faces) {
+    let scene = drive(view, ramp, width_ms);
+    let faces = Faces::from_word(view.word(FACES));
+    match faces {
+        Faces::Down => (scene, faces),
+        Faces::Up => (scene.mirrored(), faces),
+    }
+}
+
+/// The scene with z along the drive's axis and a head over the disk.
+fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     let Resolutions {
         disk,
         structure,

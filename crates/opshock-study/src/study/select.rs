@@ -105,7 +105,7 @@ impl Study {
                 allowed: "a finite number >= 0; the direction is chosen with --sign",
             });
         }
-        let amplitude_m_per_s2 = point.sign.factor() * quantity::m_per_s2_from_g(amplitude_g);
+        let amplitude_m_per_s2 = point.factor() * quantity::m_per_s2_from_g(amplitude_g);
         Ok(Shot {
             point,
             amplitude_m_per_s2,

@@ -211,6 +211,14 @@ impl<'a> View<'a> {
         }
     }
 
+    /// What the study itself says, no head of it in view, with every axis at its first value.
+    pub fn of_study(settings: &'a Settings) -> Self {
+        Self {
+            heads: Vec::new(),
+            ..Self::first(settings)
+        }
+    }
+
     /// The settings at a position on each of these axes. Axes of one value need not be given.
     ///
     /// # Panics
@@ -254,19 +262,43 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What the head in view has of its own at a path.
-    fn own(&self, path: &str) -> Option<&'a Setting> {
-        if !self.settings.per_head.contains(path) {
+    /// Where the head in view has a value of its own: the path of that value. A list of its own is whole:
+    /// no member of it is the study's.
+    fn own_path(&self, path: &str) -> Option<String> {
+        let list = path.split('[').next().unwrap_or(path);
+        if !self.settings.per_head.contains(list) {
             return None;
         }
         let entry = self.heads.get(self.position(HEADS))?;
-        self.settings.get(&format!("heads[{entry}].{path}"))
+        let own = format!("heads[{entry}].");
+        let is_own = self.settings.has(&format!("{own}{list}"));
+        is_own.then(|| format!("{own}{path}"))
+    }
+
+    /// Whether the head in view has a value of its own at a path.
+    pub fn is_own(&self, path: &str) -> bool {
+        self.own_path(path).is_some()
+    }
+
+    /// Whether all these keys, and everything below them, have usable values, those of the head in view
+    /// included.
+    pub fn are_sound(&self, paths: &[&str]) -> bool {
+        let of_the_study = self.settings.are_sound(paths);
+        if !of_the_study || self.settings.are_sound(&[HEADS]) {
+            return of_the_study;
+        }
+        let Some(entry) = self.heads.get(self.position(HEADS)) else {
+            return true;
+        };
+        let own = |path: &&str| format!("heads[{entry}].{path}");
+        let is_sound = |path: String| self.settings.are_sound(&[&path]);
+        paths.iter().map(own).all(is_sound)
     }
 
     /// The value at a path.
     pub fn get(&self, path: &str) -> Option<&'a Datum> {
-        if let Some(own) = self.own(path) {
-            return own.values.first();
+        if let Some(own) = self.own_path(path) {
+            return self.settings.get(&own)?.values.first();
         }
         let position = self.position(path);
         self.settings
@@ -276,8 +308,8 @@ impl<'a> View<'a> {
 
     /// Place of the value at a path.
     pub fn place(&self, path: &str) -> Option<&'a Place> {
-        if let Some(own) = self.own(path) {
-            return Some(&own.place);
+        if let Some(own) = self.own_path(path) {
+            return self.settings.get(&own).map(|own| &own.place);
         }
         let position = self.position(path);
         self.settings.get(path).map(|setting| {

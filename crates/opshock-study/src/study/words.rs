@@ -38,7 +38,35 @@ impl std::fmt::Display for Ramp {
     }
 }
 
-/// Sign of a shock: plus moves the disk towards the slider first.
+/// The way a head faces: down over its disk, up under it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Faces {
+    /// Over the disk.
+    #[default]
+    Down,
+    /// Under the disk.
+    Up,
+}
+
+impl Faces {
+    /// The way of a word; a head faces down where nothing is said.
+    pub fn from_word(word: &str) -> Self {
+        match word {
+            "up" => Self::Up,
+            _ => Self::Down,
+        }
+    }
+
+    /// Sign of the drive's axis along the head's, which points from the disk to the head.
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Down => 1.0,
+            Self::Up => -1.0,
+        }
+    }
+}
+
+/// Sign of a shock: plus moves the disk first towards a slider that faces down, over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Sign {
     /// +

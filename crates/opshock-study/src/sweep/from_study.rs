@@ -14,7 +14,7 @@ use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::bar::FLOOR;
 use crate::search::{Certify, Coordinates, LatticeError, RampClass, SearchSettings, Sign};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
-use crate::study::{self, Point, Ramp, Study};
+use crate::study::{self, Faces, Point, Ramp, Study};
 
 impl SweepInput {
     /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
@@ -134,8 +134,8 @@ fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
     }
 }
 
-/// Content of a point: its scene, the solid that its ramp is remade of, the physics versions and the
-/// sign.
+/// Content of a point: its scene, the solid that its ramp is remade of, the physics versions, the
+/// sign and the way the head faces.
 ///
 /// Without a ramp the clearances mean nothing: such scenes share their runs along a clearance
 /// axis.
@@ -159,6 +159,9 @@ fn digest(point: &Point, sign: Sign) -> PointDigest {
     if let Some(ramp) = &point.remeshed {
         hasher.update(b"remeshed 1");
         hasher.update(ramp.content().as_bytes());
+    }
+    if point.faces == Faces::Up {
+        hasher.update(b"faces up");
     }
     PointDigest(*hasher.finalize().as_bytes())
 }

@@ -34,5 +34,6 @@ pub use merge::{Disagreement, MergeEnd, Merged, merge};
 pub use physics::Physics;
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use shard::Shard;
+pub use shelf::Counts;
 pub use simulator::{Onset, Simulator};
 pub use stop::StopFlag;

@@ -7,6 +7,7 @@
 //! every simulation builds its own model.
 
 use std::collections::{HashSet, VecDeque};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::ramp::RampModel;
@@ -18,12 +19,12 @@ use opshock_solver::simulation::{
     run_structure, simulate, simulate_head,
 };
 
-use super::shelf::Shelf;
+use super::shelf::{Counts, Shelf};
 use super::simulator::{Onset, Simulator};
 use crate::identity;
 use crate::provenance::PHYSICS_STRUCTURE;
 use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
-use crate::study::{Point, RemeshedRamp, Sign, Study};
+use crate::study::{Point, RemeshedRamp, Study};
 
 type Built = Result<Arc<Model>, BuildError>;
 
@@ -65,18 +66,31 @@ struct Turned {
 /// Runs the physics for the points of a study.
 pub struct Physics {
     slots: Vec<Slot>,
-    /// Slot and sign factor of every point.
-    points: Vec<(usize, f64)>,
+    /// Slot, sign of the shock, and sense of its axis along the scene's, of every point.
+    points: Vec<(usize, f64, f64)>,
     plan: Plan,
     turned: Mutex<VecDeque<Turned>>,
     donors: Mutex<Vec<Arc<Model>>>,
     shelf: Shelf,
     /// Structures that several scenes of the study have.
     shared_structures: HashSet<[u8; 16]>,
+    /// Structures built so far.
+    structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
 }
 
 impl Physics {
+    /// Structural runs that points with a structure in common asked for so far, and how many of them an
+    /// earlier run answered.
+    pub fn structural_runs(&self) -> Counts {
+        self.shelf.counts()
+    }
+
+    /// Structures of disk and ramp built so far, those of turned knobs and longer windows included.
+    pub fn structures_built(&self) -> u64 {
+        self.structures.load(Ordering::Relaxed)
+    }
+
     /// The points of a study, in the order of its tables like [`super::SweepInput::of`].
     pub fn of(study: &Study) -> Self {
         Self::planned(study, study.plan())
@@ -90,16 +104,12 @@ impl Physics {
     fn planned(study: &Study, plan: Plan) -> Self {
         let points = study.table_order().into_iter().map(|place| {
             let point = &study.points[place];
-            let factor = match point.sign {
-                Sign::Plus => 1.0,
-                Sign::Minus => -1.0,
-            };
-            (point, factor)
+            (point, point.sign.factor())
         });
         Self::new(points, plan)
     }
 
-    /// Points with their sign factor (1 or -1).
+    /// Points with the sign of their shocks (1 or -1).
     fn new<'a>(points: impl IntoIterator<Item = (&'a Point, f64)>, plan: Plan) -> Self {
         let mut slots: Vec<Slot> = Vec::new();
         let points = points
@@ -117,7 +127,7 @@ impl Physics {
                     });
                     slots.len() - 1
                 });
-                (slot, sign)
+                (slot, sign, point.faces.factor())
             })
             .collect();
         let mut seen = HashSet::new();
@@ -131,6 +141,7 @@ impl Physics {
             donors: Mutex::new(Vec::new()),
             shelf: Shelf::default(),
             shared_structures,
+            structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
         }
     }
@@ -159,6 +170,9 @@ impl Physics {
         let given = donors.iter().map(|donor| &**donor);
         let model = Arc::new(Model::assemble(scene, &self.plan, given)?);
         // Kept for others: a new film, or a structure that other points have too.
+        if !donors.iter().any(has_structure) {
+            self.structures.fetch_add(1, Ordering::Relaxed);
+        }
         let gives_structure = self.shared_structures.contains(&structure_key(scene));
         let is_new =
             !donors.iter().any(has_film) || gives_structure && !donors.iter().any(has_structure);
@@ -268,7 +282,7 @@ impl Simulator for Physics {
             },
             Ok(model) => {
                 let request = Request {
-                    amplitude_m_per_s2,
+                    amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
                     stop_at_failure: true,
                     record: false,
                 };
@@ -280,7 +294,7 @@ impl Simulator for Physics {
     fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {
         let model = self.model_for(point, probe).ok()?;
         let request = Request {
-            amplitude_m_per_s2,
+            amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
             stop_at_failure: true,
             record: true,
         };
@@ -288,7 +302,7 @@ impl Simulator for Physics {
     }
 
     fn onset(&self, point: usize) -> Onset {
-        let (slot, sign) = self.points[point];
+        let (slot, sign, sense) = self.points[point];
         if self.slots[slot].scene.ramp.model == RampModel::None {
             return Onset::NoRamp;
         }
@@ -299,7 +313,10 @@ impl Simulator for Physics {
         let Ok(model) = self.model(point) else {
             return Onset::Unknown;
         };
-        match model.structure().touch_amplitude_m_per_s2(sign > 0.0) {
+        match model
+            .structure()
+            .touch_amplitude_m_per_s2(sign * sense > 0.0)
+        {
             Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
             None => Onset::Unknown,
         }

@@ -39,7 +39,7 @@ struct Place {
 
 /// How often the shelf was asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Counts {
+pub struct Counts {
     /// Structural runs asked for.
     pub asked: u64,
     /// Answered by an earlier run.
@@ -61,7 +61,6 @@ impl Shelf {
     }
 
     /// How often it was asked so far.
-    #[cfg(test)]
     pub fn counts(&self) -> Counts {
         self.lock().counts
     }

@@ -1,8 +1,14 @@
 //! Several heads.
 
 use super::Check;
+use crate::study::fault::StudyError;
+use crate::study::imported_suspension;
 
 const HEADS: &str = "heads";
+/// Gap that stands for those of both sides.
+const CLEARANCE: &str = "ramp.clearance_um";
+/// Gap of each side, which counts where it is given.
+const CLEARANCES: [&str; 2] = ["ramp.clearance_top_um", "ramp.clearance_bottom_um"];
 
 impl Check<'_, '_> {
     /// Heads have names of their own, the chosen one is among them, and what they have of their own is no axis
@@ -31,7 +37,7 @@ impl Check<'_, '_> {
                     false => "no head of that name",
                 };
                 if let Some(place) = place {
-                    let fault = crate::study::fault::StudyError::at("E191", place, "head", message);
+                    let fault = StudyError::at("E191", place, "head", message);
                     let fault = self.push(fault.value(place.text()));
                     fault.allowed = match names.is_empty() {
                         true => "a study with [[heads]]".to_string(),
@@ -49,9 +55,47 @@ impl Check<'_, '_> {
                 continue;
             };
             let message = "an axis of the study that a head has a value of its own for";
-            let fault = crate::study::fault::StudyError::at("E191", place, path, message);
+            let fault = StudyError::at("E191", place, path, message);
             let fault = self.push(fault.value(place.text()));
             fault.allowed = "one value, or none in [[heads]]".to_string();
+        }
+        for (_, entry) in named {
+            self.without_effect_on(&format!("{HEADS}[{entry}]."));
+        }
+    }
+
+    /// What a head has of its own counts, and so does an axis of the study: nothing stands before them.
+    fn without_effect_on(&mut self, head: &str) {
+        let settings = self.view.settings;
+        let own = |path: &str| settings.get(&format!("{head}{path}"));
+        let mut blamed = Vec::new();
+        if let Some(clearance) = own(CLEARANCE) {
+            let hides = |side: &&&str| settings.has(side) && own(side).is_none();
+            let side = CLEARANCES.iter().find(hides);
+            blamed.extend(side.map(|side| {
+                let message = format!("a head's gap on both sides, of which {side} is the study's");
+                let allowed = "clearance_top_um and clearance_bottom_um of the head";
+                (format!("{head}{CLEARANCE}"), clearance, message, allowed)
+            }));
+        }
+        let modes = imported_suspension::MODES;
+        if own(modes).is_some() || settings.has(modes) {
+            for path in imported_suspension::REPLACED {
+                let axis = settings.get(path).filter(|setting| setting.is_axis);
+                let (path, setting) = match (own(path), axis) {
+                    (Some(own), _) => (format!("{head}{path}"), own),
+                    (None, Some(axis)) => (path.to_string(), axis),
+                    (None, None) => continue,
+                };
+                let message = "geometry of a head's suspension that is given by its modes";
+                let allowed = "a geometry, or modes or matrices";
+                blamed.push((path, setting, message.to_string(), allowed));
+            }
+        }
+        for (path, setting, message, allowed) in blamed {
+            let fault = StudyError::at("E191", &setting.place, &path, message);
+            let fault = self.push(fault.value(setting.place.text()));
+            fault.allowed = allowed.to_string();
         }
     }
 }

@@ -38,7 +38,7 @@ impl Check<'_, '_> {
     }
 
     fn sound(&self, paths: &[&str]) -> bool {
-        self.view.settings.are_sound(paths)
+        self.view.are_sound(paths)
     }
 
     /// A fault at the key, of those a rule looks at, that the user wrote last.

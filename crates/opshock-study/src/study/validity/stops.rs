@@ -26,9 +26,9 @@ impl Check<'_, '_> {
             ("limiters", LIMITER_GAP, OF_LIMITERS.as_slice()),
             ("a lift tab", LIFT_TAB_GAP, OF_LIFT_TAB.as_slice()),
         ] {
-            let has = |path: &&&str| self.view.settings.has(path);
+            let has = |path: &&&str| self.view.get(path).is_some();
             let given: Vec<&str> = rest.iter().filter(has).copied().collect();
-            if !given.is_empty() && !self.view.settings.has(gap) {
+            if !given.is_empty() && self.view.get(gap).is_none() {
                 let message = format!("{what} without gap_um");
                 let fault = self.fault("E112", &given, message);
                 fault.allowed = "gap_um beside the rest".to_string();
@@ -37,7 +37,7 @@ impl Check<'_, '_> {
         }
         let modes = imported_suspension::MODES;
         if self.sound(&[LIFT_TAB_GAP, modes])
-            && self.view.settings.has(LIFT_TAB_GAP)
+            && self.view.get(LIFT_TAB_GAP).is_some()
             && self.view.entries(modes) > 0
         {
             let message = "a lift tab on a suspension given by its modes, which say nothing of it";

@@ -1,9 +1,9 @@
 //! Rules that hold for a study as a whole: names, outputs, search, keys without effect.
 
 use super::{Check, needs_head};
-use crate::study::keys;
 use crate::study::settings::Datum;
 use crate::study::source::Origin;
+use crate::study::{imported_suspension, keys};
 
 impl Check<'_, '_> {
     pub(super) fn names(&mut self) {
@@ -129,27 +129,9 @@ impl Check<'_, '_> {
                 &["pulse.decay_share", "pulse.window_max_ms"],
             ),
             (
-                self.view.entries("suspension.modes") == 0,
+                !self.view.settings.has("suspension.modes"),
                 "the suspension is given by its modes",
-                &[
-                    "suspension.hinge.length_mm",
-                    "suspension.hinge.width_mm",
-                    "suspension.hinge.thickness_um",
-                    "suspension.load_beam.dimple_mm",
-                    "suspension.load_beam.end_mm",
-                    "suspension.load_beam.web_um",
-                    "suspension.load_beam.width_root_mm",
-                    "suspension.load_beam.width_dimple_mm",
-                    "suspension.load_beam.tab_width_mm",
-                    "suspension.flange.height_um",
-                    "suspension.flange.from_mm",
-                    "suspension.flange.to_mm",
-                    "suspension.flexure.mass_mg",
-                    "suspension.flexure.from_mm",
-                    "suspension.material.youngs_modulus_gpa",
-                    "suspension.material.shear_modulus_gpa",
-                    "suspension.material.density_kg_per_m3",
-                ],
+                &imported_suspension::REPLACED,
             ),
             (
                 any("ramp.models", "deformable"),

@@ -1,0 +1,123 @@
+//! A scene upside down: how a head under its disk sees the drive.
+//!
+//! A head over its disk faces down, one under it faces up. Physics knows no handedness: the mirror z → −z
+//! about the disk's middle plane makes of the one drive the other, and a head under the disk is simulated as one
+//! over the disk of the mirrored drive, shaken with the other sign of the amplitude:
+//!
+//! ```text
+//! drive, head under the disk, amplitude A   =   mirrored drive, head over the disk, amplitude −A
+//! ```
+//!
+//! | quantity | mirrored |
+//! |---|---|
+//! | displacements and loads along z; tilts; the amplitude | change sign |
+//! | angles, radii, skew, spin: vectors within the plane and turns about z | stay |
+//! | what the ramp does above and below the disk | changes places |
+//! | height of the rotor's centre of mass over the centre of tilt | changes sign |
+//! | in-plane load per axial load | changes sign: only the axial load does |
+//! | rotation in the plane per axial load | stays: both change sign |
+//! | shape of a disk that runs out | changes sign: half a turn of its phase |
+//! | slider, suspension, gas and forces in the film, seen from the disk | stay |
+//!
+//! Modes of base and ramp keep shape and participation: displacement and load change sign together, and so does
+//! the mode's coordinate. Weight is in no scene; a slider's is a few thousandths of its gram load.
+
+use std::f64::consts::PI;
+
+use super::Scene;
+use crate::disk::{DiskParameters, HubParameters, Wave};
+use crate::ramp::{CoupledMode, RampModel, RampParameters};
+use crate::shock::ObliqueShock;
+
+impl Scene {
+    /// The scene of the drive upside down. Mirrored twice it is itself, but for whole turns of the phases of
+    /// run-out.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        // Every part is named, so that a new one does not compile until it has its place here.
+        let Self {
+            pulse,
+            oblique,
+            base,
+            window,
+            disk,
+            run_out,
+            ramp,
+            slider,
+            suspension,
+            gas,
+            flow,
+            surface_forces,
+            fail_below_m,
+            disk_resolution,
+            structure_resolution,
+            film_resolution,
+            head_resolution,
+        } = self;
+        Self {
+            pulse: pulse.clone(),
+            oblique: oblique.as_ref().map(mirrored_shock),
+            base: base.clone(),
+            window: *window,
+            disk: mirrored_disk(disk),
+            run_out: run_out.iter().map(mirrored_wave).collect(),
+            ramp: mirrored_ramp(ramp),
+            slider: slider.clone(),
+            suspension: suspension.clone(),
+            gas: gas.clone(),
+            flow: *flow,
+            surface_forces: *surface_forces,
+            fail_below_m: *fail_below_m,
+            disk_resolution: disk_resolution.clone(),
+            structure_resolution: structure_resolution.clone(),
+            film_resolution: film_resolution.clone(),
+            head_resolution: head_resolution.clone(),
+        }
+    }
+}
+
+fn mirrored_shock(shock: &ObliqueShock) -> ObliqueShock {
+    ObliqueShock {
+        in_plane: shock.in_plane.map(|share| -share),
+        rotation_per_m: shock.rotation_per_m,
+    }
+}
+
+fn mirrored_disk(disk: &DiskParameters) -> DiskParameters {
+    let hub = disk.hub.as_ref().map(|hub| HubParameters {
+        centre_height_m: -hub.centre_height_m,
+        ..*hub
+    });
+    DiskParameters {
+        hub,
+        ..disk.clone()
+    }
+}
+
+fn mirrored_wave(wave: &Wave) -> Wave {
+    // Either way it turns by half; phases stay small.
+    let half = if wave.phase_rad > 0.0 { -PI } else { PI };
+    Wave {
+        phase_rad: wave.phase_rad + half,
+        ..*wave
+    }
+}
+
+fn mirrored_ramp(ramp: &RampParameters) -> RampParameters {
+    let model = match &ramp.model {
+        RampModel::Deformable { top, bottom } => RampModel::Deformable {
+            top: bottom.clone(),
+            bottom: top.clone(),
+        },
+        RampModel::Coupled { modes } => RampModel::Coupled {
+            modes: modes.iter().map(CoupledMode::mirrored).collect(),
+        },
+        model @ (RampModel::None | RampModel::Rigid) => model.clone(),
+    };
+    RampParameters {
+        model,
+        clearance_top_m: ramp.clearance_bottom_m,
+        clearance_bottom_m: ramp.clearance_top_m,
+        ..ramp.clone()
+    }
+}
