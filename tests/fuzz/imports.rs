@@ -97,6 +97,32 @@ fn corpus(importer: &str, endings: &[&str]) -> Vec<Vec<u8>> {
         .collect()
 }
 
+/// A line of a file; only those that slips touch are taken apart.
+#[derive(Clone)]
+enum Words<'a> {
+    Whole(&'a str),
+    Apart(Vec<&'a str>),
+}
+
+impl<'a> Words<'a> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Whole(text) => text.split(' ').count(),
+            Self::Apart(words) => words.len(),
+        }
+    }
+
+    fn apart(&mut self) -> &mut Vec<&'a str> {
+        if let Self::Whole(text) = self {
+            *self = Self::Apart(text.split(' ').collect());
+        }
+        match self {
+            Self::Apart(words) => words,
+            Self::Whole(_) => unreachable!("taken apart above"),
+        }
+    }
+}
+
 /// A file after its slips.
 fn mutated(seeded: &mut Seeded, corpus: &[Vec<u8>], n_sound: usize) -> Vec<u8> {
     let n = if seeded.once_in(2) {
@@ -104,16 +130,14 @@ fn mutated(seeded: &mut Seeded, corpus: &[Vec<u8>], n_sound: usize) -> Vec<u8> {
     } else {
         corpus.len()
     };
-    let mut bytes = seeded.one_of(&corpus[..n]).clone();
+    let sound = seeded.one_of(&corpus[..n]);
     if seeded.once_in(3) {
+        let mut bytes = sound.clone();
         mutate::bytes(seeded, &mut bytes);
         return bytes;
     }
-    let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
-    let mut lines: Vec<Vec<String>> = text
-        .lines()
-        .map(|line| line.split(' ').map(str::to_owned).collect())
-        .collect();
+    let text: String = sound.iter().map(|byte| char::from(*byte)).collect();
+    let mut lines: Vec<Words<'_>> = text.lines().map(Words::Whole).collect();
     let slips = if seeded.once_in(2) {
         1
     } else {
@@ -124,7 +148,8 @@ fn mutated(seeded: &mut Seeded, corpus: &[Vec<u8>], n_sound: usize) -> Vec<u8> {
             break;
         }
         let at = seeded.below(lines.len());
-        let word = seeded.below(lines[at].len().max(1));
+        let n_words = lines[at].len();
+        let word = seeded.below(n_words.max(1));
         match seeded.below(8) {
             0 => drop(lines.remove(at)),
             1 => lines.insert(at, lines[at].clone()),
@@ -132,17 +157,26 @@ fn mutated(seeded: &mut Seeded, corpus: &[Vec<u8>], n_sound: usize) -> Vec<u8> {
                 let other = seeded.below(lines.len());
                 lines.swap(at, other);
             }
-            3 if !lines[at].is_empty() => drop(lines[at].remove(word)),
-            4 => {
-                let before = word.min(lines[at].len());
-                lines[at].insert(before, (*seeded.one_of(WORDS)).to_owned());
-            }
-            _ if !lines[at].is_empty() => lines[at][word] = (*seeded.one_of(WORDS)).to_owned(),
+            3 if n_words > 0 => drop(lines[at].apart().remove(word)),
+            4 => lines[at]
+                .apart()
+                .insert(word.min(n_words), *seeded.one_of(WORDS)),
+            _ if n_words > 0 => lines[at].apart()[word] = *seeded.one_of(WORDS),
             _ => {}
         }
     }
-    let lines: Vec<String> = lines.iter().map(|words| words.join(" ")).collect();
-    (lines.join("\n") + "\n").into_bytes()
+    let mut written = String::with_capacity(text.len() + 64);
+    for line in &lines {
+        match line {
+            Words::Whole(text) => written += text,
+            Words::Apart(words) => written += &words.join(" "),
+        }
+        written.push('\n');
+    }
+    if lines.is_empty() {
+        written.push('\n');
+    }
+    written.into_bytes()
 }
 
 /// What must hold of a refusal.
@@ -316,6 +350,11 @@ fn fuzz_gmsh(range: std::ops::Range<u64>, tell_every: u64) {
                     .iter()
                     .all(|node| *node < mesh.nodes.len())
             );
+            let text = gmsh::write(&mesh);
+            let again = gmsh::read(&Source::of("again.msh", text.clone().into_bytes())?)?;
+            assert_eq!(again.nodes, mesh.nodes);
+            assert_eq!(again.connectivity, mesh.connectivity);
+            assert_eq!(gmsh::write(&again), text);
             mesh.one_piece()?;
             for name in ["mount", "top", "bottom"] {
                 let faces = mesh.surface(name)?;

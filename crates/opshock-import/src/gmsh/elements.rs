@@ -16,10 +16,10 @@ pub(super) enum Kind {
 }
 
 /// Middles 4 to 9 of C3D10 are those of the edges 01, 12, 20, 03, 13, 23; Gmsh has 23 before 13.
-const TETRAHEDRON: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8];
+pub(super) const TETRAHEDRON: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8];
 
 /// Gmsh's middles 8 to 19 are those of the edges 01, 03, 04, 12, 15, 23, 26, 37, 45, 47, 56, 67.
-const HEXAHEDRON: [usize; 20] = [
+pub(super) const HEXAHEDRON: [usize; 20] = [
     0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
 ];
 

@@ -16,8 +16,10 @@
 
 mod elements;
 mod read;
+mod write;
 
 pub use read::read;
+pub use write::write;
 
 use crate::fault::{Fault, Faults};
 use std::collections::{BTreeMap, HashMap};

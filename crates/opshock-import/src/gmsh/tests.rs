@@ -64,6 +64,58 @@ fn nodes_behind_the_corners_are_in_the_middle_of_their_edges() {
     }
 }
 
+/// Nodes, elements and faces of a mesh, without the lines they stood in.
+type Content = (
+    Solid,
+    Vec<[f64; 3]>,
+    [Vec<usize>; 3],
+    Vec<(String, Vec<Vec<usize>>)>,
+);
+
+fn content(mesh: &MeshFile) -> Content {
+    let faces = |list: &Vec<Face>| list.iter().map(|face| face.nodes.clone()).collect();
+    let surfaces = mesh.surfaces.iter();
+    (
+        mesh.solid,
+        mesh.nodes.clone(),
+        [&mesh.node_tags, &mesh.connectivity, &mesh.element_tags].map(Clone::clone),
+        surfaces
+            .map(|(name, list)| (name.clone(), faces(list)))
+            .collect(),
+    )
+}
+
+#[test]
+fn meshes_go_round() {
+    for name in ["tet10.msh", "hex20.msh", "hex27.msh"] {
+        let one = mesh(name);
+        let text = write(&one);
+        let again = read(&Source::of("again.msh", text.clone().into_bytes()).unwrap()).unwrap();
+        assert_eq!(content(&again), content(&one), "{name}");
+        assert_eq!(write(&again), text, "{name}");
+    }
+}
+
+/// What a writer may stumble over: numbers that are taken, a face outside, names without letters.
+#[test]
+fn odd_meshes_go_round() {
+    let mut odd = mesh("tet10.msh");
+    odd.element_tags[0] = 1;
+    odd.element_tags[1] = usize::MAX;
+    odd.node_tags[3] = usize::MAX;
+    odd.nodes[4] = [-0.0, 5e-324, 9.9e299];
+    let mut face = odd.surfaces["top"][0].clone();
+    odd.surfaces.insert(String::new(), vec![face.clone()]);
+    odd.surfaces
+        .insert("a \"b\" c".to_owned(), vec![face.clone()]);
+    let inside = content(&odd);
+    face.nodes[0] = usize::MAX;
+    odd.surfaces.get_mut("top").unwrap().push(face.clone());
+    odd.surfaces.insert("none".to_owned(), vec![face]);
+    let again = read(&Source::of("again.msh", write(&odd).into_bytes()).unwrap()).unwrap();
+    assert_eq!(content(&again), inside);
+}
+
 /// Each face of the outside is met once: 26 faces of five blocks less 4 pairs that touch.
 #[test]
 fn the_outside_of_the_blocks_is_closed() {

@@ -309,3 +309,74 @@ fn unsolved(file: &MeshFile, mount: Mount, error: &SolidRampError) -> Faults {
     };
     fault.into()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use opshock_import::gmsh::Face;
+    use opshock_solid::material::Material;
+    use opshock_solid::ramp::{Extent, RampGeometry, SolidRamp};
+
+    /// The whole of opshock's own ramp, written for Gmsh and read as any user's, has the oscillators of the
+    /// half that the geometry is solved by.
+    #[test]
+    fn a_ramp_of_ones_own_goes_round_through_gmsh() {
+        let solid = SolidRamp {
+            geometry: RampGeometry::mobile_drive(),
+            material: Material::by_name("POM").unwrap(),
+            mount: Mount::Bolted,
+            mesh_size_m: 3e-3,
+            cut_hz: 60e3,
+        };
+        let own = solid
+            .geometry
+            .mesh(solid.mesh_size_m, Extent::Whole)
+            .unwrap();
+        let patch = |weights: &[(usize, f64)]| {
+            let at = |node: usize| own.mesh.nodes_m[node];
+            let is_in = |x: [f64; 3]| weights.iter().any(|&(node, _)| at(node) == x);
+            own.mesh.surface_faces(is_in)
+        };
+        let surfaces = [
+            ("mount", own.bolted.clone()),
+            ("top", patch(&own.top.nodes)),
+            ("bottom", patch(&own.bottom.nodes)),
+        ];
+        let face = |nodes: Vec<usize>| Face { nodes, line: 0 };
+        let file = MeshFile {
+            file: "own.msh".to_owned(),
+            solid: Solid::Hexahedron,
+            nodes: own
+                .mesh
+                .nodes_m
+                .iter()
+                .map(|x| x.map(|c| 1e3 * c))
+                .collect(),
+            node_tags: (1..=own.mesh.nodes_m.len()).collect(),
+            connectivity: own.mesh.connectivity.clone(),
+            element_tags: (1..=own.mesh.n_elements()).collect(),
+            surfaces: surfaces
+                .map(|(name, faces)| (name.to_owned(), faces.into_iter().map(face).collect()))
+                .into(),
+        };
+        let text = gmsh::write(&file);
+        let source = text::Source::of("own.msh", text.into_bytes()).unwrap();
+        let read = ramp_mesh(&gmsh::read(&source).unwrap(), 1e-3).unwrap();
+        let there = read
+            .modes(&solid.material, solid.mount, solid.cut_hz)
+            .unwrap();
+        let expected = solid.modes().unwrap();
+        assert!((there.mass_kg / expected.mass_kg - 1.0).abs() < 1e-12);
+        let stiffness = there.top_stiffness_n_per_m / expected.top_stiffness_n_per_m;
+        assert!((stiffness - 1.0).abs() < 1e-8, "{stiffness}");
+        // The whole has modes besides that are odd across the ramp, which nothing drives.
+        for mode in &expected.modes {
+            let same = there.modes.iter().any(|other| {
+                (other.frequency_hz / mode.frequency_hz - 1.0).abs() < 1e-8
+                    && (other.participation.abs() - mode.participation.abs()).abs()
+                        < 1e-6 * mode.participation.abs().max(1e-4)
+            });
+            assert!(same || mode.frequency_hz > solid.cut_hz, "{mode:?}");
+        }
+    }
+}
