@@ -75,7 +75,7 @@ struct Abreast<'a, const K: usize> {
 
 impl<const K: usize> Kernel for Abreast<'_, K> {
     /// Sums kept apart, and those of what is left. Added up in here they would lead the compiler to
-    /// pairs of numbers in place of whole registers, ten times the instructions.
+    /// pairs of numbers and shuffles in place of whole registers.
     type Output = ([[f64; SUMS]; K], [f64; K]);
 
     // Loops by number, which the compiler unrolls before it looks for whole registers.

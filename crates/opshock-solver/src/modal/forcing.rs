@@ -58,6 +58,16 @@ impl Phase {
         }
     }
 
+    /// c₀, c₁, Re C and Im C, in the order of a [`ForcedResponse`].
+    pub fn parts(&self) -> [f64; 4] {
+        [
+            self.constant,
+            self.slope_per_s,
+            self.wave.re,
+            self.wave.im,
+        ]
+    }
+
     /// s at the start of the stretch.
     pub fn value(&self) -> f64 {
         self.constant + self.wave.re
@@ -117,21 +127,9 @@ impl ForcedResponse {
         response
     }
 
-    /// Increment of the velocity alone.
-    pub fn velocity_increment(&self, phase: &Phase) -> f64 {
-        let row = &self.velocity;
-        (row[0] * phase.constant + row[1] * phase.slope_per_s)
-            + (row[2] * phase.wave.re + row[3] * phase.wave.im)
-    }
-
     /// Increments (displacement, velocity) for a forcing that starts at `phase`.
     pub fn increments(&self, phase: &Phase) -> (f64, f64) {
-        let parts = [
-            phase.constant,
-            phase.slope_per_s,
-            phase.wave.re,
-            phase.wave.im,
-        ];
+        let parts = phase.parts();
         let sum = |row: &[f64; 4]| {
             (row[0] * parts[0] + row[1] * parts[1]) + (row[2] * parts[2] + row[3] * parts[3])
         };

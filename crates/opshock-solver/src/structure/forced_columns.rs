@@ -134,7 +134,7 @@ impl ForcedColumns {
 
     /// A step under `phase`.
     pub fn drive(&self, phase: &Phase, x: &mut [f64], v: &mut [f64]) {
-        let (eights, parts) = (&self.eights, parts(phase));
+        let (eights, parts) = (&self.eights, phase.parts());
         widest(Drive {
             eights,
             parts,
@@ -161,7 +161,7 @@ impl ForcedColumns {
             eights: &self.eights,
             within: &self.instants[i].within,
             amplitude,
-            parts: parts(phase),
+            parts: phase.parts(),
             x,
             v,
         })
@@ -176,9 +176,26 @@ fn set<const N: usize>(columns: &mut [[f64; SUMS]; N], k: usize, values: [f64; N
     }
 }
 
-fn parts(phase: &Phase) -> [f64; 4] {
-    let wave = phase.wave;
-    [phase.constant, phase.slope_per_s, wave.re, wave.im]
+/// The modes of `eights` with their states, eight by eight.
+#[inline(always)]
+fn with_states<'a>(
+    eights: &'a [Eight],
+    x: &'a [f64],
+    v: &'a [f64],
+) -> impl Iterator<Item = (&'a Eight, &'a [f64; SUMS], &'a [f64; SUMS])> {
+    let states = x.as_chunks().0.iter().zip(v.as_chunks().0);
+    eights.iter().zip(states).map(|(eight, (x, v))| (eight, x, v))
+}
+
+/// The same with states to be changed.
+#[inline(always)]
+fn with_states_mut<'a>(
+    eights: &'a [Eight],
+    x: &'a mut [f64],
+    v: &'a mut [f64],
+) -> impl Iterator<Item = (&'a Eight, &'a mut [f64; SUMS], &'a mut [f64; SUMS])> {
+    let states = x.as_chunks_mut().0.iter_mut().zip(v.as_chunks_mut().0);
+    eights.iter().zip(states).map(|(eight, (x, v))| (eight, x, v))
 }
 
 struct Read<'a> {
@@ -215,9 +232,7 @@ impl Kernel for Energy<'_> {
     #[inline(always)]
     fn call(self) -> Self::Output {
         let (mut kinetic, mut elastic) = ([0.0; SUMS], [0.0; SUMS]);
-        let states = self.x.as_chunks::<SUMS>().0.iter();
-        let states = states.zip(self.v.as_chunks::<SUMS>().0);
-        for (eight, (x, v)) in self.eights.iter().zip(states) {
+        for (eight, x, v) in with_states(self.eights, self.x, self.v) {
             for k in 0..SUMS {
                 let spring = eight.omega[k] * x[k];
                 kinetic[k] += 0.5 * v[k] * v[k];
@@ -240,9 +255,7 @@ impl Kernel for FreeLoss<'_> {
     #[inline(always)]
     fn call(self) -> [f64; SUMS] {
         let mut loss = [0.0; SUMS];
-        let states = self.x.as_chunks::<SUMS>().0.iter();
-        let states = states.zip(self.v.as_chunks::<SUMS>().0);
-        for (eight, (x, v)) in self.eights.iter().zip(states) {
+        for (eight, x, v) in with_states(self.eights, self.x, self.v) {
             let [xx, vv, xv] = &eight.loss;
             for k in 0..SUMS {
                 loss[k] += xx[k] * x[k] * x[k] + vv[k] * v[k] * v[k] + xv[k] * x[k] * v[k];
@@ -263,9 +276,7 @@ impl Kernel for Carry<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let states = self.x.as_chunks_mut::<SUMS>().0.iter_mut();
-        let states = states.zip(self.v.as_chunks_mut::<SUMS>().0);
-        for (eight, (x, v)) in self.eights.iter().zip(states) {
+        for (eight, x, v) in with_states_mut(self.eights, self.x, self.v) {
             carry(&eight.flow, x, v);
         }
     }
@@ -283,9 +294,7 @@ impl Kernel for Drive<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let states = self.x.as_chunks_mut::<SUMS>().0.iter_mut();
-        let states = states.zip(self.v.as_chunks_mut::<SUMS>().0);
-        for (eight, (x, v)) in self.eights.iter().zip(states) {
+        for (eight, x, v) in with_states_mut(self.eights, self.x, self.v) {
             carry(&eight.flow, x, v);
             let by_x = respond(&eight.displacement, &self.parts);
             let by_v = respond(&eight.velocity, &self.parts);
@@ -315,10 +324,8 @@ impl Kernel for RatesWithin<'_> {
     #[inline(always)]
     fn call(self) -> Self::Output {
         let (mut power, mut loss) = ([0.0; SUMS], [0.0; SUMS]);
-        let states = self.x.as_chunks::<SUMS>().0.iter();
-        let states = states.zip(self.v.as_chunks::<SUMS>().0);
-        let columns = self.eights.iter().zip(self.within);
-        for ((eight, within), (x, v)) in columns.zip(states) {
+        let states = with_states(self.eights, self.x, self.v);
+        for ((eight, x, v), within) in states.zip(self.within) {
             let by = respond(&within.forced, &self.parts);
             let mut rate = [0.0; SUMS];
             for k in 0..SUMS {

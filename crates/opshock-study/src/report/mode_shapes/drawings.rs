@@ -99,16 +99,24 @@ fn disk(disk: &DiskShapes, study: &str) -> Drawing {
         |m: &super::DiskShape| format!("n{}_c{}_per_sqrt_kg", m.nodal_diameters, m.nodal_circles);
     let mut names = vec!["radius_m".to_owned()];
     names.extend(disk.modes.iter().map(name));
-    let rows = disk.radii_m.iter().enumerate().map(|(i, r)| {
-        let mut row = vec![*r];
-        row.extend(disk.modes.iter().map(|mode| mode.radial_per_sqrt_kg[i]));
-        row
-    });
+    let columns = disk.modes.iter().map(|mode| &mode.radial_per_sqrt_kg[..]);
+    let rows = rows_of(&disk.radii_m, columns);
     Drawing {
         name: "disk_modes",
         figure: figure("Modes of the disk", study, panels.collect()),
         table: csv(&names, rows),
     }
+}
+
+/// Rows of a table: a place, and every mode's motion there.
+fn rows_of<'a>(
+    places: &'a [f64],
+    columns: impl Iterator<Item = &'a [f64]> + Clone,
+) -> impl Iterator<Item = Vec<f64>> {
+    places.iter().enumerate().map(move |(i, place)| {
+        let motions = columns.clone().map(|column| column[i]);
+        std::iter::once(*place).chain(motions).collect()
+    })
 }
 
 /// Motion of both contacts against frequency.
@@ -199,11 +207,8 @@ fn suspension(shapes: &SuspensionShapes, study: &str) -> Drawing {
     };
     let mut names = vec!["place_m".to_owned()];
     names.extend(numbered(shapes).map(|(f, k, m)| format!("{f}_{k}_{}", unit(m.is_bending))));
-    let rows = shapes.places_m.iter().enumerate().map(|(i, x)| {
-        let mut row = vec![*x];
-        row.extend(shapes.modes.iter().map(|mode| mode.shape[i]));
-        row
-    });
+    let columns = shapes.modes.iter().map(|mode| &mode.shape[..]);
+    let rows = rows_of(&shapes.places_m, columns);
     Drawing {
         name: "suspension_modes",
         figure: figure("Modes of the suspension", study, panels.into()),
