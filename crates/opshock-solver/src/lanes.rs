@@ -45,6 +45,101 @@ pub fn sum(x: &[f64]) -> f64 {
     total(sums) + rest
 }
 
+/// `out` += `weight` `x`.
+///
+/// # Panics
+///
+/// When lengths differ.
+pub fn add_scaled(out: &mut [f64], weight: f64, x: &[f64]) {
+    assert_eq!(out.len(), x.len());
+    widest(AddScaled { out, weight, x });
+}
+
+/// `out` := `base` + (w₀ x₀ + w₁ x₁ + w₂ x₂).
+///
+/// # Panics
+///
+/// When lengths differ.
+pub fn combine(base: &[f64], weights: [f64; 3], x: [&[f64]; 3], out: &mut [f64]) {
+    assert!(base.len() == out.len() && x.iter().all(|x| x.len() == out.len()));
+    widest(Combine {
+        base,
+        weights,
+        x,
+        out,
+    });
+}
+
+/// `out` := (`to` − `from`) `per_s`.
+///
+/// # Panics
+///
+/// When lengths differ.
+pub fn rate_between(from: &[f64], to: &[f64], per_s: f64, out: &mut [f64]) {
+    assert!(from.len() == out.len() && to.len() == out.len());
+    widest(RateBetween {
+        from,
+        to,
+        per_s,
+        out,
+    });
+}
+
+struct RateBetween<'a> {
+    from: &'a [f64],
+    to: &'a [f64],
+    per_s: f64,
+    out: &'a mut [f64],
+}
+
+impl Kernel for RateBetween<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for ((out, from), to) in self.out.iter_mut().zip(self.from).zip(self.to) {
+            *out = (to - from) * self.per_s;
+        }
+    }
+}
+
+struct AddScaled<'a> {
+    out: &'a mut [f64],
+    weight: f64,
+    x: &'a [f64],
+}
+
+impl Kernel for AddScaled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (out, x) in self.out.iter_mut().zip(self.x) {
+            *out += self.weight * x;
+        }
+    }
+}
+
+struct Combine<'a> {
+    base: &'a [f64],
+    weights: [f64; 3],
+    x: [&'a [f64]; 3],
+    out: &'a mut [f64],
+}
+
+impl Kernel for Combine<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let ([a, b, c], [w0, w1, w2]) = (self.x, self.weights);
+        let rest = a.iter().zip(b).zip(c);
+        for ((out, base), ((a, b), c)) in self.out.iter_mut().zip(self.base).zip(rest) {
+            *out = base + (w0 * a + w1 * b + w2 * c);
+        }
+    }
+}
+
 struct Sum<'a> {
     x: &'a [f64],
 }

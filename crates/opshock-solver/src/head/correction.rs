@@ -1,7 +1,8 @@
-//! Newton's correction of the film once the slider's is known.
+//! Passes over the film's cells in a stage: what they store, Newton's correction once the slider's is
+//! known, and the size of an error.
 //!
 //! ```text
-//! δψ = −A⁻¹ r_f − Z δq
+//! r_f = c (ψ − ψ_known)/d + R,    δψ = −A⁻¹ r_f − Z δq
 //! ```
 
 use crate::lanes::{Kernel, SUMS, total, widest};
@@ -29,6 +30,86 @@ pub(super) fn correct_film(
         total(squares) + square,
         losses.into_iter().fold(loss, f64::max),
     )
+}
+
+/// `residual` += `capacity` (`psi` − `known`) `per_d`.
+///
+/// # Panics
+///
+/// When slices differ in length.
+pub(super) fn add_storage(
+    residual: &mut [f64],
+    capacity: &[f64],
+    [psi, known]: [&[f64]; 2],
+    per_d: f64,
+) {
+    let n = residual.len();
+    assert!(capacity.len() == n && psi.len() == n && known.len() == n);
+    widest(AddStorage {
+        residual,
+        capacity,
+        psi,
+        known,
+        per_d,
+    });
+}
+
+/// Root of the mean of (e/ψ)².
+///
+/// # Panics
+///
+/// When slices differ in length.
+pub(super) fn relative_size(e: &[f64], psi: &[f64]) -> f64 {
+    assert_eq!(e.len(), psi.len());
+    let (squares, square) = widest(RelativeSquares { e, psi });
+    ((total(squares) + square) / psi.len() as f64).sqrt()
+}
+
+struct AddStorage<'a> {
+    residual: &'a mut [f64],
+    capacity: &'a [f64],
+    psi: &'a [f64],
+    known: &'a [f64],
+    per_d: f64,
+}
+
+impl Kernel for AddStorage<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let of = self.capacity.iter().zip(self.psi).zip(self.known);
+        for (r, ((c, psi), known)) in self.residual.iter_mut().zip(of) {
+            *r += c * (psi - known) * self.per_d;
+        }
+    }
+}
+
+struct RelativeSquares<'a> {
+    e: &'a [f64],
+    psi: &'a [f64],
+}
+
+impl Kernel for RelativeSquares<'_> {
+    type Output = ([f64; SUMS], f64);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let ((e, e_rest), (psi, psi_rest)) =
+            (self.e.as_chunks::<SUMS>(), self.psi.as_chunks::<SUMS>());
+        let mut squares = [0.0; SUMS];
+        for (e, psi) in e.iter().zip(psi) {
+            for k in 0..SUMS {
+                let relative = e[k] / psi[k];
+                squares[k] += relative * relative;
+            }
+        }
+        let mut square = 0.0;
+        for (e, psi) in e_rest.iter().zip(psi_rest) {
+            square += (e / psi) * (e / psi);
+        }
+        (squares, square)
+    }
 }
 
 struct Correct<'a> {

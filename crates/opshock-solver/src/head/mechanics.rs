@@ -18,7 +18,7 @@
 
 use super::stops::{Closed, Stop, Stops};
 use crate::linalg::dense::dot;
-use crate::linalg::pivoted::PivotedLu;
+use crate::linalg::pivoted::{PaddedColumns, PivotedInverse, sum_of_products};
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
 use crate::suspension::{ContactLaw, ReducedSuspension, SuspensionParameters};
@@ -33,6 +33,8 @@ const DIMPLE_Z: usize = 3;
 #[derive(Clone, Debug)]
 pub(super) struct Mechanics {
     n: usize,
+    /// Mass, damping and stiffness once more, for products.
+    columns: [PaddedColumns; 3],
     mass: Vec<f64>,
     inverse_mass: Vec<f64>,
     damping: Vec<f64>,
@@ -102,21 +104,12 @@ impl Mechanics {
             }
         }
 
-        let mut inverse_mass = vec![0.0; n * n];
-        let mut factors = PivotedLu::new(n);
-        factors.matrix_mut().copy_from_slice(&mass);
-        if !factors.factor() {
+        let mut inverse = PivotedInverse::new(n);
+        inverse.matrix_mut().copy_from_slice(&mass);
+        if !inverse.invert() {
             return None;
         }
-        let mut column = vec![0.0; n];
-        for j in 0..n {
-            column.fill(0.0);
-            column[j] = 1.0;
-            factors.solve(&mut column);
-            for i in 0..n {
-                inverse_mass[i * n + j] = column[i];
-            }
-        }
+        let inverse_mass = inverse.rows();
 
         let mut rigid = vec![0.0; n];
         multiply(&inverse_mass, &inertia_load, &mut rigid);
@@ -156,6 +149,7 @@ impl Mechanics {
         let dimple = &parameters.dimple;
         Some(Self {
             n,
+            columns: [&mass, &damping, &stiffness].map(|rows| PaddedColumns::new(n, rows)),
             mass,
             inverse_mass,
             damping,
@@ -210,15 +204,11 @@ impl Mechanics {
             + self.contact_n_s_per_m * (v[SLIDER_Z] - v[DIMPLE_Z])
     }
 
-    /// Total generalised force at inertia load `a` with the film's excess force F − F₀.
-    fn force(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
-        let rows = self
-            .stiffness
-            .chunks_exact(self.n)
-            .zip(self.damping.chunks_exact(self.n));
-        for ((out, load), (stiffness, damping)) in out.iter_mut().zip(&self.inertia_load).zip(rows)
-        {
-            *out = load * a - dot(stiffness, x) - dot(damping, v);
+    /// Adds the generalised force at inertia load `a` with the film's excess force F − F₀, without
+    /// springs and dampers of the linear matrices.
+    fn add_load(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
+        for (out, load) in out.iter_mut().zip(&self.inertia_load) {
+            *out += load * a;
         }
         for (out, f) in out.iter_mut().zip(film) {
             *out += f;
@@ -239,7 +229,10 @@ impl Mechanics {
         scratch: &mut [f64],
         out: &mut [f64],
     ) {
-        self.force(a, film, x, v, scratch);
+        let [_, damping, stiffness] = &self.columns;
+        sum_of_products([(damping, v), (stiffness, x)], scratch);
+        scratch.iter_mut().for_each(|f| *f = -*f);
+        self.add_load(a, film, x, v, scratch);
         multiply(&self.inverse_mass, scratch, out);
     }
 
@@ -260,13 +253,19 @@ impl Mechanics {
         }
     }
 
-    /// Residual M (v − v_known)/d − force of a stage.
-    pub fn residual(&self, state: &StageState<'_>, out: &mut [f64], scratch: &mut [f64]) {
-        self.force(state.a, state.film, state.x, state.v, scratch);
-        let rows = self.mass.chunks_exact(self.n).zip(&*scratch);
-        for (out, (mass, force)) in out.iter_mut().zip(rows) {
-            *out = (dot(mass, state.v) - dot(mass, state.v_known)) / state.d_s - force;
+    /// Force less M (v − v_known)/d of a stage: its residual with the sign that a correction wants.
+    pub fn imbalance(&self, state: &StageState<'_>, out: &mut [f64], scratch: &mut [f64]) {
+        let per_d = 1.0 / state.d_s;
+        for ((rate, v), known) in scratch.iter_mut().zip(state.v).zip(state.v_known) {
+            *rate = (v - known) * per_d;
         }
+        let [mass, damping, stiffness] = &self.columns;
+        sum_of_products(
+            [(mass, scratch), (damping, state.v), (stiffness, state.x)],
+            out,
+        );
+        out.iter_mut().for_each(|f| *f = -*f);
+        self.add_load(state.a, state.film, state.x, state.v, out);
     }
 
     /// Derivative of the residual by x with v = (x − x_known)/d, without the film; `closed` is the
@@ -313,14 +312,22 @@ impl Mechanics {
     }
 
     /// Right-hand side of the filter: M e_v/d + (M/d² + C/d) e_x.
-    pub fn filter_load(&self, d_s: f64, closed: Closed, e_x: &[f64], e_v: &[f64], out: &mut [f64]) {
-        let rows = self
-            .mass
-            .chunks_exact(self.n)
-            .zip(self.damping.chunks_exact(self.n));
-        for (out, (mass, damping)) in out.iter_mut().zip(rows) {
-            *out = (dot(mass, e_v) + dot(mass, e_x) / d_s + dot(damping, e_x)) / d_s;
+    pub fn filter_load(
+        &self,
+        d_s: f64,
+        closed: Closed,
+        e_x: &[f64],
+        e_v: &[f64],
+        out: &mut [f64],
+        scratch: &mut [f64],
+    ) {
+        let per_d = 1.0 / d_s;
+        for ((rate, x), v) in scratch.iter_mut().zip(e_x).zip(e_v) {
+            *rate = v + x * per_d;
         }
+        let [mass, damping, _] = &self.columns;
+        sum_of_products([(mass, scratch), (damping, e_x)], out);
+        out.iter_mut().for_each(|f| *f *= per_d);
         if closed.dimple() {
             let f = self.contact_n_s_per_m * (e_x[SLIDER_Z] - e_x[DIMPLE_Z]) / d_s;
             out[SLIDER_Z] += f;

@@ -1,5 +1,6 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
+use super::correction::relative_size;
 use super::fields::{FieldRecord, StepEnds};
 use super::following::Following;
 use super::model::{HeadModel, ShockLoad};
@@ -338,8 +339,7 @@ impl<'a> Run<'a> {
         let (e_psi, rest) = self.w.stepper.error().split_at(n_cells);
         let (e_x, e_v) = rest.split_at(n);
         let psi = &self.w.stepper.value()[..n_cells];
-        let square: f64 = e_psi.iter().zip(psi).map(|(e, p)| (e / p) * (e / p)).sum();
-        let film = (square / n_cells as f64).sqrt();
+        let film = relative_size(e_psi, psi);
         let gap = model.gap_change(e_x) + model.velocity_to_gap_s * model.gap_change(e_v);
         let suspension = model.mechanics.suspension_force_error(e_x) / model.film_n_per_m;
         ((gap + suspension) / gap_m + film) / model.resolution.tolerance

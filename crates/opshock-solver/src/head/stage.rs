@@ -18,16 +18,16 @@
 
 use super::HeadModel;
 use super::ShockLoad;
-use super::correction::correct_film;
+use super::correction::{add_storage, correct_film};
 use super::mechanics::StageState;
 use super::stops::Closed;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
 use crate::disk::{DiskMotion, DiskPose};
 use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
-use crate::lanes::{product, products, sum};
+use crate::lanes::{add_scaled, combine, product, products, sum};
 use crate::linalg::banded::BandedLu;
-use crate::linalg::pivoted::PivotedLu;
+use crate::linalg::pivoted::PivotedInverse;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
@@ -77,9 +77,9 @@ pub(super) struct StageScratch {
     pub small: Vec<f64>,
     /// Coordinates, velocities and known velocities over a pivot that moves.
     seen: [Vec<f64>; 3],
-    /// S + film's condensed stiffness, factored, and what it was made for.
-    lu_small: PivotedLu,
-    small_key: Option<SmallKey>,
+    /// Inverse of S + film's condensed stiffness, and what it was made for.
+    inverse: PivotedInverse,
+    inverse_key: Option<SmallKey>,
     /// Contraction of the last iteration with the present factors.
     contraction: f64,
     /// Contacts that were closed at the last mechanical iterate.
@@ -124,8 +124,8 @@ impl StageScratch {
             velocity: vec![0.0; n],
             small: vec![0.0; n],
             seen: [0, 1, 2].map(|_| vec![0.0; n]),
-            lu_small: PivotedLu::new(n),
-            small_key: None,
+            inverse: PivotedInverse::new(n),
+            inverse_key: None,
             contraction: FIRST_CONTRACTION,
             last_closed: Closed::DIMPLE,
             counters: Counters::default(),
@@ -135,7 +135,7 @@ impl StageScratch {
     /// Forgets factors and counts, keeping the storage.
     pub fn reset(&mut self) {
         self.factored_d_s = None;
-        self.small_key = None;
+        self.inverse_key = None;
         self.contraction = FIRST_CONTRACTION;
         self.counters = Counters::default();
     }
@@ -225,7 +225,7 @@ impl Stages<'_> {
         }
         s.factored_d_s = Some(d_s);
         s.n_borrowed = 0;
-        s.small_key = None;
+        s.inverse_key = None;
         s.contraction = FIRST_CONTRACTION;
         Ok(())
     }
@@ -260,14 +260,8 @@ impl Stages<'_> {
         let (film, s) = (&self.model.film, &mut *self.scratch);
         let force = film.flux_residual_and_force(psi, attitude, &mut s.residual, &mut s.film);
         s.counters.residuals += 1;
-        let per_d = 1.0 / instant.d_s;
-        for (r, ((psi, known), c)) in s
-            .residual
-            .iter_mut()
-            .zip(psi.iter().zip(psi_known).zip(film.capacity()))
-        {
-            *r += c * (psi - known) * per_d;
-        }
+        let states = [psi, psi_known];
+        add_storage(&mut s.residual, film.capacity(), states, 1.0 / instant.d_s);
         std::array::from_fn(|f| force[f] - self.model.steady_force[f])
     }
 
@@ -279,8 +273,8 @@ impl Stages<'_> {
         *worst = worst.max((spurious / mass).abs());
     }
 
-    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness; the
-    /// factors are kept while d, contacts and film stay. False when there is none.
+    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness; its
+    /// inverse is kept while d, contacts and film stay. False when there is none.
     fn solve_small(&mut self, d_s: f64, closed: Closed, with_film: bool) -> bool {
         let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
         let key = SmallKey {
@@ -288,9 +282,9 @@ impl Stages<'_> {
             closed,
             with_film,
         };
-        if s.small_key != Some(key) {
-            s.small_key = None;
-            let matrix = s.lu_small.matrix_mut();
+        if s.inverse_key != Some(key) {
+            s.inverse_key = None;
+            let matrix = s.inverse.matrix_mut();
             self.model.mechanics.stage_matrix(d_s, closed, matrix);
             if with_film {
                 for f in 0..3 {
@@ -299,12 +293,12 @@ impl Stages<'_> {
                     }
                 }
             }
-            if !s.lu_small.factor() {
+            if !s.inverse.invert() {
                 return false;
             }
-            s.small_key = Some(key);
+            s.inverse_key = Some(key);
         }
-        s.lu_small.solve(&mut s.mechanical)
+        s.inverse.solve(&mut s.mechanical)
     }
 
     /// Contacts that are closed at `x` with the velocities in the scratch.
@@ -344,10 +338,9 @@ impl Stages<'_> {
             mechanics.over_pivot(pivot[1], stage.v_known, v_known);
             (stage.x, stage.v, stage.v_known) = (x, v, v_known);
         }
-        mechanics.residual(&stage, &mut s.mechanical, &mut s.small);
+        mechanics.imbalance(&stage, &mut s.mechanical, &mut s.small);
         let closed = mechanics.closed(stage.x, stage.v);
         s.last_closed = closed;
-        s.mechanical.iter_mut().for_each(|r| *r = -*r);
         if let Some(condensed) = condensed {
             for (r, f) in s.mechanical.iter_mut().zip(condensed) {
                 *r -= f;
@@ -456,9 +449,7 @@ impl Stages<'_> {
         } else {
             1.0
         };
-        for (psi, delta) in psi.iter_mut().zip(&s.residual) {
-            *psi += factor * delta;
-        }
+        add_scaled(psi, factor, &s.residual);
         for (x, delta) in x.iter_mut().zip(&s.mechanical) {
             *x += factor * delta;
         }
@@ -509,19 +500,15 @@ impl StageSystem for Stages<'_> {
         let (e_x, e_v) = rest.split_at_mut(n);
         let s = &mut *self.scratch;
         let per_d = 1.0 / d_s;
-        for ((r, e), c) in s
-            .residual
-            .iter_mut()
-            .zip(&*e_psi)
-            .zip(self.model.film.capacity())
-        {
+        let capacity = self.model.film.capacity();
+        for ((r, e), c) in s.residual.iter_mut().zip(&*e_psi).zip(capacity) {
             *r = c * e * per_d;
         }
         let force = s.solve_film();
         let closed = s.last_closed;
         self.model
             .mechanics
-            .filter_load(d_s, closed, e_x, e_v, &mut s.mechanical);
+            .filter_load(d_s, closed, e_x, e_v, &mut s.mechanical, &mut s.small);
         for (r, f) in s.mechanical.iter_mut().zip(force) {
             *r += f;
         }
@@ -531,16 +518,7 @@ impl StageSystem for Stages<'_> {
         }
         let s = &mut *self.scratch;
         let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
-        let [z_h, z_pitch, z_roll] = &s.z;
-        for ((((e, r), h), pitch), roll) in e_psi
-            .iter_mut()
-            .zip(&s.residual)
-            .zip(z_h)
-            .zip(z_pitch)
-            .zip(z_roll)
-        {
-            *e = r - (h * dq[0] + pitch * dq[1] + roll * dq[2]);
-        }
+        combine(&s.residual, dq.map(|d| -d), columns_of(&s.z), e_psi);
         for ((e_x, e_v), x) in e_x.iter_mut().zip(e_v).zip(&s.mechanical) {
             *e_v = (x - *e_x) / d_s;
             *e_x = *x;

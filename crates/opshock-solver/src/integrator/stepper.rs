@@ -2,6 +2,7 @@
 
 use super::Tableau;
 use super::extrapolation::{self, KNOWN};
+use crate::lanes::{add_scaled, combine, rate_between};
 
 /// A stiff system y' = f(t, y) that solves its own implicit stages.
 pub trait StageSystem {
@@ -103,23 +104,15 @@ impl Stepper {
         for i in 1..table.n_stages() {
             self.known.copy_from_slice(y);
             for (a, rates) in table.a[i].iter().zip(&self.rates) {
-                let w = dt_s * a;
-                for (known, k) in self.known.iter_mut().zip(rates) {
-                    *known += w * k;
-                }
+                add_scaled(&mut self.known, dt_s * a, rates);
             }
             self.guess(i, dt_s, y);
             system.solve_stage(time_s + table.c[i] * dt_s, d, &self.known, &mut self.stage)?;
-            for ((k, y), known) in self.rates[i].iter_mut().zip(&self.stage).zip(&self.known) {
-                *k = (y - known) / d;
-            }
+            rate_between(&self.known, &self.stage, 1.0 / d, &mut self.rates[i]);
         }
         self.error.fill(0.0);
         for (w, rates) in table.error_weights.iter().zip(&self.rates) {
-            let w = dt_s * w;
-            for (e, k) in self.error.iter_mut().zip(rates) {
-                *e += w * k;
-            }
+            add_scaled(&mut self.error, dt_s * w, rates);
         }
         system.filter(d, &mut self.error);
         Ok(())
@@ -142,9 +135,6 @@ impl Stepper {
             n += 1;
         }
         let w = extrapolation::integral_weights(times_s, n, c[i] * dt_s);
-        let [k0, k1, k2] = rates;
-        for ((((s, y), k0), k1), k2) in self.stage.iter_mut().zip(y).zip(k0).zip(k1).zip(k2) {
-            *s = y + (w[0] * k0 + w[1] * k1 + w[2] * k2);
-        }
+        combine(y, w, rates.map(Vec::as_slice), &mut self.stage);
     }
 }

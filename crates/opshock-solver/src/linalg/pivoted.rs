@@ -1,134 +1,337 @@
-//! Small dense systems by elimination with row exchanges.
+//! Small dense matrices in columns of whole registers: products, and inverses with row exchanges.
 //!
-//! Rows are compared after scaling by their largest entry, since metres and radians meet in one
-//! matrix.
+//! A matrix of some twenty rows that is solved with thousands of times is worth its inverse: a product of
+//! columns runs over whole registers, where a triangular solve waits in every row for the row before.
 
-/// LU factors of a small square matrix, in storage allocated once.
+use crate::lanes::{Kernel, SUMS, widest};
+
+/// Rows that are handled together.
+type Chunk = [f64; SUMS];
+
+/// A square matrix, column by column, every column padded with zeros to whole chunks.
 #[derive(Clone, Debug)]
-pub struct PivotedLu {
+pub struct PaddedColumns {
     n: usize,
-    /// Row by row: the matrix, then its factors.
-    entries: Vec<f64>,
-    /// Largest entry of every row before the elimination.
-    scales: Vec<f64>,
-    /// Row taken as pivot row k.
-    exchanges: Vec<usize>,
+    entries: Vec<Chunk>,
 }
 
-impl PivotedLu {
+impl PaddedColumns {
+    /// The `n` × `n` matrix given row by row.
+    ///
+    /// # Panics
+    ///
+    /// When `rows` has not n² entries.
+    pub fn new(n: usize, rows: &[f64]) -> Self {
+        let mut out = Self {
+            n,
+            entries: vec![[0.0; SUMS]; n * n.div_ceil(SUMS)],
+        };
+        out.fill(rows);
+        out
+    }
+
+    fn fill(&mut self, rows: &[f64]) {
+        let (n, height) = (self.n, self.height());
+        assert_eq!(rows.len(), n * n);
+        for (i, row) in rows.chunks_exact(n).enumerate() {
+            let (chunk, k) = (i / SUMS, i % SUMS);
+            for (column, a) in self.entries.chunks_exact_mut(height).zip(row) {
+                column[chunk][k] = *a;
+            }
+        }
+    }
+
+    /// Chunks in a column.
+    fn height(&self) -> usize {
+        self.n.div_ceil(SUMS)
+    }
+}
+
+/// `out` := Σ Aᵢ xᵢ over all `terms`, of one size.
+///
+/// # Panics
+///
+/// When sizes differ.
+pub fn sum_of_products<const K: usize>(terms: [(&PaddedColumns, &[f64]); K], out: &mut [f64]) {
+    for (matrix, x) in &terms {
+        assert!(matrix.n == out.len() && x.len() == out.len());
+    }
+    widest(SumOfProducts { terms, out });
+}
+
+struct SumOfProducts<'a, const K: usize> {
+    terms: [(&'a PaddedColumns, &'a [f64]); K],
+    out: &'a mut [f64],
+}
+
+impl<const K: usize> Kernel for SumOfProducts<'_, K> {
+    type Output = ();
+
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "many columns are walked in step, which an index says plainest"
+    )]
+    #[inline(always)]
+    fn call(self) {
+        let n = self.out.len();
+        let height = n.div_ceil(SUMS);
+        for (at, out) in self.out.chunks_mut(SUMS).enumerate() {
+            let mut sums = [[0.0; SUMS]; K];
+            for j in 0..n {
+                for i in 0..K {
+                    let (matrix, x) = &self.terms[i];
+                    let (column, x) = (&matrix.entries[j * height + at], x[j]);
+                    for k in 0..SUMS {
+                        sums[i][k] += column[k] * x;
+                    }
+                }
+            }
+            let mut sum = [0.0; SUMS];
+            for i in 0..K {
+                for k in 0..SUMS {
+                    sum[k] += sums[i][k];
+                }
+            }
+            out.copy_from_slice(&sum[..out.len()]);
+        }
+    }
+}
+
+/// Inverse of a small square matrix, in storage allocated once.
+///
+/// The matrix is inverted in place (Gauss-Jordan) with exchanges; what an unknown does in all equations is
+/// divided by its largest entry before, since metres and radians meet in one matrix.
+#[derive(Clone, Debug)]
+pub struct PivotedInverse {
+    /// Row by row.
+    matrix: Vec<f64>,
+    inverse: PaddedColumns,
+    /// One over the largest entry of every unknown, padded with ones.
+    scales: Vec<Chunk>,
+    /// Unknown taken k-th.
+    exchanges: Vec<usize>,
+    product: Vec<f64>,
+}
+
+impl PivotedInverse {
     /// Storage for matrices of `n` rows.
     pub fn new(n: usize) -> Self {
         Self {
-            n,
-            entries: vec![0.0; n * n],
-            scales: vec![1.0; n],
-            exchanges: (0..n).collect(),
+            matrix: vec![0.0; n * n],
+            inverse: PaddedColumns::new(n, &vec![0.0; n * n]),
+            scales: vec![[1.0; SUMS]; n.div_ceil(SUMS)],
+            exchanges: vec![0; n],
+            product: vec![0.0; n],
         }
     }
 
-    /// The matrix to factor, row by row; its old factors are overwritten.
+    /// The matrix to invert, row by row. The inverse of the last one is kept until [`PivotedInverse::invert`].
     pub fn matrix_mut(&mut self) -> &mut [f64] {
-        &mut self.entries
+        &mut self.matrix
     }
 
-    /// Factors the matrix given in [`PivotedLu::matrix_mut`]; false when a row or a pivot is zero or
-    /// not finite, and the factors are worthless.
-    pub fn factor(&mut self) -> bool {
-        let n = self.n;
-        for (row, scale) in self.entries.chunks_exact_mut(n).zip(&mut self.scales) {
-            let largest = row.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    /// Inverts the matrix given in [`PivotedInverse::matrix_mut`]; false when an unknown or a pivot is
+    /// zero or not finite, and the inverse is worthless.
+    pub fn invert(&mut self) -> bool {
+        self.inverse.fill(&self.matrix);
+        widest(Invert {
+            n: self.exchanges.len(),
+            entries: &mut self.inverse.entries,
+            scales: &mut self.scales,
+            exchanges: &mut self.exchanges,
+        })
+    }
+
+    /// Solves in place with the last inverse; false when the solution is not finite.
+    ///
+    /// # Panics
+    ///
+    /// When `rhs` has not n entries.
+    pub fn solve(&mut self, rhs: &mut [f64]) -> bool {
+        sum_of_products([(&self.inverse, rhs)], &mut self.product);
+        rhs.copy_from_slice(&self.product);
+        rhs.iter().all(|x| x.is_finite())
+    }
+
+    /// Row by row.
+    pub fn rows(&self) -> Vec<f64> {
+        let (n, height) = (self.exchanges.len(), self.inverse.height());
+        let entry = |i: usize, j: usize| self.inverse.entries[j * height + i / SUMS][i % SUMS];
+        (0..n * n).map(|at| entry(at / n, at % n)).collect()
+    }
+}
+
+/// With the columns of A as rows this inverts Aᵀ: the rows of A⁻ᵀ are the columns of A⁻¹.
+struct Invert<'a> {
+    n: usize,
+    entries: &'a mut [Chunk],
+    scales: &'a mut [Chunk],
+    exchanges: &'a mut [usize],
+}
+
+impl Kernel for Invert<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        let Self {
+            n,
+            entries,
+            scales,
+            exchanges,
+        } = self;
+        let height = scales.len();
+        let place = |row: usize, column: usize| (row * height + column / SUMS, column % SUMS);
+        for (i, row) in entries.chunks_exact_mut(height).enumerate() {
+            let mut largest = 0.0_f64;
+            for chunk in &*row {
+                for a in chunk {
+                    largest = largest.max(a.abs());
+                }
+            }
             if !(largest > 0.0 && largest.is_finite()) {
                 return false;
             }
-            row.iter_mut().for_each(|a| *a /= largest);
-            *scale = largest;
+            let scale = 1.0 / largest;
+            scales[i / SUMS][i % SUMS] = scale;
+            for chunk in row {
+                for a in chunk {
+                    *a *= scale;
+                }
+            }
         }
         for k in 0..n {
-            let size = |row: usize| self.entries[row * n + k].abs();
-            let pivot_row = (k..n)
-                .max_by(|&a, &b| size(a).total_cmp(&size(b)))
-                .unwrap_or(k);
-            self.exchanges[k] = pivot_row;
-            if pivot_row != k {
-                let (above, below) = self.entries.split_at_mut(pivot_row * n);
-                above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
+            let mut taken = k;
+            let mut size = 0.0;
+            for row in k..n {
+                let (chunk, lane) = place(row, k);
+                let candidate = entries[chunk][lane].abs();
+                if candidate > size {
+                    (taken, size) = (row, candidate);
+                }
             }
-            let (done, rest) = self.entries.split_at_mut((k + 1) * n);
-            let pivot_entries = &done[k * n + k..];
-            let pivot = pivot_entries[0];
-            if !(pivot != 0.0 && pivot.is_finite()) {
+            if !(size > 0.0 && size.is_finite()) {
                 return false;
             }
-            for row in rest.chunks_exact_mut(n) {
-                let multiplier = row[k] / pivot;
-                row[k] = multiplier;
-                for (a, p) in row[k + 1..].iter_mut().zip(&pivot_entries[1..]) {
-                    *a -= multiplier * p;
+            exchanges[k] = taken;
+            if taken != k {
+                let (above, below) = entries.split_at_mut(taken * height);
+                above[k * height..][..height].swap_with_slice(&mut below[..height]);
+            }
+            let (chunk, lane) = place(k, k);
+            let inverse = 1.0 / entries[chunk][lane];
+            entries[chunk][lane] = 1.0;
+            let (above, rest) = entries.split_at_mut(k * height);
+            let (pivot_row, below) = rest.split_at_mut(height);
+            for chunk in &mut *pivot_row {
+                for a in chunk {
+                    *a *= inverse;
+                }
+            }
+            let (column, lane) = (k / SUMS, k % SUMS);
+            let others = above.chunks_exact_mut(height);
+            for row in others.chain(below.chunks_exact_mut(height)) {
+                let multiplier = row[column][lane];
+                row[column][lane] = 0.0;
+                for (chunk, pivot) in row.iter_mut().zip(&*pivot_row) {
+                    for (a, p) in chunk.iter_mut().zip(pivot) {
+                        *a -= multiplier * p;
+                    }
+                }
+            }
+        }
+        // Rows were exchanged before, so columns are exchanged after, backwards.
+        for k in (0..n).rev() {
+            let taken = exchanges[k];
+            if taken != k {
+                for row in 0..n {
+                    let (chunk, lane) = place(row, k);
+                    let (other, other_lane) = place(row, taken);
+                    let a = entries[chunk][lane];
+                    entries[chunk][lane] = entries[other][other_lane];
+                    entries[other][other_lane] = a;
+                }
+            }
+        }
+        for row in entries.chunks_exact_mut(height) {
+            for (chunk, scale) in row.iter_mut().zip(&*scales) {
+                for (a, s) in chunk.iter_mut().zip(scale) {
+                    *a *= s;
                 }
             }
         }
         true
     }
-
-    /// Solves in place with the last factors; false when the solution is not finite.
-    ///
-    /// # Panics
-    ///
-    /// When `rhs` has not n entries.
-    pub fn solve(&self, rhs: &mut [f64]) -> bool {
-        let n = self.n;
-        assert_eq!(rhs.len(), n);
-        for (r, scale) in rhs.iter_mut().zip(&self.scales) {
-            *r /= scale;
-        }
-        // Multipliers have moved with their rows, so all exchanges come first.
-        for (k, &row) in self.exchanges.iter().enumerate() {
-            rhs.swap(k, row);
-        }
-        for k in 0..n {
-            let (known, rest) = rhs.split_at_mut(k);
-            let row = &self.entries[k * n..k * n + k];
-            for (multiplier, x) in row.iter().zip(&*known) {
-                rest[0] -= multiplier * x;
-            }
-        }
-        for k in (0..n).rev() {
-            let row = &self.entries[k * n..(k + 1) * n];
-            let known: f64 = row[k + 1..]
-                .iter()
-                .zip(&rhs[k + 1..])
-                .map(|(a, x)| a * x)
-                .sum();
-            rhs[k] = (rhs[k] - known) / row[k];
-        }
-        rhs.iter().all(|x| x.is_finite())
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::PivotedLu;
+    use super::*;
 
     #[test]
-    fn elimination_needs_row_exchanges_and_survives_mixed_units() {
+    fn inversion_needs_row_exchanges_and_survives_mixed_units() {
         // Exact solution (1, -2, 3); the first pivot is zero and rows differ by 1e14 in scale.
         let rows = [[0.0, 2.0, 1.0], [3e14, 1e14, -2e14], [1e-9, 1e-9, 4e-9]];
         let exact = [1.0, -2.0, 3.0];
-        let mut lu = PivotedLu::new(3);
+        let mut inverse = PivotedInverse::new(3);
         let flat: Vec<f64> = rows.iter().flatten().copied().collect();
-        lu.matrix_mut().copy_from_slice(&flat);
+        inverse.matrix_mut().copy_from_slice(&flat);
         let mut rhs: Vec<f64> = rows
             .iter()
             .map(|r| r.iter().zip(exact).map(|(a, x)| a * x).sum())
             .collect();
-        assert!(lu.factor() && lu.solve(&mut rhs));
+        assert!(inverse.invert() && inverse.solve(&mut rhs));
         for (x, wanted) in rhs.iter().zip(exact) {
             assert!((x - wanted).abs() < 1e-13);
         }
         for refused in [[1.0, 2.0, 2.0, 4.0], [1.0, f64::NAN, 2.0, 4.0]] {
-            let mut lu = PivotedLu::new(2);
-            lu.matrix_mut().copy_from_slice(&refused);
-            assert!(!lu.factor());
+            let mut inverse = PivotedInverse::new(2);
+            inverse.matrix_mut().copy_from_slice(&refused);
+            assert!(!inverse.invert());
+        }
+    }
+
+    /// Entries without order, a few of them large; the diagonal is nothing special.
+    fn rows(n: usize) -> Vec<f64> {
+        (0..n * n)
+            .map(|k| (k as f64 * 1.7).sin() + 3.0 * f64::from((k / n + 2) % n == k % n))
+            .collect()
+    }
+
+    #[test]
+    fn a_matrix_times_its_inverse_is_one() {
+        for n in [1, 2, 7, 8, 9, 20, 33] {
+            let rows = rows(n);
+            let mut inverse = PivotedInverse::new(n);
+            inverse.matrix_mut().copy_from_slice(&rows);
+            assert!(inverse.invert());
+            let found = inverse.rows();
+            for i in 0..n {
+                for j in 0..n {
+                    let product: f64 = (0..n).map(|k| rows[i * n + k] * found[k * n + j]).sum();
+                    let one = f64::from(i == j);
+                    assert!((product - one).abs() < 1e-12, "{n}: {i} {j} {product}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn products_are_those_of_rows_at_every_size() {
+        for n in [1, 3, 8, 17, 20] {
+            let (a, mut b) = (rows(n), rows(n));
+            b.reverse();
+            let x: Vec<f64> = (0..n).map(|k| (0.3 * k as f64).cos()).collect();
+            let y: Vec<f64> = (0..n).map(|k| (0.9 * k as f64).sin()).collect();
+            let mut out = vec![f64::NAN; n];
+            let (left, right) = (PaddedColumns::new(n, &a), PaddedColumns::new(n, &b));
+            sum_of_products([(&left, &x), (&right, &y)], &mut out);
+            for (i, out) in out.iter().enumerate() {
+                let wanted: f64 = (0..n)
+                    .map(|j| a[i * n + j] * x[j] + b[i * n + j] * y[j])
+                    .sum();
+                assert!((out - wanted).abs() < 1e-13 * n as f64, "{n} {i}");
+            }
         }
     }
 }

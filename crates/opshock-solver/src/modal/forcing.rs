@@ -60,12 +60,7 @@ impl Phase {
 
     /// c₀, c₁, Re C and Im C, in the order of a [`ForcedResponse`].
     pub fn parts(&self) -> [f64; 4] {
-        [
-            self.constant,
-            self.slope_per_s,
-            self.wave.re,
-            self.wave.im,
-        ]
+        [self.constant, self.slope_per_s, self.wave.re, self.wave.im]
     }
 
     /// s at the start of the stretch.

@@ -184,7 +184,10 @@ fn with_states<'a>(
     v: &'a [f64],
 ) -> impl Iterator<Item = (&'a Eight, &'a [f64; SUMS], &'a [f64; SUMS])> {
     let states = x.as_chunks().0.iter().zip(v.as_chunks().0);
-    eights.iter().zip(states).map(|(eight, (x, v))| (eight, x, v))
+    eights
+        .iter()
+        .zip(states)
+        .map(|(eight, (x, v))| (eight, x, v))
 }
 
 /// The same with states to be changed.
@@ -195,7 +198,10 @@ fn with_states_mut<'a>(
     v: &'a mut [f64],
 ) -> impl Iterator<Item = (&'a Eight, &'a mut [f64; SUMS], &'a mut [f64; SUMS])> {
     let states = x.as_chunks_mut().0.iter_mut().zip(v.as_chunks_mut().0);
-    eights.iter().zip(states).map(|(eight, (x, v))| (eight, x, v))
+    eights
+        .iter()
+        .zip(states)
+        .map(|(eight, (x, v))| (eight, x, v))
 }
 
 struct Read<'a> {

@@ -3,7 +3,7 @@
 use super::super::mechanics::{Mechanics, StageState};
 use super::Closed;
 use crate::integrator::{StageSystem, Stepper, TR_BDF2};
-use crate::linalg::pivoted::PivotedLu;
+use crate::linalg::pivoted::PivotedInverse;
 use crate::slider::body::Inertia;
 use crate::slider::{SliderParameters, SurfaceParameters};
 use crate::suspension::{
@@ -109,15 +109,16 @@ impl OnSprings {
         std::array::from_fn(|i| -self.springs[i] * x[i])
     }
 
-    fn matrix(&self, d_s: f64, closed: Closed) -> PivotedLu {
+    fn matrix(&self, d_s: f64, closed: Closed) -> PivotedInverse {
         let n = self.mechanics.len();
-        let mut lu = PivotedLu::new(n);
-        self.mechanics.stage_matrix(d_s, closed, lu.matrix_mut());
+        let mut inverse = PivotedInverse::new(n);
+        self.mechanics
+            .stage_matrix(d_s, closed, inverse.matrix_mut());
         for i in 0..3 {
-            lu.matrix_mut()[i * n + i] += self.springs[i];
+            inverse.matrix_mut()[i * n + i] += self.springs[i];
         }
-        assert!(lu.factor());
-        lu
+        assert!(inverse.invert());
+        inverse
     }
 
     /// (x, v) after `n` steps of `dt_s` from `y`; `look` sees every state with its time.
@@ -210,10 +211,10 @@ impl StageSystem for OnSprings {
                 v,
                 v_known,
             };
-            self.mechanics.residual(&state, &mut r, &mut small);
+            self.mechanics.imbalance(&state, &mut r, &mut small);
             self.matrix(d_s, closed).solve(&mut r);
             for (x, r) in x.iter_mut().zip(&r) {
-                *x -= r;
+                *x += r;
             }
         }
         Err(())
@@ -222,9 +223,9 @@ impl StageSystem for OnSprings {
     fn filter(&mut self, d_s: f64, error: &mut [f64]) {
         let n = self.mechanics.len();
         let (e_x, e_v) = error.split_at_mut(n);
-        let mut load = vec![0.0; n];
+        let (mut load, mut small) = (vec![0.0; n], vec![0.0; n]);
         self.mechanics
-            .filter_load(d_s, self.last, e_x, e_v, &mut load);
+            .filter_load(d_s, self.last, e_x, e_v, &mut load, &mut small);
         self.matrix(d_s, self.last).solve(&mut load);
         for ((e_x, e_v), x) in e_x.iter_mut().zip(e_v).zip(&load) {
             *e_v = (x - *e_x) / d_s;
