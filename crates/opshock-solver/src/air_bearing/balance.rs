@@ -11,7 +11,7 @@
 use super::Attitude;
 use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
 use super::film::Film;
-use super::flux::is_steep;
+use super::flux::{Drive, growth, inverses, inverses_of_both, is_steep};
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 
@@ -303,6 +303,11 @@ pub(super) fn any_steep(
     any
 }
 
+/// A number of both sides of every face of a block.
+type Both = [Block; 2];
+
+/// In four passes over the block: each face is one long chain of results that wait for one another, and
+/// within a pass the processor works on several.
 #[inline(always)]
 fn windy<const STEEP: bool>(
     up: &SideBlock<'_>,
@@ -310,14 +315,53 @@ fn windy<const STEEP: bool>(
     [h_up, h_down]: &[Block; 2],
     length: &Block,
 ) -> FaceValues {
-    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+    let zero: Both = [[0.0; BLOCK]; 2];
+    let (mut conductance, mut blow, mut pe, mut per_height) = (zero, zero, zero, zero);
     for k in 0..BLOCK {
-        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
-        let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
-        let p = (a.alpha + b.alpha) / (a.beta + b.beta);
-        flux[k] = length[k] * (a.alpha - a.beta * p);
-        loads[0][k] = up.area[k] * u.mean_excess::<true>(&a, p);
-        loads[1][k] = down.area[k] * d.mean_excess::<false>(&b, p);
+        let [u, d] = inverses_of_both([up.h(k), down.h(k)], [h_up[k], h_down[k]]);
+        let (u, d) = (up.half(k, h_up[k], u), down.half(k, h_down[k], d));
+        for (side, half) in [(0, &u), (1, &d)] {
+            let drive = half.drive(&half.logarithmic_mean::<STEEP>());
+            conductance[side][k] = drive.conductance;
+            blow[side][k] = drive.blow;
+            pe[side][k] = drive.pe;
+            per_height[side][k] = half.mean_inverse_height()[0];
+        }
+    }
+    let mut e = zero;
+    for side in 0..2 {
+        for k in 0..BLOCK {
+            e[side][k] = growth(pe[side][k]);
+        }
+    }
+    let (mut alpha, mut beta, mut convective) = (zero, zero, zero);
+    let mut rise = [0.0; BLOCK];
+    for k in 0..BLOCK {
+        let drive = |side: usize| Drive {
+            conductance: conductance[side][k],
+            blow: blow[side][k],
+            pe: pe[side][k],
+        };
+        let half = up.half(k, h_up[k], [0.0; 2]);
+        let flux = half.driven::<true>(&drive(0), e[0][k]);
+        (alpha[0][k], beta[0][k]) = (flux.alpha, flux.beta);
+        convective[0][k] = flux.convective::<true>();
+        rise[k] = flux.rise;
+        let half = down.half(k, h_down[k], [0.0; 2]);
+        let flux = half.driven::<false>(&drive(1), e[1][k]);
+        (alpha[1][k], beta[1][k]) = (flux.alpha, flux.beta);
+        convective[1][k] = flux.convective::<false>();
+    }
+    let (mut flux, mut loads) = ([0.0; BLOCK], zero);
+    for k in 0..BLOCK {
+        let p = (alpha[0][k] + alpha[1][k]) / (beta[0][k] + beta[1][k]);
+        flux[k] = length[k] * (alpha[0][k] - beta[0][k] * p);
+        let half = up.half(k, h_up[k], [0.0; 2]);
+        let excess = half.excess::<true>(rise[k], convective[0][k], per_height[0][k], p);
+        loads[0][k] = up.area[k] * excess;
+        let half = down.half(k, h_down[k], [0.0; 2]);
+        let excess = half.excess::<false>(0.0, convective[1][k], per_height[1][k], p);
+        loads[1][k] = down.area[k] * excess;
     }
     FaceValues { flux, loads }
 }
@@ -331,7 +375,10 @@ fn still(
 ) -> FaceValues {
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
-        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
+        let (u, d) = (
+            up.half(k, h_up[k], [0.0; 2]),
+            down.half(k, h_down[k], [0.0; 2]),
+        );
         let ((a, b), (c, e)) = (u.still(), d.still());
         let p = (a + c) / (b + e);
         flux[k] = length[k] * (a - b * p);
@@ -351,18 +398,18 @@ fn edge(film: &Film, side: &SideBlock<'_>, h_face: &Block, length: &Block) -> Fa
         loads[0][k] = side.area[k] * excess;
     };
     for k in 0..BLOCK {
-        let half = side.half(k, h_face[k]);
+        let half = side.half(k, h_face[k], inverses(side.h(k), h_face[k]));
         if side.wind == 0.0 {
             put(k, half.still(), half.still_excess(p));
         } else if side.wind > 0.0 {
-            let flux = half.flux::<true, true>();
+            let flux = half.flux::<true>(&half.logarithmic_mean::<true>());
             put(
                 k,
                 (flux.alpha, flux.beta),
                 half.mean_excess::<true>(&flux, p),
             );
         } else {
-            let flux = half.flux::<false, true>();
+            let flux = half.flux::<false>(&half.logarithmic_mean::<true>());
             put(
                 k,
                 (flux.alpha, flux.beta),

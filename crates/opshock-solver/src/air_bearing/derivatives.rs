@@ -5,7 +5,7 @@
 
 use super::faces::{BLOCK, Block};
 use super::film::Film;
-use super::flux::HalfPartials;
+use super::flux::{HalfPartials, inverses, inverses_of_both};
 use super::state::SideBlock;
 
 /// x and y of a block of faces and of the cells on either side, from the slider's centre.
@@ -136,8 +136,10 @@ pub(super) fn windy<const STEEP: bool>(
 ) -> FaceDerivatives {
     let mut all = FaceDerivatives::zero();
     for k in 0..BLOCK {
-        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
-        let (a, b) = (u.flux::<true, STEEP>(), d.flux::<false, STEEP>());
+        let [u, d] = inverses_of_both([up.h(k), down.h(k)], [h_up[k], h_down[k]]);
+        let (u, d) = (up.half(k, h_up[k], u), down.half(k, h_down[k], d));
+        let (mean_up, mean_down) = (u.logarithmic_mean::<STEEP>(), d.logarithmic_mean::<STEEP>());
+        let (a, b) = (u.flux::<true>(&mean_up), d.flux::<false>(&mean_down));
         let total = a.beta + b.beta;
         let p = (a.alpha + b.alpha) / total;
         all.flux[k] = length[k] * (a.alpha - a.beta * p);
@@ -146,14 +148,14 @@ pub(super) fn windy<const STEEP: bool>(
             k,
             [
                 (
-                    u.partials::<true>(&a, p),
+                    u.partials::<true>(&mean_up, &a, p),
                     a.beta,
                     u.mean_excess::<true>(&a, p),
                     up.area[k],
                     [up.h_slope(k), slope_up[k]],
                 ),
                 (
-                    d.partials::<false>(&b, p),
+                    d.partials::<false>(&mean_down, &b, p),
                     b.beta,
                     d.mean_excess::<false>(&b, p),
                     down.area[k],
@@ -178,7 +180,10 @@ pub(super) fn still(
 ) -> FaceDerivatives {
     let mut all = FaceDerivatives::zero();
     for k in 0..BLOCK {
-        let (u, d) = (up.half(k, h_up[k]), down.half(k, h_down[k]));
+        let (u, d) = (
+            up.half(k, h_up[k], [0.0; 2]),
+            down.half(k, h_down[k], [0.0; 2]),
+        );
         let ((alpha_up, beta_up), (alpha_down, beta_down)) = (u.still(), d.still());
         let total = beta_up + beta_down;
         let p = (alpha_up + alpha_down) / total;
@@ -223,20 +228,21 @@ pub(super) fn edge(
     let p = film.ambient_pa;
     for k in 0..BLOCK {
         let (h_face, slope) = film.floored(base[k] + side.recess[k]);
-        let half = side.half(k, h_face);
+        let half = side.half(k, h_face, inverses(side.h(k), h_face));
+        let mean = half.logarithmic_mean::<true>();
         let (partials, (alpha, beta), excess) = if side.wind == 0.0 {
             (half.still_partials(p), half.still(), half.still_excess(p))
         } else if side.wind > 0.0 {
-            let flux = half.flux::<true, true>();
+            let flux = half.flux::<true>(&mean);
             (
-                half.partials::<true>(&flux, p),
+                half.partials::<true>(&mean, &flux, p),
                 (flux.alpha, flux.beta),
                 half.mean_excess::<true>(&flux, p),
             )
         } else {
-            let flux = half.flux::<false, true>();
+            let flux = half.flux::<false>(&mean);
             (
-                half.partials::<false>(&flux, p),
+                half.partials::<false>(&mean, &flux, p),
                 (flux.alpha, flux.beta),
                 half.mean_excess::<false>(&flux, p),
             )

@@ -62,6 +62,7 @@ impl Places {
 pub(super) struct Sides {
     pub(super) recess: Vec<f64>,
     pub(super) reach: Vec<f64>,
+    pub(super) distance: Vec<f64>,
     pub(super) inverse_distance: Vec<f64>,
     pub(super) area: Vec<f64>,
 }
@@ -70,6 +71,7 @@ impl Sides {
     fn push(&mut self, side: &Side, area: f64) {
         self.recess.push(side.recess);
         self.reach.push(side.reach);
+        self.distance.push(1.0 / side.inverse_distance);
         self.inverse_distance.push(side.inverse_distance);
         self.area.push(area);
     }

@@ -11,7 +11,7 @@
 
 use super::faces::{Block, Columns};
 use super::flow_factor::FlowFactor;
-use super::flux::HalfCell;
+use super::flux::{HalfCell, inverses};
 use super::layout;
 use super::mesh::{Cell, Mesh, Side};
 use super::steady::usual_attitude;
@@ -250,15 +250,20 @@ impl Film {
     /// without recess.
     pub(super) fn half_cell(&self, side: &Side, psi: &[f64], h_centre: f64, base: f64) -> HalfCell {
         let (g, g_slope) = self.flow.conductance(psi[side.cell]);
+        let h_face = self.floored(base + side.recess).0;
         HalfCell {
             psi: psi[side.cell],
+            inverse_psi: 1.0 / psi[side.cell],
             psi_behind: psi[side.behind],
             reach: side.reach,
             g,
+            inverse_g: 1.0 / g,
             g_slope,
             h_centre,
             inverse_h: 1.0 / h_centre,
-            h_face: self.floored(base + side.recess).0,
+            h_face,
+            inverses: inverses(h_centre, h_face),
+            distance: 1.0 / side.inverse_distance,
             inverse_distance: side.inverse_distance,
             wind: side.wind,
         }

@@ -24,6 +24,7 @@
 //! without a logarithm; in an interval G is the cubic Hermite interpolant of G and G′.
 
 use super::FlowModel;
+use crate::lanes::SUMS;
 
 use std::f64::consts::PI;
 
@@ -45,9 +46,9 @@ pub struct FlowFactor {
     knudsen_psi: f64,
     /// 1/(λ_a p_a).
     inverse_knudsen_psi: f64,
-    /// Per interval of ψ/(λ_a p_a): G/(λ_a p_a) = c0 + c1 t + c2 t² + c3 t³, t from 0 to 1, and
-    /// dt/dψ in units of 1/(λ_a p_a). Empty for models that are a polynomial anyway.
-    table: Vec<[f64; 5]>,
+    /// Per interval of ψ/(λ_a p_a): G/(λ_a p_a) = c0 + c1 t + c2 t² + c3 t³, t from 0 to 1. Empty for
+    /// models that are a polynomial anyway.
+    table: Vec<[f64; 4]>,
     /// Interval index of the start of the table.
     first_interval: u64,
 }
@@ -68,13 +69,7 @@ impl FlowFactor {
                 let (left, right) = (fukui_kaneko(a), fukui_kaneko(b));
                 let (d0, d1) = (left.1 * width, right.1 * width);
                 let rise = right.0 - left.0;
-                [
-                    left.0,
-                    d0,
-                    3.0 * rise - 2.0 * d0 - d1,
-                    d0 + d1 - 2.0 * rise,
-                    1.0 / width,
-                ]
+                [left.0, d0, 3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise]
             })
             .collect();
         Self {
@@ -94,9 +89,62 @@ impl FlowFactor {
     #[inline(always)]
     pub fn conductances(&self, psi: &[f64], g: &mut [f64], slope: &mut [f64]) {
         assert!(g.len() == psi.len() && slope.len() == psi.len());
-        for ((psi, g), slope) in psi.iter().zip(g).zip(slope) {
+        let done = if self.table.is_empty() {
+            0
+        } else {
+            let (psi, g, slope) = (
+                psi.as_chunks::<SUMS>().0,
+                g.as_chunks_mut::<SUMS>().0,
+                slope.as_chunks_mut::<SUMS>().0,
+            );
+            for ((psi, g), slope) in psi.iter().zip(g).zip(slope) {
+                [*g, *slope] = self.tabulated(psi);
+            }
+            psi.len() * SUMS
+        };
+        let rest = psi[done..].iter().zip(&mut g[done..]);
+        for ((psi, g), slope) in rest.zip(&mut slope[done..]) {
             (*g, *slope) = self.conductance(*psi);
         }
+    }
+
+    /// G and dG/dψ of eight ψ from the table, with the bits of [`FlowFactor::conductance`]: what needs no
+    /// table in whole registers, and its rows picked in between.
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "many columns are walked in step, which an index says plainest"
+    )]
+    #[inline(always)]
+    fn tabulated(&self, psi: &[f64; SUMS]) -> [[f64; SUMS]; 2] {
+        let mut s = [0.0; SUMS];
+        let mut index = [0; SUMS];
+        for k in 0..SUMS {
+            s[k] = psi[k] * self.inverse_knudsen_psi;
+            index[k] = interval(s[k]).wrapping_sub(self.first_interval);
+        }
+        let mut c = [[0.0; SUMS]; 4];
+        let mut all_inside = true;
+        for k in 0..SUMS {
+            match self.table.get(index[k] as usize) {
+                Some(row) => {
+                    for i in 0..4 {
+                        c[i][k] = row[i];
+                    }
+                }
+                None => all_inside = false,
+            }
+        }
+        let (mut g, mut slope) = ([0.0; SUMS], [0.0; SUMS]);
+        for k in 0..SUMS {
+            (g[k], slope[k]) = hermite([c[0][k], c[1][k], c[2][k], c[3][k]], s[k]);
+            g[k] *= self.knudsen_psi;
+        }
+        if !all_inside {
+            for k in 0..SUMS {
+                (g[k], slope[k]) = self.conductance(psi[k]);
+            }
+        }
+        [g, slope]
     }
 
     /// G and dG/dψ at ψ > 0 (Pa m).
@@ -114,13 +162,7 @@ impl FlowFactor {
                 let s = psi * self.inverse_knudsen_psi;
                 let index = interval(s).wrapping_sub(self.first_interval) as usize;
                 let (g, slope) = match self.table.get(index) {
-                    Some(&[c0, c1, c2, c3, scale]) => {
-                        let t = (s - start(interval(s))) * scale;
-                        (
-                            c0 + t * (c1 + t * (c2 + t * c3)),
-                            (c1 + t * (2.0 * c2 + t * 3.0 * c3)) * scale,
-                        )
-                    }
+                    Some(row) => hermite(*row, s),
                     None => outside(s),
                 };
                 (g * l, slope)
@@ -146,6 +188,20 @@ fn interval(s: f64) -> u64 {
 #[inline]
 fn start(k: u64) -> f64 {
     f64::from_bits(k << (52 - INTERVAL_BITS))
+}
+
+/// The cubic of the interval that holds `s`, and its derivative by s. t and dt/ds follow from the bits of s.
+#[inline(always)]
+fn hermite([c0, c1, c2, c3]: [f64; 4], s: f64) -> (f64, f64) {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    let bits = s.to_bits();
+    let t = f64::from_bits(((bits << INTERVAL_BITS) & MANTISSA) | 1.0_f64.to_bits()) - 1.0;
+    // An interval of the binade at 2ᵉ is 2^(e − INTERVAL_BITS) wide.
+    let scale = f64::from_bits((2 * 1023 + u64::from(INTERVAL_BITS) - (bits >> 52)) << 52);
+    (
+        c0 + t * (c1 + t * (c2 + t * c3)),
+        (c1 + t * (2.0 * c2 + t * 3.0 * c3)) * scale,
+    )
 }
 
 /// G/(λ_a p_a) = 6 Q_P s/D and its derivative by s = ψ/(λ_a p_a); D = s √π/2.
@@ -224,6 +280,22 @@ mod tests {
                 "s {s}: {slope} {slope_exact}"
             );
             s *= 1.0037;
+        }
+    }
+
+    #[test]
+    fn many_at_once_have_the_bits_of_one_alone() {
+        for model in [FlowModel::Slip2, FlowModel::FukuiKaneko] {
+            let factor = FlowFactor::new(model, KNUDSEN_PSI);
+            // Also outside the table on either side, and not a multiple of eight.
+            let psi: Vec<f64> = (0..1003)
+                .map(|k| KNUDSEN_PSI * 1e-7 * (0.04 * k as f64).exp())
+                .collect();
+            let (mut g, mut slope) = (vec![0.0; psi.len()], vec![0.0; psi.len()]);
+            factor.conductances(&psi, &mut g, &mut slope);
+            for ((psi, g), slope) in psi.iter().zip(&g).zip(&slope) {
+                assert_eq!((*g, *slope), factor.conductance(*psi), "{psi}");
+            }
         }
     }
 

@@ -41,7 +41,7 @@
 //! ([`crate::lanes`]); a call, be it of `map`, keeps a whole loop from
 //! them. `UP` says that the wind blows towards the face, else it blows away from it.
 
-use crate::elementary::{artanh, exp, ln};
+use crate::elementary::{exp, ln};
 
 /// Below this |Pe| the series of B and of ω are used.
 const SMALL: f64 = 0.02;
@@ -49,45 +49,117 @@ const SMALL: f64 = 0.02;
 /// Below this ((h_f − h_c)/(h_f + h_c))² the logarithmic mean is a series.
 const FLAT: f64 = 0.0025;
 
-/// B(x) = x/(eˣ − 1), B′(x), and r = 1/(eˣ − 1).
+/// Beyond this |Pe| the exponential is taken for that of ±`STRONG`: 1e130 times more or less is nothing.
+const STRONG: f64 = 300.0;
+
+/// The exponential profile between a centre and a face, and what else depends on Pe alone.
+struct Profile {
+    /// B(Pe) and B′(Pe).
+    b: f64,
+    b_slope: f64,
+    /// 1/(exp(Pe) − 1), without meaning near Pe = 0 as are all below.
+    r: f64,
+    /// 1/Pe.
+    inverse_pe: f64,
+    /// tanh(Pe/2), where the wind blows towards the face.
+    inverse_half: f64,
+}
+
+/// exp(Pe) for [`HalfCell::driven`].
 #[inline(always)]
-fn bernoulli(x: f64) -> [f64; 3] {
-    let s = x * x;
-    let near = 1.0 - 0.5 * x + s * (1.0 / 12.0 - s * (1.0 / 720.0 - s / 30240.0));
-    let near_slope = -0.5 + x * (1.0 / 6.0 - s * (1.0 / 180.0 - s / 5040.0));
-    let r = 1.0 / (exp(x) - 1.0);
-    let far = x * r;
+pub(super) fn growth(pe: f64) -> f64 {
+    let x = if pe > STRONG { STRONG } else { pe };
+    exp(if x < -STRONG { -STRONG } else { x })
+}
+
+/// All of them by one division, `e` being [`growth`] of Pe: it takes as long as a dozen products.
+/// |Pe| < 1e40.
+#[inline(always)]
+fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
+    let s = pe * pe;
+    let near = 1.0 - 0.5 * pe + s * (1.0 / 12.0 - s * (1.0 / 720.0 - s / 30240.0));
+    let near_slope = -0.5 + pe * (1.0 / 6.0 - s * (1.0 / 180.0 - s / 5040.0));
+    let m = e - 1.0;
+    let (r, inverse_pe, inverse_half) = if UP {
+        let q = e + 1.0;
+        let inverse = 1.0 / (pe * (m * q));
+        (
+            inverse * (pe * q),
+            inverse * (m * q),
+            inverse * (pe * m) * m,
+        )
+    } else {
+        let inverse = 1.0 / (pe * m);
+        (inverse * pe, inverse * m, 0.0)
+    };
+    let far = pe * r;
     // B′ = r (1 − B − x), as B/x = r.
-    let far_slope = r * (1.0 - far - x);
-    let small = x.abs() < SMALL;
-    [
-        if small { near } else { far },
-        if small { near_slope } else { far_slope },
+    let far_slope = r * (1.0 - far - pe);
+    let small = pe.abs() < SMALL;
+    Profile {
+        b: if small { near } else { far },
+        b_slope: if small { near_slope } else { far_slope },
         r,
-    ]
+        inverse_pe,
+        inverse_half,
+    }
+}
+
+/// 1/(h_centre + h_face) and 1/h_face.
+#[inline(always)]
+pub(super) fn inverses(h_centre: f64, h_face: f64) -> [f64; 2] {
+    let sum = h_centre + h_face;
+    let inverse = 1.0 / (sum * h_face);
+    [inverse * h_face, inverse * sum]
+}
+
+/// [`inverses`] of both sides of a face by one division.
+#[inline(always)]
+pub(super) fn inverses_of_both(centres: [f64; 2], faces: [f64; 2]) -> [[f64; 2]; 2] {
+    let sums = [centres[0] + faces[0], centres[1] + faces[1]];
+    let (u, d) = (sums[0] * faces[0], sums[1] * faces[1]);
+    let inverse = 1.0 / (u * d);
+    let (u, d) = (inverse * d, inverse * u);
+    [[u * faces[0], u * sums[0]], [d * faces[1], d * sums[1]]]
 }
 
 /// What a half cell is made of.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HalfCell {
-    /// ψ at the centre, Pa m.
+    /// ψ at the centre, Pa m, and its inverse.
     pub(super) psi: f64,
+    pub(super) inverse_psi: f64,
     /// ψ in the next cell away from the face, Pa m.
     pub(super) psi_behind: f64,
     /// Δ over the distance to that cell's centre; 0 where the film has a step in between or where
     /// there is no such cell.
     pub(super) reach: f64,
-    /// G at the centre and dG/dψ.
+    /// G at the centre, its inverse, and dG/dψ.
     pub(super) g: f64,
+    pub(super) inverse_g: f64,
     pub(super) g_slope: f64,
     /// Height at the centre, its inverse, and the height at this side of the face, m.
     pub(super) h_centre: f64,
     pub(super) inverse_h: f64,
     pub(super) h_face: f64,
-    /// 1/Δ, 1/m.
+    /// As from [`inverses`]; still air does without.
+    pub(super) inverses: [f64; 2],
+    /// Δ, m, and its inverse.
+    pub(super) distance: f64,
     pub(super) inverse_distance: f64,
     /// 6 μ U · (outward normal), Pa s · m/s.
     pub(super) wind: f64,
+}
+
+/// What drives gas through a half cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive {
+    /// D/Δ.
+    pub(super) conductance: f64,
+    /// The wind's part of Pe.
+    pub(super) blow: f64,
+    /// Pe.
+    pub(super) pe: f64,
 }
 
 /// α, β of a half cell and what its derivatives share.
@@ -102,12 +174,8 @@ pub(super) struct HalfFlux {
     /// The wind's part of Pe.
     blow: f64,
     /// δ and its derivatives by ψ, by ψ behind, by Pe and by the wind's part of it.
-    rise: f64,
+    pub(super) rise: f64,
     rise_by: [f64; 4],
-    /// Logarithmic mean of the heights, and its derivatives by h_centre and h_face.
-    mean: [f64; 3],
-    /// 1/(h_centre + h_face).
-    inverse_sum: f64,
     /// (D/Δ) B(Pe), (D/Δ) B′(Pe) and D/Δ.
     k: f64,
     k_slope: f64,
@@ -155,27 +223,43 @@ impl HalfCell {
             return self.still();
         }
         let flux = if self.wind > 0.0 {
-            self.flux::<true, true>()
+            self.flux::<true>(&self.logarithmic_mean::<true>())
         } else {
-            self.flux::<false, true>()
+            self.flux::<false>(&self.logarithmic_mean::<true>())
         };
         (flux.alpha, flux.beta)
     }
 
-    /// Outward flux coefficients with wind. `STEEP` must hold where [`is_steep`] does; where it
-    /// does not, both values of `STEEP` give the same bits.
+    /// What drives the gas over heights of the logarithmic mean `mean`.
     #[inline(always)]
-    pub(super) fn flux<const UP: bool, const STEEP: bool>(&self) -> HalfFlux {
-        let inverse_sum = 1.0 / (self.h_centre + self.h_face);
-        let (mean, log_ratio) = self.logarithmic_mean::<STEEP>(inverse_sum);
-        let conductance = self.g * mean[0] * self.inverse_distance;
-        let blow = self.wind / conductance;
-        let pe = blow + log_ratio;
-        let [b, b_slope, r] = bernoulli(pe);
-        let inverse_pe = 1.0 / pe;
-        let k = conductance * b;
+    pub(super) fn drive(&self, mean: &LogarithmicMean) -> Drive {
+        let blow = (self.wind * self.distance) * (self.inverse_g * mean.inverse);
+        Drive {
+            conductance: self.g * mean.value * self.inverse_distance,
+            blow,
+            pe: blow + mean.log_ratio,
+        }
+    }
+
+    /// Outward flux coefficients with wind over heights of the logarithmic mean `mean`.
+    #[inline(always)]
+    pub(super) fn flux<const UP: bool>(&self, mean: &LogarithmicMean) -> HalfFlux {
+        let drive = self.drive(mean);
+        self.driven::<UP>(&drive, growth(drive.pe))
+    }
+
+    /// The same by `drive`, of which `e` is the [`growth`] of Pe.
+    #[inline(always)]
+    pub(super) fn driven<const UP: bool>(&self, drive: &Drive, e: f64) -> HalfFlux {
+        let Drive {
+            conductance,
+            blow,
+            pe,
+        } = *drive;
+        let profile = profile::<UP>(pe, e);
+        let k = conductance * profile.b;
         let (rise, rise_by) = if UP {
-            self.rise(pe, inverse_pe, blow, r)
+            self.rise(pe, &profile, blow)
         } else {
             (0.0, [0.0; 4])
         };
@@ -188,15 +272,13 @@ impl HalfCell {
                 SMALLEST_BETA
             },
             pe,
-            inverse_pe,
-            b,
+            inverse_pe: profile.inverse_pe,
+            b: profile.b,
             blow,
             rise,
             rise_by,
-            mean,
-            inverse_sum,
             k,
-            k_slope: conductance * b_slope,
+            k_slope: conductance * profile.b_slope,
             conductance,
         }
     }
@@ -241,13 +323,18 @@ impl HalfCell {
     /// δ = ψ (g(s) − 1), s = ω reach (1 − ψ_behind/ψ), ω = (1 − Pe/sinh Pe) Pe_wind/Pe, with
     /// derivatives by ψ, ψ behind, Pe and Pe_wind.
     #[inline(always)]
-    fn rise(&self, pe: f64, inverse_pe: f64, blow: f64, r: f64) -> (f64, [f64; 4]) {
+    fn rise(&self, pe: f64, profile: &Profile, blow: f64) -> (f64, [f64; 4]) {
+        let Profile {
+            r,
+            inverse_pe,
+            inverse_half,
+            ..
+        } = *profile;
         let q = pe * pe;
         let near = pe * (1.0 / 6.0 - q * (7.0 / 360.0));
         let near_slope = 1.0 / 6.0 - q * (7.0 / 120.0);
         // Pe/sinh(Pe) and coth(Pe) from coth(Pe/2) = 1 + 2/(exp(Pe) − 1).
         let half = 1.0 + 2.0 * r;
-        let inverse_half = 1.0 / half;
         let coth = 0.5 * (half + inverse_half);
         let sink = pe * 0.5 * (half - inverse_half);
         let far = (1.0 - sink) * inverse_pe;
@@ -256,7 +343,7 @@ impl HalfCell {
         let per_blow = if small { near } else { far };
         let slope = if small { near_slope } else { far_slope };
         let weight = blow * per_blow;
-        let ratio = self.psi_behind / self.psi;
+        let ratio = self.psi_behind * self.inverse_psi;
         let per_weight = self.reach * (1.0 - ratio);
         let s = weight * per_weight;
         let down = 1.0 / (1.0 - s);
@@ -278,28 +365,38 @@ impl HalfCell {
     /// Mean over the half cell of the pressure's excess over its centre, with wind.
     #[inline(always)]
     pub(super) fn mean_excess<const UP: bool>(&self, flux: &HalfFlux, p: f64) -> f64 {
+        let per_height = self.mean_inverse_height()[0];
+        self.excess::<UP>(flux.rise, flux.convective::<UP>(), per_height, p)
+    }
+
+    /// The same of δ, the convective share of the profile and the mean of 1/h.
+    #[inline(always)]
+    pub(super) fn excess<const UP: bool>(
+        &self,
+        rise: f64,
+        convective: f64,
+        per_height: f64,
+        p: f64,
+    ) -> f64 {
         let centre = self.psi * self.inverse_h;
-        let carried =
-            self.carried_mean::<UP>(flux, p) * self.mean_inverse_height(flux.inverse_sum)[0];
-        let convective = strength::<UP>(flux) * convective_share(flux)[0];
+        let carried = self.carried_mean::<UP>(rise, p) * per_height;
         0.5 * (1.0 - convective) * (p - centre) + convective * (carried - centre)
     }
 
     /// Mean of ψ outside the exponential layer.
     #[inline(always)]
-    fn carried_mean<const UP: bool>(&self, flux: &HalfFlux, p: f64) -> f64 {
+    fn carried_mean<const UP: bool>(&self, rise: f64, p: f64) -> f64 {
         if UP {
-            self.psi + 0.5 * flux.rise
+            self.psi + 0.5 * rise
         } else {
             0.5 * (self.psi + p * self.h_face)
         }
     }
 
-    /// Mean of 1/h (Simpson) and its derivatives by h_centre and h_face; `m` is the inverse of
-    /// their sum.
+    /// Mean of 1/h (Simpson) and its derivatives by h_centre and h_face.
     #[inline(always)]
-    fn mean_inverse_height(&self, m: f64) -> [f64; 3] {
-        let (a, b) = (self.inverse_h, 1.0 / self.h_face);
+    pub(super) fn mean_inverse_height(&self) -> [f64; 3] {
+        let (a, [m, b]) = (self.inverse_h, self.inverses);
         [
             (a + 8.0 * m + b) * (1.0 / 6.0),
             (a * a + 8.0 * m * m) * (-1.0 / 6.0),
@@ -307,14 +404,19 @@ impl HalfCell {
         ]
     }
 
-    /// All derivatives at constant face pressure p, with wind.
+    /// All derivatives at constant face pressure p, with wind; `flux` is that of `mean`.
     #[inline(always)]
-    pub(super) fn partials<const UP: bool>(&self, flux: &HalfFlux, p: f64) -> HalfPartials {
-        let [mean, mean_centre, mean_face] = flux.mean;
-        let inverse_mean = 1.0 / mean;
+    pub(super) fn partials<const UP: bool>(
+        &self,
+        mean: &LogarithmicMean,
+        flux: &HalfFlux,
+        p: f64,
+    ) -> HalfPartials {
+        let (inverse_mean, [mean_centre, mean_face]) = (mean.inverse, mean.by);
+        let inverse_face = self.inverses[1];
         // Relative derivatives of D/Δ, then those of Pe and its wind part, then of δ.
         let log = [
-            self.g_slope / self.g,
+            self.g_slope * self.inverse_g,
             0.0,
             mean_centre * inverse_mean,
             mean_face * inverse_mean,
@@ -327,7 +429,7 @@ impl HalfCell {
             blow[0],
             0.0,
             blow[2] - self.inverse_h,
-            blow[3] + 1.0 / self.h_face,
+            blow[3] + inverse_face,
         ];
         let [rise_psi, rise_behind, rise_pe, rise_blow] = flux.rise_by;
         let mut rise = [rise_psi, rise_behind, 0.0, 0.0];
@@ -357,8 +459,8 @@ impl HalfCell {
         let [per_blow, per_blow_slope] = convective_share(flux);
         let strength = strength::<UP>(flux);
         let convective = strength * per_blow;
-        let [q, q_centre, q_face] = self.mean_inverse_height(flux.inverse_sum);
-        let mean_psi = self.carried_mean::<UP>(flux, p);
+        let [q, q_centre, q_face] = self.mean_inverse_height();
+        let mean_psi = self.carried_mean::<UP>(flux.rise, p);
         let gain = mean_psi * q - 0.5 * (p + centre);
         let at_centre = 0.5 * (1.0 + convective);
         let (mean_by, mean_by_p) = if UP {
@@ -392,42 +494,66 @@ impl HalfCell {
         }
     }
 
-    /// Logarithmic mean of the two heights with its derivatives by both, and ln(h_face/h_centre).
+    /// `STEEP` must hold where [`is_steep`] does; where it does not, both values of `STEEP` give the
+    /// same bits.
     #[inline(always)]
-    fn logarithmic_mean<const STEEP: bool>(&self, inverse_sum: f64) -> ([f64; 3], f64) {
-        let (h_centre, h_face) = (self.h_centre, self.h_face);
+    pub(super) fn logarithmic_mean<const STEEP: bool>(&self) -> LogarithmicMean {
+        let (h_centre, h_face, inverse_sum) = (self.h_centre, self.h_face, self.inverses[0]);
         let sum = h_centre + h_face;
         let s = (h_face - h_centre) * inverse_sum;
         let q = s * s;
-        // s/artanh(s), its derivative, and artanh(s).
+        // s/artanh(s), its derivative, artanh(s), and artanh(s)/s.
         let near =
             1.0 - q * (1.0 / 3.0 + q * (4.0 / 45.0 + q * (44.0 / 945.0 + q * 428.0 / 14175.0)));
         let near_slope =
             -s * (2.0 / 3.0 + q * (16.0 / 45.0 + q * (264.0 / 945.0 + q * 3424.0 / 14175.0)));
-        let near_artanh = artanh(s);
-        let (ratio, slope, artanh) = if STEEP {
+        let low = (1.0 / 3.0 + q * (1.0 / 5.0)) + q * q * (1.0 / 7.0 + q * (1.0 / 9.0));
+        let series = q * (low + q * q * (q * q) * (1.0 / 11.0 + q * (1.0 / 13.0)));
+        let (near_artanh, near_inverse) = (s + s * series, 1.0 + series);
+        let (ratio, slope, artanh, inverse_ratio) = if STEEP {
             let steep = is_steep(h_centre, h_face);
             let far_artanh = 0.5 * ln(h_face * self.inverse_h);
-            let inverse = 1.0 / far_artanh;
+            let both = 1.0 / (far_artanh * s);
+            let inverse = both * s;
             let far = s * inverse;
             let far_slope = (1.0 - far / (1.0 - q)) * inverse;
             (
                 if steep { far } else { near },
                 if steep { far_slope } else { near_slope },
                 if steep { far_artanh } else { near_artanh },
+                if steep {
+                    both * far_artanh * far_artanh
+                } else {
+                    near_inverse
+                },
             )
         } else {
-            (near, near_slope, near_artanh)
+            (near, near_slope, near_artanh, near_inverse)
         };
         let lean = slope * inverse_sum;
-        (
-            [
-                0.5 * sum * ratio,
-                0.5 * ratio - lean * h_face,
-                0.5 * ratio + lean * h_centre,
-            ],
-            2.0 * artanh,
-        )
+        LogarithmicMean {
+            value: 0.5 * sum * ratio,
+            inverse: 2.0 * inverse_sum * inverse_ratio,
+            by: [0.5 * ratio - lean * h_face, 0.5 * ratio + lean * h_centre],
+            log_ratio: 2.0 * artanh,
+        }
+    }
+}
+
+/// Logarithmic mean of the two heights, its inverse and derivatives by h_centre and h_face, and
+/// ln(h_face/h_centre).
+pub(super) struct LogarithmicMean {
+    value: f64,
+    inverse: f64,
+    by: [f64; 2],
+    log_ratio: f64,
+}
+
+impl HalfFlux {
+    /// Share of the exponential profile in the mean pressure.
+    #[inline(always)]
+    pub(super) fn convective<const UP: bool>(&self) -> f64 {
+        strength::<UP>(self) * convective_share(self)[0]
     }
 }
 
@@ -461,15 +587,38 @@ fn convective_share(flux: &HalfFlux) -> [f64; 2] {
 mod tests {
     use super::*;
 
+    fn bernoulli(x: f64) -> [f64; 2] {
+        let (up, down) = (
+            profile::<true>(x, growth(x)),
+            profile::<false>(x, growth(x)),
+        );
+        if x != 0.0 {
+            assert!((up.b / down.b - 1.0).abs() < 1e-15, "{x}");
+            assert!((up.b_slope - down.b_slope).abs() < 1e-13, "{x}");
+            assert!((up.inverse_pe * x - 1.0).abs() < 1e-15);
+            assert!((down.inverse_pe * x - 1.0).abs() < 1e-15);
+            let tanh = (0.5 * x).tanh();
+            assert!((up.inverse_half - tanh).abs() < 1e-15 / x.abs().min(1.0));
+        }
+        [up.b, up.b_slope]
+    }
+
     #[test]
     fn bernoulli_and_its_slope_are_smooth_across_the_series() {
         for x in [-0.02_f64, 0.02] {
             let (a, b) = (bernoulli(x * (1.0 - 1e-12)), bernoulli(x * (1.0 + 1e-12)));
             assert!((a[0] - b[0]).abs() < 1e-13 && (a[1] - b[1]).abs() < 1e-11);
         }
-        assert_eq!(bernoulli(0.0)[..2], [1.0, -0.5]);
-        assert!(bernoulli(800.0)[0] < 1e-300);
-        assert_eq!(bernoulli(-800.0)[..2], [800.0, -1.0]);
+        assert_eq!(bernoulli(0.0), [1.0, -0.5]);
+        for x in [-4.0_f64, 0.3, 2.0, 50.0] {
+            let exact = x / x.exp_m1();
+            assert!((bernoulli(x)[0] - exact).abs() < 1e-15 * exact, "{x}");
+        }
+        // Nothing comes back against such a wind, whatever nothing is.
+        assert!(bernoulli(800.0)[0] < 1e-127);
+        let [b, slope] = bernoulli(-800.0);
+        assert!((b - 800.0).abs() < 1e-12 && (slope + 1.0).abs() < 1e-15);
+        assert!((bernoulli(-1e39)[0] / 1e39 - 1.0).abs() < 1e-15);
     }
 
     #[test]
@@ -477,17 +626,24 @@ mod tests {
         for h_face in [0.02, 0.7, 0.999_999, 1.0, 1.3, 40.0] {
             let cell = HalfCell {
                 psi: 1.7,
+                inverse_psi: 1.0 / 1.7,
                 psi_behind: 1.1,
                 reach: 0.0,
                 g: 2.3,
+                inverse_g: 1.0 / 2.3,
                 g_slope: 0.4,
                 h_centre: 1.0,
                 h_face,
+                inverses: inverses(1.0, h_face),
+                distance: 1.0 / 3.0,
                 inverse_distance: 3.0,
                 inverse_h: 1.0,
                 wind: 0.0,
             };
-            let (general, (alpha, beta)) = (cell.flux::<false, true>(), cell.still());
+            let (general, (alpha, beta)) = (
+                cell.flux::<false>(&cell.logarithmic_mean::<true>()),
+                cell.still(),
+            );
             assert!((general.alpha / alpha - 1.0).abs() < 1e-13, "{h_face}");
             assert!((general.beta / beta - 1.0).abs() < 1e-13, "{h_face}");
         }
@@ -495,19 +651,21 @@ mod tests {
 
     fn flux_and_excess(cell: &HalfCell, p: f64) -> [f64; 2] {
         let (alpha, beta) = cell.coefficients();
+        let mean = cell.logarithmic_mean::<true>();
         let excess = match cell.wind {
             0.0 => cell.still_excess(p),
-            w if w > 0.0 => cell.mean_excess::<true>(&cell.flux::<true, true>(), p),
-            _ => cell.mean_excess::<false>(&cell.flux::<false, true>(), p),
+            w if w > 0.0 => cell.mean_excess::<true>(&cell.flux::<true>(&mean), p),
+            _ => cell.mean_excess::<false>(&cell.flux::<false>(&mean), p),
         };
         [alpha - beta * p, excess]
     }
 
     fn partials(cell: &HalfCell, p: f64) -> HalfPartials {
+        let mean = cell.logarithmic_mean::<true>();
         match cell.wind {
             0.0 => cell.still_partials(p),
-            w if w > 0.0 => cell.partials::<true>(&cell.flux::<true, true>(), p),
-            _ => cell.partials::<false>(&cell.flux::<false, true>(), p),
+            w if w > 0.0 => cell.partials::<true>(&mean, &cell.flux::<true>(&mean), p),
+            _ => cell.partials::<false>(&mean, &cell.flux::<false>(&mean), p),
         }
     }
 
@@ -516,18 +674,23 @@ mod tests {
         for h_face in [0.91, 0.97, 1.0, 1.02, 1.1] {
             let cell = HalfCell {
                 psi: 1.7,
+                inverse_psi: 1.0 / 1.7,
                 psi_behind: 1.1,
                 reach: 0.4,
                 g: 2.3,
+                inverse_g: 1.0 / 2.3,
                 g_slope: 0.4,
                 h_centre: 1.0,
                 inverse_h: 1.0,
                 h_face,
+                inverses: inverses(1.0, h_face),
+                distance: 1.0 / 3.0,
                 inverse_distance: 3.0,
                 wind: 5.0,
             };
             assert!(!is_steep(1.0, h_face));
-            let (short, general) = (cell.flux::<true, false>(), cell.flux::<true, true>());
+            let short = cell.flux::<true>(&cell.logarithmic_mean::<false>());
+            let general = cell.flux::<true>(&cell.logarithmic_mean::<true>());
             assert_eq!((short.alpha, short.beta), (general.alpha, general.beta));
         }
     }
@@ -539,14 +702,19 @@ mod tests {
         ] {
             for (h_face, psi_behind) in [(0.7, 1.2), (1.0, 2.5), (1.3, 1.9)] {
                 let p = 1.2;
+                let conductance = |psi: f64| psi + 3.0 + 0.2 * psi * psi;
                 let make = |v: [f64; 4]| HalfCell {
                     psi: v[0],
+                    inverse_psi: 1.0 / v[0],
                     psi_behind: v[1],
                     reach: if wind > 0.0 { 0.45 } else { 0.0 },
-                    g: v[0] + 3.0 + 0.2 * v[0] * v[0],
+                    g: conductance(v[0]),
+                    inverse_g: 1.0 / conductance(v[0]),
                     g_slope: 1.0 + 0.4 * v[0],
                     h_centre: v[2],
                     h_face: v[3],
+                    inverses: inverses(v[2], v[3]),
+                    distance: 0.25,
                     inverse_distance: 4.0,
                     inverse_h: 1.0 / v[2],
                     wind,

@@ -8,12 +8,15 @@ use super::flux::HalfCell;
 /// Scratch of the flux balance, one per thread.
 #[derive(Clone, Debug)]
 pub struct FilmScratch {
-    /// ψ, height, its inverse, its derivative by the true height, G and dG/dψ of every cell.
+    /// ψ, its inverse, height, its inverse, its derivative by the true height, G, its inverse and dG/dψ
+    /// of every cell.
     pub(super) psi: Vec<f64>,
+    pub(super) inverse_psi: Vec<f64>,
     pub(super) h: Vec<f64>,
     pub(super) inverse_h: Vec<f64>,
     pub(super) h_slope: Vec<f64>,
     pub(super) g: Vec<f64>,
+    pub(super) inverse_g: Vec<f64>,
     pub(super) g_slope: Vec<f64>,
     /// Flux through the faces of either direction towards rising cell numbers.
     pub(super) flux: [Vec<f64>; 2],
@@ -27,10 +30,12 @@ impl FilmScratch {
         let ones = || vec![1.0; columns.padded];
         Self {
             psi: ones(),
+            inverse_psi: ones(),
             h: ones(),
             inverse_h: ones(),
             h_slope: ones(),
             g: ones(),
+            inverse_g: ones(),
             g_slope: ones(),
             flux: [0, 1].map(|_| vec![0.0; columns.padded]),
             spare: vec![0.0; columns.n_cells],
@@ -45,21 +50,29 @@ impl FilmScratch {
         assert_eq!(self.psi.len(), columns.padded);
         let front = columns.front;
         self.psi[front..front + psi.len()].copy_from_slice(psi);
+        let g = &mut self.g[front..front + psi.len()];
+        let slopes = &mut self.g_slope[front..front + psi.len()];
+        film.flow.conductances(psi, g, slopes);
         for first in (0..columns.recess.len()).step_by(BLOCK) {
             let height = columns.places.heights(first, attitude);
             let recess = block(&columns.recess, first);
             let at = front + first;
             let [h, slope] = film.floored_block(&height, recess);
-            let inverse = block_mut(&mut self.inverse_h, at);
+            let (psi, g) = (block(&self.psi, at), block(&self.g, at));
+            // Three inverses by one division, which takes as long as a dozen products.
+            let mut inverse = [[0.0; BLOCK]; 3];
             for k in 0..BLOCK {
-                inverse[k] = 1.0 / h[k];
+                let all = 1.0 / ((psi[k] * g[k]) * h[k]);
+                inverse[0][k] = all * (g[k] * h[k]);
+                inverse[1][k] = all * (psi[k] * h[k]);
+                inverse[2][k] = all * (psi[k] * g[k]);
             }
+            *block_mut(&mut self.inverse_psi, at) = inverse[0];
+            *block_mut(&mut self.inverse_g, at) = inverse[1];
+            *block_mut(&mut self.inverse_h, at) = inverse[2];
             *block_mut(&mut self.h, at) = h;
             *block_mut(&mut self.h_slope, at) = slope;
         }
-        let g = &mut self.g[front..front + psi.len()];
-        let slopes = &mut self.g_slope[front..front + psi.len()];
-        film.flow.conductances(psi, g, slopes);
     }
 }
 
@@ -74,8 +87,10 @@ pub(super) fn block_mut(column: &mut [f64], first: usize) -> &mut Block {
 /// State of a block of cells and ψ of those behind them.
 pub(super) struct CellBlock<'a> {
     psi: &'a Block,
+    inverse_psi: &'a Block,
     psi_behind: &'a Block,
     g: &'a Block,
+    inverse_g: &'a Block,
     g_slope: &'a Block,
     h: &'a Block,
     inverse_h: &'a Block,
@@ -88,8 +103,10 @@ impl FilmScratch {
     pub(super) fn cells(&self, at: usize, behind: usize) -> CellBlock<'_> {
         CellBlock {
             psi: block(&self.psi, at),
+            inverse_psi: block(&self.inverse_psi, at),
             psi_behind: block(&self.psi, behind),
             g: block(&self.g, at),
+            inverse_g: block(&self.inverse_g, at),
             g_slope: block(&self.g_slope, at),
             h: block(&self.h, at),
             inverse_h: block(&self.inverse_h, at),
@@ -103,6 +120,7 @@ pub(super) struct SideBlock<'a> {
     cells: CellBlock<'a>,
     pub(super) recess: &'a Block,
     pub(super) reach: &'a Block,
+    distance: &'a Block,
     inverse_distance: &'a Block,
     pub(super) area: &'a Block,
     /// 6 μ U out of the cells.
@@ -117,6 +135,7 @@ impl<'a> SideBlock<'a> {
             cells,
             recess: block(&sides.recess, first),
             reach: block(&sides.reach, first),
+            distance: block(&sides.distance, first),
             inverse_distance: block(&sides.inverse_distance, first),
             area: block(&sides.area, first),
             wind,
@@ -135,18 +154,22 @@ impl<'a> SideBlock<'a> {
         self.cells.h_slope[k]
     }
 
-    /// Half cell k with the height `h_face` at the face.
+    /// Half cell k with the height `h_face` at the face and `inverses` of its heights.
     #[inline(always)]
-    pub(super) fn half(&self, k: usize, h_face: f64) -> HalfCell {
+    pub(super) fn half(&self, k: usize, h_face: f64, inverses: [f64; 2]) -> HalfCell {
         HalfCell {
             psi: self.cells.psi[k],
+            inverse_psi: self.cells.inverse_psi[k],
             psi_behind: self.cells.psi_behind[k],
             reach: self.reach[k],
             g: self.cells.g[k],
+            inverse_g: self.cells.inverse_g[k],
             g_slope: self.cells.g_slope[k],
             h_centre: self.cells.h[k],
             inverse_h: self.cells.inverse_h[k],
             h_face,
+            inverses,
+            distance: self.distance[k],
             inverse_distance: self.inverse_distance[k],
             wind: self.wind,
         }
@@ -156,8 +179,10 @@ impl<'a> SideBlock<'a> {
 /// State of cells picked one by one.
 pub(super) struct Picked {
     psi: Block,
+    inverse_psi: Block,
     psi_behind: Block,
     g: Block,
+    inverse_g: Block,
     g_slope: Block,
     h: Block,
     inverse_h: Block,
@@ -182,8 +207,10 @@ impl Picked {
         };
         Self {
             psi: pick(&state.psi, cells),
+            inverse_psi: pick(&state.inverse_psi, cells),
             psi_behind: pick(&state.psi, behind),
             g: pick(&state.g, cells),
+            inverse_g: pick(&state.inverse_g, cells),
             g_slope: pick(&state.g_slope, cells),
             h: pick(&state.h, cells),
             inverse_h: pick(&state.inverse_h, cells),
@@ -195,8 +222,10 @@ impl Picked {
     pub(super) fn cells(&self) -> CellBlock<'_> {
         CellBlock {
             psi: &self.psi,
+            inverse_psi: &self.inverse_psi,
             psi_behind: &self.psi_behind,
             g: &self.g,
+            inverse_g: &self.inverse_g,
             g_slope: &self.g_slope,
             h: &self.h,
             inverse_h: &self.inverse_h,

@@ -8,7 +8,7 @@ use crate::lanes::{Kernel, SUMS, widest};
 /// Rows that are handled together.
 type Chunk = [f64; SUMS];
 
-/// A square matrix, column by column, every column padded with zeros to whole chunks.
+/// A square matrix in panels of eight rows, each column by column; the last is padded with zeros.
 #[derive(Clone, Debug)]
 pub struct PaddedColumns {
     n: usize,
@@ -31,19 +31,16 @@ impl PaddedColumns {
     }
 
     fn fill(&mut self, rows: &[f64]) {
-        let (n, height) = (self.n, self.height());
+        let n = self.n;
         assert_eq!(rows.len(), n * n);
-        for (i, row) in rows.chunks_exact(n).enumerate() {
-            let (chunk, k) = (i / SUMS, i % SUMS);
-            for (column, a) in self.entries.chunks_exact_mut(height).zip(row) {
-                column[chunk][k] = *a;
+        let panels = self.entries.chunks_exact_mut(n);
+        for (panel, rows) in panels.zip(rows.chunks(SUMS * n)) {
+            for (lane, row) in rows.chunks_exact(n).enumerate() {
+                for (column, a) in panel.iter_mut().zip(row) {
+                    column[lane] = *a;
+                }
             }
         }
-    }
-
-    /// Chunks in a column.
-    fn height(&self) -> usize {
-        self.n.div_ceil(SUMS)
     }
 }
 
@@ -74,13 +71,12 @@ impl<const K: usize> Kernel for SumOfProducts<'_, K> {
     #[inline(always)]
     fn call(self) {
         let n = self.out.len();
-        let height = n.div_ceil(SUMS);
         for (at, out) in self.out.chunks_mut(SUMS).enumerate() {
             let mut sums = [[0.0; SUMS]; K];
             for j in 0..n {
                 for i in 0..K {
                     let (matrix, x) = &self.terms[i];
-                    let (column, x) = (&matrix.entries[j * height + at], x[j]);
+                    let (column, x) = (&matrix.entries[at * n + j], x[j]);
                     for k in 0..SUMS {
                         sums[i][k] += column[k] * x;
                     }
@@ -108,6 +104,7 @@ pub struct PivotedInverse {
     inverse: PaddedColumns,
     /// One over the largest entry of every unknown, padded with ones.
     scales: Vec<Chunk>,
+    multipliers: Vec<f64>,
     /// Unknown taken k-th.
     exchanges: Vec<usize>,
     product: Vec<f64>,
@@ -120,6 +117,7 @@ impl PivotedInverse {
             matrix: vec![0.0; n * n],
             inverse: PaddedColumns::new(n, &vec![0.0; n * n]),
             scales: vec![[1.0; SUMS]; n.div_ceil(SUMS)],
+            multipliers: vec![0.0; n],
             exchanges: vec![0; n],
             product: vec![0.0; n],
         }
@@ -135,9 +133,9 @@ impl PivotedInverse {
     pub fn invert(&mut self) -> bool {
         self.inverse.fill(&self.matrix);
         widest(Invert {
-            n: self.exchanges.len(),
             entries: &mut self.inverse.entries,
             scales: &mut self.scales,
+            multipliers: &mut self.multipliers,
             exchanges: &mut self.exchanges,
         })
     }
@@ -155,88 +153,86 @@ impl PivotedInverse {
 
     /// Row by row.
     pub fn rows(&self) -> Vec<f64> {
-        let (n, height) = (self.exchanges.len(), self.inverse.height());
-        let entry = |i: usize, j: usize| self.inverse.entries[j * height + i / SUMS][i % SUMS];
+        let n = self.exchanges.len();
+        let entry = |i: usize, j: usize| self.inverse.entries[i / SUMS * n + j][i % SUMS];
         (0..n * n).map(|at| entry(at / n, at % n)).collect()
     }
 }
 
 /// With the columns of A as rows this inverts Aᵀ: the rows of A⁻ᵀ are the columns of A⁻¹.
 struct Invert<'a> {
-    n: usize,
     entries: &'a mut [Chunk],
     scales: &'a mut [Chunk],
+    multipliers: &'a mut [f64],
     exchanges: &'a mut [usize],
 }
 
 impl Kernel for Invert<'_> {
     type Output = bool;
 
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "many columns are walked in step, which an index says plainest"
+    )]
     #[inline(always)]
     fn call(self) -> bool {
         let Self {
-            n,
             entries,
             scales,
+            multipliers,
             exchanges,
         } = self;
-        let height = scales.len();
-        let place = |row: usize, column: usize| (row * height + column / SUMS, column % SUMS);
-        for (i, row) in entries.chunks_exact_mut(height).enumerate() {
-            let mut largest = 0.0_f64;
-            for chunk in &*row {
-                for a in chunk {
-                    largest = largest.max(a.abs());
+        let n = exchanges.len();
+        for i in 0..n {
+            let mut largest = [0.0_f64; SUMS];
+            for panel in entries.chunks_exact(n) {
+                for k in 0..SUMS {
+                    largest[k] = largest[k].max(panel[i][k].abs());
                 }
             }
+            let largest = largest.into_iter().fold(0.0, f64::max);
             if !(largest > 0.0 && largest.is_finite()) {
                 return false;
             }
-            let scale = 1.0 / largest;
-            scales[i / SUMS][i % SUMS] = scale;
-            for chunk in row {
-                for a in chunk {
-                    *a *= scale;
-                }
+            scales[i / SUMS][i % SUMS] = 1.0 / largest;
+        }
+        for panel in entries.chunks_exact_mut(n) {
+            for (i, column) in panel.iter_mut().enumerate() {
+                scale(column, scales[i / SUMS][i % SUMS]);
             }
         }
         for k in 0..n {
-            let mut taken = k;
-            let mut size = 0.0;
-            for row in k..n {
-                let (chunk, lane) = place(row, k);
-                let candidate = entries[chunk][lane].abs();
-                if candidate > size {
-                    (taken, size) = (row, candidate);
+            let (at, lane) = (k / SUMS * n, k % SUMS);
+            let (mut taken, mut size) = (k, 0.0);
+            for i in 0..n {
+                multipliers[i] = entries[at + i][lane];
+                let candidate = multipliers[i].abs();
+                if i >= k && candidate > size {
+                    (taken, size) = (i, candidate);
                 }
+                entries[at + i][lane] = 0.0;
             }
             if !(size > 0.0 && size.is_finite()) {
                 return false;
             }
             exchanges[k] = taken;
-            if taken != k {
-                let (above, below) = entries.split_at_mut(taken * height);
-                above[k * height..][..height].swap_with_slice(&mut below[..height]);
+            multipliers.swap(k, taken);
+            let inverse = 1.0 / multipliers[k];
+            multipliers[k] = 0.0;
+            for panel in entries.chunks_exact_mut(n) {
+                panel.swap(k, taken);
             }
-            let (chunk, lane) = place(k, k);
-            let inverse = 1.0 / entries[chunk][lane];
-            entries[chunk][lane] = 1.0;
-            let (above, rest) = entries.split_at_mut(k * height);
-            let (pivot_row, below) = rest.split_at_mut(height);
-            for chunk in &mut *pivot_row {
-                for a in chunk {
-                    *a *= inverse;
-                }
-            }
-            let (column, lane) = (k / SUMS, k % SUMS);
-            let others = above.chunks_exact_mut(height);
-            for row in others.chain(below.chunks_exact_mut(height)) {
-                let multiplier = row[column][lane];
-                row[column][lane] = 0.0;
-                for (chunk, pivot) in row.iter_mut().zip(&*pivot_row) {
-                    for (a, p) in chunk.iter_mut().zip(pivot) {
-                        *a -= multiplier * p;
+            entries[at + k][lane] = 1.0;
+            for panel in entries.chunks_exact_mut(n) {
+                scale(&mut panel[k], inverse);
+                let pivot = panel[k];
+                for (column, multiplier) in panel.iter_mut().zip(&*multipliers) {
+                    // In a place of its own: a store could change the pivot, for all the compiler knows.
+                    let mut left = *column;
+                    for k in 0..SUMS {
+                        left[k] -= multiplier * pivot[k];
                     }
+                    *column = left;
                 }
             }
         }
@@ -244,24 +240,32 @@ impl Kernel for Invert<'_> {
         for k in (0..n).rev() {
             let taken = exchanges[k];
             if taken != k {
-                for row in 0..n {
-                    let (chunk, lane) = place(row, k);
-                    let (other, other_lane) = place(row, taken);
-                    let a = entries[chunk][lane];
-                    entries[chunk][lane] = entries[other][other_lane];
-                    entries[other][other_lane] = a;
+                for i in 0..n {
+                    let (here, there) = (k / SUMS * n + i, taken / SUMS * n + i);
+                    let a = entries[here][k % SUMS];
+                    entries[here][k % SUMS] = entries[there][taken % SUMS];
+                    entries[there][taken % SUMS] = a;
                 }
             }
         }
-        for row in entries.chunks_exact_mut(height) {
-            for (chunk, scale) in row.iter_mut().zip(&*scales) {
-                for (a, s) in chunk.iter_mut().zip(scale) {
-                    *a *= s;
+        for (panel, scales) in entries.chunks_exact_mut(n).zip(scales) {
+            for column in panel {
+                for k in 0..SUMS {
+                    column[k] *= scales[k];
                 }
             }
         }
         true
     }
+}
+
+#[inline(always)]
+fn scale(column: &mut Chunk, factor: f64) {
+    let mut scaled = *column;
+    for a in &mut scaled {
+        *a *= factor;
+    }
+    *column = scaled;
 }
 
 #[cfg(test)]
