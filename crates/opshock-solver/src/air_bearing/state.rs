@@ -198,13 +198,7 @@ impl Picked {
         behind: &[usize],
         front: usize,
     ) -> Self {
-        let pick = |column: &[f64], cells: &[usize]| {
-            let mut out = [0.0; BLOCK];
-            for (out, cell) in out.iter_mut().zip(cells) {
-                *out = column[front + cell];
-            }
-            out
-        };
+        let pick = |column: &[f64], cells: &[usize]| picked(column, cells, front);
         Self {
             psi: pick(&state.psi, cells),
             inverse_psi: pick(&state.inverse_psi, cells),
@@ -232,4 +226,13 @@ impl Picked {
             h_slope: &self.h_slope,
         }
     }
+}
+
+#[inline(always)]
+fn picked(column: &[f64], cells: &[usize], front: usize) -> Block {
+    let mut out = [0.0; BLOCK];
+    for (out, cell) in out.iter_mut().zip(cells) {
+        *out = column[front + cell];
+    }
+    out
 }

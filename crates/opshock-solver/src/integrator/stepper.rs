@@ -53,10 +53,11 @@ impl Stepper {
         }
     }
 
-    /// Remembers the trial step of `dt_s` just taken as accepted: its rates help guess the next.
+    /// Remembers the trial step of `dt_s` just taken as accepted: its rates help guess the next. What
+    /// [`Stepper::rate`] tells is gone then.
     pub fn accept(&mut self, dt_s: f64) {
-        for (last, rate) in self.last_rates.iter_mut().zip(&self.rates) {
-            last.copy_from_slice(rate);
+        for (last, rate) in self.last_rates.iter_mut().zip(&mut self.rates) {
+            std::mem::swap(last, rate);
         }
         self.last_dt_s = Some(dt_s);
     }

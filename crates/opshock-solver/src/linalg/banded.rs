@@ -290,13 +290,7 @@ impl<E: Entry> BandedLu<E> {
     ///
     /// When `rhs` has not n entries.
     pub fn solve(&mut self, rhs: &mut [f64]) {
-        if self.is_reversed {
-            rhs.reverse();
-        }
-        self.triangles.solve(rhs);
-        if self.is_reversed {
-            rhs.reverse();
-        }
+        self.triangles.solve(rhs, self.is_reversed);
     }
 
     /// Copies the matrix into the padded rows.

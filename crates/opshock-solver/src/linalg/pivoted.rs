@@ -3,7 +3,7 @@
 //! A matrix of some twenty rows that is solved with thousands of times is worth its inverse: a product of
 //! columns runs over whole registers, where a triangular solve waits in every row for the row before.
 
-use crate::lanes::{Kernel, SUMS, widest};
+use crate::lanes::{Kernel, SUMS, Simd, WithSimd, widest};
 
 /// Rows that are handled together.
 type Chunk = [f64; SUMS];
@@ -167,7 +167,7 @@ struct Invert<'a> {
     exchanges: &'a mut [usize],
 }
 
-impl Kernel for Invert<'_> {
+impl WithSimd for Invert<'_> {
     type Output = bool;
 
     #[expect(
@@ -175,7 +175,7 @@ impl Kernel for Invert<'_> {
         reason = "many columns are walked in step, which an index says plainest"
     )]
     #[inline(always)]
-    fn call(self) -> bool {
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
         let Self {
             entries,
             scales,
@@ -226,13 +226,12 @@ impl Kernel for Invert<'_> {
             for panel in entries.chunks_exact_mut(n) {
                 scale(&mut panel[k], inverse);
                 let pivot = panel[k];
+                let pivot = S::as_simd_f64s(&pivot).0;
                 for (column, multiplier) in panel.iter_mut().zip(&*multipliers) {
-                    // In a place of its own: a store could change the pivot, for all the compiler knows.
-                    let mut left = *column;
-                    for k in 0..SUMS {
-                        left[k] -= multiplier * pivot[k];
+                    let multiplier = simd.splat_f64s(*multiplier);
+                    for (a, p) in S::as_mut_simd_f64s(column).0.iter_mut().zip(pivot) {
+                        *a = simd.sub_f64s(*a, simd.mul_f64s(multiplier, *p));
                     }
-                    *column = left;
                 }
             }
         }

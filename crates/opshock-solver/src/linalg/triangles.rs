@@ -4,12 +4,13 @@
 //! U cut into blocks of sixteen rows,
 //!
 //! ```text
-//! y_I = L_II⁻¹ (r_I − Σ_j L_Ij y_j),      x_I = U_II⁻¹ (y_I − Σ_j U_Ij x_j)
+//! y_I = L_II⁻¹ r_I − Σ_j (L_II⁻¹ L_Ij) y_j,      x_I = U_II⁻¹ y_I − Σ_j (U_II⁻¹ U_Ij) x_j
 //! ```
 //!
-//! every column of a block is sixteen numbers side by side, times one number of the solution, and the
-//! inverses of the small triangles are made once. The columns next to a block, which it has to wait
-//! for, come last in its sum. Sums have a fixed order whatever the registers.
+//! every column of a block is sixteen numbers side by side, times one number of the solution. The
+//! inverses of the small triangles and their products are made once: a block waits for the one before it
+//! through a single sum, in which the columns it has to wait for come last. Sums have a fixed order
+//! whatever the registers.
 //!
 //! What a solution costs is the reading of the factors, so they may be kept rounded ([`Entry`]).
 
@@ -37,8 +38,6 @@ pub trait Entry: Copy + std::fmt::Debug + 'static {
     fn nearest(value: f64) -> Self;
     /// The same number in double precision.
     fn widen(self) -> f64;
-    /// a − b.
-    fn subtract(a: Self, b: Self) -> Self;
     /// A register full of one number.
     fn splat<S: Simd>(self, simd: S) -> Self::Register<S>;
     /// a + b.
@@ -71,11 +70,6 @@ macro_rules! entry {
             #[inline(always)]
             fn widen(self) -> f64 {
                 f64::from(self)
-            }
-
-            #[inline(always)]
-            fn subtract(a: Self, b: Self) -> Self {
-                a - b
             }
 
             #[inline(always)]
@@ -137,10 +131,12 @@ entry!(
 pub(super) struct Triangles<E> {
     n: usize,
     band: Band,
-    /// Per block of rows: the columns before it, then the inverse of its own triangle.
+    /// Per block of rows: −L_II⁻¹ times the columns before it, then L_II⁻¹.
     lower: Vec<Column<E>>,
-    /// Per block of rows: the inverse of its own triangle, then the columns behind it.
+    /// Per block of rows: U_II⁻¹, then −U_II⁻¹ times the columns behind it.
     upper: Vec<Column<E>>,
+    /// Columns of one block before and behind, in full.
+    outside: [Vec<Column<f64>>; 2],
     /// The solution as it comes, in whole blocks.
     x: Vec<E>,
 }
@@ -154,6 +150,7 @@ impl<E: Entry> Triangles<E> {
             band,
             lower: vec![[E::ZERO; ROWS]; blocks * (band.below + ROWS)],
             upper: vec![[E::ZERO; ROWS]; blocks * (band.above + ROWS)],
+            outside: [band.below, band.above].map(|columns| vec![[0.0; ROWS]; columns]),
             x: vec![E::ZERO; blocks * ROWS],
         }
     }
@@ -169,6 +166,7 @@ impl<E: Entry> Triangles<E> {
     ) {
         let n = self.n;
         let Band { below, above } = self.band;
+        let [before, behind] = &mut self.outside;
         for (block, (lower, upper)) in self
             .lower
             .chunks_exact_mut(below + ROWS)
@@ -176,10 +174,10 @@ impl<E: Entry> Triangles<E> {
             .enumerate()
         {
             let first = block * ROWS;
-            let (before, lower_own) = lower.split_at_mut(below);
-            let (upper_own, behind) = upper.split_at_mut(ROWS);
-            before.fill([E::ZERO; ROWS]);
-            behind.fill([E::ZERO; ROWS]);
+            let (lower_outside, lower_own) = lower.split_at_mut(below);
+            let (upper_own, upper_outside) = upper.split_at_mut(ROWS);
+            before.fill([0.0; ROWS]);
+            behind.fill([0.0; ROWS]);
             let mut unit = [[0.0; ROWS]; ROWS];
             let mut full = [[0.0; ROWS]; ROWS];
             let mut inverse = [1.0; ROWS];
@@ -188,7 +186,7 @@ impl<E: Entry> Triangles<E> {
                 let entries = row(first + r);
                 let n_before = below.saturating_sub(r);
                 for (column, value) in before[r.min(below)..].iter_mut().zip(&entries[..n_before]) {
-                    column[r] = E::nearest(*value);
+                    column[r] = *value;
                 }
                 for c in r.saturating_sub(below)..r {
                     unit[r][c] = entries[c + below - r];
@@ -199,26 +197,68 @@ impl<E: Entry> Triangles<E> {
                 // Columns first + ROWS ... first + r + above.
                 let own_end = (ROWS + below - r).min(self.band.width());
                 for (column, value) in behind.iter_mut().zip(&entries[own_end..]) {
-                    column[r] = E::nearest(*value);
+                    column[r] = *value;
                 }
                 inverse[r] = inverse_pivots[first + r];
             }
-            round_into(&inverse_of_unit_lower(simd, &unit), lower_own);
-            round_into(&inverse_of_upper(simd, &full, &inverse), upper_own);
+            for (inverse, outside, own, out) in [
+                (
+                    inverse_of_unit_lower(simd, &unit),
+                    &*before,
+                    lower_own,
+                    lower_outside,
+                ),
+                (
+                    inverse_of_upper(simd, &full, &inverse),
+                    &*behind,
+                    upper_own,
+                    upper_outside,
+                ),
+            ] {
+                for (out, column) in out.iter_mut().zip(outside) {
+                    *out = less_product(simd, &inverse, column).map(E::nearest);
+                }
+                round_into(&inverse, own);
+            }
         }
     }
 
-    /// Solves in place.
-    pub(super) fn solve(&mut self, rhs: &mut [f64]) {
+    /// Solves in place; with `is_reversed` the last entry of `rhs` belongs to the first row.
+    pub(super) fn solve(&mut self, rhs: &mut [f64], is_reversed: bool) {
         assert_eq!(rhs.len(), self.n);
+        widest(Solve {
+            triangles: self,
+            rhs,
+            is_reversed,
+        });
+    }
+
+    #[inline(always)]
+    fn load(&mut self, rhs: &[f64], is_reversed: bool) {
+        let (x, behind) = self.x.split_at_mut(rhs.len());
         // Rows behind the last are those of the identity.
-        self.x[self.n..].fill(E::ZERO);
-        for (x, r) in self.x.iter_mut().zip(&*rhs) {
-            *x = E::nearest(*r);
+        behind.fill(E::ZERO);
+        if is_reversed {
+            for (x, r) in x.iter_mut().zip(rhs.iter().rev()) {
+                *x = E::nearest(*r);
+            }
+        } else {
+            for (x, r) in x.iter_mut().zip(rhs) {
+                *x = E::nearest(*r);
+            }
         }
-        widest(Solve { triangles: self });
-        for (r, x) in rhs.iter_mut().zip(&self.x) {
-            *r = x.widen();
+    }
+
+    #[inline(always)]
+    fn store(&self, rhs: &mut [f64], is_reversed: bool) {
+        if is_reversed {
+            for (r, x) in rhs.iter_mut().rev().zip(&self.x) {
+                *r = x.widen();
+            }
+        } else {
+            for (r, x) in rhs.iter_mut().zip(&self.x) {
+                *r = x.widen();
+            }
         }
     }
 }
@@ -259,6 +299,16 @@ fn identity() -> [Column<f64>; ROWS] {
     std::array::from_fn(|r| std::array::from_fn(|c| if c == r { 1.0 } else { 0.0 }))
 }
 
+/// − Σ `columns` times the numbers of `x`.
+#[inline(always)]
+fn less_product<S: Simd>(simd: S, columns: &[Column<f64>; ROWS], x: &Column<f64>) -> Column<f64> {
+    let mut out = [0.0; ROWS];
+    for (column, x) in columns.iter().zip(x) {
+        subtract(simd, &mut out, *x, column);
+    }
+    out
+}
+
 /// `row` − `factor` `source`.
 #[inline(always)]
 fn subtract<S: Simd>(simd: S, row: &mut Column<f64>, factor: f64, source: &Column<f64>) {
@@ -278,13 +328,16 @@ fn round_into<E: Entry>(columns: &[Column<f64>], out: &mut [Column<E>]) {
 
 struct Solve<'a, E> {
     triangles: &'a mut Triangles<E>,
+    rhs: &'a mut [f64],
+    is_reversed: bool,
 }
 
 impl<E: Entry> WithSimd for Solve<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        self.triangles.load(self.rhs, self.is_reversed);
         match E::lanes::<S>() {
             16 => self.run::<S, 1>(simd),
             8 => self.run::<S, 2>(simd),
@@ -292,20 +345,21 @@ impl<E: Entry> WithSimd for Solve<'_, E> {
             2 => self.run::<S, 8>(simd),
             _ => self.run::<S, 16>(simd),
         }
+        self.triangles.store(self.rhs, self.is_reversed);
     }
 }
 
 impl<E: Entry> Solve<'_, E> {
     /// The solution with a column in `V` registers.
     #[inline(always)]
-    fn run<S: Simd, const V: usize>(self, simd: S) {
+    fn run<S: Simd, const V: usize>(&mut self, simd: S) {
         let Triangles {
             band: Band { below, above },
             lower,
             upper,
             x,
             ..
-        } = self.triangles;
+        } = &mut *self.triangles;
         let (below, above) = (*below, *above);
         for (block, columns) in lower.chunks_exact(below + ROWS).enumerate() {
             let first = block * ROWS;
@@ -314,26 +368,28 @@ impl<E: Entry> Solve<'_, E> {
             let before = &before[below - (first - known)..];
             let (solved, rest) = x.split_at_mut(first);
             let solved = &solved[known..];
+            let rows = &mut rest[..ROWS];
             let (far, near) = before.split_at(before.len() % SUMS);
             let (x_far, x_near) = solved.split_at(far.len());
             let mut sum = BlockSum::<E, S, V>::of_far(simd, far, x_far);
-            for (columns, x) in near.chunks_exact(SUMS).zip(x_near.chunks_exact(SUMS)) {
-                sum.add(simd, columns, x);
-            }
-            sum.settle(simd, own, &mut rest[..ROWS]);
+            sum.add_all(simd, own, rows);
+            sum.add_all(simd, near, x_near);
+            rows.copy_from_slice(&sum.total(simd));
         }
         for (block, columns) in upper.chunks_exact(above + ROWS).enumerate().rev() {
             let first = block * ROWS;
             let (own, behind) = columns.split_at(ROWS);
             let (rest, solved) = x.split_at_mut(first + ROWS);
             let solved = &solved[..above.min(solved.len())];
+            let rows = &mut rest[first..];
             let near = behind[..solved.len()].chunks_exact(SUMS);
             let x_near = solved.chunks_exact(SUMS);
             let mut sum = BlockSum::<E, S, V>::of_far(simd, near.remainder(), x_near.remainder());
+            sum.add_all(simd, own, rows);
             for (columns, x) in near.zip(x_near).rev() {
                 sum.add(simd, columns, x);
             }
-            sum.settle(simd, own, &mut rest[first..]);
+            rows.copy_from_slice(&sum.total(simd));
         }
     }
 }
@@ -369,6 +425,14 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
         }
     }
 
+    /// Adds columns in whole sets of sums.
+    #[inline(always)]
+    fn add_all(&mut self, simd: S, columns: &[Column<E>], x: &[E]) {
+        for (columns, x) in columns.chunks_exact(SUMS).zip(x.chunks_exact(SUMS)) {
+            self.add(simd, columns, x);
+        }
+    }
+
     /// The total.
     #[inline(always)]
     fn total(self, simd: S) -> Column<E> {
@@ -378,19 +442,5 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
             *out = E::add(simd, E::add(simd, a[v], b[v]), E::add(simd, c[v], d[v]));
         }
         out
-    }
-
-    /// The block's rows: `own` times what the sum leaves of their right-hand sides.
-    #[inline(always)]
-    fn settle(self, simd: S, own: &[Column<E>], rows: &mut [E]) {
-        let mut left = self.total(simd);
-        for (left, row) in left.iter_mut().zip(&*rows) {
-            *left = E::subtract(*row, *left);
-        }
-        let mut sum = Self::of_far(simd, &[], &[]);
-        for (own, left) in own.chunks_exact(SUMS).zip(left.chunks_exact(SUMS)) {
-            sum.add(simd, own, left);
-        }
-        rows.copy_from_slice(&sum.total(simd));
     }
 }
