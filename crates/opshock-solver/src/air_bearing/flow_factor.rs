@@ -110,10 +110,6 @@ impl FlowFactor {
 
     /// G and dG/dψ of eight ψ from the table, with the bits of [`FlowFactor::conductance`]: what needs no
     /// table in whole registers, and its rows picked in between.
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "many columns are walked in step, which an index says plainest"
-    )]
     #[inline(always)]
     fn tabulated(&self, psi: &[f64; SUMS]) -> [[f64; SUMS]; 2] {
         let mut s = [0.0; SUMS];

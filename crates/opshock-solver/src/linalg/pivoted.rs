@@ -170,10 +170,6 @@ struct Invert<'a> {
 impl WithSimd for Invert<'_> {
     type Output = bool;
 
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "many columns are walked in step, which an index says plainest"
-    )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
         let Self {
