@@ -70,7 +70,8 @@ pub const MATERIALS: &[NamedMaterial] = &[
         1410.0,
         "acetal copolymer: Ticona Hostaform C 9021, sheet of 2008-06-03: 2850 MPa (ISO 527), creep \
          modulus 2500 MPa after 1 h; 1410 kg/m3 in the sheets of C 9021 XAP and C 27021 (2750 to \
-         2900 MPa)",
+         2900 MPa); Encyclopedia of Physical Science and Technology (2001), polymer volume, p. 459: \
+         2.9 GPa, 1410 kg/m3",
     ),
     named(
         "LCP",
@@ -78,7 +79,8 @@ pub const MATERIALS: &[NamedMaterial] = &[
         0.40,
         1620.0,
         "30 % glass, Ticona Vectra A130 (sheet not seen); makeitfrom.com has 11 to 24 GPa along the \
-         flow and 1400 to 1600 kg/m3 for grades of LCP",
+         flow and 1400 to 1600 kg/m3 for grades of LCP, Wikipedia (Liquid-crystal polymer) 8.5 to 17.2 GPa \
+         and 1380 to 1950 kg/m3",
     ),
     named(
         "PEEK",
@@ -86,7 +88,7 @@ pub const MATERIALS: &[NamedMaterial] = &[
         0.40,
         1300.0,
         "unfilled, Victrex 450G (sheet not seen); makeitfrom.com has 4.0 GPa and 1300 kg/m3 as the \
-         lowest of its grades, others 3.6 GPa and 1320 kg/m3",
+         lowest of its grades, others (Wikipedia, Polyether ether ketone) 3.6 GPa and 1320 kg/m3",
     ),
     named(
         "PEI",
@@ -94,7 +96,9 @@ pub const MATERIALS: &[NamedMaterial] = &[
         0.36,
         1270.0,
         "unfilled, SABIC Ultem 1000 (sheet not seen); Sastri (2014) has 1270 kg/m3, Beall \
-         (plasticstoday.com, 2010) a flexural modulus of 480 000 psi, 3.3 GPa",
+         (plasticstoday.com, 2010) a flexural modulus of 480 000 psi, 3.3 GPa, Engineers Edge (Typical \
+         engineering properties of plastics materials) a tensile one of 430 000 psi, 2.96 GPa, and 1270 \
+         kg/m3",
     ),
     named(
         "PPS",
