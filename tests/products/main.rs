@@ -15,6 +15,7 @@ mod error_bars;
 mod hdf5_readers;
 mod heads;
 mod identity;
+mod imported_base;
 mod imported_suspension;
 mod imports;
 mod mode_shapes;

@@ -96,6 +96,7 @@ fn the_table_of_keys_is_consistent() {
         "coupling_tolerance",
         "table_relative",
         "base",
+        "held",
         "in_plane_x",
         "in_plane_y",
     ];
@@ -184,7 +185,8 @@ fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
         "solver.leave_out" => return None,
         // Ways to read files; what they hold takes their place.
         path if path.starts_with("ramp.deformable.mesh.")
-            || path.starts_with("suspension.imported.") =>
+            || path.starts_with("suspension.imported.")
+            || path.starts_with("base.imported.") =>
         {
             return None;
         }

@@ -1,6 +1,7 @@
 //! Completing what a study file says: choices, defaults, and what is missing.
 
 use super::fault::StudyError;
+use super::imported_base;
 use super::imported_suspension;
 use super::included::{self, Location};
 use super::key::{Key, Presence};
@@ -30,6 +31,7 @@ pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
     for of in std::iter::once("").chain(heads.iter().map(String::as_str)) {
         imported_suspension::read(reader, location, of);
     }
+    imported_base::read(reader, location);
     missing(reader, root, &heads);
 }
 

@@ -14,10 +14,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use opshock_import::matrix::check;
-use opshock_import::matrix::files::{freedoms, matrix};
 use opshock_import::matrix::system::System;
-use opshock_import::matrix::units::Units;
 use opshock_import::{Fault, Faults};
 use opshock_solid::reduction::{PointMode, all_modes, reduce};
 use opshock_solver::suspension::{
@@ -26,7 +23,7 @@ use opshock_solver::suspension::{
 
 use super::fault::StudyError;
 use super::included::Location;
-use super::matrices::solid;
+use super::matrices::{Held, SMALL, Z, held, solid};
 use super::ramp_geometry::rounded;
 use super::ramp_mesh::{lonely, put, refuse_files};
 use super::read::Reader;
@@ -59,10 +56,6 @@ pub const REPLACED: [&str; 17] = [
 ];
 /// Default of `cut_khz`, Hz.
 pub const CUT_HZ: f64 = 1e6;
-/// Direction of the disk's axis.
-const Z: u8 = 2;
-/// Rows of a piece up to which all of its modes are kept, whatever the cut.
-const SMALL: usize = 300;
 /// Share of a mode's motion, each against the largest of its kind, below which it is rounding.
 const ROUNDING: f64 = 1e-6;
 
@@ -119,23 +112,11 @@ fn modes(
     table: &str,
     folder: &Path,
 ) -> Result<(Vec<SuspensionMode>, Vec<Fault>), Faults> {
-    let file = |name: &str| {
-        let word = view.word(&format!("{table}.{name}"));
-        (!word.is_empty()).then(|| folder.join(word))
-    };
-    let path = |name: &str| file(name).unwrap_or_default();
-    let (dof, places) = (file("freedoms"), file("places"));
-    let freedoms = freedoms(dof.as_deref(), places.as_deref())?;
-    let stiffness = matrix(&path("stiffness"), freedoms.as_ref(), true)?;
-    let mass = matrix(&path("mass"), freedoms.as_ref(), true)?;
-    let word = view.word(&format!("{table}.units"));
-    let units = Units::WORDS.iter().find(|(name, _)| *name == word);
-    let units = units.map_or(Units::WORDS[0].1, |(_, units)| *units);
-    let system = System::of(mass, stiffness, None, freedoms, units)?;
-    let base = view.numbers(&format!("{table}.base"));
-    let base: Vec<u64> = base.iter().map(|number| *number as u64).collect();
-    let (system, load_kg) = system.held(&base, Z)?;
-    let (system, found) = check::check(system, false)?;
+    let Held {
+        system,
+        load_kg,
+        warnings,
+    } = held(view, table, "base", folder)?;
     let dimple = view.maybe_integer(&format!("{table}.dimple")).unwrap_or(0);
     let row = |direction: u8| {
         system
@@ -148,7 +129,7 @@ fn modes(
     if pieces[z] == pieces[about_x] {
         let points = [(z, 1.0), (about_y, -1.0), (about_x, 1.0)];
         let modes = split(&oscillators(&system, &load_kg, &points, cut_hz)?, &system)?;
-        return Ok((modes, found.warnings));
+        return Ok((modes, warnings));
     }
     // Beams bend and twist by themselves; in one reduction modes of one frequency would mix.
     if pieces[z] != pieces[about_y] {
@@ -181,7 +162,7 @@ fn modes(
         roll_per_m_sqrt_kg: mode.shape[0],
         participation_sqrt_kg: 0.0,
     });
-    Ok((bends.chain(twists).collect(), found.warnings))
+    Ok((bends.chain(twists).collect(), warnings))
 }
 
 /// Oscillators of a system with its motion at some rows, each with a sense.

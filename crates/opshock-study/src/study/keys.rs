@@ -168,6 +168,17 @@ static TABLE: &[Key] = &[
     Key::required("base.modes[].spindle_per_sqrt_kg", Number(ANY), "2.0", "Displacement of the spindle along the disk's axis."),
     Key::required("base.modes[].ramp_per_sqrt_kg", Number(ANY), "2.4", "Displacement of the ramp's mount."),
     Key::required("base.modes[].pivot_per_sqrt_kg", Number(ANY), "1.6", "Displacement of the actuator's pivot, which carries the suspension."),
+    Key::optional("base.imported.mass", Text, "modes, or a rigid base", "\"base.mas\"", "Mass matrix of the base by another program: Matrix Market (.mtx), CalculiX (.mas), or rows of numbers."),
+    Key::optional("base.imported.stiffness", Text, "modes, or a rigid base", "\"base.sti\"", "Its stiffness matrix."),
+    Key::optional("base.imported.freedoms", Text, "places", "\"base.dof\"", "Freedoms of the rows, a line node.direction each."),
+    Key::optional("base.imported.places", Text, "freedoms", "\"base_cords.dat\"", "Places and kinds of the rows, a line x y z type each, mm."),
+    Key::optional("base.imported.units", Word(MATRIX_UNITS), "si", "\"mm_n\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
+    Key::optional("base.imported.spindle", Integer(1, 1_000_000_000), "modes, or a rigid base", "12", "Node of the spindle; its displacement z is along the disk's axis."),
+    Key::optional("base.imported.ramp", Integer(1, 1_000_000_000), "modes, or a rigid base", "34", "Node of the ramp's mount."),
+    Key::optional("base.imported.pivot", Integer(1, 1_000_000_000), "modes, or a rigid base", "56", "Node of the actuator's pivot."),
+    Key::optional("base.imported.held", Numbers(ABOVE_ZERO), "the mounts are springs in the matrices", "[1, 2]", "Nodes that move with the shock; their mass loads the others."),
+    Key::optional("base.imported.cut_khz", LENGTH, "10.0", "10.0", "Natural modes below this frequency are kept, at most 16.").usual(0.1, 100.0).code("E189"),
+    Key::optional("base.imported.damping_ratio", Number(below(0.0, 1.0)), "0.02", "0.02", "Damping ratio of every mode.").usual(0.0, 0.5).code("E132"),
     // ramp
     Key::required("ramp.models", Words(RAMPS), "[\"none\", \"rigid\", \"deformable\"]", "Ramp models: an axis of the study."),
     Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143"),
@@ -374,6 +385,23 @@ pub static CHOICES: &[Choice] = &[
                 "suspension.imported.dimple",
             ],
         ],
+    },
+    Choice {
+        what: "the base",
+        alternatives: &[
+            &["base.modes"],
+            &[
+                "base.imported.mass",
+                "base.imported.stiffness",
+                "base.imported.spindle",
+                "base.imported.ramp",
+                "base.imported.pivot",
+            ],
+        ],
+    },
+    Choice {
+        what: "the rows of the base's matrices",
+        alternatives: &[&["base.imported.freedoms"], &["base.imported.places"]],
     },
     Choice {
         what: "the rows of the matrices",

@@ -1,11 +1,63 @@
-//! Matrices of another program as the solid crate reduces them.
+//! Matrices of another program: from the files that a study names to what the solid crate reduces.
 
+use super::settings::View;
 use opshock_import::matrix::Matrix;
+use opshock_import::matrix::check;
 use opshock_import::matrix::dof::Direction;
+use opshock_import::matrix::files::{freedoms, matrix};
 use opshock_import::matrix::system::System;
+use opshock_import::matrix::units::Units;
+use opshock_import::{Fault, Faults};
 use opshock_solid::assembly::SolidSystem;
 use opshock_solid::sparse::{SymmetricMatrix, SymmetricPattern};
+use std::path::Path;
 use std::sync::Arc;
+
+/// Direction of the disk's axis.
+pub const Z: u8 = 2;
+
+/// Rows of a piece up to which all of its modes are computed at once.
+pub const SMALL: usize = 300;
+
+/// Matrices in SI whose held nodes are taken out.
+pub struct Held {
+    /// What is left.
+    pub system: System,
+    /// Its load by a unit inertia load per mass along the disk's axis, kg.
+    pub load_kg: Vec<f64>,
+    /// What is questionable about it.
+    pub warnings: Vec<Fault>,
+}
+
+/// The matrices of a table of a study: `mass`, `stiffness`, `freedoms` or `places`, `units`, and the nodes
+/// that the key `nodes` has the base hold.
+///
+/// # Errors
+/// What is wrong with the files, and motions without stiffness.
+pub fn held(view: &View<'_>, table: &str, nodes: &str, folder: &Path) -> Result<Held, Faults> {
+    let file = |name: &str| {
+        let word = view.word(&format!("{table}.{name}"));
+        (!word.is_empty()).then(|| folder.join(word))
+    };
+    let path = |name: &str| file(name).unwrap_or_default();
+    let (dof, places) = (file("freedoms"), file("places"));
+    let freedoms = freedoms(dof.as_deref(), places.as_deref())?;
+    let stiffness = matrix(&path("stiffness"), freedoms.as_ref(), true)?;
+    let mass = matrix(&path("mass"), freedoms.as_ref(), true)?;
+    let word = view.word(&format!("{table}.units"));
+    let units = Units::WORDS.iter().find(|(name, _)| *name == word);
+    let units = units.map_or(Units::WORDS[0].1, |(_, units)| *units);
+    let system = System::of(mass, stiffness, None, freedoms, units)?;
+    let nodes = view.numbers(&format!("{table}.{nodes}"));
+    let nodes: Vec<u64> = nodes.iter().map(|number| *number as u64).collect();
+    let (system, load_kg) = system.held(&nodes, Z)?;
+    let (system, found) = check::check(system, false)?;
+    Ok(Held {
+        system,
+        load_kg,
+        warnings: found.warnings,
+    })
+}
 
 /// Load of a unit inertia load per mass along a direction (0 to 2): M times a unit displacement, kg.
 pub fn load(system: &System, along: u8) -> Vec<f64> {

@@ -20,6 +20,7 @@ mod complete;
 pub mod difference;
 mod example;
 pub mod fault;
+mod imported_base;
 pub mod imported_suspension;
 mod included;
 pub mod key;

@@ -20,7 +20,11 @@ const REPLACED: [&str; 3] = [
 ];
 
 /// Tables of such keys.
-const REPLACED_BELOW: [&str; 2] = ["ramp.deformable.mesh.", "suspension.imported."];
+const REPLACED_BELOW: [&str; 3] = [
+    "ramp.deformable.mesh.",
+    "suspension.imported.",
+    "base.imported.",
+];
 
 /// The resolved study.
 pub fn text(settings: &Settings) -> String {

@@ -1,10 +1,8 @@
 //! A base that vibrates.
 
 use super::Check;
+use crate::study::imported_base::{MODES, MOST};
 
-const MODES: &str = "base.modes";
-/// Most modes that a base may have.
-const MOST: usize = 16;
 /// What a vibrating base is not combined with: its modes know no load but that along the axis.
 const APART: [&str; 4] = [
     "pulse.in_plane_x",
