@@ -18,6 +18,7 @@ mod identity;
 mod imported_base;
 mod imported_suspension;
 mod imports;
+mod lowest_gap;
 mod mode_shapes;
 mod multi_body;
 mod outside_ramp;

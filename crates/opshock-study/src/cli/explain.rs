@@ -191,6 +191,12 @@ fn explain(
         },
         rule: None,
     });
+    let is_gap_taken = point.gap_taken_m > 0.0;
+    effects.push(Effect {
+        name: "ramp.lowest_gap",
+        state: if is_gap_taken { State::On } else { State::Off },
+        rule: None,
+    });
     Ok(Explained {
         effects,
         rules: plan.decisions(scene, &touch),

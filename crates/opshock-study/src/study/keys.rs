@@ -69,6 +69,8 @@ pub const SURFACES: &[&str] = &["femto-2.5in"];
 const RATIO: Kind = Number(FROM_ZERO);
 const LENGTH: Kind = Number(ABOVE_ZERO);
 
+/// What the run-out of the disk does to the ramp's gaps.
+pub const RUN_OUT: &[&str] = &["none", "lowest_gap"];
 /// The disk's faces: over it heads face down, under it they face up.
 pub const FACES: &[&str] = &["down", "up"];
 
@@ -184,6 +186,7 @@ static TABLE: &[Key] = &[
     Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143"),
     Key::optional("ramp.clearance_top_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance above the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
     Key::optional("ramp.clearance_bottom_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance below the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
+    Key::optional("ramp.run_out", Word(RUN_OUT), "none", "\"lowest_gap\"", "lowest_gap takes the run-out of the disk at the ramp off the gaps above and below it: the lowest gap of a revolution.").code("E143"),
     Key::or("ramp.radius_mm", LENGTH, "32.15", "Radius of the contact points.").usual(5.0, 70.0).code("E141"),
     Key::or("ramp.angle_deg", Number(closed(-360.0, 360.0)), "0.0", "Angle of the contact points in the disk's sense of rotation."),
     Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact; 0 with a contact stiffness.").code("E136"),

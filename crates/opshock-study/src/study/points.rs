@@ -87,6 +87,8 @@ pub struct Point {
     pub sign: Sign,
     /// The way the head faces.
     pub faces: Faces,
+    /// What a running-out disk takes of the ramp's gaps, within the scene, m; 0 unless asked for.
+    pub gap_taken_m: f64,
     /// Accuracy asked for.
     pub accuracy: Rung,
     /// Column and value on every further axis, in axis order.
@@ -330,6 +332,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
         pulse_width_s: unit::si("pulse.widths_ms", pulse_ms),
         sign,
         faces,
+        gap_taken_m: scene::gap_taken_m(view),
         accuracy: scene::rung(view),
         axes: axes
             .iter()

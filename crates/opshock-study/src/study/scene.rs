@@ -254,6 +254,19 @@ fn run_out(view: &View<'_>) -> Vec<Wave> {
         .collect()
 }
 
+/// What the running-out disk takes of the ramp's gaps at its highest and lowest, m; 0 unless asked for.
+pub fn gap_taken_m(view: &View<'_>) -> f64 {
+    if view.word("ramp.run_out") != "lowest_gap" {
+        return 0.0;
+    }
+    let share = view.si("ramp.radius_mm") / view.si("disk.outer_radius_mm");
+    let at_ramp = |wave: &Wave| match wave.grows_with_radius {
+        true => share * wave.amplitude_m,
+        false => wave.amplitude_m,
+    };
+    run_out(view).iter().map(at_ramp).sum()
+}
+
 /// Modes of both arms as one body, as listed.
 fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
     let list = ramp_mesh::MODES;
@@ -307,6 +320,7 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
             .collect()
     };
     let clearance_m = view.si("ramp.clearance_um");
+    let taken_m = gap_taken_m(view);
     RampParameters {
         model: match ramp {
             Ramp::None => RampModel::None,
@@ -328,10 +342,12 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
         },
         clearance_top_m: view
             .maybe_si("ramp.clearance_top_um")
-            .unwrap_or(clearance_m),
+            .unwrap_or(clearance_m)
+            - taken_m,
         clearance_bottom_m: view
             .maybe_si("ramp.clearance_bottom_um")
-            .unwrap_or(clearance_m),
+            .unwrap_or(clearance_m)
+            - taken_m,
         radius_m: view.si("ramp.radius_mm"),
         angle_rad: view.si("ramp.angle_deg"),
         restitution: view.si("ramp.restitution"),

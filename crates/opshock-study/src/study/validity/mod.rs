@@ -6,6 +6,7 @@
 mod base;
 mod drive;
 mod fields;
+mod gap;
 mod heads;
 mod pulse;
 mod rails;
@@ -71,13 +72,14 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 14] = [
+const POINT_RULES: [PointRule; 15] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
     |check, _| check.gas(),
     |check, _| check.surface_forces(),
     |check, _| check.waves(),
+    |check, _| check.gap_left(),
     |check, _| check.slider_place(),
     |check, _| check.rails(),
     |check, _| check.suspension(),
