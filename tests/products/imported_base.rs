@@ -175,7 +175,7 @@ fn matrices_of_a_base_are_its_modes_in_every_format() {
         assert_eq!(base.len(), 3, "{section}");
         for (found, wanted) in base.iter().zip(&expected) {
             for (x, y) in numbers(found).into_iter().zip(numbers(wanted)) {
-                assert!((x / y - 1.0).abs() < 2e-9, "{section}{found:?}\n{wanted:?}");
+                assert!((x / y - 1.0).abs() < 5e-9, "{section}{found:?}\n{wanted:?}");
             }
         }
         // Written out, the study needs no files.
@@ -312,7 +312,7 @@ fn damaged_matrices_of_a_base_are_refused() {
         "E160",
     );
     damage("m.dat", "4e-1", "-4e-1", &dense, "E163");
-    damage("k.dat", "4e6", "4.1e6", &dense, "E162");
+    damage("k.dat", "-1.5e7", "-1.6e7", &dense, "E162");
     damage("base.dof", "3.3", "3.9", &calculix, "E169");
     refused(
         &calculix.replace("spindle = 2", "spindle = 7"),

@@ -55,7 +55,10 @@ pub fn read(reader: &mut Reader, location: &Location) {
         }
         return;
     }
-    // What is missing of them is told with everything else that is missing.
+    // Matrices beside modes are told as given twice, and what is missing with everything else that is.
+    if reader.settings.has(MODES) {
+        return;
+    }
     if is_given != [true; NEEDED.len()] || !reader.settings.are_sound(&[TABLE]) {
         return;
     }
