@@ -313,7 +313,7 @@ fn damaged_matrices_of_a_base_are_refused() {
     );
     damage("m.dat", "4e-1", "-4e-1", &dense, "E163");
     damage("k.dat", "-1.5e7", "-1.6e7", &dense, "E162");
-    damage("base.dof", "3.3", "3.9", &calculix, "E169");
+    damage("base.dof", "3.3", "3.9", &calculix, "E171");
     refused(
         &calculix.replace("spindle = 2", "spindle = 7"),
         "E169",
