@@ -214,8 +214,8 @@ impl Kernel for Balance<'_> {
         for faces in &columns.edges {
             for first in (0..faces.length.len()).step_by(BLOCK) {
                 let cells = &faces.cells[first..first + BLOCK];
-                let picked =
-                    Picked::new(scratch, cells, &faces.behind[first..first + BLOCK], front);
+                let behind = &faces.behind[first..first + BLOCK];
+                let picked = Picked::new(scratch, cells, behind, front, faces.wind != 0.0);
                 let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
                 let h_face = film.floored_block(&base, side.recess)[0];
@@ -303,11 +303,75 @@ pub(super) fn any_steep(
     any
 }
 
-/// A number of both sides of every face of a block.
-type Both = [Block; 2];
+/// What the half cells of one side of a block give: α, β, δ and the convective share of the profile.
+///
+/// Each half cell is one long chain of results that wait for one another; in passes over the block the
+/// processor works on several.
+struct Halves {
+    per_height: Block,
+    alpha: Block,
+    beta: Block,
+    rise: Block,
+    convective: Block,
+}
 
-/// In four passes over the block: each face is one long chain of results that wait for one another, and
-/// within a pass the processor works on several.
+impl Halves {
+    #[inline(always)]
+    fn new<const UP: bool, const STEEP: bool>(
+        side: &SideBlock<'_>,
+        h_face: &Block,
+        inverses: &[Block; 2],
+    ) -> Self {
+        let [mut conductance, mut blow, mut pe, mut e] = [[0.0; BLOCK]; 4];
+        let [
+            mut per_height,
+            mut alpha,
+            mut beta,
+            mut rise,
+            mut convective,
+        ] = [[0.0; BLOCK]; 5];
+        for k in 0..BLOCK {
+            let half = side.half(k, h_face[k], [inverses[0][k], inverses[1][k]]);
+            let drive = half.drive(&half.logarithmic_mean::<STEEP>());
+            conductance[k] = drive.conductance;
+            blow[k] = drive.blow;
+            pe[k] = drive.pe;
+            per_height[k] = half.mean_inverse_height()[0];
+        }
+        for k in 0..BLOCK {
+            e[k] = growth(pe[k]);
+        }
+        for k in 0..BLOCK {
+            let drive = Drive {
+                conductance: conductance[k],
+                blow: blow[k],
+                pe: pe[k],
+            };
+            let half = side.half(k, h_face[k], [0.0; 2]);
+            let flux = half.driven::<UP>(&drive, e[k]);
+            alpha[k] = flux.alpha;
+            beta[k] = flux.beta;
+            rise[k] = flux.rise;
+            convective[k] = flux.convective::<UP>();
+        }
+        Self {
+            per_height,
+            alpha,
+            beta,
+            rise,
+            convective,
+        }
+    }
+
+    /// The load of half cell k under the face pressure p.
+    #[inline(always)]
+    fn load<const UP: bool>(&self, side: &SideBlock<'_>, h_face: &Block, k: usize, p: f64) -> f64 {
+        let half = side.half(k, h_face[k], [0.0; 2]);
+        let shares = (self.rise[k], self.convective[k]);
+        side.area[k] * half.excess::<UP>(shares, self.per_height[k], p)
+    }
+}
+
 #[inline(always)]
 fn windy<const STEEP: bool>(
     up: &SideBlock<'_>,
@@ -315,53 +379,23 @@ fn windy<const STEEP: bool>(
     [h_up, h_down]: &[Block; 2],
     length: &Block,
 ) -> FaceValues {
-    let zero: Both = [[0.0; BLOCK]; 2];
-    let (mut conductance, mut blow, mut pe, mut per_height) = (zero, zero, zero, zero);
+    let mut inverses = [[[0.0; BLOCK]; 2]; 2];
     for k in 0..BLOCK {
-        let [u, d] = inverses_of_both([up.h(k), down.h(k)], [h_up[k], h_down[k]]);
-        let (u, d) = (up.half(k, h_up[k], u), down.half(k, h_down[k], d));
-        for (side, half) in [(0, &u), (1, &d)] {
-            let drive = half.drive(&half.logarithmic_mean::<STEEP>());
-            conductance[side][k] = drive.conductance;
-            blow[side][k] = drive.blow;
-            pe[side][k] = drive.pe;
-            per_height[side][k] = half.mean_inverse_height()[0];
+        let both = inverses_of_both([up.h(k), down.h(k)], [h_up[k], h_down[k]]);
+        for side in 0..2 {
+            for i in 0..2 {
+                inverses[side][i][k] = both[side][i];
+            }
         }
     }
-    let mut e = zero;
-    for side in 0..2 {
-        for k in 0..BLOCK {
-            e[side][k] = growth(pe[side][k]);
-        }
-    }
-    let (mut alpha, mut beta, mut convective) = (zero, zero, zero);
-    let mut rise = [0.0; BLOCK];
+    let a = Halves::new::<true, STEEP>(up, h_up, &inverses[0]);
+    let b = Halves::new::<false, STEEP>(down, h_down, &inverses[1]);
+    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
-        let drive = |side: usize| Drive {
-            conductance: conductance[side][k],
-            blow: blow[side][k],
-            pe: pe[side][k],
-        };
-        let half = up.half(k, h_up[k], [0.0; 2]);
-        let flux = half.driven::<true>(&drive(0), e[0][k]);
-        (alpha[0][k], beta[0][k]) = (flux.alpha, flux.beta);
-        convective[0][k] = flux.convective::<true>();
-        rise[k] = flux.rise;
-        let half = down.half(k, h_down[k], [0.0; 2]);
-        let flux = half.driven::<false>(&drive(1), e[1][k]);
-        (alpha[1][k], beta[1][k]) = (flux.alpha, flux.beta);
-        convective[1][k] = flux.convective::<false>();
-    }
-    let (mut flux, mut loads) = ([0.0; BLOCK], zero);
-    for k in 0..BLOCK {
-        let p = (alpha[0][k] + alpha[1][k]) / (beta[0][k] + beta[1][k]);
-        flux[k] = length[k] * (alpha[0][k] - beta[0][k] * p);
-        let half = up.half(k, h_up[k], [0.0; 2]);
-        let excess = half.excess::<true>(rise[k], convective[0][k], per_height[0][k], p);
-        loads[0][k] = up.area[k] * excess;
-        let half = down.half(k, h_down[k], [0.0; 2]);
-        let excess = half.excess::<false>(0.0, convective[1][k], per_height[1][k], p);
-        loads[1][k] = down.area[k] * excess;
+        let p = (a.alpha[k] + b.alpha[k]) / (a.beta[k] + b.beta[k]);
+        flux[k] = length[k] * (a.alpha[k] - a.beta[k] * p);
+        loads[0][k] = a.load::<true>(up, h_up, k, p);
+        loads[1][k] = b.load::<false>(down, h_down, k, p);
     }
     FaceValues { flux, loads }
 }
@@ -391,31 +425,40 @@ fn still(
 /// Faces on the slider's edge, where the ambient pressure stands.
 #[inline(always)]
 fn edge(film: &Film, side: &SideBlock<'_>, h_face: &Block, length: &Block) -> FaceValues {
+    if side.wind > 0.0 {
+        return windy_edge::<true>(film, side, h_face, length);
+    }
+    if side.wind < 0.0 {
+        return windy_edge::<false>(film, side, h_face, length);
+    }
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     let p = film.ambient_pa;
-    let mut put = |k: usize, (alpha, beta): (f64, f64), excess: f64| {
-        flux[k] = length[k] * (alpha - beta * p);
-        loads[0][k] = side.area[k] * excess;
-    };
     for k in 0..BLOCK {
-        let half = side.half(k, h_face[k], inverses(side.h(k), h_face[k]));
-        if side.wind == 0.0 {
-            put(k, half.still(), half.still_excess(p));
-        } else if side.wind > 0.0 {
-            let flux = half.flux::<true>(&half.logarithmic_mean::<true>());
-            put(
-                k,
-                (flux.alpha, flux.beta),
-                half.mean_excess::<true>(&flux, p),
-            );
-        } else {
-            let flux = half.flux::<false>(&half.logarithmic_mean::<true>());
-            put(
-                k,
-                (flux.alpha, flux.beta),
-                half.mean_excess::<false>(&flux, p),
-            );
-        }
+        let half = side.half(k, h_face[k], [0.0; 2]);
+        let (alpha, beta) = half.still();
+        flux[k] = length[k] * (alpha - beta * p);
+        loads[0][k] = side.area[k] * half.still_excess(p);
+    }
+    FaceValues { flux, loads }
+}
+
+#[inline(always)]
+fn windy_edge<const UP: bool>(
+    film: &Film,
+    side: &SideBlock<'_>,
+    h_face: &Block,
+    length: &Block,
+) -> FaceValues {
+    let mut of_heights = [[0.0; BLOCK]; 2];
+    for k in 0..BLOCK {
+        [of_heights[0][k], of_heights[1][k]] = inverses(side.h(k), h_face[k]);
+    }
+    let halves = Halves::new::<UP, true>(side, h_face, &of_heights);
+    let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+    let p = film.ambient_pa;
+    for k in 0..BLOCK {
+        flux[k] = length[k] * (halves.alpha[k] - halves.beta[k] * p);
+        loads[0][k] = halves.load::<UP>(side, h_face, k, p);
     }
     FaceValues { flux, loads }
 }

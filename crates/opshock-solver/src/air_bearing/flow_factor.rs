@@ -24,7 +24,6 @@
 //! without a logarithm; in an interval G is the cubic Hermite interpolant of G and G′.
 
 use super::FlowModel;
-use crate::lanes::SUMS;
 
 use std::f64::consts::PI;
 
@@ -51,6 +50,23 @@ pub struct FlowFactor {
     table: Vec<[f64; 4]>,
     /// Interval index of the start of the table.
     first_interval: u64,
+}
+
+/// Rows of the table for many ψ; scratch of [`FlowFactor::conductances`].
+#[derive(Clone, Debug)]
+pub struct PickedRows {
+    index: Vec<u64>,
+    row: Vec<[f64; 4]>,
+}
+
+impl PickedRows {
+    /// For `n` ψ.
+    pub fn new(n: usize) -> Self {
+        Self {
+            index: vec![0; n],
+            row: vec![[0.0; 4]; n],
+        }
+    }
 }
 
 impl FlowFactor {
@@ -81,66 +97,45 @@ impl FlowFactor {
         }
     }
 
-    /// G and dG/dψ of many ψ > 0 (Pa m).
+    /// G and dG/dψ of many ψ > 0 (Pa m), with the bits of [`FlowFactor::conductance`]: what needs no
+    /// table in whole registers, and its rows picked in between.
     ///
     /// # Panics
     ///
-    /// When slices differ in length.
+    /// When slices differ in length or `rows` is for fewer.
     #[inline(always)]
-    pub fn conductances(&self, psi: &[f64], g: &mut [f64], slope: &mut [f64]) {
+    pub fn conductances(
+        &self,
+        psi: &[f64],
+        g: &mut [f64],
+        slope: &mut [f64],
+        rows: &mut PickedRows,
+    ) {
         assert!(g.len() == psi.len() && slope.len() == psi.len());
-        let done = if self.table.is_empty() {
-            0
-        } else {
-            let (psi, g, slope) = (
-                psi.as_chunks::<SUMS>().0,
-                g.as_chunks_mut::<SUMS>().0,
-                slope.as_chunks_mut::<SUMS>().0,
-            );
-            for ((psi, g), slope) in psi.iter().zip(g).zip(slope) {
-                [*g, *slope] = self.tabulated(psi);
+        let mut all_inside = !self.table.is_empty();
+        if all_inside {
+            let PickedRows { index, row } = rows;
+            let (index, row) = (&mut index[..psi.len()], &mut row[..psi.len()]);
+            for (index, psi) in index.iter_mut().zip(psi) {
+                let s = psi * self.inverse_knudsen_psi;
+                *index = interval(s).wrapping_sub(self.first_interval);
             }
-            psi.len() * SUMS
-        };
-        let rest = psi[done..].iter().zip(&mut g[done..]);
-        for ((psi, g), slope) in rest.zip(&mut slope[done..]) {
-            (*g, *slope) = self.conductance(*psi);
-        }
-    }
-
-    /// G and dG/dψ of eight ψ from the table, with the bits of [`FlowFactor::conductance`]: what needs no
-    /// table in whole registers, and its rows picked in between.
-    #[inline(always)]
-    fn tabulated(&self, psi: &[f64; SUMS]) -> [[f64; SUMS]; 2] {
-        let mut s = [0.0; SUMS];
-        let mut index = [0; SUMS];
-        for k in 0..SUMS {
-            s[k] = psi[k] * self.inverse_knudsen_psi;
-            index[k] = interval(s[k]).wrapping_sub(self.first_interval);
-        }
-        let mut c = [[0.0; SUMS]; 4];
-        let mut all_inside = true;
-        for k in 0..SUMS {
-            match self.table.get(index[k] as usize) {
-                Some(row) => {
-                    for i in 0..4 {
-                        c[i][k] = row[i];
-                    }
+            for (row, index) in row.iter_mut().zip(&*index) {
+                match self.table.get(*index as usize) {
+                    Some(found) => *row = *found,
+                    None => all_inside = false,
                 }
-                None => all_inside = false,
             }
-        }
-        let (mut g, mut slope) = ([0.0; SUMS], [0.0; SUMS]);
-        for k in 0..SUMS {
-            (g[k], slope[k]) = hermite([c[0][k], c[1][k], c[2][k], c[3][k]], s[k]);
-            g[k] *= self.knudsen_psi;
+            for (((psi, row), g), slope) in psi.iter().zip(row).zip(&mut *g).zip(&mut *slope) {
+                (*g, *slope) = hermite(*row, psi * self.inverse_knudsen_psi);
+                *g *= self.knudsen_psi;
+            }
         }
         if !all_inside {
-            for k in 0..SUMS {
-                (g[k], slope[k]) = self.conductance(psi[k]);
+            for ((psi, g), slope) in psi.iter().zip(g).zip(slope) {
+                (*g, *slope) = self.conductance(*psi);
             }
         }
-        [g, slope]
     }
 
     /// G and dG/dψ at ψ > 0 (Pa m).
@@ -283,14 +278,17 @@ mod tests {
     fn many_at_once_have_the_bits_of_one_alone() {
         for model in [FlowModel::Slip2, FlowModel::FukuiKaneko] {
             let factor = FlowFactor::new(model, KNUDSEN_PSI);
-            // Also outside the table on either side, and not a multiple of eight.
-            let psi: Vec<f64> = (0..1003)
-                .map(|k| KNUDSEN_PSI * 1e-7 * (0.04 * k as f64).exp())
-                .collect();
-            let (mut g, mut slope) = (vec![0.0; psi.len()], vec![0.0; psi.len()]);
-            factor.conductances(&psi, &mut g, &mut slope);
-            for ((psi, g), slope) in psi.iter().zip(&g).zip(&slope) {
-                assert_eq!((*g, *slope), factor.conductance(*psi), "{psi}");
+            // Not a multiple of eight; once all of them in the table, once some outside on either side.
+            for (start, most) in [(1e-5, 2e5), (1e-7, 1e8)] {
+                let psi: Vec<f64> = (0..555)
+                    .map(|k| KNUDSEN_PSI * start * (0.07 * k as f64).exp().min(most / start))
+                    .collect();
+                let (mut g, mut slope) = (vec![0.0; psi.len()], vec![0.0; psi.len()]);
+                let mut rows = PickedRows::new(psi.len());
+                factor.conductances(&psi, &mut g, &mut slope, &mut rows);
+                for ((psi, g), slope) in psi.iter().zip(&g).zip(&slope) {
+                    assert_eq!((*g, *slope), factor.conductance(*psi), "{psi}");
+                }
             }
         }
     }

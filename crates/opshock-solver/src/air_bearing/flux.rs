@@ -366,15 +366,14 @@ impl HalfCell {
     #[inline(always)]
     pub(super) fn mean_excess<const UP: bool>(&self, flux: &HalfFlux, p: f64) -> f64 {
         let per_height = self.mean_inverse_height()[0];
-        self.excess::<UP>(flux.rise, flux.convective::<UP>(), per_height, p)
+        self.excess::<UP>((flux.rise, flux.convective::<UP>()), per_height, p)
     }
 
-    /// The same of δ, the convective share of the profile and the mean of 1/h.
+    /// The same of δ with the convective share of the profile, and the mean of 1/h.
     #[inline(always)]
     pub(super) fn excess<const UP: bool>(
         &self,
-        rise: f64,
-        convective: f64,
+        (rise, convective): (f64, f64),
         per_height: f64,
         p: f64,
     ) -> f64 {

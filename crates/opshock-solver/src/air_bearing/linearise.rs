@@ -309,7 +309,7 @@ fn on_edges(
         for first in (0..faces.length.len()).step_by(BLOCK) {
             let cells = &faces.cells[first..first + BLOCK];
             let behind = &faces.behind[first..first + BLOCK];
-            let picked = Picked::new(state, cells, behind, front);
+            let picked = Picked::new(state, cells, behind, front, faces.wind != 0.0);
             let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
             let length = block(&faces.length, first);

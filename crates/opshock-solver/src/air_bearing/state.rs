@@ -3,6 +3,7 @@
 use super::Attitude;
 use super::faces::{BLOCK, Block, Sides, block};
 use super::film::Film;
+use super::flow_factor::PickedRows;
 use super::flux::HalfCell;
 
 /// Scratch of the flux balance, one per thread.
@@ -20,6 +21,8 @@ pub struct FilmScratch {
     pub(super) g_slope: Vec<f64>,
     /// Flux through the faces of either direction towards rising cell numbers.
     pub(super) flux: [Vec<f64>; 2],
+    /// Rows of the flow factor's table.
+    rows: PickedRows,
     /// Residual that nobody asked for.
     pub(super) spare: Vec<f64>,
 }
@@ -38,6 +41,7 @@ impl FilmScratch {
             inverse_g: ones(),
             g_slope: ones(),
             flux: [0, 1].map(|_| vec![0.0; columns.padded]),
+            rows: PickedRows::new(columns.n_cells),
             spare: vec![0.0; columns.n_cells],
         }
     }
@@ -52,7 +56,7 @@ impl FilmScratch {
         self.psi[front..front + psi.len()].copy_from_slice(psi);
         let g = &mut self.g[front..front + psi.len()];
         let slopes = &mut self.g_slope[front..front + psi.len()];
-        film.flow.conductances(psi, g, slopes);
+        film.flow.conductances(psi, g, slopes, &mut self.rows);
         for first in (0..columns.recess.len()).step_by(BLOCK) {
             let height = columns.places.heights(first, attitude);
             let recess = block(&columns.recess, first);
@@ -190,21 +194,30 @@ pub(super) struct Picked {
 }
 
 impl Picked {
-    /// The cells in `cells` with those behind them; `front` cells precede cell 0.
+    /// The cells in `cells` with those behind them; `front` cells precede cell 0. Without wind
+    /// nothing is asked of those behind, nor of the inverses that wind takes.
     #[inline(always)]
     pub(super) fn new(
         state: &FilmScratch,
         cells: &[usize],
         behind: &[usize],
         front: usize,
+        has_wind: bool,
     ) -> Self {
         let pick = |column: &[f64], cells: &[usize]| picked(column, cells, front);
+        let for_wind = |column: &[f64], cells: &[usize]| {
+            if has_wind {
+                picked(column, cells, front)
+            } else {
+                [1.0; BLOCK]
+            }
+        };
         Self {
             psi: pick(&state.psi, cells),
-            inverse_psi: pick(&state.inverse_psi, cells),
-            psi_behind: pick(&state.psi, behind),
+            inverse_psi: for_wind(&state.inverse_psi, cells),
+            psi_behind: for_wind(&state.psi, behind),
             g: pick(&state.g, cells),
-            inverse_g: pick(&state.inverse_g, cells),
+            inverse_g: for_wind(&state.inverse_g, cells),
             g_slope: pick(&state.g_slope, cells),
             h: pick(&state.h, cells),
             inverse_h: pick(&state.inverse_h, cells),
