@@ -168,47 +168,43 @@ struct Abreast<'a, const K: usize> {
     pairs: [[&'a [f64]; 2]; K],
 }
 
-impl<const K: usize> Kernel for Abreast<'_, K> {
+impl<const K: usize> WithSimd for Abreast<'_, K> {
     /// Sums kept apart, and those of what is left. Added up in here they would lead the compiler to
     /// pairs of numbers and shuffles in place of whole registers.
     type Output = ([[f64; SUMS]; K], [f64; K]);
 
-    // Loops by number, which the compiler unrolls before it looks for whole registers.
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "many columns are walked in step, which an index says plainest"
-    )]
     #[inline(always)]
-    fn call(self) -> Self::Output {
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        match S::F64_LANES {
+            8 => self.run::<S, 1>(simd),
+            4 => self.run::<S, 2>(simd),
+            2 => self.run::<S, 4>(simd),
+            _ => self.run::<S, 8>(simd),
+        }
+    }
+}
+
+impl<const K: usize> Abreast<'_, K> {
+    /// The sums with eight numbers in `V` registers.
+    #[inline(always)]
+    fn run<S: Simd, const V: usize>(&self, simd: S) -> ([[f64; SUMS]; K], [f64; K]) {
         let whole = |i: usize| -> [&[[f64; SUMS]]; 2] {
             let [row, x] = self.pairs[i];
             [row[..x.len()].as_chunks().0, x.as_chunks().0]
         };
-        let mut together = usize::MAX;
-        for i in 0..K {
-            together = together.min(whole(i)[1].len());
-        }
-        let mut firsts: [[&[[f64; SUMS]]; 2]; K] = [[&[]; 2]; K];
-        for i in 0..K {
-            let [row, x] = whole(i);
-            firsts[i] = [&row[..together], &x[..together]];
-        }
-        let mut sums = [[0.0; SUMS]; K];
+        let together = (0..K).map(|i| whole(i)[1].len()).min().unwrap_or(0);
+        let firsts: [_; K] = std::array::from_fn(|i| whole(i).map(|chunks| &chunks[..together]));
+        let mut sums = [[simd.splat_f64s(0.0); V]; K];
         for j in 0..together {
-            for i in 0..K {
-                let (row, x) = (&firsts[i][0][j], &firsts[i][1][j]);
-                for k in 0..SUMS {
-                    sums[i][k] += row[k] * x[k];
-                }
+            for (sums, [row, x]) in sums.iter_mut().zip(&firsts) {
+                add_products(simd, sums, &row[j], &x[j]);
             }
         }
         let mut rests = [0.0; K];
-        for i in 0..K {
+        for (i, sums) in sums.iter_mut().enumerate() {
             let [row, x] = whole(i);
             for (row, x) in row[together..].iter().zip(&x[together..]) {
-                for k in 0..SUMS {
-                    sums[i][k] += row[k] * x[k];
-                }
+                add_products(simd, sums, row, x);
             }
             let done = x.len() * SUMS;
             let [row, x] = self.pairs[i];
@@ -216,7 +212,27 @@ impl<const K: usize> Kernel for Abreast<'_, K> {
                 rests[i] += row * x;
             }
         }
-        (sums, rests)
+        let mut out = [[0.0; SUMS]; K];
+        for (out, sums) in out.iter_mut().zip(sums) {
+            for (out, sum) in S::as_mut_simd_f64s(out).0.iter_mut().zip(sums) {
+                *out = sum;
+            }
+        }
+        (out, rests)
+    }
+}
+
+/// `sums` += `row` `x`.
+#[inline(always)]
+fn add_products<S: Simd, const V: usize>(
+    simd: S,
+    sums: &mut [S::f64s; V],
+    row: &[f64; SUMS],
+    x: &[f64; SUMS],
+) {
+    let parts = S::as_simd_f64s(row).0.iter().zip(S::as_simd_f64s(x).0);
+    for (sum, (row, x)) in sums.iter_mut().zip(parts) {
+        *sum = simd.add_f64s(*sum, simd.mul_f64s(*row, *x));
     }
 }
 

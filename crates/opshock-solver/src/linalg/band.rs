@@ -10,11 +10,13 @@ pub struct SymmetricBand<const W: usize> {
     below: Vec<[f64; W]>,
 }
 
-/// Lower factor L of A = L Lᵀ, stored as the matrix is, with the inverses of its diagonal.
+/// Lower factor L of A = L Lᵀ: the inverses of its diagonal, and its rows and columns beside the diagonal
+/// over the diagonal's entry, so that every number of a solution waits for the one before through one product.
 #[derive(Clone, Debug)]
 pub struct BandCholesky<const W: usize> {
     inverse: Vec<f64>,
-    below: Vec<[f64; W]>,
+    before: Vec<[f64; W]>,
+    after: Vec<[f64; W]>,
 }
 
 impl<const W: usize> SymmetricBand<W> {
@@ -118,7 +120,7 @@ impl<const W: usize> SymmetricBand<W> {
     /// # Errors
     /// [`DenseError::NotPositiveDefinite`] with the pivot.
     pub fn cholesky(&self) -> Result<BandCholesky<W>, DenseError> {
-        let mut factor = BandCholesky {
+        let mut factor = LowerBand {
             inverse: Vec::with_capacity(self.order()),
             below: Vec::with_capacity(self.order()),
         };
@@ -146,7 +148,7 @@ impl<const W: usize> SymmetricBand<W> {
             factor.inverse.push(pivot.sqrt().recip());
             factor.below.push(l);
         }
-        Ok(factor)
+        Ok(factor.scaled())
     }
 
     /// Number of negative pivots of A − `shift` B, which is that of the eigenvalues of A x = s B x
@@ -181,43 +183,71 @@ impl<const W: usize> SymmetricBand<W> {
     }
 }
 
+/// L as it comes: inverses of its diagonal, and what stands before it in a row, the nearest first.
+struct LowerBand<const W: usize> {
+    inverse: Vec<f64>,
+    below: Vec<[f64; W]>,
+}
+
+impl<const W: usize> LowerBand<W> {
+    fn scaled(self) -> BandCholesky<W> {
+        let Self { inverse, below } = self;
+        let n = inverse.len();
+        let mut after = vec![[0.0; W]; n];
+        for (i, row) in below.iter().enumerate() {
+            for (k, a) in row.iter().enumerate().take(i) {
+                let j = i - 1 - k;
+                after[j][k] = a * inverse[j];
+            }
+        }
+        let before = below
+            .iter()
+            .zip(&inverse)
+            .map(|(row, inverse)| row.map(|a| a * inverse))
+            .collect();
+        BandCholesky {
+            inverse,
+            before,
+            after,
+        }
+    }
+}
+
 impl<const W: usize> BandCholesky<W> {
     /// x := L⁻¹ x.
     pub fn solve_lower(&self, x: &mut [f64]) {
-        // The last results, the nearest first.
-        let mut before = [0.0; W];
-        for ((x, inverse), row) in x.iter_mut().zip(&self.inverse).zip(&self.below) {
-            let mut sum = *x;
-            // The nearest entry last: the others do not wait for the row above.
-            for k in (0..W).rev() {
-                sum -= row[k] * before[k];
-            }
-            *x = sum * inverse;
-            for k in (1..W).rev() {
-                before[k] = before[k - 1];
-            }
-            before[0] = *x;
-        }
+        solve_band(x.iter_mut().zip(&self.inverse).zip(&self.before));
     }
 
     /// x := L⁻ᵀ x.
     pub fn solve_upper(&self, x: &mut [f64]) {
-        // What the rows below take from the next ones, the nearest first.
-        let mut taken = [0.0; W];
-        let rows = x.iter_mut().zip(&self.inverse).zip(&self.below);
-        for ((x, inverse), row) in rows.rev() {
-            *x = (*x - taken[0]) * inverse;
-            for k in 0..W {
-                let next = if k + 1 < W { taken[k + 1] } else { 0.0 };
-                taken[k] = next + row[k] * *x;
-            }
-        }
+        solve_band(x.iter_mut().zip(&self.inverse).zip(&self.after).rev());
     }
 
     /// x := A⁻¹ x.
     pub fn solve(&self, x: &mut [f64]) {
         self.solve_lower(x);
         self.solve_upper(x);
+    }
+}
+
+/// x := x inverse − Σ row times the numbers found before, the nearest of which comes first in a row.
+#[inline(always)]
+fn solve_band<'a, const W: usize>(
+    rows: impl Iterator<Item = ((&'a mut f64, &'a f64), &'a [f64; W])>,
+) {
+    let mut found = [0.0; W];
+    for ((x, inverse), row) in rows {
+        let mut sum = *x * inverse;
+        // The nearest entry last: the others do not wait for the row before.
+        for k in (0..W).rev() {
+            sum -= row[k] * found[k];
+        }
+        *x = sum;
+        for k in (1..W).rev() {
+            found[k] = found[k - 1];
+        }
+        found[0] = sum;
     }
 }
 

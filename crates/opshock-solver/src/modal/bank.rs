@@ -184,15 +184,18 @@ impl Kernel for Apply<'_> {
     #[inline(always)]
     fn call(self) {
         let BankFlow { qq, qr, rq, rr } = self.flow;
-        let flow = [qq, qr, rq, rr].map(|column| (chunks(&column.re), chunks(&column.im)));
+        // All of one length, so that nothing is left to check in the loop.
+        let n = chunks(&qq.re).len();
+        let read = |column| &chunks(column)[..n];
+        let flow = [qq, qr, rq, rr].map(|column| (read(&column.re), read(&column.im)));
         let [(ar, ai), (br, bi), (cr, ci), (dr, di)] = flow;
-        let (xr, xi) = (chunks(&self.before.q_re), chunks(&self.before.q_im));
-        let (yr, yi) = (chunks(&self.before.r_re), chunks(&self.before.r_im));
-        let (ur, _) = self.after.q_re.as_chunks_mut::<LANES>();
-        let (ui, _) = self.after.q_im.as_chunks_mut::<LANES>();
-        let (vr, _) = self.after.r_re.as_chunks_mut::<LANES>();
-        let (vi, _) = self.after.r_im.as_chunks_mut::<LANES>();
-        for i in 0..ar.len() {
+        let (xr, xi) = (read(&self.before.q_re), read(&self.before.q_im));
+        let (yr, yi) = (read(&self.before.r_re), read(&self.before.r_im));
+        let ur = &mut self.after.q_re.as_chunks_mut::<LANES>().0[..n];
+        let ui = &mut self.after.q_im.as_chunks_mut::<LANES>().0[..n];
+        let vr = &mut self.after.r_re.as_chunks_mut::<LANES>().0[..n];
+        let vi = &mut self.after.r_im.as_chunks_mut::<LANES>().0[..n];
+        for i in 0..n {
             let (qr, qi, rr, ri) = (xr[i], xi[i], yr[i], yi[i]);
             let mut to = [[0.0; LANES]; 4];
             for l in 0..LANES {

@@ -97,11 +97,14 @@ impl Kernel for EnergySums<'_> {
             r_re,
             r_im,
         } = self.state;
-        let (turn, stiffness) = (chunks(&self.weights.turn), chunks(&self.weights.stiffness));
-        let (q_re, q_im) = (chunks(q_re), chunks(q_im));
-        let (r_re, r_im) = (chunks(r_re), chunks(r_im));
+        // All of one length, so that nothing is left to check in the loop.
+        let n = chunks(&self.weights.turn).len();
+        let read = |column| &chunks(column)[..n];
+        let (turn, stiffness) = (read(&self.weights.turn), read(&self.weights.stiffness));
+        let (q_re, q_im) = (read(q_re), read(q_im));
+        let (r_re, r_im) = (read(r_re), read(r_im));
         let mut sums = [[0.0; LANES]; 4];
-        for i in 0..turn.len() {
+        for i in 0..n {
             for l in 0..LANES {
                 let (xr, xi) = (q_re[i][l], q_im[i][l]);
                 let (vr, vi) = (r_re[i][l], r_im[i][l]);
@@ -134,12 +137,14 @@ impl Kernel for LossSums<'_> {
             loss_qr_im,
             ..
         } = self.weights;
-        let (qq, rr) = (chunks(loss_qq), chunks(loss_rr));
-        let (qr_re, qr_im) = (chunks(loss_qr_re), chunks(loss_qr_im));
-        let (q_re, q_im) = (chunks(&self.state.q_re), chunks(&self.state.q_im));
-        let (r_re, r_im) = (chunks(&self.state.r_re), chunks(&self.state.r_im));
+        let n = chunks(loss_qq).len();
+        let read = |column| &chunks(column)[..n];
+        let (qq, rr) = (read(loss_qq), read(loss_rr));
+        let (qr_re, qr_im) = (read(loss_qr_re), read(loss_qr_im));
+        let (q_re, q_im) = (read(&self.state.q_re), read(&self.state.q_im));
+        let (r_re, r_im) = (read(&self.state.r_re), read(&self.state.r_im));
         let mut sum = [0.0; LANES];
-        for i in 0..qq.len() {
+        for i in 0..n {
             for l in 0..LANES {
                 let (xr, xi) = (q_re[i][l], q_im[i][l]);
                 let (vr, vi) = (r_re[i][l], r_im[i][l]);
