@@ -137,11 +137,15 @@ fn a_head_with_surface_or_suspension_of_its_own_is_that_head_alone() {
         };
         let alone = read(at, &format!("{drive}{of_the_study}"));
         let alone = alone.unwrap_or_else(|errors| panic!("{name}: {errors}"));
-        assert_eq!(scenes(&alone), [point.scene.clone()], "{name}");
+        assert_eq!(scenes(&alone), std::slice::from_ref(&point.scene), "{name}");
         assert_eq!(alone.points[0].id, point.id, "{name}");
         let set = SetArg::parse(&format!("head={name}")).unwrap();
         let chosen = Study::from_path(&at.join("all.toml"), &[set]).unwrap();
-        assert_eq!(scenes(&chosen), [point.scene.clone()], "{name}");
+        assert_eq!(
+            scenes(&chosen),
+            std::slice::from_ref(&point.scene),
+            "{name}"
+        );
     }
     let [drive, file, rails, stiff, matrices] = &scenes(&all)[..] else {
         panic!("five heads")
