@@ -783,3 +783,13 @@ fn a_number_without_a_digit_beside_its_point_is_told_so() {
         assert!(told.contains("E113") && told.contains(hint), "{told}");
     }
 }
+
+#[test]
+fn a_mode_of_the_base_without_damping_has_the_default() {
+    let mode = "frequency_hz = 900.0\nparticipation_sqrt_kg = 0.25\nspindle_per_sqrt_kg = 2.0\n\
+                ramp_per_sqrt_kg = 2.4\npivot_per_sqrt_kg = 1.6\n";
+    let text = format!("{SHORT}[[base.modes]]\n{mode}");
+    let study = Study::from_text(&text, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let scene = &study.points[0].scene;
+    assert_eq!(scene.base[0].damping_ratio, 0.02);
+}

@@ -162,17 +162,20 @@ fn defaults(reader: &mut Reader) {
             _ => {}
         }
     }
-    // Entries of lists of tables whose value cannot be used: as above.
-    let spoilt: Vec<(String, &'static Key)> = entry_paths(reader)
+    // Entries of lists of tables: as above.
+    let left_out: Vec<(String, &'static Key, &'static str)> = entry_paths(reader)
         .into_iter()
-        .filter(|(path, key)| {
-            key.presence == Presence::Required
-                && !reader.settings.has(path)
-                && !reader.settings.are_sound(&[path.as_str()])
+        .filter(|(path, _)| !reader.settings.has(path))
+        .filter_map(|(path, key)| match key.presence {
+            Presence::Default(literal) => Some((path, key, literal)),
+            Presence::Required if !reader.settings.are_sound(&[path.as_str()]) => {
+                Some((path, key, key.example))
+            }
+            _ => None,
         })
         .collect();
-    for (path, key) in spoilt {
-        reader.literal(key, &path, key.example);
+    for (path, key, literal) in left_out {
+        reader.literal(key, &path, literal);
     }
 }
 
