@@ -106,5 +106,5 @@ verify-report: ## the report in headless Chromium, series read by VTK (installs 
 	@scripts/bootstrap --verify
 	OPSHOCK_NEED_CHROMIUM=1 cargo test --locked -p opshock-tests --test products -- --include-ignored --nocapture report_page report_slow
 
-verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse, journal, market, calculix, dense, rail, run or gmsh (OPSHOCK_SEEDS=first..end goes on)
+verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse, journal, market, calculix, dense, rail, run, dynamic or gmsh (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

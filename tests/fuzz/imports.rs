@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use opshock_import::cml::study::{Asked, study, surface};
-use opshock_import::cml::{rail, run};
+use opshock_import::cml::{drive, dynamic, rail, run};
 use opshock_import::fault::MAX_LISTED;
 use opshock_import::gmsh;
 use opshock_import::matrix::dof::{self, Freedoms};
@@ -334,6 +334,37 @@ fn fuzz_run(range: std::ops::Range<u64>, tell_every: u64) {
     );
 }
 
+fn fuzz_dynamic(range: std::ops::Range<u64>, tell_every: u64) {
+    let slider = corpus("cmlair", &["sound.rail.dat"]).remove(0);
+    let slider = rail::read(&Source::of("rail.dat", slider).expect("text")).expect("a surface");
+    let flights = corpus("cmlair", &["sound.run.dat"]).remove(0);
+    let flights = run::read(&Source::of("run.dat", flights).expect("text")).expect("flights");
+    fuzz(
+        "dynamic",
+        (corpus("dynluls", &[".def"]), 1),
+        range,
+        tell_every,
+        |seed, source| {
+            let file = dynamic::read(&source)?;
+            let text = dynamic::write(&file);
+            let again = dynamic::read(&Source::of("DynLULS.def", text.into_bytes())?)?;
+            assert_eq!(again, file);
+            let asked = Asked {
+                name: "fuzz",
+                surface_file: "surface.toml",
+                run_file: "run.dat",
+                radius: 1,
+                speed: 1,
+            };
+            let flights = seed.is_multiple_of(2).then_some(&flights);
+            let named = (&file, "DynLULS.def");
+            let written = drive::study(&slider, flights, named, None, asked)?;
+            assert!(!written.text.contains("NaN") && !written.text.contains("inf"));
+            Ok(())
+        },
+    );
+}
+
 fn fuzz_gmsh(range: std::ops::Range<u64>, tell_every: u64) {
     fuzz(
         "gmsh",
@@ -387,6 +418,7 @@ fn mutated_matrices_are_read_or_refused() {
 fn mutated_cmlair_files_are_read_or_refused() {
     fuzz_rail(0..6_000, 3_000);
     fuzz_run(0..6_000, 3_000);
+    fuzz_dynamic(0..6_000, 3_000);
 }
 
 #[test]
@@ -417,4 +449,10 @@ fn fuzz_slow_rail() {
 #[ignore = "slow: 10 million executions, some minutes"]
 fn fuzz_slow_run() {
     fuzz_run(seeds(0..10_000_000), 1_000_000);
+}
+
+#[test]
+#[ignore = "slow: 10 million executions, some minutes"]
+fn fuzz_slow_dynamic() {
+    fuzz_dynamic(seeds(0..10_000_000), 1_000_000);
 }

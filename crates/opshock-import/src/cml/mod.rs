@@ -1,8 +1,12 @@
-//! Text files of the CMLAir family: air-bearing surfaces ([`rail`]) and static runs ([`run`]).
+//! Text files of the CMLAir family: air-bearing surfaces ([`rail`]), static runs ([`run`]) and dynamic
+//! ones ([`dynamic`]).
 //!
 //! All values are SI. Versions other than 7.0 and 8.0 are refused by name: their layouts differ.
-//! [`study`] writes what they say as a study file and a surface file.
+//! [`study`] writes what they say as a study file and a surface file; [`drive`] adds what a dynamic run says
+//! of pulse, disk and ramp.
 
+pub mod drive;
+pub mod dynamic;
 pub mod rail;
 pub mod run;
 pub mod study;
@@ -31,9 +35,17 @@ impl<'a> Reader<'a> {
     /// Checks the header and goes behind it.
     ///
     /// # Errors
-    /// E160 for another header, E173 for another version and for the dynamic program's file.
+    /// As [`Reader::of_any`], and E173 for the dynamic program's file.
     fn of(source: &'a Source) -> Result<(Self, String), Faults> {
         refuse_dynamic(source)?;
+        Self::of_any(source)
+    }
+
+    /// Checks the header and goes behind it.
+    ///
+    /// # Errors
+    /// E160 for another header, E173 for another version.
+    fn of_any(source: &'a Source) -> Result<(Self, String), Faults> {
         let mut lines = source.lines();
         let first = lines.next();
         let text = first.map_or("", |line| line.text);
@@ -137,8 +149,7 @@ const DYNAMIC_FILE: &str = "dynluls.def";
 /// Names that only the dynamic program's file has: its solver's option, and its radii.
 const DYNAMIC_NAMES: [&str; 3] = ["iqpo", "ra_if", "ra_of"];
 
-/// Refuses `DynLULS.def`, whose first line need not say what it is. Its sections of shock, disk, ramp and
-/// contact hold values by position that differ from version to version.
+/// Refuses `DynLULS.def` in the place of another file: its first line need not say what it is.
 fn refuse_dynamic(source: &Source) -> Result<(), Faults> {
     let named = source.name.to_lowercase().ends_with(DYNAMIC_FILE);
     let is_name = |word: Word<'_>| {
@@ -153,13 +164,17 @@ fn refuse_dynamic(source: &Source) -> Result<(), Faults> {
         (true, None) => 1,
         (false, None) => return Ok(()),
     };
-    Err(Fault::of("E173", &source.name, "files of the dynamic program are not read")
-        .line(place)
-        .what("DynLULS.def")
-        .value(line.map_or("", |line| line.text.trim()))
-        .allowed("rail.dat, and the run.dat of the same slider")
-        .hint("its shock, disk and ramp go into [pulse], [disk], [ramp]; its matrices through import matrices")
-        .into())
+    Err(Fault::of(
+        "E173",
+        &source.name,
+        "the file of a dynamic run in the place of another",
+    )
+    .line(place)
+    .what("DynLULS.def")
+    .value(line.map_or("", |line| line.text.trim()))
+    .allowed("rail.dat, and the run.dat of the same slider")
+    .hint("give it beside rail.dat: --dynamic DynLULS.def")
+    .into())
 }
 
 /// Number behind "Version", or the first number with a point.
@@ -197,4 +212,29 @@ fn real(file: &str, word: &Word<'_>, name: &str, faults: &mut Faults) -> f64 {
             .allowed("a number with a decimal point"),
     );
     0.0
+}
+
+/// A number within a range; a fault where it is none or outside.
+fn within(
+    file: &str,
+    word: &Word<'_>,
+    name: &str,
+    unit: &str,
+    (low, high): (f64, f64),
+    faults: &mut Faults,
+) -> f64 {
+    let before = faults.listed.len() + faults.unlisted;
+    let value = real(file, word, name, faults);
+    let sound = before == faults.listed.len() + faults.unlisted;
+    if sound && !(low..=high).contains(&value) {
+        let fault = Fault::of("E175", file, "the value is not allowed");
+        faults.push(
+            fault
+                .at(word.place())
+                .what(name)
+                .value(format!("{} {unit}", short(value)))
+                .allowed(format!("{} to {} {unit}", short(low), short(high))),
+        );
+    }
+    value
 }

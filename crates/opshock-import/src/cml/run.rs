@@ -8,7 +8,7 @@
 //!
 //! `A` and `B` are short enough to be anything's names: they are read beside `icmodel` alone.
 
-use super::{Reader, short};
+use super::{Reader, within};
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Source, Word};
 use std::collections::HashMap;
@@ -49,6 +49,13 @@ pub struct RunFile {
     /// Potential difference of slider and disk, V; 0 for none.
     pub potential_v: f64,
 }
+
+/// Pressures that are read.
+pub(super) const PRESSURE_PA: (f64, f64) = (1e3, 1e6);
+/// Mean free paths that are read.
+pub(super) const MEAN_FREE_PATH_M: (f64, f64) = (1e-9, 1e-5);
+/// Viscosities that are read.
+pub(super) const VISCOSITY_PA_S: (f64, f64) = (1e-6, 1e-3);
 
 /// How the flow is rarefied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +121,7 @@ fn sections<'a>(reader: &mut Reader<'a>) -> Result<Vec<Vec<Line<'a>>>, Faults> {
     Ok(sections)
 }
 
-fn is_numeric(word: &Word<'_>) -> bool {
+pub(super) fn is_numeric(word: &Word<'_>) -> bool {
     !matches!(word.real(), Err(NotANumber::Word))
         || word
             .text
@@ -274,9 +281,9 @@ fn flights(
             }
         };
     let any = (-1e9, 1e9);
-    let pressure_pa = number("p0", "Pa", (1e3, 1e6), true)?;
-    let mean_free_path_m = number("al", "m", (1e-9, 1e-5), true)?;
-    let viscosity_pa_s = number("vis", "Pa s", (1e-6, 1e-3), true)?;
+    let pressure_pa = number("p0", "Pa", PRESSURE_PA, true)?;
+    let mean_free_path_m = number("al", "m", MEAN_FREE_PATH_M, true)?;
+    let viscosity_pa_s = number("vis", "Pa s", VISCOSITY_PA_S, true)?;
     let load_kgf = number("f0", "kg", (1e-6, 0.02), true)?;
     let load_point_m = [
         number("xf0", "m", any, false)?,
@@ -334,31 +341,6 @@ fn flights(
         repulsion_j_m6,
         potential_v,
     })
-}
-
-/// A number within a range; a fault where it is none or outside.
-fn within(
-    file: &str,
-    word: &Word<'_>,
-    name: &str,
-    unit: &str,
-    (low, high): (f64, f64),
-    faults: &mut Faults,
-) -> f64 {
-    let before = faults.listed.len() + faults.unlisted;
-    let value = super::real(file, word, name, faults);
-    let sound = before == faults.listed.len() + faults.unlisted;
-    if sound && !(low..=high).contains(&value) {
-        let fault = Fault::of("E175", file, "the value is not allowed");
-        faults.push(
-            fault
-                .at(word.place())
-                .what(name)
-                .value(format!("{} {unit}", short(value)))
-                .allowed(format!("{} to {} {unit}", short(low), short(high))),
-        );
-    }
-    value
 }
 
 /// The file with what is read here, every digit.

@@ -15,7 +15,7 @@ pub struct Written {
 }
 
 /// A number in another unit with the fewest digits that give it back.
-fn shortest(value: f64, per: f64) -> String {
+pub(super) fn shortest(value: f64, per: f64) -> String {
     let scaled = value * per;
     for digits in 0..17 {
         let text = format!("{scaled:.digits$e}");
@@ -117,20 +117,40 @@ pub struct Asked<'a> {
     pub speed: usize,
 }
 
-/// The study of a surface flown as `run.dat` says; without one, on the default drive.
-///
-/// # Errors
-/// E175 when there is no such radius or speed.
-pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result<Written, Faults> {
-    let mut left_out = Vec::new();
-    let mut text = format!(
-        "study_format = 1\nname = {}\noutputs = [\"critical_shock\"]\n\n\
-         [pulse]\nwidths_ms = [0.5, 1.0, 2.0]\nsigns = [\"+\", \"-\"]\n\n\
-         [ramp]\nmodels = [\"none\"]\n\n",
-        quoted(asked.name)
-    );
-    let mut slider = String::from("[slider]\n");
-    if let Some(run) = run {
+/// Sections of a study, in their order.
+#[derive(Clone, Debug)]
+pub(super) struct Sections {
+    pub(super) pulse: String,
+    pub(super) disk: String,
+    pub(super) ramp: String,
+    pub(super) gas: String,
+    pub(super) suspension: String,
+    pub(super) forces: String,
+    /// Keys of place and size; the surface follows them.
+    pub(super) slider: String,
+}
+
+impl Sections {
+    /// What is known without a file but the surface.
+    fn of(rail: &RailFile) -> Self {
+        Self {
+            pulse: "[pulse]\nwidths_ms = [0.5, 1.0, 2.0]\nsigns = [\"+\", \"-\"]\n\n".to_owned(),
+            disk: String::new(),
+            ramp: "[ramp]\nmodels = [\"none\"]\n\n".to_owned(),
+            gas: String::new(),
+            suspension: String::new(),
+            forces: String::new(),
+            slider: format!(
+                "length_mm = {}\nwidth_mm = {}\nheight_mm = {}\n",
+                shortest(rail.length_m, 1e3),
+                shortest(rail.width_m, 1e3),
+                shortest(rail.thickness_m, 1e3)
+            ),
+        }
+    }
+
+    /// Takes from `run.dat` one of its flights.
+    fn fly(&mut self, run: &RunFile, asked: Asked<'_>) -> Result<(), Faults> {
         let of = |list: &[f64], k: usize, what: &str| {
             let found = k.checked_sub(1).and_then(|k| list.get(k)).copied();
             found.ok_or_else(|| {
@@ -146,39 +166,99 @@ pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result
         let radius = of(&run.radii_m, asked.radius, "radius")?;
         let skew = of(&run.skews_deg, asked.radius, "radius")?;
         let speed = of(&run.speeds_rpm, asked.speed, "speed")?;
-        let _ = write!(text, "[disk]\nrpm = {speed}\n\n");
-        let _ = writeln!(
-            slider,
-            "radius_mm = {}\nskew_deg = {skew}",
-            shortest(radius, 1e3)
-        );
+        self.disk = format!("[disk]\nrpm = {speed}\n\n");
+        let place = format!("radius_mm = {}\nskew_deg = {skew}\n", shortest(radius, 1e3));
+        self.slider.insert_str(0, &place);
         let model = match run.slip {
             Slip::First => "slip_1",
             Slip::Second => "slip_2",
             Slip::FukuiKaneko => "fukui_kaneko",
         };
-        let _ = write!(
-            text,
-            "[gas]\npressure_pa = {}\nviscosity_pa_s = {}\nmean_free_path_nm = {}\nmodel = \"{model}\"\n\n\
-             [suspension]\ngram_load_gf = {}\n\n",
+        self.gas = gas(
             run.pressure_pa,
             run.viscosity_pa_s,
-            shortest(run.mean_free_path_m, 1e9),
-            shortest(run.load_kgf, 1e3),
+            run.mean_free_path_m,
+            model,
         );
-        text += &surface_forces(run);
-        left_out = run_left_out(run, asked.run_file);
+        self.suspension = suspension(run.load_kgf);
+        self.forces = surface_forces(run);
+        Ok(())
     }
-    let _ = write!(
-        slider,
-        "length_mm = {}\nwidth_mm = {}\nheight_mm = {}\nsurface = {{ file = {} }}\n",
-        shortest(rail.length_m, 1e3),
-        shortest(rail.width_m, 1e3),
-        shortest(rail.thickness_m, 1e3),
-        quoted(asked.surface_file)
-    );
-    text += &slider;
-    Ok(Written { text, left_out })
+
+    /// The study.
+    pub(super) fn text(&self, asked: Asked<'_>) -> String {
+        let mut text = format!(
+            "study_format = 1\nname = {}\noutputs = [\"critical_shock\"]\n\n",
+            quoted(asked.name)
+        );
+        for section in [
+            &self.pulse,
+            &self.disk,
+            &self.ramp,
+            &self.gas,
+            &self.suspension,
+            &self.forces,
+        ] {
+            text += section;
+        }
+        let surface = quoted(asked.surface_file);
+        let _ = write!(
+            text,
+            "[slider]\n{}surface = {{ file = {surface} }}\n",
+            self.slider
+        );
+        text
+    }
+}
+
+/// Section of the gas.
+pub(super) fn gas(
+    pressure_pa: f64,
+    viscosity_pa_s: f64,
+    mean_free_path_m: f64,
+    model: &str,
+) -> String {
+    format!(
+        "[gas]\npressure_pa = {pressure_pa}\nviscosity_pa_s = {viscosity_pa_s}\n\
+         mean_free_path_nm = {}\nmodel = \"{model}\"\n\n",
+        shortest(mean_free_path_m, 1e9)
+    )
+}
+
+/// Section of the load, kg of force.
+pub(super) fn suspension(load_kgf: f64) -> String {
+    let load_gf = shortest(load_kgf, 1e3);
+    format!("[suspension]\ngram_load_gf = {load_gf}\n\n")
+}
+
+/// Sections of a surface flown as `run.dat` says, and what of that was left out; without one, on the
+/// default drive.
+///
+/// # Errors
+/// E175 when there is no such radius or speed.
+pub(super) fn sections(
+    rail: &RailFile,
+    run: Option<&RunFile>,
+    asked: Asked<'_>,
+) -> Result<(Sections, Vec<Fault>), Faults> {
+    let mut sections = Sections::of(rail);
+    let Some(run) = run else {
+        return Ok((sections, Vec::new()));
+    };
+    sections.fly(run, asked)?;
+    Ok((sections, run_left_out(run, asked.run_file)))
+}
+
+/// The study of a surface flown as `run.dat` says; without one, on the default drive.
+///
+/// # Errors
+/// E175 when there is no such radius or speed.
+pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result<Written, Faults> {
+    let (sections, left_out) = sections(rail, run, asked)?;
+    Ok(Written {
+        text: sections.text(asked),
+        left_out,
+    })
 }
 
 /// Section of the forces that the file has; nothing without one.

@@ -1,8 +1,9 @@
 //! Round trips, and faults where values are damaged.
 
+use super::dynamic::{Disk, DynamicFile, Gas, Matrices, Ramp, Shape, Shock};
 use super::rail::{Rail, RailFile, Recess, Wall};
 use super::run::{RunFile, Slip};
-use super::{rail, run, study};
+use super::{drive, dynamic, rail, run, study};
 use crate::fault::Faults;
 use crate::text::Source;
 
@@ -266,9 +267,232 @@ fn no_damaged_number_of_a_surface_is_read() {
     assert_eq!(n, 50);
 }
 
-/// The dynamic program's file is told by its name or by names in it, whatever its first line says.
+/// The sample drive of the CMLAir 8.01 manual under a shock.
+fn shaken() -> DynamicFile {
+    DynamicFile {
+        version: "8.0".to_owned(),
+        length_m: 1.25e-3,
+        width_per_length: 0.8,
+        centre: [0.0; 3],
+        load_kgf: 2.5e-3,
+        load_point_m: [0.0; 2],
+        halt: 0.0,
+        speed_rpm: 5400.0,
+        step_s: 1e-7,
+        end_s: 3e-3,
+        radius_m: 22.215e-3,
+        move_radii_m: [22.215e-3; 2],
+        actuator: [0.0; 3],
+        arm_m: 38e-3,
+        skew_deg: 0.943,
+        attitude: [15e-9, 150e-6, 0.0, 0.0, 0.0, 0.0],
+        gas: Some(Gas {
+            pressure_pa: 101_350.0,
+            mean_free_path_m: 63.5e-9,
+            viscosity_pa_s: 1.806e-5,
+        }),
+        shock: Some(Shock {
+            shape: Shape::HalfSine,
+            start_s: 0.5e-3,
+            width_s: 1e-3,
+            magnitude_g: -200.0,
+            time_constant_s: 0.0,
+        }),
+        matrices: Some(Matrices {
+            n_rows: 250,
+            slider_row: 241,
+        }),
+        disk: Disk {
+            radii_m: [10.01e-3, 32.5e-3],
+            thickness_m: 0.635e-3,
+            youngs_modulus_pa: 75e9,
+            poisson: 0.3,
+            density_kg_per_m3: 2710.0,
+            alpha_per_s: 25.0,
+            beta_s: 1e-7,
+        },
+        ramp: Ramp {
+            distance_m: 35.6e-3,
+            angle_deg: 15.91,
+            clearance_m: 100e-6,
+        },
+    }
+}
+
 #[test]
-fn the_dynamic_programs_file_is_refused_by_name() {
+fn dynamic_runs_go_round() {
+    let full = shaken();
+    let mut without = full.clone();
+    (without.gas, without.shock, without.matrices) = (None, None, None);
+    let mut decaying = full.clone();
+    decaying.shock = full.shock.map(|shock| Shock {
+        shape: Shape::DecayingSine,
+        time_constant_s: 0.3e-3,
+        ..shock
+    });
+    for file in [full, without, decaying] {
+        let text = dynamic::write(&file);
+        assert_eq!(dynamic::read(&source("DynLULS.def", &text)).unwrap(), file);
+    }
+}
+
+/// Capitals, units in brackets with spaces, frames of asterisks, comments behind values, numbers of Fortran, lists.
+#[test]
+fn dynamic_runs_as_people_write_them() {
+    let text = dynamic::write(&shaken())
+        .replace(
+            "***** disk *****",
+            "  ******************\n***** Disk 5 \u{b5}m *****",
+        )
+        .replace("E(Pa) nu rho(kg/m3)", "e ( Pa ) NU RHO (kg / m3)")
+        .replace("7.5e10 3e-1 2.71e3", "7.5D10 0.30 2710.0   glass")
+        .replace("mode start(s)", "ISHOCK start (s)")
+        .replace(
+            "***** grid *****\nnone\n0",
+            "***** grid *****\nnx ny\n418 418\n0.1 0.2\n# anything x",
+        )
+        + "****************\n";
+    let bytes: Vec<u8> = text.chars().map(|c| u32::from(c) as u8).collect();
+    let file = dynamic::read(&Source::of("DynLULS.def", bytes).unwrap()).unwrap();
+    assert_eq!(file, shaken());
+}
+
+/// Every word of a value that is read, replaced by a letter: each is found, at its place.
+#[test]
+fn no_damaged_number_of_a_dynamic_run_is_read() {
+    let text = dynamic::write(&shaken());
+    let lines: Vec<&str> = text.lines().collect();
+    let titles = [
+        "problem",
+        "suspension",
+        "initial condition",
+        "shock",
+        "disk",
+    ];
+    let (mut title, mut n) = ("", 0);
+    for (at, line) in lines.iter().enumerate().skip(2) {
+        if let Some(found) = line.strip_prefix("***** ") {
+            title = found.trim_end_matches(" *****");
+        }
+        let is_value = line.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+        if !is_value || !titles.contains(&title) {
+            continue;
+        }
+        for k in 0..line.split(' ').count() {
+            let mut words: Vec<&str> = line.split(' ').collect();
+            words[k] = "1x";
+            let (broken, mut all) = (words.join(" "), lines.clone());
+            all[at] = &broken;
+            match dynamic::read(&source("DynLULS.def", &all.join("\n"))) {
+                Ok(file) => assert_eq!((file, title), (shaken(), "disk"), "{broken}"),
+                Err(faults) => {
+                    assert!(
+                        ["E174", "E175"].contains(&faults.listed[0].code),
+                        "{faults}"
+                    );
+                    assert_eq!(faults.listed[0].line, at + 1, "{broken}: {faults}");
+                    n += 1;
+                }
+            }
+        }
+    }
+    // All but an option, two counts of elements and two numbers of the time step.
+    assert_eq!(n, 15 + 5 + 6 + 5 + 11);
+}
+
+/// The sample drive's ramp is 0.35 mm inside the rim, 7 degrees before the slider; at another radius the same arm
+/// has the skew that its circle gives, and finds the same ramp.
+#[test]
+fn the_ramps_place_follows_from_the_pivot() {
+    let asked = study::Asked {
+        name: "drive",
+        surface_file: "surface.toml",
+        run_file: "",
+        radius: 1,
+        speed: 1,
+    };
+    let number = |file: &DynamicFile, section: &str, key: &str| -> f64 {
+        let mut rail = surface();
+        (rail.length_m, rail.width_m) = (1.25e-3, 1e-3);
+        let written = drive::study(&rail, None, (file, "DynLULS.def"), None, asked).unwrap();
+        let text = written.text.split(section).nth(1).unwrap();
+        let line = text.lines().find(|line| line.starts_with(key)).unwrap();
+        line.rsplit(' ').next().unwrap().parse().unwrap()
+    };
+    let file = shaken();
+    let ramp = number(&file, "[ramp]", "radius_mm");
+    let turn = number(&file, "[slider]", "angle_deg");
+    assert!((ramp - 32.15).abs() < 0.005, "{ramp}");
+    assert!((turn - 7.0).abs() < 0.05, "{turn}");
+    // Moved in by a turn of the arm: sin s = (r² + L² − c²)/(2 r L), the ramp's angle grows by the turn.
+    let (r, l) = (file.radius_m, file.arm_m);
+    let c2 = r * r + l * l - 2.0 * r * l * file.skew_deg.to_radians().sin();
+    let at = |r: f64| ((c2 + l * l - r * r) / (2.0 * c2.sqrt() * l)).acos();
+    let mut inner = file.clone();
+    inner.radius_m = 17.9e-3;
+    inner.skew_deg = ((inner.radius_m.powi(2) + l * l - c2) / (2.0 * inner.radius_m * l))
+        .asin()
+        .to_degrees();
+    assert!((inner.skew_deg + 6.13).abs() < 0.01, "{}", inner.skew_deg);
+    inner.ramp.angle_deg += (at(r) - at(inner.radius_m)).to_degrees();
+    assert_eq!(number(&inner, "[ramp]", "radius_mm"), ramp);
+}
+
+#[test]
+fn pulses_of_dynamic_runs_become_those_of_a_study() {
+    let asked = study::Asked {
+        name: "drive",
+        surface_file: "surface.toml",
+        run_file: "",
+        radius: 1,
+        speed: 1,
+    };
+    let mut rail = surface();
+    (rail.length_m, rail.width_m) = (1.25e-3, 1e-3);
+    let pulse = |shape: Option<Shape>| {
+        let mut file = shaken();
+        file.shock = shape.zip(file.shock).map(|(shape, shock)| Shock {
+            shape,
+            time_constant_s: 2e-3,
+            ..shock
+        });
+        let written = drive::study(&rail, None, (&file, "DynLULS.def"), None, asked).unwrap();
+        let section = written.text.split("[pulse]\n").nth(1).unwrap();
+        section.split("\n\n").next().unwrap().to_owned()
+    };
+    let rest = "signs = [\"+\", \"-\"]";
+    let start = "start_ms = 0.5";
+    for (shape, wanted) in [
+        (None, format!("widths_ms = [0.5, 1.0, 2.0]\n{rest}")),
+        (
+            Some(Shape::HalfSine),
+            format!("shape = \"half_sine\"\nwidths_ms = [1]\n{rest}\n{start}"),
+        ),
+        (
+            Some(Shape::Square),
+            format!("shape = \"square\"\nwidths_ms = [1]\n{rest}\n{start}"),
+        ),
+        (
+            Some(Shape::Sine),
+            format!(
+                "shape = \"damped_sine\"\nfrequency_hz = 1000.0\ndecay_per_s = 0.0\nwidths_ms = [1]\n{rest}\n{start}"
+            ),
+        ),
+        (
+            Some(Shape::DecayingSine),
+            format!(
+                "shape = \"damped_sine\"\nfrequency_hz = 1000.0\ndecay_per_s = 500.0\nwidths_ms = [14]\n{rest}\n{start}\nwindow_ms = 28"
+            ),
+        ),
+    ] {
+        assert_eq!(pulse(shape), wanted);
+    }
+}
+
+/// In the place of another file the dynamic program's is told by its name or by names in it, whatever its first
+/// line says.
+#[test]
+fn a_dynamic_run_in_the_place_of_another_file_is_refused_by_name() {
     for (name, text, line) in [
         ("a/DynLULS.def", "anything\n1 2 3\n", 1),
         (

@@ -1,17 +1,21 @@
-//! `opshock import cmlair`: an air-bearing surface, and how it is flown.
+//! `opshock import cmlair`: an air-bearing surface, how it is flown, and the drive and shock of a dynamic run.
 
+use super::dynamic::{self, Beside};
+use super::matrices::refuse_unaccepted;
 use super::{refused, shown, write_new};
+use crate::cli::GlobalArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use clap::Args;
+use opshock_import::cml::dynamic::DynamicFile;
 use opshock_import::cml::study::{Asked, study, surface};
-use opshock_import::cml::{rail, run as run_file};
+use opshock_import::cml::{drive, dynamic as dynamic_file, rail, run as run_file};
 use opshock_import::text::Source;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Turn a CMLAir rail.dat, and a run.dat, into a study and a surface file
+/// Turn a CMLAir rail.dat, a run.dat and a DynLULS.def into a study and a surface file
 #[derive(Args, Debug)]
 pub struct CmlairArgs {
     /// The surface, rail.dat of version 7.0 or 8.0
@@ -25,6 +29,13 @@ pub struct CmlairArgs {
     /// Which of the speeds of run.dat
     #[arg(long, value_name = "K", default_value_t = 1, requires = "run")]
     speed: usize,
+    /// Slider, pulse, disk and ramp from this DynLULS.def, and the suspension from susp_M.dat, susp_K.dat and
+    /// susp_cords.dat beside it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["radius", "speed"])]
+    dynamic: Option<PathBuf>,
+    /// Leave the matrices beside DynLULS.def where they are
+    #[arg(long, requires = "dynamic")]
+    without_matrices: bool,
     /// Name of the study
     #[arg(long, default_value = "imported from CMLAir")]
     name: String,
@@ -34,7 +45,11 @@ pub struct CmlairArgs {
 }
 
 /// Runs the command.
-pub fn run(arguments: &CmlairArgs, console: &Console) -> Result<Exit, Failure> {
+pub fn run(
+    arguments: &CmlairArgs,
+    global: &GlobalArgs,
+    console: &Console,
+) -> Result<Exit, Failure> {
     let source = Source::read(&arguments.rail).map_err(refused)?;
     let file = rail::read(&source).map_err(refused)?;
     let flights = match &arguments.run {
@@ -44,6 +59,11 @@ pub fn run(arguments: &CmlairArgs, console: &Console) -> Result<Exit, Failure> {
         }
         None => None,
     };
+    let dynamic = dynamic_run(arguments)?;
+    let beside = dynamic.as_ref().and_then(|(_, _, beside)| beside.as_ref());
+    if let Some(beside) = beside {
+        refuse_unaccepted(&beside.found, global)?;
+    }
     let named = arguments
         .run
         .as_ref()
@@ -56,11 +76,23 @@ pub fn run(arguments: &CmlairArgs, console: &Console) -> Result<Exit, Failure> {
         speed: arguments.speed,
     };
     let surface = surface(&file, &source.name).map_err(refused)?;
-    let study = study(&file, flights.as_ref(), asked).map_err(refused)?;
-    let files = [
+    let study = match &dynamic {
+        Some((name, dynamic, _)) => {
+            let imported = beside.map(|beside| beside.keys.as_str());
+            let dynamic = (dynamic, name.as_str());
+            drive::study(&file, flights.as_ref(), dynamic, imported, asked)
+        }
+        None => study(&file, flights.as_ref(), asked),
+    }
+    .map_err(refused)?;
+    let mut files = vec![
         ("study.toml", study.text.as_str()),
         ("surface.toml", surface.text.as_str()),
     ];
+    if let Some(beside) = beside {
+        let texts = beside.texts.iter().map(String::as_str);
+        files.extend(dynamic::FILES.into_iter().zip(texts));
+    }
     let paths = write_new(&arguments.out, &files)?;
     let notes = [surface.left_out, study.left_out].concat();
     for note in &notes {
@@ -80,4 +112,20 @@ pub fn run(arguments: &CmlairArgs, console: &Console) -> Result<Exit, Failure> {
         ))?;
     }
     Ok(Exit::Complete)
+}
+
+/// The dynamic run that is asked for: its file's name, what it says, and what lies beside it.
+fn dynamic_run(
+    arguments: &CmlairArgs,
+) -> Result<Option<(String, DynamicFile, Option<Beside>)>, Failure> {
+    let Some(path) = &arguments.dynamic else {
+        return Ok(None);
+    };
+    let source = Source::read(path).map_err(refused)?;
+    let file = dynamic_file::read(&source).map_err(refused)?;
+    let beside = match arguments.without_matrices {
+        true => None,
+        false => dynamic::beside(path, &file).map_err(refused)?,
+    };
+    Ok(Some((source.name, file, beside)))
 }

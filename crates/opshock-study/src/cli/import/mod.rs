@@ -1,6 +1,7 @@
 //! `opshock import`: other programs' files as files of opshock.
 
 mod cmlair;
+mod dynamic;
 mod matrices;
 mod ramp;
 
@@ -35,7 +36,7 @@ pub fn run(
     console: &Console,
 ) -> Result<Exit, Failure> {
     match &arguments.what {
-        What::Cmlair(arguments) => cmlair::run(arguments, console),
+        What::Cmlair(arguments) => cmlair::run(arguments, global, console),
         What::Matrices(arguments) => matrices::run(arguments, global, console),
         What::Ramp(arguments) => ramp::run(arguments, global, console),
     }
