@@ -281,7 +281,7 @@ fn of_many_freedoms_the_lowest_modes_are_found() {
     }
 }
 
-/// The errors are those of any other matrices, with file and place.
+/// The errors are those of any other matrices, with file and place; of a node that is not in them, the study's.
 #[test]
 fn damaged_matrices_of_a_base_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -317,12 +317,12 @@ fn damaged_matrices_of_a_base_are_refused() {
     refused(
         &calculix.replace("spindle = 2", "spindle = 7"),
         "E169",
-        "base.dof",
+        "study.toml",
     );
     refused(
         &calculix.replace("held = [1]", "held = [8]"),
         "E169",
-        "base.dof",
+        "study.toml",
     );
     // On nothing it is held by nothing.
     refused(&calculix.replace("held = [1]\n", ""), "E165", "k.sti");

@@ -20,7 +20,7 @@ fn folder(name: &str) -> PathBuf {
 
 /// Options for files by their endings; those of modes and a gyroscopic matrix are asked for only
 /// where one of them is damaged.
-const ROLES: [(&str, &str, &[&str]); 3] = [
+const ROLES: [(&str, &str, &[&str]); 4] = [
     (
         "market",
         "si",
@@ -34,6 +34,17 @@ const ROLES: [(&str, &str, &[&str]); 3] = [
     ),
     ("calculix", "mm_n", &["mas", "sti", "dof"]),
     ("dense", "mm_mn", &["M.dat", "K.dat", "cords.dat"]),
+    (
+        "contact",
+        "si",
+        &[
+            "mass.mtx",
+            "stiffness.mtx",
+            "dof",
+            "modes.mtx",
+            "frequencies.txt",
+        ],
+    ),
 ];
 
 /// What to type for the matrices of a folder, one file replaced by a damaged one.
@@ -59,7 +70,7 @@ fn matrices(importer: &str, damaged: Option<&Path>) -> Vec<String> {
         let of_modes = ["modes.mtx", "frequencies.txt"];
         let only_when_damaged = match *role {
             "gyroscopic.mtx" => ending != "gyroscopic.mtx",
-            role if of_modes.contains(&role) => !of_modes.contains(&ending),
+            role if of_modes.contains(&role) => importer == "market" && !of_modes.contains(&ending),
             _ => false,
         };
         if only_when_damaged {
@@ -70,6 +81,10 @@ fn matrices(importer: &str, damaged: Option<&Path>) -> Vec<String> {
             _ => folder(importer).join(format!("sound.{role}")),
         };
         words.extend([option.to_owned(), file.display().to_string()]);
+    }
+    // Its modes move this freedom alone.
+    if importer == "contact" {
+        words.extend(["--contact", "8.3"].map(str::to_owned));
     }
     words
 }
@@ -180,6 +195,15 @@ fn every_damaged_calculix_file_gets_its_message() {
 #[test]
 fn every_damaged_dense_file_gets_its_message() {
     insta::assert_snapshot!(said("dense", |path| matrices("dense", path), 20));
+}
+
+/// A contact point that the map does not have, or that no mode moves.
+#[test]
+fn every_damaged_contact_gets_its_message() {
+    let at = tempfile::tempdir().unwrap();
+    let sound = run(at.path(), &matrices("contact", None));
+    assert_eq!(sound.code, 0, "{}", sound.stderr);
+    insta::assert_snapshot!(said("contact", |path| matrices("contact", path), 7));
 }
 
 #[test]

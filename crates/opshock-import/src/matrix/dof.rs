@@ -141,6 +141,15 @@ impl Freedoms {
         })
     }
 
+    /// Up to three nodes nearest to one, for a hint.
+    pub(super) fn near_node(&self, node: u64) -> String {
+        let mut nodes: Vec<u64> = self.list.iter().flatten().map(|f| f.node).collect();
+        nodes.sort_by_key(|other| (other.abs_diff(node), *other));
+        nodes.dedup();
+        let near: Vec<String> = nodes.iter().take(3).map(u64::to_string).collect();
+        near.join(", ")
+    }
+
     /// Up to three names nearest to one, by node and then by direction.
     fn near(&self, name: &str) -> Vec<String> {
         let (node, direction) = name.split_once('.').unwrap_or((name, "1"));

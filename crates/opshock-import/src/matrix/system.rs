@@ -68,17 +68,26 @@ impl System {
 
     /// The system with all freedoms of some nodes held on the base, and the load of a unit inertia load
     /// per mass along a direction (0 to 2) on what is left, kg: M times a unit displacement of all
-    /// nodes, the held ones included.
+    /// nodes, the held ones included. Faults name the nodes as `what`.
     ///
     /// # Errors
     /// E169 for a node that is not there, E161 when nothing is left.
-    pub fn held(self, nodes: &[u64], along: u8) -> Result<(Self, Vec<f64>), Faults> {
+    pub fn held(
+        self,
+        (what, nodes): (&str, &[u64]),
+        along: u8,
+    ) -> Result<(Self, Vec<f64>), Faults> {
         let n = self.n();
         let freedom = |row: usize| self.freedoms.get(row);
         for node in nodes {
             if !(0..n).any(|row| freedom(row).is_some_and(|f| f.node == *node)) {
                 let fault = Fault::of("E169", &self.freedoms.file, "no such node");
-                return Err(fault.what("base").value(node.to_string()).into());
+                return Err(fault
+                    .what(what)
+                    .value(node.to_string())
+                    .allowed("nodes of the map")
+                    .hint(format!("near it are {}", self.freedoms.near_node(*node)))
+                    .into());
             }
         }
         let moves =
@@ -90,7 +99,7 @@ impl System {
         let kept: Vec<usize> = (0..n).filter(|&row| !is_held(row)).collect();
         if kept.is_empty() {
             let fault = Fault::of("E161", &self.freedoms.file, "every freedom is held");
-            return Err(fault.what("base").into());
+            return Err(fault.what(what).into());
         }
         let load = kept.iter().map(|&row| load[row]).collect();
         Ok((

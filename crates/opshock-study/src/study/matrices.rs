@@ -48,9 +48,9 @@ pub fn held(view: &View<'_>, table: &str, nodes: &str, folder: &Path) -> Result<
     let units = Units::WORDS.iter().find(|(name, _)| *name == word);
     let units = units.map_or(Units::WORDS[0].1, |(_, units)| *units);
     let system = System::of(mass, stiffness, None, freedoms, units)?;
-    let nodes = view.numbers(&format!("{table}.{nodes}"));
-    let nodes: Vec<u64> = nodes.iter().map(|number| *number as u64).collect();
-    let (system, load_kg) = system.held(&nodes, Z)?;
+    let held = view.numbers(&format!("{table}.{nodes}"));
+    let held: Vec<u64> = held.iter().map(|number| *number as u64).collect();
+    let (system, load_kg) = system.held((nodes, &held), Z)?;
     let (system, found) = check::check(system, false)?;
     Ok(Held {
         system,

@@ -97,17 +97,30 @@ pub fn read(reader: &mut Reader, location: &Location) {
 
 /// Takes what is wrong with the files of a table to the study's errors.
 pub fn refuse_files(reader: &mut Reader, table: &str, faults: Faults) {
+    let view = View::of_study(&reader.settings);
     let errors = faults.listed.into_iter().map(|mut fault| {
         if fault.message.starts_with("cannot be read") {
             fault.hint = "file paths start from the study's folder".to_owned();
         }
-        let mut error = StudyError::from(fault);
+        // A node that the study names and its files do not have.
+        let key = format!("{table}.{}", fault.what);
+        let mut error = match view.place(&key).filter(|_| fault.code == "E169") {
+            Some(place) => {
+                let message = format!("{}: {}", fault.file, fault.message);
+                StudyError::at(fault.code, place, &key, message)
+                    .value(fault.value)
+                    .allowed(fault.allowed)
+                    .hint(fault.hint)
+            }
+            None => StudyError::from(fault),
+        };
         // Of several heads, the one whose files these are.
         if table.starts_with("heads[") {
             error.message = format!("{table}: {}", error.message);
         }
         error
     });
+    let errors: Vec<StudyError> = errors.collect();
     reader.errors.extend(errors);
     reader.settings.spoil(table);
 }
