@@ -87,7 +87,7 @@ verify-hard: bootstrap ## hard cases that take longer, each with figure and boun
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
 
 .PHONY: verify-solid
-verify-solid: ## frequencies of a ramp's finite elements against CalculiX on the same mesh
+verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-solid --test calculix -- --ignored --nocapture
 
