@@ -57,6 +57,13 @@ fn shock(c: &mut Criterion) {
         b.iter(|| black_box(Bearing::build(&scene)));
     });
     group.bench_function("build_structure", |b| {
+        b.iter(|| {
+            let model = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
+            model.structure().wake_up().expect("it wakes");
+            black_box(model)
+        });
+    });
+    group.bench_function("build_asleep", |b| {
         b.iter(|| black_box(Model::build(&scene, Scope::Structure, None)));
     });
     group.finish();

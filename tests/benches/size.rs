@@ -40,14 +40,16 @@ fn modes(_: &mut Criterion) {
         let mut scene = scenes::scene("fig13", "deformable", 0.5, &[]);
         scene.disk_resolution.cut_hz = cut_hz;
         let build = median_of(5, || {
-            black_box(Model::build(&scene, Scope::Structure, None).expect("builds"));
+            let model = Model::build(&scene, Scope::Structure, None).expect("builds");
+            model.structure().wake_up().expect("builds");
+            black_box(model);
         });
         let model = Model::build(&scene, Scope::Structure, None).expect("builds");
         let mut workspace = Workspace::default();
         let run = median_of(5, || {
             black_box(simulate(&model, &request, &mut workspace));
         });
-        let n = model.structure().n_modes();
+        let n = model.structure().n_modes().expect("builds");
         println!("| {n} | {:.2} | {:.2} |", 1e3 * build, 1e3 * run);
         builds.push((n as f64, build));
         runs.push((n as f64, run));

@@ -108,13 +108,156 @@ pub struct DiskBasis {
     pub harmonics_bounded: bool,
 }
 
+/// What the modes of a disk are computed from, harmonic by harmonic.
+#[derive(Clone, Debug)]
+pub struct DiskModes {
+    family: HarmonicFamily,
+    damping: DiskDamping,
+    resolution: DiskResolution,
+    /// Rows that give (φ, φ′) at the asked radii.
+    rows: Vec<(Vec<f64>, Vec<f64>)>,
+    correction_at: Option<usize>,
+}
+
+/// Modes of one harmonic.
+struct HarmonicModes {
+    modes: Vec<DiskMode>,
+    /// How many of them lie below the cut.
+    n_below: usize,
+}
+
+impl DiskModes {
+    /// Shapes are sampled at `radii_m`; `correction_at` is the index into `radii_m` of the point whose static
+    /// compliance is made exact, if any.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn new(
+        disk: &DiskParameters,
+        resolution: &DiskResolution,
+        radii_m: &[f64],
+        correction_at: Option<usize>,
+    ) -> Result<Self, DiskError> {
+        validate(disk, resolution)?;
+        disk.hub.map_or(Ok(()), |hub| hub.validate())?;
+        let mesh = RadialMesh::new(disk, resolution.n_elements);
+        Ok(Self {
+            family: HarmonicFamily::new(disk, &MembraneStress::new(disk), &mesh),
+            damping: disk.damping,
+            resolution: resolution.clone(),
+            rows: radii_m.iter().map(|&r| mesh.interpolation(r)).collect(),
+            correction_at,
+        })
+    }
+
+    /// The harmonics of `harmonics` from `first` on. Those of two calls, the second of which begins where the
+    /// first ended, are those of one.
+    ///
+    /// # Errors
+    /// A failed eigenvalue problem.
+    pub fn basis(&self, first: usize, harmonics: Harmonics) -> Result<DiskBasis, DiskError> {
+        let mut basis = DiskBasis {
+            modes: Vec::new(),
+            harmonics_bounded: false,
+        };
+        let last = match harmonics {
+            Harmonics::Symmetric => 0,
+            Harmonics::Tilting => 1,
+            Harmonics::All => usize::MAX,
+        };
+        // Lowest frequencies fall from n = 0 to 1 or 2 and rise from there on: two harmonics in
+        // a row above the cut end the list.
+        let mut n_above_cut = 0;
+        for n in first..=last {
+            let HarmonicModes { modes, n_below } = self.harmonic(n)?;
+            n_above_cut = if n_below == 0 { n_above_cut + 1 } else { 0 };
+            if n >= 2 && n_above_cut >= 2 {
+                break;
+            }
+            if n > self.resolution.n_harmonics {
+                basis.harmonics_bounded = n_below > 0;
+                break;
+            }
+            basis.modes.extend(modes);
+        }
+        Ok(basis)
+    }
+
+    /// Modes of `n`, frequency rising, and the static correction.
+    fn harmonic(&self, n: usize) -> Result<HarmonicModes, DiskError> {
+        let failed = |source| DiskError::Modes {
+            nodal_diameters: n,
+            source,
+        };
+        let cut = std::f64::consts::TAU * self.resolution.cut_hz;
+        let m = self.family.harmonic(n);
+        let (limit, at_least) = match n {
+            0 => (SYMMETRIC_CUT_FACTOR * cut, MIN_SYMMETRIC_MODES),
+            _ => (cut, 0),
+        };
+        let pairs = lowest::modes_below(&m.stiffness, &m.mass, limit * limit, at_least);
+        let pairs = pairs.map_err(failed)?;
+        let sample = |x: &[f64]| -> Vec<(f64, f64)> {
+            let rows = self.rows.iter();
+            rows.map(|(value, slope)| (dot(value, x), dot(slope, x)))
+                .collect()
+        };
+        let kept = pairs.values.iter().zip(&pairs.vectors).enumerate();
+        let mut modes: Vec<_> = kept
+            .map(|(j, (value, x))| DiskMode {
+                nodal_diameters: n,
+                nodal_circles: Some(j),
+                omega_rad_per_s: value.sqrt(),
+                damping_ratio: damping_ratio(&self.damping, value.sqrt()),
+                participation: dot(&m.rigid_load, x),
+                shape: sample(x),
+            })
+            .collect();
+        let is_below = |mode: &&DiskMode| mode.omega_rad_per_s < cut;
+        let n_below = match n {
+            0 => modes.iter().take_while(is_below).count(),
+            _ => modes.len(),
+        };
+        let at = match self.correction_at {
+            Some(at) if self.resolution.static_correction && !modes.is_empty() => at,
+            _ => return Ok(HarmonicModes { modes, n_below }),
+        };
+        let mut x = self.rows[at].0.clone();
+        m.stiffness.cholesky().map_err(failed)?.solve(&mut x);
+        // Twice is enough against rounding left by the first projection.
+        for _ in 0..2 {
+            let inertia = m.mass.times(&x);
+            for y in &pairs.vectors {
+                let share = dot(y, &inertia);
+                for (xi, yi) in x.iter_mut().zip(y) {
+                    *xi -= share * yi;
+                }
+            }
+        }
+        let mass = m.mass.form(&x, &x);
+        let omega = (m.stiffness.form(&x, &x) / mass).sqrt();
+        let scale = mass.sqrt().recip();
+        if scale.is_finite() {
+            x.iter_mut().for_each(|c| *c *= scale);
+            modes.push(DiskMode {
+                nodal_diameters: n,
+                nodal_circles: None,
+                omega_rad_per_s: omega,
+                damping_ratio: damping_ratio(&self.damping, omega),
+                participation: 0.0,
+                shape: sample(&x),
+            });
+        }
+        Ok(HarmonicModes { modes, n_below })
+    }
+}
+
 impl DiskBasis {
-    /// Basis with shapes sampled at `radii_m`; `correction_at` is the index into `radii_m` of the
-    /// point whose static compliance is made exact, if any. A symmetric basis holds the n = 0 modes
+    /// Basis with shapes sampled at `radii_m` ([`DiskModes::new`]). A symmetric basis holds the n = 0 modes
     /// of the whole one.
     ///
     /// # Errors
-    /// Parameters out of range, a radius off the disk, or a failed eigenvalue problem.
+    /// Parameters out of range, or a failed eigenvalue problem.
     pub fn build(
         disk: &DiskParameters,
         resolution: &DiskResolution,
@@ -122,103 +265,7 @@ impl DiskBasis {
         correction_at: Option<usize>,
         harmonics: Harmonics,
     ) -> Result<Self, DiskError> {
-        validate(disk, resolution)?;
-        disk.hub.map_or(Ok(()), |hub| hub.validate())?;
-        let mesh = RadialMesh::new(disk, resolution.n_elements);
-        let rows: Vec<_> = radii_m.iter().map(|&r| mesh.interpolation(r)).collect();
-        let family = HarmonicFamily::new(disk, &MembraneStress::new(disk), &mesh);
-        let cut = std::f64::consts::TAU * resolution.cut_hz;
-        let mut modes = Vec::new();
-        let mut harmonics_bounded = false;
-        // Lowest frequencies fall from n = 0 to 1 or 2 and rise from there on: two harmonics in
-        // a row above the cut end the list.
-        let mut n_above_cut = 0;
-        for n in 0.. {
-            let is_last = match harmonics {
-                Harmonics::Symmetric => n > 0,
-                Harmonics::Tilting => n > 1,
-                Harmonics::All => false,
-            };
-            if is_last {
-                break;
-            }
-            let failed = |source| DiskError::Modes {
-                nodal_diameters: n,
-                source,
-            };
-            let m = family.harmonic(n);
-            let (limit, at_least) = match n {
-                0 => (SYMMETRIC_CUT_FACTOR * cut, MIN_SYMMETRIC_MODES),
-                _ => (cut, 0),
-            };
-            let pairs = lowest::modes_below(&m.stiffness, &m.mass, limit * limit, at_least);
-            let pairs = pairs.map_err(failed)?;
-            let n_keep = pairs.values.len();
-            let n_below = match n {
-                0 => pairs.values.iter().take_while(|v| v.sqrt() < cut).count(),
-                _ => n_keep,
-            };
-            n_above_cut = if n_below == 0 { n_above_cut + 1 } else { 0 };
-            if n >= 2 && n_above_cut >= 2 {
-                break;
-            }
-            if n > resolution.n_harmonics {
-                harmonics_bounded = n_below > 0;
-                break;
-            }
-            if n_keep == 0 {
-                continue;
-            }
-            let sample = |x: &[f64]| -> Vec<(f64, f64)> {
-                rows.iter()
-                    .map(|(value, slope)| (dot(value, x), dot(slope, x)))
-                    .collect()
-            };
-            for j in 0..n_keep {
-                let x = &pairs.vectors[j];
-                modes.push(DiskMode {
-                    nodal_diameters: n,
-                    nodal_circles: Some(j),
-                    omega_rad_per_s: pairs.values[j].sqrt(),
-                    damping_ratio: damping_ratio(&disk.damping, pairs.values[j].sqrt()),
-                    participation: dot(&m.rigid_load, x),
-                    shape: sample(x),
-                });
-            }
-            if let (Some(at), true) = (correction_at, resolution.static_correction) {
-                let force = &rows[at].0;
-                let mut x = force.clone();
-                m.stiffness.cholesky().map_err(failed)?.solve(&mut x);
-                // Twice is enough against rounding left by the first projection.
-                for _ in 0..2 {
-                    let inertia = m.mass.times(&x);
-                    for y in &pairs.vectors[..n_keep] {
-                        let share = dot(y, &inertia);
-                        for (xi, yi) in x.iter_mut().zip(y) {
-                            *xi -= share * yi;
-                        }
-                    }
-                }
-                let mass = m.mass.form(&x, &x);
-                let omega = (m.stiffness.form(&x, &x) / mass).sqrt();
-                let scale = mass.sqrt().recip();
-                if scale.is_finite() {
-                    x.iter_mut().for_each(|c| *c *= scale);
-                    modes.push(DiskMode {
-                        nodal_diameters: n,
-                        nodal_circles: None,
-                        omega_rad_per_s: omega,
-                        damping_ratio: damping_ratio(&disk.damping, omega),
-                        participation: 0.0,
-                        shape: sample(&x),
-                    });
-                }
-            }
-        }
-        Ok(Self {
-            modes,
-            harmonics_bounded,
-        })
+        DiskModes::new(disk, resolution, radii_m, correction_at)?.basis(0, harmonics)
     }
 }
 

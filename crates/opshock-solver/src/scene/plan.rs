@@ -408,7 +408,7 @@ impl Plan {
             ),
             decision(
                 "R2",
-                "harmonics n >= 1 of the disk asleep until the first touch, not built without a ramp",
+                "harmonics n >= 1 of the disk asleep, and not built, until the first touch",
                 self.wake == Wake::AtTouch,
                 "axial shock, axisymmetric disk, no tilt: only n = 0 is driven; run-out turns with the disk and drives no mode",
                 match scene.oblique {

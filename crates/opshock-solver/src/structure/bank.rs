@@ -1,9 +1,10 @@
 //! Disk and arms put together as one bank of oscillators.
 
+use super::driven::Arm;
 use super::free_motion::{ForcedModes, ForcedShapes};
-use super::model::{Arm, SliderPlace};
+use super::model::SliderPlace;
 use super::rotor::RidingMode;
-use crate::disk::{DiskBasis, DiskParameters, DiskPose};
+use crate::disk::{DiskMode, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
 use crate::ramp::{ArmMode, CoupledMode};
@@ -40,13 +41,13 @@ pub(super) struct Bank {
 impl Bank {
     /// Disk modes. Angles are measured from the ramp, so that the contact force drives real parts.
     pub fn new(
-        basis: &DiskBasis,
+        modes: &[DiskMode],
         disk: &DiskParameters,
         slider: SliderPlace,
         ramp_angle: f64,
         is_on_base: bool,
     ) -> Self {
-        let n_disk = padded(basis.modes.len());
+        let n_disk = padded(modes.len());
         let zero = || vec![0.0; n_disk];
         // x runs with the disk; with negative spin it runs against growing angle.
         let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
@@ -70,7 +71,7 @@ impl Bank {
             slope_to_pose: [pitch[0], roll[0]],
             riding: is_on_base.then(Vec::new),
         };
-        for (i, mode) in basis.modes.iter().enumerate() {
+        for (i, mode) in modes.iter().enumerate() {
             let n = mode.nodal_diameters as f64;
             let fixed = disk.space_fixed_damping_per_s;
             let gamma = mode.damping_ratio * mode.omega_rad_per_s;

@@ -1,18 +1,22 @@
 //! How a run ends, whatever carried it: energy book, contacts, history, columns.
 
 use super::contact_log::ContactLog;
+use super::driven::Driven;
 use super::energy::{Energies, Ledger};
 use super::history::StructuralHistory;
-use super::model::{Shared, StructureError, StructureRun};
+use super::model::{StructureError, StructureRun};
 use super::record::{
     BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, MomentumBook,
     StructureColumns,
 };
 use super::rotor::Body;
+use super::shared::Shared;
 
 /// What a method of contact leaves behind.
 pub(super) struct Closing<'a> {
     pub shared: &'a Shared,
+    /// What contact drove, where it had woken.
+    pub driven: Option<&'a Driven>,
     /// Last node reached.
     pub k: usize,
     /// First node whose motion is not a finite number.
@@ -171,6 +175,7 @@ impl Closing<'_> {
             });
         }
         let mut warnings = self.shared.warnings.clone();
+        warnings.extend(self.driven.iter().flat_map(|driven| &driven.warnings));
         warnings.extend(StructureRun::penetration_warning(
             self.complementarity.max_penetration_m,
         ));

@@ -1,10 +1,12 @@
 //! Disk, ramp and their contact: one run gives a structural history.
 #![doc = include_str!("theory.md")]
 
+mod assembly;
 mod bank;
 mod closing;
 mod contact_log;
 mod contact_system;
+mod driven;
 mod energy;
 mod forced_columns;
 mod free_motion;
@@ -16,6 +18,8 @@ mod node;
 mod record;
 mod response;
 mod rotor;
+mod run_books;
+mod shared;
 mod stretches;
 
 pub use history::StructuralHistory;

@@ -1,41 +1,23 @@
 //! What is common to all amplitudes of one scene, and the run of one amplitude.
 
-use super::bank::Bank;
-use super::contact_system::{ContactSystem, RunState};
-use super::energy::EnergyWeights;
-use super::free_motion::{FreeMotion, Sample};
+use super::contact_system::ContactSystem;
 use super::history::StructuralHistory;
 use super::record::{
     ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
 };
-use super::rotor::{self, Rotor, is_carried};
+use super::rotor::Rotor;
+use super::run_books::{RunBooks, RunState};
+use super::shared::{Shared, unit_gap};
 use super::{ContactMethod, StructureResolution, Window};
-use crate::complementarity::{self, ContactMemory, Gap, ImpactLaw};
-use crate::disk::{
-    self, DiskBasis, DiskError, DiskMode, DiskParameters, DiskPose, DiskResolution, Harmonics,
-};
-use crate::modal::{BankFlow, Oscillator, Readout};
+use crate::complementarity::{self, ContactMemory, Gap};
+use crate::disk::{DiskError, DiskParameters, DiskResolution};
 use crate::mutant;
-use crate::ramp::{ArmMode, RampError, RampModel, RampParameters};
+use crate::ramp::{RampError, RampParameters};
 use crate::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseError};
-use std::ops::Range;
 use std::sync::Arc;
 
-/// A gap below this is closed, m. Displacements of 0.1 mm carry rounding of 1e-20 m; nothing of
-/// interest is smaller than 1e-12 m.
-const GAP_TOLERANCE_M: f64 = 1e-13;
-/// Bounces located in one step before contact is taken as sustained.
-const MAX_IMPACTS_PER_STEP: u32 = 8;
 /// Penetration above which a run warns, m.
 const PENETRATION_WARNING_M: f64 = 1e-7;
-/// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
-/// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
-/// constant compliance: it stands for stiffness, and would divide the step three to five times.
-const FASTEST_DISK_ANGLE: f64 = 3.0;
-/// Most modes of a base.
-const MOST_BASE_MODES: usize = 16;
-/// Most steps of a grid.
-const MAX_STEPS: f64 = 2e7;
 
 /// Where the slider stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,55 +160,6 @@ pub enum Wake {
     AtOnset,
 }
 
-/// One arm in the bank of oscillators.
-pub(super) struct Arm {
-    /// Indices of its modes in the bank.
-    pub modes: Range<usize>,
-}
-
-/// What all runs share.
-pub(super) struct Shared {
-    pub free: FreeMotion,
-    pub n_steps: usize,
-    pub method: ContactMethod,
-    pub window: Window,
-    pub pulse: Pulse,
-    /// 0 without a ramp, else 2.
-    pub n_contacts: usize,
-    pub clearance_m: [f64; 2],
-    pub law: ImpactLaw,
-    pub spin_rad_per_s: f64,
-    /// Disk modes, then the arms' modes, padded.
-    pub oscillators: Vec<Oscillator>,
-    /// Disk modes including padding.
-    pub n_disk: usize,
-    /// Bank index of each forced mode.
-    pub forced_index: Vec<usize>,
-    pub arms: [Arm; 2],
-    /// Whether both arms are one body with the same modes.
-    pub coupled: bool,
-    /// Shape of the disk at the contact point, over the bank (zero on arms).
-    pub contact: Vec<f64>,
-    /// Nodal diameters times `contact`: −Im of it reads w_θ.
-    pub contact_turn: Vec<f64>,
-    /// Shapes 1/√m of each arm's contact point over the bank.
-    pub arm_shape: [Vec<f64>; 2],
-    pub rim: Vec<f64>,
-    /// Displacement, pitch and roll at the slider.
-    pub slider: [Readout; 3],
-    /// Jump of the slider's pose rate per impulse on the disk.
-    pub slider_jump: DiskPose,
-    /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
-    pub base_jumps: Option<[(DiskPose, f64); 3]>,
-    /// Pitch and roll per radial slope.
-    pub slope_to_pose: [f64; 2],
-    pub step_flow: BankFlow,
-    pub weights: EnergyWeights,
-    pub mobility: [[f64; 2]; 2],
-    pub ripple_loss: [[f64; 2]; 2],
-    pub warnings: Vec<StructureWarning>,
-}
-
 /// Scratch of one thread; fits any model.
 #[derive(Default)]
 pub struct Workspace {
@@ -265,146 +198,20 @@ pub struct StructureRun {
 }
 
 impl StructureModel {
-    /// Builds the modal basis, the unit response and the tables of one step.
-    ///
-    /// Without a ramp nothing ever drives the harmonics n >= 1: [`Harmonics::Symmetric`] then
-    /// gives the same motion for less.
-    ///
-    /// # Errors
-    /// A parameter out of range, a place off the disk, an overlap before the shock, a failed
-    /// eigenvalue problem.
-    pub fn build(
-        parameters: &StructureParameters<'_>,
-        harmonics: Harmonics,
-    ) -> Result<Self, StructureError> {
-        let StructureParameters {
-            disk,
-            disk_resolution,
-            ramp,
-            slider,
-            pulse,
-            oblique,
-            base,
-            window,
-            resolution,
-        } = *parameters;
-        check_times(window, resolution.step_s)?;
-        ramp.validate()?;
-        check_direction(oblique, disk)?;
-        check_base(base, oblique)?;
-        disk::basis::validate_place(disk, "slider", slider.radius_m)?;
-        disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
-        let stretches = pulse.stretches()?;
-        let radii = [ramp.radius_m, slider.radius_m, disk.outer_radius_m];
-        let mut basis = DiskBasis::build(disk, disk_resolution, &radii, Some(0), harmonics)?;
-        let step_s = divided_step_s(&basis, disk_resolution, resolution.step_s);
-        slow_corrections(&mut basis, step_s);
-
-        let is_on_hub = disk.hub.is_some();
-        let has_harmonics = basis.modes.iter().any(|mode| mode.nodal_diameters > 0);
-        let mut carried = Vec::new();
-        if is_on_hub || !base.is_empty() {
-            // The rotor carries them with hub and base.
-            let all = std::mem::take(&mut basis.modes);
-            let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
-            (carried, basis.modes) = all.into_iter().partition(on_it);
-        }
-        let mut bank = Bank::new(&basis, disk, slider, ramp.angle_rad, !base.is_empty());
-        let n_steps = count_steps(window, step_s)?;
-        let stiffness = match ramp.model {
-            RampModel::None => None,
-            _ => ramp.contact_stiffness_n_per_m,
-        };
-        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, stiffness, step_s);
-        let arms = match &ramp.model {
-            RampModel::None | RampModel::Rigid => [add(&[]), add(&[])],
-            RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
-            RampModel::Coupled { modes } => bank.add_coupled(modes, stiffness, step_s),
-        };
-        if let Some(shock) = oblique {
-            // A turning base shakes the ramp by another axial load than the spindle.
-            bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));
-        }
-        bank.pad();
-        let riding = bank.riding.take().unwrap_or_default();
-        let rotor = Rotor::build(
-            &carried,
-            &riding,
-            has_harmonics,
-            parameters,
-            &stretches,
-            step_s,
-        )?;
-
-        let mut step_flow = BankFlow::zeros(bank.oscillators.len());
-        step_flow.set(&bank.oscillators, step_s);
-        let mut mobility = bank.contact_matrix(|_| 1.0);
-        let mut ripple_loss = bank.contact_matrix(|o| o.ripple_loss(step_s));
-        let mut slider_jump = bank.slider_jump();
-        if let Some(rotor) = &rotor {
-            rotor::add(&mut mobility, &rotor.mobility());
-            rotor::add(&mut ripple_loss, &rotor.ripple_loss());
-            slider_jump = slider_jump.plus(&rotor.slider_jump());
-        }
-        let base_jumps = rotor.as_ref().and_then(Rotor::base_jumps).map(|mut jumps| {
-            jumps[0].0 = slider_jump;
-            jumps
-        });
-        let mut warnings = instabilities(&basis, &bank.oscillators);
-        if bank.n_slowed > 0 {
-            warnings.push(StructureWarning::ArmModesSlowed {
-                modes: bank.n_slowed,
-            });
-        }
-        if let Some((nodal_diameters, growth_per_s)) = rotor.as_ref().and_then(Rotor::growth) {
-            warnings.push(StructureWarning::HubInstability {
-                nodal_diameters,
-                growth_per_s,
-            });
-        }
-        if basis.harmonics_bounded {
-            warnings.push(StructureWarning::HarmonicsBounded);
-        }
-        let weights = EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s);
-        let (forced, shapes) = (bank.forced, bank.shapes);
-        let free = FreeMotion::new(forced, shapes, rotor, stretches, step_s, n_steps);
-        Ok(Self {
-            shared: Arc::new(Shared {
-                free,
-                n_steps,
-                method: resolution.contact,
-                window,
-                pulse: pulse.clone(),
-                n_contacts: if ramp.model == RampModel::None { 0 } else { 2 },
-                clearance_m: [ramp.clearance_top_m, ramp.clearance_bottom_m],
-                law: ImpactLaw {
-                    restitution: ramp.restitution,
-                    gap_tolerance_m: GAP_TOLERANCE_M,
-                    max_impacts_per_step: MAX_IMPACTS_PER_STEP,
-                },
-                spin_rad_per_s: disk.spin_rad_per_s,
-                n_disk: bank.n_disk,
-                oscillators: bank.oscillators,
-                forced_index: bank.forced_index,
-                coupled: arms[0].modes == arms[1].modes && !arms[0].modes.is_empty(),
-                arms,
-                contact: bank.contact,
-                contact_turn: bank.contact_turn,
-                arm_shape: bank.arm_shape,
-                rim: bank.rim,
-                slider: bank.slider,
-                slider_jump,
-                base_jumps,
-                slope_to_pose: bank.slope_to_pose,
-                step_flow,
-                weights,
-                mobility,
-                ripple_loss,
-                warnings,
-            }),
+    pub(super) fn of(shared: Shared) -> Self {
+        Self {
+            shared: Arc::new(shared),
             wake: Wake::default(),
             keeps_motion: true,
-        })
+        }
+    }
+
+    /// Builds at once what contact drives, as the first run that touches would.
+    ///
+    /// # Errors
+    /// A failed eigenvalue problem of a harmonic n >= 1.
+    pub fn wake_up(&self) -> Result<(), StructureError> {
+        self.shared.driven().map(|_| ())
     }
 
     /// The same model with another start of the contact-driven state.
@@ -439,25 +246,23 @@ impl StructureModel {
 
     /// Number of modes that move before any contact: the disk's axisymmetric ones and the arms'.
     pub fn n_free_modes(&self) -> usize {
-        let rotor = self.shared.free.rotor.as_ref();
-        self.shared.forced_index.len() + rotor.map_or(0, Rotor::n_driven)
+        let free = &self.shared.free;
+        free.modes.oscillators.len() + free.rotor.as_ref().map_or(0, Rotor::n_driven)
     }
 
     /// Number of modes of both arms.
     pub fn n_arm_modes(&self) -> usize {
         let rotor = self.shared.free.rotor.as_ref();
-        let alone: usize = match self.shared.coupled {
-            true => self.shared.arms[0].modes.len(),
-            false => self.shared.arms.iter().map(|arm| arm.modes.len()).sum(),
-        };
-        alone + rotor.map_or(0, Rotor::n_arm_modes)
+        self.shared.n_arm_modes + rotor.map_or(0, Rotor::n_arm_modes)
     }
 
-    /// Number of modes carried: disk (with static corrections), hub and arms.
-    pub fn n_modes(&self) -> usize {
-        let used = |o: &&Oscillator| o.omega_rad_per_s > 0.0;
+    /// Number of modes once contact has woken all: disk (with static corrections), hub and arms.
+    ///
+    /// # Errors
+    /// A failed eigenvalue problem of a harmonic n >= 1.
+    pub fn n_modes(&self) -> Result<usize, StructureError> {
         let rotor = self.shared.free.rotor.as_ref();
-        self.shared.oscillators.iter().filter(used).count() + rotor.map_or(0, Rotor::n_modes)
+        Ok(self.shared.driven()?.n_modes() + rotor.map_or(0, Rotor::n_modes))
     }
 
     /// Runs the signed amplitude. With `record` the columns of the history are kept.
@@ -483,32 +288,35 @@ impl StructureModel {
             true => amplitude_m_per_s2.abs(),
             false => amplitude_m_per_s2,
         };
-        let mut system = ContactSystem::new(shared, amplitude_m_per_s2, state);
+        let mut books = RunBooks::new(shared, amplitude_m_per_s2, state);
         let mut memory = ContactMemory::default();
-        system.record_node();
+        books.record_node();
         let first_awake = match self.wake {
             Wake::AtTouch if mutant::is_on("R3 first touch") => shared.n_steps,
             Wake::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
             Wake::AtOnset => 0,
         };
         for _ in 0..first_awake {
-            system.sleep_step();
-            system.record_node();
-            if system.decayed() {
-                return system.finish();
+            books.sleep_step();
+            books.record_node();
+            if books.decayed() {
+                return books.finish();
             }
         }
+        if first_awake == shared.n_steps {
+            return books.finish();
+        }
+        let mut system = ContactSystem::wake(books, shared.driven()?);
         for _ in first_awake..shared.n_steps {
-            system.begin_step();
             let step_s = shared.free.step_s;
             let report = complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
             system.end_step(report);
-            system.record_node();
-            if system.decayed() {
+            system.books().record_node();
+            if system.books().decayed() {
                 break;
             }
         }
-        system.finish()
+        system.into_books().finish()
     }
 
     /// Smallest |amplitude| of the given sign at which this ramp is touched within the window, by
@@ -554,191 +362,8 @@ impl StructureModel {
     }
 }
 
-impl Shared {
-    /// Gap of `side` at node `k` in free motion.
-    pub fn free_gap(&self, side: usize, amplitude: f64, sample: &Sample) -> Gap {
-        let unit = unit_gap(side, sample);
-        Gap {
-            value_m: self.clearance_m[side] + amplitude * unit.value_m,
-            rate_m_per_s: amplitude * unit.rate_m_per_s,
-        }
-    }
-
-    /// Pose and rate of the disk over the pivot as the unit response alone moves it.
-    ///
-    /// What contact does to the pivot is told apart ([`StructuralHistory`]): impulses make its velocity jump,
-    /// which no load b(t) could tell the head.
-    pub fn over_pivot(
-        &self,
-        amplitude: f64,
-        time_s: f64,
-        mut pose: DiskPose,
-        mut rate: DiskPose,
-    ) -> (DiskPose, DiskPose) {
-        if let Some(base) = &self.free.base {
-            let [value, speed] = base.displacement(time_s);
-            pose.displacement_m -= amplitude * value;
-            rate.displacement_m -= amplitude * speed;
-        }
-        (pose, rate)
-    }
-
-    /// An empty history of what contact does to the pivot, on a base that vibrates.
-    pub fn pivot_history(&self, n_nodes: usize) -> Option<Box<StructuralHistory>> {
-        self.base_jumps.map(|_| {
-            Box::new(StructuralHistory {
-                step_s: self.free.step_s,
-                pose: Vec::with_capacity(n_nodes),
-                rate: Vec::with_capacity(n_nodes),
-                ..StructuralHistory::default()
-            })
-        })
-    }
-
-    /// First step in which free motion closes a gap; the number of steps when none does.
-    fn first_touching_step(&self, amplitude: f64) -> usize {
-        if self.n_contacts == 0 {
-            return self.n_steps;
-        }
-        (0..self.n_steps)
-            .find(|&k| self.may_touch(amplitude, k))
-            .unwrap_or(self.n_steps)
-    }
-
-    /// True when free motion from node `k` closes a gap before node `k + 1`, or a gap is closed.
-    fn may_touch(&self, amplitude: f64, k: usize) -> bool {
-        (0..self.n_contacts).any(|side| {
-            let now = self.free_gap(side, amplitude, &self.free.samples[k]);
-            let ahead = self.free_gap(side, amplitude, &self.free.samples[k + 1]);
-            ahead.value_m < 0.0 || complementarity::advance::dips(now, ahead, self.free.step_s)
-        })
-    }
-}
-
-/// Change of the gap of `side` per unit amplitude: top g = g₀ + x − w, bottom g = g₀ − x + w.
-fn unit_gap(side: usize, sample: &Sample) -> Gap {
-    let (arm, sign) = if side == 0 {
-        (sample.top, 1.0)
-    } else {
-        (sample.bottom, -1.0)
-    };
-    Gap {
-        value_m: sign * (arm.value - sample.contact.value),
-        rate_m_per_s: sign * (arm.rate - sample.contact.rate),
-    }
-}
-
 impl StructureRun {
     pub(super) fn penetration_warning(depth_m: f64) -> Option<StructureWarning> {
         (depth_m > PENETRATION_WARNING_M).then_some(StructureWarning::Penetration { depth_m })
     }
-}
-
-fn window_length(window: Window) -> f64 {
-    match window {
-        Window::Fixed { length_s } => length_s,
-        Window::UntilDecayed { max_s, .. } => max_s,
-    }
-}
-
-fn check_direction(
-    oblique: Option<&ObliqueShock>,
-    disk: &DiskParameters,
-) -> Result<(), StructureError> {
-    match oblique {
-        Some(shock) if disk.hub.is_none() || !shock.is_finite() => Err(StructureError::Direction),
-        _ => Ok(()),
-    }
-}
-
-fn check_base(base: &[BaseMode], oblique: Option<&ObliqueShock>) -> Result<(), StructureError> {
-    let is_sound = base.len() <= MOST_BASE_MODES && base.iter().all(BaseMode::is_sound);
-    match base.is_empty() || (oblique.is_none() && is_sound) {
-        true => Ok(()),
-        false => Err(StructureError::Base),
-    }
-}
-
-fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
-    let positive = "finite and above 0";
-    let above_0 = |x: f64| x.is_finite() && x > 0.0;
-    let (length, share) = match window {
-        Window::Fixed { length_s } => (length_s, 0.5),
-        Window::UntilDecayed { share, max_s } => (max_s, share),
-    };
-    for (name, value, ok, allowed) in [
-        ("window", length, above_0(length), positive),
-        ("step", step_s, above_0(step_s), positive),
-        (
-            "decay share",
-            share,
-            above_0(share) && share < 1.0,
-            "between 0 and 1",
-        ),
-    ] {
-        if !ok {
-            return Err(StructureError::Time {
-                name,
-                value,
-                allowed,
-            });
-        }
-    }
-    Ok(())
-}
-
-fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
-    // A window that is a multiple of the step but for rounding gets no step more.
-    let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
-    if n > MAX_STEPS {
-        return Err(StructureError::Time {
-            name: "steps in the window",
-            value: n,
-            allowed: "at most 2e7",
-        });
-    }
-    Ok(n as usize)
-}
-
-/// The step divided for the modes below the cut and, should it be lower, the slowest of n = 0, which
-/// every basis holds. So all ramps share one grid.
-fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -> f64 {
-    let symmetric = basis.modes.iter().filter(|mode| mode.nodal_diameters == 0);
-    let fastest = symmetric
-        .filter(|mode| mode.nodal_circles.is_some())
-        .map(|mode| mode.omega_rad_per_s)
-        .fold(std::f64::consts::TAU * resolution.cut_hz, f64::max);
-    let n_parts = (fastest * step_s / FASTEST_DISK_ANGLE).ceil().max(1.0);
-    step_s / n_parts
-}
-
-/// Slows static corrections too fast for the step; φ/ω and so the compliance stay.
-fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
-    let limit = FASTEST_DISK_ANGLE / step_s;
-    for mode in &mut basis.modes {
-        if mode.nodal_circles.is_none() && mode.omega_rad_per_s > limit {
-            let share = limit / mode.omega_rad_per_s;
-            mode.omega_rad_per_s = limit;
-            for (value, slope) in &mut mode.shape {
-                *value *= share;
-                *slope *= share;
-            }
-        }
-    }
-}
-
-/// Modes that grow: air held in space above a critical speed.
-fn instabilities(basis: &DiskBasis, oscillators: &[Oscillator]) -> Vec<StructureWarning> {
-    basis
-        .modes
-        .iter()
-        .zip(oscillators)
-        .filter_map(|(mode, o)| {
-            let growth_per_s = o.roots().iter().map(|r| r.re).fold(f64::MIN, f64::max);
-            (growth_per_s > 0.0).then_some(StructureWarning::PhysicalInstability {
-                nodal_diameters: mode.nodal_diameters,
-                growth_per_s,
-            })
-        })
-        .collect()
 }

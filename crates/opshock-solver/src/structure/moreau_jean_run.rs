@@ -16,12 +16,14 @@ use super::Window;
 use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
+use super::driven::Driven;
 use super::energy::Ledger;
 use super::history::StructuralHistory;
-use super::model::{Shared, StructureError, StructureModel, StructureRun};
+use super::model::{StructureError, StructureModel, StructureRun};
 use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{RotorScratch, RotorState};
+use super::shared::Shared;
 use crate::complementarity::moreau_jean::{LinearMode, MoreauJean};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -31,6 +33,7 @@ use nalgebra::Complex;
 /// A run on its way.
 struct March<'a> {
     shared: &'a Shared,
+    driven: &'a Driven,
     amplitude: f64,
     system: MoreauJean,
     /// Modal force of the shock at the middle of the step.
@@ -59,7 +62,7 @@ impl StructureModel {
         record: bool,
     ) -> Result<StructureRun, StructureError> {
         let shared = &*self.shared;
-        let mut march = March::new(shared, amplitude, record);
+        let mut march = March::new(shared, shared.driven()?, amplitude, record);
         march.record_node(0);
         for k in 0..shared.n_steps {
             march.step(k);
@@ -73,15 +76,16 @@ impl StructureModel {
 }
 
 impl<'a> March<'a> {
-    fn new(shared: &'a Shared, amplitude: f64, record: bool) -> Self {
-        let n = shared.oscillators.len();
+    fn new(shared: &'a Shared, driven: &'a Driven, amplitude: f64, record: bool) -> Self {
+        let n = driven.oscillators.len();
         let n_nodes = shared.n_steps + 1;
         let rotor = shared.free.rotor.as_ref();
         let at_rest = || rotor.map_or_else(RotorState::default, |rotor| rotor.at_rest());
         Self {
             shared,
+            driven,
             amplitude,
-            system: system(shared),
+            system: system(shared, driven),
             force: vec![0.0; n],
             now: ModalState::at_rest(n),
             before: ModalState::at_rest(n),
@@ -109,10 +113,10 @@ impl<'a> March<'a> {
 
     /// From node `k` to the next.
     fn step(&mut self, k: usize) {
-        let shared = self.shared;
+        let (shared, driven) = (self.shared, self.driven);
         let h = shared.free.step_s;
         let middle = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
-        for (&i, gain) in shared
+        for (&i, gain) in driven
             .forced_index
             .iter()
             .zip(&shared.free.modes.participation)
@@ -135,10 +139,10 @@ impl<'a> March<'a> {
 
     /// Energies exchanged in the step just taken from node `k`, and its impulses.
     fn book_step(&mut self, k: usize, impulse: [f64; 2]) {
-        let shared = self.shared;
+        let (shared, driven) = (self.shared, self.driven);
         let h = shared.free.step_s;
         let (a, b) = (&self.before, &self.now);
-        for (j, o) in shared.oscillators.iter().enumerate() {
+        for (j, o) in driven.oscillators.iter().enumerate() {
             let mean = |x: &[f64], y: &[f64]| 0.5 * (x[j] + y[j]);
             let (q_re, q_im) = (mean(&a.q_re, &b.q_re), mean(&a.q_im, &b.q_im));
             let (r_re, r_im) = (mean(&a.r_re, &b.r_re), mean(&a.r_im, &b.r_im));
@@ -167,7 +171,7 @@ impl<'a> March<'a> {
         let start_s = k as f64 * h;
         let on_disk = impulse[1] - impulse[0];
         let mut w_theta =
-            -0.5 * (dot(&shared.contact_turn, &a.q_im) + dot(&shared.contact_turn, &b.q_im));
+            -0.5 * (dot(&driven.contact_turn, &a.q_im) + dot(&driven.contact_turn, &b.q_im));
         if let Some(rotor) = &shared.free.rotor {
             let (before, now) = (&self.rotor_before, &self.rotor_now);
             w_theta += 0.5 * (rotor.contact_turn(before) + rotor.contact_turn(now));
@@ -179,7 +183,7 @@ impl<'a> March<'a> {
             if p == 0.0 {
                 continue;
             }
-            let mut rates = gap_rate(shared, side, a) + gap_rate(shared, side, b);
+            let mut rates = gap_rate(driven, side, a) + gap_rate(driven, side, b);
             if let Some(rotor) = &shared.free.rotor {
                 let [before, now] = [&self.rotor_before, &self.rotor_now]
                     .map(|state| rotor.contact(state).rate_m_per_s);
@@ -201,9 +205,9 @@ impl<'a> March<'a> {
 
     /// Books node `k`, which the state has reached.
     fn record_node(&mut self, k: usize) {
-        let (shared, s) = (self.shared, &self.now);
-        let n = shared.n_disk;
-        let [w, p, r] = &shared.slider;
+        let (shared, driven, s) = (self.shared, self.driven, &self.now);
+        let n = driven.n_disk;
+        let [w, p, r] = &driven.slider;
         let read = |re: &[f64], im: &[f64]| DiskPose {
             displacement_m: w.read(&re[..n], &im[..n]),
             pitch_rad: p.read(&re[..n], &im[..n]),
@@ -211,9 +215,9 @@ impl<'a> March<'a> {
         };
         let time_s = k as f64 * shared.free.step_s;
         let (mut pose, mut rate) = (read(&s.q_re, &s.q_im), read(&s.r_re, &s.r_im));
-        let mut energies = shared.weights.energies(s);
-        let (mut ramp_m, mut rim_m) = (dot(&shared.contact, &s.q_re), dot(&shared.rim, &s.q_re));
-        let mut arms_m = std::array::from_fn(|side| dot(&shared.arm_shape[side], &s.q_re));
+        let mut energies = driven.weights.energies(s);
+        let (mut ramp_m, mut rim_m) = (dot(&driven.contact, &s.q_re), dot(&driven.rim, &s.q_re));
+        let mut arms_m = std::array::from_fn(|side| dot(&driven.arm_shape[side], &s.q_re));
         if let Some(rotor) = &shared.free.rotor {
             rotor.add_slider(&self.rotor_now, &mut pose, &mut rate);
             energies.add(&rotor.energies(&self.rotor_now, &mut self.scratch));
@@ -282,6 +286,7 @@ impl<'a> March<'a> {
         let k = self.history.pose.len() - 1;
         let closing = Closing {
             shared: self.shared,
+            driven: Some(self.driven),
             k,
             not_finite: None,
             energies: self.last.energies,
@@ -307,13 +312,13 @@ fn linear(o: &Oscillator) -> LinearMode {
 }
 
 /// The model's modes and gaps: top g = g₀ + x − w, bottom g = g₀ − x + w.
-fn system(shared: &Shared) -> MoreauJean {
+fn system(shared: &Shared, driven: &Driven) -> MoreauJean {
     let row = |side: usize, sign: f64| -> Vec<f64> {
-        let pairs = shared.arm_shape[side].iter().zip(&shared.contact);
+        let pairs = driven.arm_shape[side].iter().zip(&driven.contact);
         pairs.map(|(arm, disk)| sign * (arm - disk)).collect()
     };
     let mut system = MoreauJean::new(
-        shared.oscillators.iter().map(linear).collect(),
+        driven.oscillators.iter().map(linear).collect(),
         [row(0, 1.0), row(1, -1.0)]
             .into_iter()
             .take(shared.n_contacts)
@@ -328,7 +333,7 @@ fn system(shared: &Shared) -> MoreauJean {
     system
 }
 
-fn gap_rate(shared: &Shared, side: usize, state: &ModalState) -> f64 {
-    let closing = dot(&shared.arm_shape[side], &state.r_re) - dot(&shared.contact, &state.r_re);
+fn gap_rate(driven: &Driven, side: usize, state: &ModalState) -> f64 {
+    let closing = dot(&driven.arm_shape[side], &state.r_re) - dot(&driven.contact, &state.r_re);
     if side == 0 { closing } else { -closing }
 }

@@ -9,7 +9,7 @@
 //! over those of the arms. A shock drives n = 0 and the arms by their participations. The disk stands on the
 //! base: with a hub there is no such sum.
 
-use super::model::StructureModel;
+use super::model::{StructureError, StructureModel};
 use crate::modal::Oscillator;
 use nalgebra::Complex;
 
@@ -55,46 +55,54 @@ fn sides(o: &Oscillator, omega: f64) -> [Complex<f64>; 2] {
 
 impl StructureModel {
     /// Answer at ω to `source`; 0 is the static limit. `None` for a disk on a hub.
-    pub fn response(&self, omega_rad_per_s: f64, source: Source) -> Option<StructureAnswer> {
+    ///
+    /// # Errors
+    /// A failed eigenvalue problem of a harmonic n >= 1.
+    pub fn response(
+        &self,
+        omega_rad_per_s: f64,
+        source: Source,
+    ) -> Result<Option<StructureAnswer>, StructureError> {
         let shared = &*self.shared;
         if shared.free.rotor.is_some() {
-            return None;
+            return Ok(None);
         }
+        let driven = shared.driven()?;
         let one = Complex::new(1.0, 0.0);
-        let slider = |q: usize, i: usize| match i < shared.n_disk {
-            true => Complex::new(shared.slider[q].re[i], -shared.slider[q].im[i]),
+        let slider = |q: usize, i: usize| match i < driven.n_disk {
+            true => Complex::new(driven.slider[q].re[i], -driven.slider[q].im[i]),
             false => Complex::default(),
         };
         let mut out = StructureAnswer::default();
-        for (i, o) in shared.oscillators.iter().enumerate() {
+        for (i, o) in driven.oscillators.iter().enumerate() {
             if o.omega_rad_per_s == 0.0 {
                 continue;
             }
             // A force where the readout is b drives the complex coordinate by conj b.
             let drive = match source {
                 Source::Shock => {
-                    let place = shared.forced_index.iter().position(|&index| index == i);
+                    let place = driven.forced_index.iter().position(|&index| index == i);
                     one * place.map_or(0.0, |j| shared.free.modes.participation[j])
                 }
-                Source::DiskAtRamp => one * shared.contact[i],
+                Source::DiskAtRamp => one * driven.contact[i],
                 Source::DiskAtSlider => slider(0, i).conj(),
-                Source::TopArm => one * shared.arm_shape[0][i],
-                Source::BottomArm => one * shared.arm_shape[1][i],
+                Source::TopArm => one * driven.arm_shape[0][i],
+                Source::BottomArm => one * driven.arm_shape[1][i],
             };
             if drive == Complex::default() {
                 continue;
             }
             let [plus, minus] = sides(o, omega_rad_per_s);
             let read = |b: Complex<f64>| 0.5 * (b * plus * drive + (b * drive).conj() * minus);
-            out.ramp_m += read(one * shared.contact[i]);
-            out.rim_m += read(one * shared.rim[i]);
+            out.ramp_m += read(one * driven.contact[i]);
+            out.rim_m += read(one * driven.rim[i]);
             for (q, out) in out.slider.iter_mut().enumerate() {
                 *out += read(slider(q, i));
             }
             for (side, out) in out.arms_m.iter_mut().enumerate() {
-                *out += read(one * shared.arm_shape[side][i]);
+                *out += read(one * driven.arm_shape[side][i]);
             }
         }
-        Some(out)
+        Ok(Some(out))
     }
 }

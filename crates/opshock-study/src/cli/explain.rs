@@ -158,6 +158,8 @@ fn explain(
     };
     let model = Model::assemble(scene, &structural, None).map_err(refused)?;
     let structure = model.structure();
+    let n_modes = structure.n_modes();
+    let n_modes = n_modes.map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let amplitude = amplitude_g.map(|g| point.factor() * m_per_s2_from_g(g));
     let touch = Touch {
         amplitude_m_per_s2: amplitude,
@@ -200,7 +202,7 @@ fn explain(
     Ok(Explained {
         effects,
         rules: plan.decisions(scene, &touch),
-        modes: [structure.n_free_modes(), structure.n_modes()],
+        modes: [structure.n_free_modes(), n_modes],
         film_cells,
         measured,
         point,

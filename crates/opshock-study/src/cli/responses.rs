@@ -100,6 +100,8 @@ pub fn responses(
             match of_structure {
                 Some(source) => {
                     let answer = model.structure().response(omega, *source);
+                    let answer =
+                        answer.map_err(|error| study_file::cannot_be_simulated(study, &error))?;
                     let answer = answer.context("a disk on a hub")?;
                     drive.disk = answer.slider;
                     if *source == Source::Shock {

@@ -108,6 +108,11 @@ impl Rotor {
         (jump, self.pivot(&kicked).rate_m_per_s)
     }
 
+    /// Whether a base moves the actuator's pivot.
+    pub fn has_pivot(&self) -> bool {
+        self.parts[0].arms.is_some()
+    }
+
     /// Whether there is a hub, and a base.
     pub fn has_bodies(&self) -> [bool; 2] {
         self.parts[0].bodies.each_ref().map(Option::is_some)

@@ -1,0 +1,284 @@
+//! How a structural model is put together.
+
+use super::bank::Bank;
+use super::driven::{Arm, Driven};
+use super::free_motion::FreeMotion;
+use super::model::{StructureError, StructureModel, StructureParameters, StructureWarning};
+use super::rotor::{Rotor, is_carried};
+use super::shared::{Asleep, Shared};
+use super::{SliderPlace, Window};
+use crate::complementarity::ImpactLaw;
+use crate::disk::{
+    self, DiskBasis, DiskMode, DiskModes, DiskParameters, DiskResolution, Harmonics,
+};
+use crate::ramp::{ArmMode, RampModel, RampParameters};
+use crate::shock::{BaseMode, ObliqueShock};
+use std::sync::LazyLock;
+
+/// A gap below this is closed, m. Displacements of 0.1 mm carry rounding of 1e-20 m; nothing of
+/// interest is smaller than 1e-12 m.
+const GAP_TOLERANCE_M: f64 = 1e-13;
+/// Bounces located in one step before contact is taken as sustained.
+const MAX_IMPACTS_PER_STEP: u32 = 8;
+/// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
+/// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
+/// constant compliance: it stands for stiffness, and would divide the step three to five times.
+const FASTEST_DISK_ANGLE: f64 = 3.0;
+/// Most modes of a base.
+const MOST_BASE_MODES: usize = 16;
+/// Most steps of a grid.
+const MAX_STEPS: f64 = 2e7;
+
+impl StructureModel {
+    /// Builds the modes of n = 0 and the unit response. What only contact drives, the harmonics n >= 1 and
+    /// the tables of one step, is built by the first run that touches (see [`Self::wake_up`]).
+    ///
+    /// Without a ramp nothing ever drives them: [`Harmonics::Symmetric`] then gives the same motion.
+    ///
+    /// # Errors
+    /// A parameter out of range, a place off the disk, an overlap before the shock, a failed
+    /// eigenvalue problem.
+    pub fn build(
+        parameters: &StructureParameters<'_>,
+        harmonics: Harmonics,
+    ) -> Result<Self, StructureError> {
+        let StructureParameters {
+            disk,
+            disk_resolution,
+            ramp,
+            slider,
+            pulse,
+            oblique,
+            base,
+            window,
+            resolution,
+        } = *parameters;
+        check_times(window, resolution.step_s)?;
+        ramp.validate()?;
+        check_direction(oblique, disk)?;
+        check_base(base, oblique)?;
+        disk::basis::validate_place(disk, "slider", slider.radius_m)?;
+        disk::basis::validate_place(disk, "ramp", ramp.radius_m)?;
+        let stretches = pulse.stretches()?;
+        let radii = [ramp.radius_m, slider.radius_m, disk.outer_radius_m];
+        let modes = DiskModes::new(disk, disk_resolution, &radii, Some(0))?;
+        let is_on_hub = disk.hub.is_some();
+        // A hub carries n = 1, and waves that grow in air held in space are told before any touch.
+        let is_at_once = is_on_hub || !base.is_empty() || disk.space_fixed_damping_per_s > 0.0;
+        let first = match is_at_once {
+            true => harmonics,
+            false => Harmonics::Symmetric,
+        };
+        let mut basis = modes.basis(0, first)?;
+        let step_s = divided_step_s(&basis, disk_resolution, resolution.step_s);
+        let n_steps = count_steps(window, step_s)?;
+        slow_corrections(&mut basis, step_s);
+
+        let has_harmonics = basis.modes.iter().any(|mode| mode.nodal_diameters > 0);
+        let mut carried = Vec::new();
+        if is_on_hub || !base.is_empty() {
+            // The rotor carries them with hub and base.
+            let all = std::mem::take(&mut basis.modes);
+            let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
+            (carried, basis.modes) = all.into_iter().partition(on_it);
+        }
+        let stand = Stand {
+            disk: disk.clone(),
+            ramp: ramp.clone(),
+            slider,
+            oblique: oblique.copied(),
+            is_on_base: !base.is_empty(),
+            step_s,
+        };
+        let (mut bank, arms) = stand.bank(&basis.modes);
+        let riding = bank.riding.take().unwrap_or_default();
+        let rotor = Rotor::build(
+            &carried,
+            &riding,
+            has_harmonics,
+            parameters,
+            &stretches,
+            step_s,
+        )?;
+
+        let mut warnings = Vec::new();
+        if bank.n_slowed > 0 {
+            warnings.push(StructureWarning::ArmModesSlowed {
+                modes: bank.n_slowed,
+            });
+        }
+        if let Some((nodal_diameters, growth_per_s)) = rotor.as_ref().and_then(Rotor::growth) {
+            warnings.push(StructureWarning::HubInstability {
+                nodal_diameters,
+                growth_per_s,
+            });
+        }
+        let n_arm_modes = match arms[0].modes == arms[1].modes {
+            true => arms[0].modes.len(),
+            false => arms.iter().map(|arm| arm.modes.len()).sum(),
+        };
+        let slope_to_pose = bank.slope_to_pose;
+        let forced = std::mem::take(&mut bank.forced);
+        let shapes = std::mem::take(&mut bank.shapes);
+        let asleep: Box<dyn FnOnce() -> Asleep + Send> = if is_at_once {
+            let mut driven = Driven::new(bank, arms, &basis, rotor.as_ref(), step_s);
+            warnings.append(&mut driven.warnings);
+            Box::new(|| Ok(driven))
+        } else {
+            Box::new(move || {
+                let mut rest = modes.basis(1, harmonics)?;
+                slow_corrections(&mut rest, step_s);
+                basis.modes.append(&mut rest.modes);
+                basis.harmonics_bounded = rest.harmonics_bounded;
+                let (bank, arms) = stand.bank(&basis.modes);
+                Ok(Driven::new(bank, arms, &basis, None, step_s))
+            })
+        };
+        Ok(Self::of(Shared {
+            free: FreeMotion::new(forced, shapes, rotor, stretches, step_s, n_steps),
+            n_steps,
+            method: resolution.contact,
+            window,
+            pulse: pulse.clone(),
+            n_contacts: if ramp.model == RampModel::None { 0 } else { 2 },
+            clearance_m: [ramp.clearance_top_m, ramp.clearance_bottom_m],
+            law: ImpactLaw {
+                restitution: ramp.restitution,
+                gap_tolerance_m: GAP_TOLERANCE_M,
+                max_impacts_per_step: MAX_IMPACTS_PER_STEP,
+            },
+            spin_rad_per_s: disk.spin_rad_per_s,
+            n_arm_modes,
+            slope_to_pose,
+            warnings,
+            asleep: LazyLock::new(asleep),
+        }))
+    }
+}
+
+/// What disk and arms are put together for.
+struct Stand {
+    disk: DiskParameters,
+    ramp: RampParameters,
+    slider: SliderPlace,
+    oblique: Option<ObliqueShock>,
+    is_on_base: bool,
+    step_s: f64,
+}
+
+impl Stand {
+    /// Modes of the disk and both arms in one bank, padded.
+    fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
+        let Self { disk, ramp, .. } = self;
+        let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.is_on_base);
+        let stiffness = match ramp.model {
+            RampModel::None => None,
+            _ => ramp.contact_stiffness_n_per_m,
+        };
+        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, stiffness, self.step_s);
+        let arms = match &ramp.model {
+            RampModel::None | RampModel::Rigid => [add(&[]), add(&[])],
+            RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
+            RampModel::Coupled { modes } => bank.add_coupled(modes, stiffness, self.step_s),
+        };
+        if let Some(shock) = &self.oblique {
+            // A turning base shakes the ramp by another axial load than the spindle.
+            bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));
+        }
+        bank.pad();
+        (bank, arms)
+    }
+}
+
+fn window_length(window: Window) -> f64 {
+    match window {
+        Window::Fixed { length_s } => length_s,
+        Window::UntilDecayed { max_s, .. } => max_s,
+    }
+}
+
+fn check_direction(
+    oblique: Option<&ObliqueShock>,
+    disk: &DiskParameters,
+) -> Result<(), StructureError> {
+    match oblique {
+        Some(shock) if disk.hub.is_none() || !shock.is_finite() => Err(StructureError::Direction),
+        _ => Ok(()),
+    }
+}
+
+fn check_base(base: &[BaseMode], oblique: Option<&ObliqueShock>) -> Result<(), StructureError> {
+    let is_sound = base.len() <= MOST_BASE_MODES && base.iter().all(BaseMode::is_sound);
+    match base.is_empty() || (oblique.is_none() && is_sound) {
+        true => Ok(()),
+        false => Err(StructureError::Base),
+    }
+}
+
+fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
+    let positive = "finite and above 0";
+    let above_0 = |x: f64| x.is_finite() && x > 0.0;
+    let (length, share) = match window {
+        Window::Fixed { length_s } => (length_s, 0.5),
+        Window::UntilDecayed { share, max_s } => (max_s, share),
+    };
+    for (name, value, ok, allowed) in [
+        ("window", length, above_0(length), positive),
+        ("step", step_s, above_0(step_s), positive),
+        (
+            "decay share",
+            share,
+            above_0(share) && share < 1.0,
+            "between 0 and 1",
+        ),
+    ] {
+        if !ok {
+            return Err(StructureError::Time {
+                name,
+                value,
+                allowed,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
+    // A window that is a multiple of the step but for rounding gets no step more.
+    let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
+    if n > MAX_STEPS {
+        return Err(StructureError::Time {
+            name: "steps in the window",
+            value: n,
+            allowed: "at most 2e7",
+        });
+    }
+    Ok(n as usize)
+}
+
+/// The step divided for the modes below the cut and, should it be lower, the slowest of n = 0, which
+/// every basis holds. So all ramps share one grid.
+fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -> f64 {
+    let symmetric = basis.modes.iter().filter(|mode| mode.nodal_diameters == 0);
+    let fastest = symmetric
+        .filter(|mode| mode.nodal_circles.is_some())
+        .map(|mode| mode.omega_rad_per_s)
+        .fold(std::f64::consts::TAU * resolution.cut_hz, f64::max);
+    let n_parts = (fastest * step_s / FASTEST_DISK_ANGLE).ceil().max(1.0);
+    step_s / n_parts
+}
+
+/// Slows static corrections too fast for the step; φ/ω and so the compliance stay.
+fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
+    let limit = FASTEST_DISK_ANGLE / step_s;
+    for mode in &mut basis.modes {
+        if mode.nodal_circles.is_none() && mode.omega_rad_per_s > limit {
+            let share = limit / mode.omega_rad_per_s;
+            mode.omega_rad_per_s = limit;
+            for (value, slope) in &mut mode.shape {
+                *value *= share;
+                *slope *= share;
+            }
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! What all runs of one model share.
+
+use super::driven::Driven;
+use super::free_motion::{FreeMotion, Sample};
+use super::history::StructuralHistory;
+use super::model::{StructureError, StructureWarning};
+use super::rotor::Rotor;
+use super::{ContactMethod, Window};
+use crate::complementarity::{self, Gap, ImpactLaw};
+use crate::disk::DiskPose;
+use crate::shock::Pulse;
+use std::sync::LazyLock;
+
+/// What contact drives, or why it cannot be built.
+pub(super) type Asleep = Result<Driven, StructureError>;
+
+/// Free motion, ramp and grid; what contact drives sleeps until a run asks for it.
+pub(super) struct Shared {
+    pub free: FreeMotion,
+    pub n_steps: usize,
+    pub method: ContactMethod,
+    pub window: Window,
+    pub pulse: Pulse,
+    /// 0 without a ramp, else 2.
+    pub n_contacts: usize,
+    pub clearance_m: [f64; 2],
+    pub law: ImpactLaw,
+    pub spin_rad_per_s: f64,
+    /// Modes of both arms in the bank; on a base the rotor carries more.
+    pub n_arm_modes: usize,
+    /// Pitch and roll per radial slope.
+    pub slope_to_pose: [f64; 2],
+    /// Told by every run.
+    pub warnings: Vec<StructureWarning>,
+    pub asleep: LazyLock<Asleep, Box<dyn FnOnce() -> Asleep + Send>>,
+}
+
+impl Shared {
+    /// What contact drives, built at the first call.
+    ///
+    /// # Errors
+    /// A failed eigenvalue problem of a harmonic n >= 1.
+    pub fn driven(&self) -> Result<&Driven, StructureError> {
+        self.asleep.as_ref().map_err(Clone::clone)
+    }
+
+    /// Gap of `side` at node `k` in free motion.
+    pub fn free_gap(&self, side: usize, amplitude: f64, sample: &Sample) -> Gap {
+        let unit = unit_gap(side, sample);
+        Gap {
+            value_m: self.clearance_m[side] + amplitude * unit.value_m,
+            rate_m_per_s: amplitude * unit.rate_m_per_s,
+        }
+    }
+
+    /// Pose and rate of the disk over the pivot as the unit response alone moves it.
+    ///
+    /// What contact does to the pivot is told apart ([`StructuralHistory`]): impulses make its velocity jump,
+    /// which no load b(t) could tell the head.
+    pub fn over_pivot(
+        &self,
+        amplitude: f64,
+        time_s: f64,
+        mut pose: DiskPose,
+        mut rate: DiskPose,
+    ) -> (DiskPose, DiskPose) {
+        if let Some(base) = &self.free.base {
+            let [value, speed] = base.displacement(time_s);
+            pose.displacement_m -= amplitude * value;
+            rate.displacement_m -= amplitude * speed;
+        }
+        (pose, rate)
+    }
+
+    /// An empty history of what contact does to the pivot, on a base that vibrates.
+    pub fn pivot_history(&self, n_nodes: usize) -> Option<Box<StructuralHistory>> {
+        let rotor = self.free.rotor.as_ref();
+        rotor.is_some_and(Rotor::has_pivot).then(|| {
+            Box::new(StructuralHistory {
+                step_s: self.free.step_s,
+                pose: Vec::with_capacity(n_nodes),
+                rate: Vec::with_capacity(n_nodes),
+                ..StructuralHistory::default()
+            })
+        })
+    }
+
+    /// First step in which free motion closes a gap; the number of steps when none does.
+    pub fn first_touching_step(&self, amplitude: f64) -> usize {
+        if self.n_contacts == 0 {
+            return self.n_steps;
+        }
+        (0..self.n_steps)
+            .find(|&k| self.may_touch(amplitude, k))
+            .unwrap_or(self.n_steps)
+    }
+
+    /// True when free motion from node `k` closes a gap before node `k + 1`, or a gap is closed.
+    fn may_touch(&self, amplitude: f64, k: usize) -> bool {
+        (0..self.n_contacts).any(|side| {
+            let now = self.free_gap(side, amplitude, &self.free.samples[k]);
+            let ahead = self.free_gap(side, amplitude, &self.free.samples[k + 1]);
+            ahead.value_m < 0.0 || complementarity::advance::dips(now, ahead, self.free.step_s)
+        })
+    }
+}
+
+/// Change of the gap of `side` per unit amplitude: top g = g₀ + x − w, bottom g = g₀ − x + w.
+pub(super) fn unit_gap(side: usize, sample: &Sample) -> Gap {
+    let (arm, sign) = if side == 0 {
+        (sample.top, 1.0)
+    } else {
+        (sample.bottom, -1.0)
+    };
+    Gap {
+        value_m: sign * (arm.value - sample.contact.value),
+        rate_m_per_s: sign * (arm.rate - sample.contact.rate),
+    }
+}
