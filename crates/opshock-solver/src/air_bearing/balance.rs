@@ -9,9 +9,11 @@
 )]
 
 use super::Attitude;
+use super::exponential::growth;
 use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
 use super::film::Film;
-use super::flux::{Drive, growth, inverses, inverses_of_both, is_steep};
+use super::flux::Drive;
+use super::heights::{inverses, inverses_of_both, is_steep};
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 
@@ -347,7 +349,7 @@ impl Halves {
                 blow: blow[k],
                 pe: pe[k],
             };
-            let half = side.half(k, h_face[k], [0.0; 2]);
+            let half = side.bare_half(k, h_face[k]);
             let flux = half.driven::<UP>(&drive, e[k]);
             alpha[k] = flux.alpha;
             beta[k] = flux.beta;
@@ -366,7 +368,7 @@ impl Halves {
     /// The load of half cell k under the face pressure p.
     #[inline(always)]
     fn load<const UP: bool>(&self, side: &SideBlock<'_>, h_face: &Block, k: usize, p: f64) -> f64 {
-        let half = side.half(k, h_face[k], [0.0; 2]);
+        let half = side.bare_half(k, h_face[k]);
         let shares = (self.rise[k], self.convective[k]);
         side.area[k] * half.excess::<UP>(shares, self.per_height[k], p)
     }
@@ -409,10 +411,7 @@ fn still(
 ) -> FaceValues {
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
-        let (u, d) = (
-            up.half(k, h_up[k], [0.0; 2]),
-            down.half(k, h_down[k], [0.0; 2]),
-        );
+        let (u, d) = (up.bare_half(k, h_up[k]), down.bare_half(k, h_down[k]));
         let ((a, b), (c, e)) = (u.still(), d.still());
         let p = (a + c) / (b + e);
         flux[k] = length[k] * (a - b * p);
@@ -434,7 +433,7 @@ fn edge(film: &Film, side: &SideBlock<'_>, h_face: &Block, length: &Block) -> Fa
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     let p = film.ambient_pa;
     for k in 0..BLOCK {
-        let half = side.half(k, h_face[k], [0.0; 2]);
+        let half = side.bare_half(k, h_face[k]);
         let (alpha, beta) = half.still();
         flux[k] = length[k] * (alpha - beta * p);
         loads[0][k] = side.area[k] * half.still_excess(p);

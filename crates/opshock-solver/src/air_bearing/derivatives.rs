@@ -5,7 +5,8 @@
 
 use super::faces::{BLOCK, Block};
 use super::film::Film;
-use super::flux::{HalfPartials, inverses, inverses_of_both};
+use super::flux::HalfPartials;
+use super::heights::{inverses, inverses_of_both};
 use super::state::SideBlock;
 
 /// x and y of a block of faces and of the cells on either side, from the slider's centre.
@@ -180,10 +181,7 @@ pub(super) fn still(
 ) -> FaceDerivatives {
     let mut all = FaceDerivatives::zero();
     for k in 0..BLOCK {
-        let (u, d) = (
-            up.half(k, h_up[k], [0.0; 2]),
-            down.half(k, h_down[k], [0.0; 2]),
-        );
+        let (u, d) = (up.bare_half(k, h_up[k]), down.bare_half(k, h_down[k]));
         let ((alpha_up, beta_up), (alpha_down, beta_down)) = (u.still(), d.still());
         let total = beta_up + beta_down;
         let p = (alpha_up + alpha_down) / total;

@@ -11,7 +11,8 @@
 
 use super::faces::{Block, Columns};
 use super::flow_factor::FlowFactor;
-use super::flux::{HalfCell, inverses};
+use super::flux::HalfCell;
+use super::heights::inverses;
 use super::layout;
 use super::mesh::{Cell, Mesh, Side};
 use super::steady::usual_attitude;

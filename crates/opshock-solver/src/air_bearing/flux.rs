@@ -41,87 +41,8 @@
 //! ([`crate::lanes`]); a call, be it of `map`, keeps a whole loop from
 //! them. `UP` says that the wind blows towards the face, else it blows away from it.
 
-use crate::elementary::{exp, ln};
-
-/// Below this |Pe| the series of B and of ω are used.
-const SMALL: f64 = 0.02;
-
-/// Below this ((h_f − h_c)/(h_f + h_c))² the logarithmic mean is a series.
-const FLAT: f64 = 0.0025;
-
-/// Beyond this |Pe| the exponential is taken for that of ±`STRONG`: 1e130 times more or less is nothing.
-const STRONG: f64 = 300.0;
-
-/// The exponential profile between a centre and a face, and what else depends on Pe alone.
-struct Profile {
-    /// B(Pe) and B′(Pe).
-    b: f64,
-    b_slope: f64,
-    /// 1/(exp(Pe) − 1), without meaning near Pe = 0 as are all below.
-    r: f64,
-    /// 1/Pe.
-    inverse_pe: f64,
-    /// tanh(Pe/2), where the wind blows towards the face.
-    inverse_half: f64,
-}
-
-/// exp(Pe) for [`HalfCell::driven`].
-#[inline(always)]
-pub(super) fn growth(pe: f64) -> f64 {
-    let x = if pe > STRONG { STRONG } else { pe };
-    exp(if x < -STRONG { -STRONG } else { x })
-}
-
-/// All of them by one division, `e` being [`growth`] of Pe: it takes as long as a dozen products.
-/// |Pe| < 1e40.
-#[inline(always)]
-fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
-    let s = pe * pe;
-    let near = 1.0 - 0.5 * pe + s * (1.0 / 12.0 - s * (1.0 / 720.0 - s / 30240.0));
-    let near_slope = -0.5 + pe * (1.0 / 6.0 - s * (1.0 / 180.0 - s / 5040.0));
-    let m = e - 1.0;
-    let (r, inverse_pe, inverse_half) = if UP {
-        let q = e + 1.0;
-        let inverse = 1.0 / (pe * (m * q));
-        (
-            inverse * (pe * q),
-            inverse * (m * q),
-            inverse * (pe * m) * m,
-        )
-    } else {
-        let inverse = 1.0 / (pe * m);
-        (inverse * pe, inverse * m, 0.0)
-    };
-    let far = pe * r;
-    // B′ = r (1 − B − x), as B/x = r.
-    let far_slope = r * (1.0 - far - pe);
-    let small = pe.abs() < SMALL;
-    Profile {
-        b: if small { near } else { far },
-        b_slope: if small { near_slope } else { far_slope },
-        r,
-        inverse_pe,
-        inverse_half,
-    }
-}
-
-/// 1/(h_centre + h_face) and 1/h_face.
-#[inline(always)]
-pub(super) fn inverses(h_centre: f64, h_face: f64) -> [f64; 2] {
-    let sum = h_centre + h_face;
-    let inverse = 1.0 / (sum * h_face);
-    [inverse * h_face, inverse * sum]
-}
-
-/// [`inverses`] of both sides of a face by one division.
-#[inline(always)]
-pub(super) fn inverses_of_both(centres: [f64; 2], faces: [f64; 2]) -> [[f64; 2]; 2] {
-    let sums = [centres[0] + faces[0], centres[1] + faces[1]];
-    let (u, d) = (sums[0] * faces[0], sums[1] * faces[1]);
-    let inverse = 1.0 / (u * d);
-    let (u, d) = (inverse * d, inverse * u);
-    [[u * faces[0], u * sums[0]], [d * faces[1], d * sums[1]]]
-}
+use super::exponential::{Profile, SMALL, convective_share, growth, profile};
+use super::heights::LogarithmicMean;
 
 /// What a half cell is made of.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +63,7 @@ pub(super) struct HalfCell {
     pub(super) h_centre: f64,
     pub(super) inverse_h: f64,
     pub(super) h_face: f64,
-    /// As from [`inverses`]; still air does without.
+    /// As from [`super::heights::inverses`]; still air does without.
     pub(super) inverses: [f64; 2],
     /// Δ, m, and its inverse.
     pub(super) distance: f64,
@@ -206,14 +127,6 @@ impl HalfPartials {
         excess: [0.0; 4],
         excess_by_p: 0.0,
     };
-}
-
-/// Whether the heights of a half cell differ so much that the short series of their logarithmic
-/// mean does not hold.
-#[inline(always)]
-pub(super) fn is_steep(h_centre: f64, h_face: f64) -> bool {
-    let (sum, rise) = (h_face + h_centre, h_face - h_centre);
-    rise * rise >= FLAT * (sum * sum)
 }
 
 impl HalfCell {
@@ -403,6 +316,13 @@ impl HalfCell {
         ]
     }
 
+    /// As [`LogarithmicMean::new`].
+    #[inline(always)]
+    pub(super) fn logarithmic_mean<const STEEP: bool>(&self) -> LogarithmicMean {
+        let (heights, inverse_sum) = ([self.h_centre, self.h_face], self.inverses[0]);
+        LogarithmicMean::new::<STEEP>(heights, self.inverse_h, inverse_sum)
+    }
+
     /// All derivatives at constant face pressure p, with wind; `flux` is that of `mean`.
     #[inline(always)]
     pub(super) fn partials<const UP: bool>(
@@ -455,7 +375,7 @@ impl HalfCell {
 
         let centre = self.psi * self.inverse_h;
         let centre_by = [self.inverse_h, -centre * self.inverse_h];
-        let [per_blow, per_blow_slope] = convective_share(flux);
+        let [per_blow, per_blow_slope] = convective_share(flux.pe, flux.inverse_pe, flux.b);
         let strength = strength::<UP>(flux);
         let convective = strength * per_blow;
         let [q, q_centre, q_face] = self.mean_inverse_height();
@@ -492,67 +412,13 @@ impl HalfCell {
             excess_by_p: 0.5 * (1.0 - convective) + convective * q * mean_by_p,
         }
     }
-
-    /// `STEEP` must hold where [`is_steep`] does; where it does not, both values of `STEEP` give the
-    /// same bits.
-    #[inline(always)]
-    pub(super) fn logarithmic_mean<const STEEP: bool>(&self) -> LogarithmicMean {
-        let (h_centre, h_face, inverse_sum) = (self.h_centre, self.h_face, self.inverses[0]);
-        let sum = h_centre + h_face;
-        let s = (h_face - h_centre) * inverse_sum;
-        let q = s * s;
-        // s/artanh(s), its derivative, artanh(s), and artanh(s)/s.
-        let near =
-            1.0 - q * (1.0 / 3.0 + q * (4.0 / 45.0 + q * (44.0 / 945.0 + q * 428.0 / 14175.0)));
-        let near_slope =
-            -s * (2.0 / 3.0 + q * (16.0 / 45.0 + q * (264.0 / 945.0 + q * 3424.0 / 14175.0)));
-        let low = (1.0 / 3.0 + q * (1.0 / 5.0)) + q * q * (1.0 / 7.0 + q * (1.0 / 9.0));
-        let series = q * (low + q * q * (q * q) * (1.0 / 11.0 + q * (1.0 / 13.0)));
-        let (near_artanh, near_inverse) = (s + s * series, 1.0 + series);
-        let (ratio, slope, artanh, inverse_ratio) = if STEEP {
-            let steep = is_steep(h_centre, h_face);
-            let far_artanh = 0.5 * ln(h_face * self.inverse_h);
-            let both = 1.0 / (far_artanh * s);
-            let inverse = both * s;
-            let far = s * inverse;
-            let far_slope = (1.0 - far / (1.0 - q)) * inverse;
-            (
-                if steep { far } else { near },
-                if steep { far_slope } else { near_slope },
-                if steep { far_artanh } else { near_artanh },
-                if steep {
-                    both * far_artanh * far_artanh
-                } else {
-                    near_inverse
-                },
-            )
-        } else {
-            (near, near_slope, near_artanh, near_inverse)
-        };
-        let lean = slope * inverse_sum;
-        LogarithmicMean {
-            value: 0.5 * sum * ratio,
-            inverse: 2.0 * inverse_sum * inverse_ratio,
-            by: [0.5 * ratio - lean * h_face, 0.5 * ratio + lean * h_centre],
-            log_ratio: 2.0 * artanh,
-        }
-    }
-}
-
-/// Logarithmic mean of the two heights, its inverse and derivatives by h_centre and h_face, and
-/// ln(h_face/h_centre).
-pub(super) struct LogarithmicMean {
-    value: f64,
-    inverse: f64,
-    by: [f64; 2],
-    log_ratio: f64,
 }
 
 impl HalfFlux {
     /// Share of the exponential profile in the mean pressure.
     #[inline(always)]
     pub(super) fn convective<const UP: bool>(&self) -> f64 {
-        strength::<UP>(self) * convective_share(self)[0]
+        strength::<UP>(self) * convective_share(self.pe, self.inverse_pe, self.b)[0]
     }
 }
 
@@ -562,63 +428,10 @@ fn strength<const UP: bool>(flux: &HalfFlux) -> f64 {
     if UP { flux.blow } else { -flux.blow }
 }
 
-/// (1 − 2 φ)/Pe with φ = (1 − B(Pe))/Pe, the mean of the exponential profile between centre and face
-/// as a share of its whole rise; and the derivative by Pe.
-#[inline(always)]
-fn convective_share(flux: &HalfFlux) -> [f64; 2] {
-    let (pe, b, inverse) = (flux.pe, flux.b, flux.inverse_pe);
-    let q = pe * pe;
-    let near = 1.0 / 6.0 - q * (1.0 / 360.0 - q / 15120.0);
-    let near_slope = -pe * (1.0 / 180.0 - q / 3780.0);
-    let layer = (1.0 - b) * inverse;
-    let b_slope = b * (1.0 - b - pe) * inverse;
-    let layer_slope = -(b_slope + layer) * inverse;
-    let far = (1.0 - 2.0 * layer) * inverse;
-    let far_slope = -(2.0 * layer_slope + far) * inverse;
-    let small = pe.abs() < 0.05;
-    [
-        if small { near } else { far },
-        if small { near_slope } else { far_slope },
-    ]
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::heights::{inverses, is_steep};
     use super::*;
-
-    fn bernoulli(x: f64) -> [f64; 2] {
-        let (up, down) = (
-            profile::<true>(x, growth(x)),
-            profile::<false>(x, growth(x)),
-        );
-        if x != 0.0 {
-            assert!((up.b / down.b - 1.0).abs() < 1e-15, "{x}");
-            assert!((up.b_slope - down.b_slope).abs() < 1e-13, "{x}");
-            assert!((up.inverse_pe * x - 1.0).abs() < 1e-15);
-            assert!((down.inverse_pe * x - 1.0).abs() < 1e-15);
-            let tanh = (0.5 * x).tanh();
-            assert!((up.inverse_half - tanh).abs() < 1e-15 / x.abs().min(1.0));
-        }
-        [up.b, up.b_slope]
-    }
-
-    #[test]
-    fn bernoulli_and_its_slope_are_smooth_across_the_series() {
-        for x in [-0.02_f64, 0.02] {
-            let (a, b) = (bernoulli(x * (1.0 - 1e-12)), bernoulli(x * (1.0 + 1e-12)));
-            assert!((a[0] - b[0]).abs() < 1e-13 && (a[1] - b[1]).abs() < 1e-11);
-        }
-        assert_eq!(bernoulli(0.0), [1.0, -0.5]);
-        for x in [-4.0_f64, 0.3, 2.0, 50.0] {
-            let exact = x / x.exp_m1();
-            assert!((bernoulli(x)[0] - exact).abs() < 1e-15 * exact, "{x}");
-        }
-        // Nothing comes back against such a wind, whatever nothing is.
-        assert!(bernoulli(800.0)[0] < 1e-127);
-        let [b, slope] = bernoulli(-800.0);
-        assert!((b - 800.0).abs() < 1e-12 && (slope + 1.0).abs() < 1e-15);
-        assert!((bernoulli(-1e39)[0] / 1e39 - 1.0).abs() < 1e-15);
-    }
 
     #[test]
     fn without_wind_the_short_form_is_the_general_one() {

@@ -3,10 +3,12 @@
 mod balance;
 mod corner;
 mod derivatives;
+mod exponential;
 mod faces;
 mod film;
 mod flow_factor;
 mod flux;
+mod heights;
 pub mod impedance;
 mod layout;
 mod linearise;

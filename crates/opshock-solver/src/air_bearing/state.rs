@@ -158,6 +158,12 @@ impl<'a> SideBlock<'a> {
         self.cells.h_slope[k]
     }
 
+    /// Half cell k for what does without the inverses of its heights, which are no numbers here.
+    #[inline(always)]
+    pub(super) fn bare_half(&self, k: usize, h_face: f64) -> HalfCell {
+        self.half(k, h_face, [f64::NAN; 2])
+    }
+
     /// Half cell k with the height `h_face` at the face and `inverses` of its heights.
     #[inline(always)]
     pub(super) fn half(&self, k: usize, h_face: f64, inverses: [f64; 2]) -> HalfCell {
@@ -209,7 +215,7 @@ impl Picked {
             if has_wind {
                 picked(column, cells, front)
             } else {
-                [1.0; BLOCK]
+                [f64::NAN; BLOCK]
             }
         };
         Self {

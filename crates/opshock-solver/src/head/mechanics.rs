@@ -17,7 +17,6 @@
 //! further contacts of that kind (`stops`).
 
 use super::stops::{Closed, Stop, Stops};
-use crate::linalg::dense::dot;
 use crate::linalg::pivoted::{PaddedColumns, PivotedInverse, sum_of_products};
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
@@ -36,7 +35,7 @@ pub(super) struct Mechanics {
     /// Mass, damping and stiffness once more, for products.
     columns: [PaddedColumns; 3],
     mass: Vec<f64>,
-    inverse_mass: Vec<f64>,
+    inverse_mass: PaddedColumns,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
     inertia_load: Vec<f64>,
@@ -109,10 +108,10 @@ impl Mechanics {
         if !inverse.invert() {
             return None;
         }
-        let inverse_mass = inverse.rows();
+        let inverse_mass = inverse.into_columns();
 
         let mut rigid = vec![0.0; n];
-        multiply(&inverse_mass, &inertia_load, &mut rigid);
+        sum_of_products([(&inverse_mass, &inertia_load)], &mut rigid);
 
         // Force at the dimple that an error of a suspension coordinate causes through the mass
         // coupling at its own frequency, or directly for the interface coordinates.
@@ -233,13 +232,13 @@ impl Mechanics {
         sum_of_products([(damping, v), (stiffness, x)], scratch);
         scratch.iter_mut().for_each(|f| *f = -*f);
         self.add_load(a, film, x, v, scratch);
-        multiply(&self.inverse_mass, scratch, out);
+        sum_of_products([(&self.inverse_mass, scratch)], out);
     }
 
     /// Adds the jump of ẍ that a jump `da` of the inertia load causes.
     pub fn add_acceleration_jump(&self, da: f64, out: &mut [f64]) {
-        for (out, row) in out.iter_mut().zip(self.inverse_mass.chunks_exact(self.n)) {
-            *out += da * dot(row, &self.inertia_load);
+        for (out, e) in out.iter_mut().zip(&self.rigid) {
+            *out += da * e;
         }
     }
 
@@ -366,10 +365,4 @@ pub(super) struct StageState<'a> {
     pub v: &'a [f64],
     /// Known part of the velocities.
     pub v_known: &'a [f64],
-}
-
-fn multiply(matrix: &[f64], x: &[f64], out: &mut [f64]) {
-    for (out, row) in out.iter_mut().zip(matrix.chunks_exact(x.len())) {
-        *out = dot(row, x);
-    }
 }

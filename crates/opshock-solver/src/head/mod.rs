@@ -20,8 +20,8 @@
 //! plane falls below the limit, found inside the step on the cubic dense output of the slider and
 //! the exact motion of the disk.
 
-mod correction;
 mod fields;
+mod film_passes;
 mod following;
 mod mechanics;
 mod model;

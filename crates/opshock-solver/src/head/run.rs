@@ -1,7 +1,7 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
-use super::correction::relative_size;
 use super::fields::{FieldRecord, StepEnds};
+use super::film_passes::relative_size;
 use super::following::Following;
 use super::model::{HeadModel, ShockLoad};
 use super::outcome::{

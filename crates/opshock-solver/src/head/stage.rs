@@ -18,7 +18,7 @@
 
 use super::HeadModel;
 use super::ShockLoad;
-use super::correction::{add_storage, correct_film};
+use super::film_passes::{add_storage, correct_film};
 use super::mechanics::StageState;
 use super::stops::Closed;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};

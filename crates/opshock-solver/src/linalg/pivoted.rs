@@ -151,11 +151,9 @@ impl PivotedInverse {
         rhs.iter().all(|x| x.is_finite())
     }
 
-    /// Row by row.
-    pub fn rows(&self) -> Vec<f64> {
-        let n = self.exchanges.len();
-        let entry = |i: usize, j: usize| self.inverse.entries[i / SUMS * n + j][i % SUMS];
-        (0..n * n).map(|at| entry(at / n, at % n)).collect()
+    /// The last inverse.
+    pub fn into_columns(self) -> PaddedColumns {
+        self.inverse
     }
 }
 
@@ -304,11 +302,14 @@ mod tests {
             let mut inverse = PivotedInverse::new(n);
             inverse.matrix_mut().copy_from_slice(&rows);
             assert!(inverse.invert());
-            let found = inverse.rows();
-            for i in 0..n {
-                for j in 0..n {
-                    let product: f64 = (0..n).map(|k| rows[i * n + k] * found[k * n + j]).sum();
-                    let one = f64::from(i == j);
+            let inverse = inverse.into_columns();
+            for j in 0..n {
+                let unit: Vec<f64> = (0..n).map(|k| f64::from(k == j)).collect();
+                let mut column = vec![f64::NAN; n];
+                sum_of_products([(&inverse, &unit)], &mut column);
+                for i in 0..n {
+                    let product: f64 = (0..n).map(|k| rows[i * n + k] * column[k]).sum();
+                    let one = unit[i];
                     assert!((product - one).abs() < 1e-12, "{n}: {i} {j} {product}");
                 }
             }

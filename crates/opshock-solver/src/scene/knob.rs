@@ -41,7 +41,7 @@ pub enum Knob {
     RampMesh,
 }
 
-/// All that can be turned.
+/// All that can be turned; those of a scene come first.
 const EVERY: [Knob; 7] = [
     Knob::FilmGrid,
     Knob::DiskModes,
@@ -54,14 +54,7 @@ const EVERY: [Knob; 7] = [
 
 impl Knob {
     /// Every knob of a scene.
-    pub const ALL: [Knob; 6] = [
-        Knob::FilmGrid,
-        Knob::DiskModes,
-        Knob::SuspensionModes,
-        Knob::StructureStep,
-        Knob::HeadTolerance,
-        Knob::CouplingTolerance,
-    ];
+    pub const ALL: [Knob; 6] = *EVERY.first_chunk().expect("fewer than there are");
 
     /// Word in products.
     pub const fn as_str(self) -> &'static str {

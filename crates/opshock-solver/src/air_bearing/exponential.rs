@@ -1,0 +1,122 @@
+//! The exponential profile of ψ between a cell's centre and a face, as a function of its Péclet number:
+//! B(x) = x/(eˣ − 1) and what else the flux needs of it.
+
+use crate::elementary::exp;
+
+/// Below this |Pe| the series of B and of ω are used.
+pub(super) const SMALL: f64 = 0.02;
+
+/// Beyond this |Pe| the exponential is taken for that of ±`STRONG`: 1e130 times more or less is nothing.
+const STRONG: f64 = 300.0;
+
+/// The exponential profile between a centre and a face, and what else depends on Pe alone.
+pub(super) struct Profile {
+    /// B(Pe) and B′(Pe).
+    pub(super) b: f64,
+    pub(super) b_slope: f64,
+    /// 1/(exp(Pe) − 1), without meaning near Pe = 0 as are all below.
+    pub(super) r: f64,
+    /// 1/Pe.
+    pub(super) inverse_pe: f64,
+    /// tanh(Pe/2), where the wind blows towards the face.
+    pub(super) inverse_half: f64,
+}
+
+/// exp(Pe) for [`super::flux::HalfCell::driven`].
+#[inline(always)]
+pub(super) fn growth(pe: f64) -> f64 {
+    let x = if pe > STRONG { STRONG } else { pe };
+    exp(if x < -STRONG { -STRONG } else { x })
+}
+
+/// All of them by one division, `e` being [`growth`] of Pe: it takes as long as a dozen products.
+/// |Pe| < 1e40.
+#[inline(always)]
+pub(super) fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
+    let s = pe * pe;
+    let near = 1.0 - 0.5 * pe + s * (1.0 / 12.0 - s * (1.0 / 720.0 - s / 30240.0));
+    let near_slope = -0.5 + pe * (1.0 / 6.0 - s * (1.0 / 180.0 - s / 5040.0));
+    let m = e - 1.0;
+    let (r, inverse_pe, inverse_half) = if UP {
+        let q = e + 1.0;
+        let inverse = 1.0 / (pe * (m * q));
+        (
+            inverse * (pe * q),
+            inverse * (m * q),
+            inverse * (pe * m) * m,
+        )
+    } else {
+        let inverse = 1.0 / (pe * m);
+        (inverse * pe, inverse * m, 0.0)
+    };
+    let far = pe * r;
+    // B′ = r (1 − B − x), as B/x = r.
+    let far_slope = r * (1.0 - far - pe);
+    let small = pe.abs() < SMALL;
+    Profile {
+        b: if small { near } else { far },
+        b_slope: if small { near_slope } else { far_slope },
+        r,
+        inverse_pe,
+        inverse_half,
+    }
+}
+
+/// (1 − 2 φ)/Pe with φ = (1 − B(Pe))/Pe, the mean of the exponential profile between centre and face
+/// as a share of its whole rise; and the derivative by Pe.
+/// `inverse` is 1/Pe, `b` B(Pe).
+#[inline(always)]
+pub(super) fn convective_share(pe: f64, inverse: f64, b: f64) -> [f64; 2] {
+    let q = pe * pe;
+    let near = 1.0 / 6.0 - q * (1.0 / 360.0 - q / 15120.0);
+    let near_slope = -pe * (1.0 / 180.0 - q / 3780.0);
+    let layer = (1.0 - b) * inverse;
+    let b_slope = b * (1.0 - b - pe) * inverse;
+    let layer_slope = -(b_slope + layer) * inverse;
+    let far = (1.0 - 2.0 * layer) * inverse;
+    let far_slope = -(2.0 * layer_slope + far) * inverse;
+    let small = pe.abs() < 0.05;
+    [
+        if small { near } else { far },
+        if small { near_slope } else { far_slope },
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bernoulli(x: f64) -> [f64; 2] {
+        let (up, down) = (
+            profile::<true>(x, growth(x)),
+            profile::<false>(x, growth(x)),
+        );
+        if x != 0.0 {
+            assert!((up.b / down.b - 1.0).abs() < 1e-15, "{x}");
+            assert!((up.b_slope - down.b_slope).abs() < 1e-13, "{x}");
+            assert!((up.inverse_pe * x - 1.0).abs() < 1e-15);
+            assert!((down.inverse_pe * x - 1.0).abs() < 1e-15);
+            let tanh = (0.5 * x).tanh();
+            assert!((up.inverse_half - tanh).abs() < 1e-15 / x.abs().min(1.0));
+        }
+        [up.b, up.b_slope]
+    }
+
+    #[test]
+    fn bernoulli_and_its_slope_are_smooth_across_the_series() {
+        for x in [-0.02_f64, 0.02] {
+            let (a, b) = (bernoulli(x * (1.0 - 1e-12)), bernoulli(x * (1.0 + 1e-12)));
+            assert!((a[0] - b[0]).abs() < 1e-13 && (a[1] - b[1]).abs() < 1e-11);
+        }
+        assert_eq!(bernoulli(0.0), [1.0, -0.5]);
+        for x in [-4.0_f64, 0.3, 2.0, 50.0] {
+            let exact = x / x.exp_m1();
+            assert!((bernoulli(x)[0] - exact).abs() < 1e-15 * exact, "{x}");
+        }
+        // Nothing comes back against such a wind, whatever nothing is.
+        assert!(bernoulli(800.0)[0] < 1e-127);
+        let [b, slope] = bernoulli(-800.0);
+        assert!((b - 800.0).abs() < 1e-12 && (slope + 1.0).abs() < 1e-15);
+        assert!((bernoulli(-1e39)[0] / 1e39 - 1.0).abs() < 1e-15);
+    }
+}
