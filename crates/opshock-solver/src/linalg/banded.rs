@@ -12,8 +12,8 @@
 //! [`BandedLu::factor`] sees the multipliers grow and refuses, and the caller may turn to a
 //! pivoting factorisation.
 //!
-//! Four pivots are eliminated together, so that a row below is read and written once for four
-//! multiply-subtract sweeps over contiguous slices.
+//! Four pivots are eliminated together from four rows below: numbers of those rows are read and written once
+//! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
 
 use super::triangles::{Entry, Triangles};
 use crate::lanes::{Simd, WithSimd, widest};
@@ -21,9 +21,6 @@ use thiserror::Error;
 
 /// Pivots eliminated together.
 const BLOCK: usize = 4;
-
-/// Columns swept together: rows are swept in whole sets of so many.
-const SET: usize = 8;
 
 /// Largest multiplier a factorisation without row exchanges may produce. Errors of a solution
 /// grow with it; at this value about ten of sixteen digits remain.
@@ -179,9 +176,9 @@ impl BandMatrix {
     }
 }
 
-/// LU factors of a [`BandMatrix`] plus a diagonal, in storage allocated once. They are found in
-/// double precision and kept for solving as `E`: a solution with `f32` is right to some 1e-7 of its
-/// largest number and reads half the memory.
+/// LU factors of a [`BandMatrix`] plus a diagonal, in storage allocated once. They are found and kept as
+/// `E`: with `f32` a solution is right to some 1e-6 of its largest number (more where multipliers are large),
+/// for half the memory and half the time.
 #[derive(Clone, Debug)]
 pub struct BandedLu<E = f64> {
     n: usize,
@@ -192,10 +189,10 @@ pub struct BandedLu<E = f64> {
     band: Band,
     is_reversed: bool,
     /// Entries of a row: the band, and zeros on either side so that the four pivot rows of a block
-    /// can be swept over the same columns, in whole sets: BLOCK − 1 before, SET − 1 more behind.
+    /// can be swept over the same columns, in whole sets of registers: BLOCK − 1 before, SET − 1 more behind.
     stride: usize,
-    rows: Vec<f64>,
-    inverse_pivots: Vec<f64>,
+    rows: Vec<E>,
+    inverse_pivots: Vec<E>,
     triangles: Triangles<E>,
 }
 
@@ -205,15 +202,15 @@ impl<E: Entry> BandedLu<E> {
         let n_padded = n.next_multiple_of(BLOCK);
         let is_reversed = band.below > band.above;
         let band = if is_reversed { band.reversed() } else { band };
-        let stride = band.width() + 2 * (BLOCK - 1) + SET - 1;
+        let stride = band.width() + 2 * (BLOCK - 1) + E::SET - 1;
         Self {
             n,
             n_padded,
             band,
             is_reversed,
             stride,
-            rows: vec![0.0; n_padded * stride],
-            inverse_pivots: vec![1.0; n_padded],
+            rows: vec![E::ZERO; n_padded * stride],
+            inverse_pivots: vec![E::ONE; n_padded],
             triangles: Triangles::new(n, band),
         }
     }
@@ -265,12 +262,13 @@ impl<E: Entry> BandedLu<E> {
     ) -> Result<(), BandedError> {
         self.load(matrix, scale, diagonal);
         let reach = self.band.below + BLOCK - 1;
-        let mut largest: f64 = 0.0;
+        let mut largest = E::ZERO;
         for first in (0..self.n_padded).step_by(BLOCK) {
-            largest = largest.max(self.factor_block(first)?);
+            largest = larger(largest, self.factor_block(first)?);
             let last = (first + reach).min(self.n_padded - 1);
-            largest = largest.max(self.eliminate_below(simd, first, last));
+            largest = larger(largest, self.eliminate_below(simd, first, last));
         }
+        let largest = largest.widen();
         // A NaN anywhere above shows as a pivot; growth is what is left to judge.
         if largest > LARGEST_MULTIPLIER {
             return Err(BandedError::Growth { largest });
@@ -299,17 +297,24 @@ impl<E: Entry> BandedLu<E> {
         let width = self.band.width();
         let centre = self.centre();
         for (i, row) in self.rows.chunks_exact_mut(self.stride).enumerate() {
-            row.fill(0.0);
+            row.fill(E::ZERO);
             if i < self.n {
                 let at = if self.is_reversed { self.n - 1 - i } else { i };
                 let own = &mut row[BLOCK - 1..BLOCK - 1 + width];
-                own.copy_from_slice(&matrix.entries[at * width..(at + 1) * width]);
+                let from = &matrix.entries[at * width..(at + 1) * width];
                 if self.is_reversed {
-                    own.reverse();
+                    for (own, from) in own.iter_mut().zip(from.iter().rev()) {
+                        *own = E::nearest(*from);
+                    }
+                } else {
+                    for (own, from) in own.iter_mut().zip(from) {
+                        *own = E::nearest(*from);
+                    }
                 }
-                row[centre] += scale * diagonal[at];
+                let on_diagonal = from[matrix.band.below];
+                row[centre] = E::nearest(on_diagonal + scale * diagonal[at]);
             } else {
-                row[centre] = 1.0;
+                row[centre] = E::ONE;
             }
         }
     }
@@ -320,17 +325,11 @@ impl<E: Entry> BandedLu<E> {
         self.band.below + BLOCK - 1
     }
 
-    /// Index of column `first` of the block in row `row`.
-    #[inline]
-    fn start(&self, row: usize, first: usize) -> usize {
-        row * self.stride + (first + self.centre() - row)
-    }
-
     /// Eliminates the block of pivots `first..first + BLOCK` among its own rows;
     /// largest multiplier.
     #[inline(always)]
-    fn factor_block(&mut self, first: usize) -> Result<f64, BandedError> {
-        let mut largest: f64 = 0.0;
+    fn factor_block(&mut self, first: usize) -> Result<E, BandedError> {
+        let mut largest = E::ZERO;
         let width = self.band.above + BLOCK;
         for p in 0..BLOCK {
             let row = first + p;
@@ -342,15 +341,16 @@ impl<E: Entry> BandedLu<E> {
                 let source = &above[source_start..source_start + width];
                 let multiplier = target[q] * self.inverse_pivots[first + q];
                 target[q] = multiplier;
-                largest = largest.max(multiplier.abs());
+                largest = larger(largest, multiplier);
                 for (t, s) in target[q + 1..].iter_mut().zip(&source[q + 1..]) {
-                    *t -= multiplier * s;
+                    *t = s.mul_add(-multiplier, *t);
                 }
             }
             let pivot = target[p];
-            let inverse = 1.0 / pivot;
-            if pivot == 0.0 || !inverse.is_finite() || !pivot.is_finite() {
-                return Err(BandedError::Pivot { row, value: pivot });
+            let inverse = pivot.recip();
+            let value = pivot.widen();
+            if value == 0.0 || !inverse.widen().is_finite() || !value.is_finite() {
+                return Err(BandedError::Pivot { row, value });
             }
             self.inverse_pivots[row] = inverse;
         }
@@ -359,39 +359,86 @@ impl<E: Entry> BandedLu<E> {
 
     /// Eliminates the block's columns from the rows below it, up to `last`; largest multiplier.
     #[inline(always)]
-    fn eliminate_below<S: Simd>(&mut self, simd: S, first: usize, last: usize) -> f64 {
-        let width = BLOCK + self.band.above.next_multiple_of(SET);
-        let starts: [usize; BLOCK] = std::array::from_fn(|p| self.start(first + p, first));
-        let inverse: [f64; BLOCK] = std::array::from_fn(|p| self.inverse_pivots[first + p]);
+    fn eliminate_below<S: Simd>(&mut self, simd: S, first: usize, last: usize) -> E {
+        let width = BLOCK + self.band.above.next_multiple_of(E::SET);
         let offset = first + self.centre();
-        let (above, below) = self.rows.split_at_mut((first + BLOCK) * self.stride);
-        let pivot_rows: [&[f64]; BLOCK] =
-            std::array::from_fn(|p| &above[starts[p]..starts[p] + width]);
-        let [p0, p1, p2, _] = pivot_rows;
-        let [u0, u1, u2, u3] = pivot_rows.map(|row| S::as_simd_f64s(&row[BLOCK..]).0);
-        let mut largest: f64 = 0.0;
-        for (k, row) in below.chunks_exact_mut(self.stride).enumerate() {
-            let i = first + BLOCK + k;
-            if i > last {
-                break;
+        let stride = self.stride;
+        let (above, below) = self.rows.split_at_mut((first + BLOCK) * stride);
+        let pivots = Pivots {
+            rows: std::array::from_fn(|p| {
+                let start = (first + p) * stride + offset - (first + p);
+                &above[start..start + width]
+            }),
+            inverse: std::array::from_fn(|p| self.inverse_pivots[first + p]),
+        };
+        let mut largest = E::ZERO;
+        let below = &mut below[..(last + 1 - first - BLOCK) * stride];
+        let mut fours = below.chunks_exact_mut(BLOCK * stride);
+        let mut i = first + BLOCK;
+        for four in &mut fours {
+            let mut rows = four.chunks_exact_mut(stride);
+            let targets: [&mut [E]; BLOCK] = std::array::from_fn(|r| {
+                let row = rows.next().expect("so many rows");
+                let start = offset - (i + r);
+                &mut row[start..start + width]
+            });
+            largest = larger(largest, pivots.eliminate(simd, targets));
+            i += BLOCK;
+        }
+        for row in fours.into_remainder().chunks_exact_mut(stride) {
+            let start = offset - i;
+            let target = [&mut row[start..start + width]];
+            largest = larger(largest, pivots.eliminate(simd, target));
+            i += 1;
+        }
+        largest
+    }
+}
+
+/// The larger size of two numbers.
+#[inline(always)]
+fn larger<E: Entry>(a: E, b: E) -> E {
+    let b = b.abs();
+    if b > a { b } else { a }
+}
+
+/// A block of pivots: their rows from its first column on, and the inverses of the pivots.
+struct Pivots<'a, E> {
+    rows: [&'a [E]; BLOCK],
+    inverse: [E; BLOCK],
+}
+
+impl<E: Entry> Pivots<'_, E> {
+    /// Eliminates the block's columns from `targets`, rows from the same column on; largest multiplier.
+    #[inline(always)]
+    fn eliminate<S: Simd, const R: usize>(&self, simd: S, mut targets: [&mut [E]; R]) -> E {
+        let [p0, p1, p2, _] = self.rows;
+        let mut largest = E::ZERO;
+        let mut factors = [[E::ZERO.splat(simd); BLOCK]; R];
+        for (target, factors) in targets.iter_mut().zip(&mut factors) {
+            let l0 = target[0] * self.inverse[0];
+            let l1 = l0.mul_add(-p0[1], target[1]) * self.inverse[1];
+            let l2 = l1.mul_add(-p1[2], l0.mul_add(-p0[2], target[2])) * self.inverse[2];
+            let l3 = l1.mul_add(-p1[3], l0.mul_add(-p0[3], target[3]));
+            let l3 = l2.mul_add(-p2[3], l3) * self.inverse[3];
+            for (k, l) in [l0, l1, l2, l3].into_iter().enumerate() {
+                largest = larger(largest, l);
+                target[k] = l;
+                factors[k] = (-l).splat(simd);
             }
-            let target = &mut row[offset - i..offset - i + width];
-            let l0 = target[0] * inverse[0];
-            let l1 = (target[1] - l0 * p0[1]) * inverse[1];
-            let l2 = (target[2] - l0 * p0[2] - l1 * p1[2]) * inverse[2];
-            let l3 = (target[3] - l0 * p0[3] - l1 * p1[3] - l2 * p2[3]) * inverse[3];
-            largest = largest
-                .max(l0.abs())
-                .max(l1.abs())
-                .max(l2.abs())
-                .max(l3.abs());
-            target[..BLOCK].copy_from_slice(&[l0, l1, l2, l3]);
-            let [l0, l1, l2, l3] = [l0, l1, l2, l3].map(|l| simd.splat_f64s(l));
-            let tail = S::as_mut_simd_f64s(&mut target[BLOCK..]).0.iter_mut();
-            for ((((t, u0), u1), u2), u3) in tail.zip(u0).zip(u1).zip(u2).zip(u3) {
-                let a = simd.add_f64s(simd.mul_f64s(l0, *u0), simd.mul_f64s(l1, *u1));
-                let b = simd.add_f64s(simd.mul_f64s(l2, *u2), simd.mul_f64s(l3, *u3));
-                *t = simd.sub_f64s(*t, simd.add_f64s(a, b));
+        }
+        let [u0, u1, u2, u3] = [0, 1, 2, 3].map(|p: usize| E::cut::<S>(&self.rows[p][BLOCK..]));
+        let n = u0.len();
+        let (u1, u2, u3) = (&u1[..n], &u2[..n], &u3[..n]);
+        let mut tails = targets.map(|target| &mut E::cut_mut::<S>(&mut target[BLOCK..])[..n]);
+        for j in 0..n {
+            let u = [u0[j], u1[j], u2[j], u3[j]];
+            for (tail, factors) in tails.iter_mut().zip(&factors) {
+                let mut t = tail[j];
+                for (u, factor) in u.iter().zip(factors) {
+                    t = E::multiply_add(simd, *factor, *u, t);
+                }
+                tail[j] = t;
             }
         }
         largest

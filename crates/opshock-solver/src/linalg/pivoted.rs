@@ -78,7 +78,7 @@ impl<const K: usize> Kernel for SumOfProducts<'_, K> {
                     let (matrix, x) = &self.terms[i];
                     let (column, x) = (&matrix.entries[at * n + j], x[j]);
                     for k in 0..SUMS {
-                        sums[i][k] += column[k] * x;
+                        sums[i][k] = column[k].mul_add(x, sums[i][k]);
                     }
                 }
             }
@@ -222,9 +222,9 @@ impl WithSimd for Invert<'_> {
                 let pivot = panel[k];
                 let pivot = S::as_simd_f64s(&pivot).0;
                 for (column, multiplier) in panel.iter_mut().zip(&*multipliers) {
-                    let multiplier = simd.splat_f64s(*multiplier);
+                    let multiplier = simd.splat_f64s(-*multiplier);
                     for (a, p) in S::as_mut_simd_f64s(column).0.iter_mut().zip(pivot) {
-                        *a = simd.sub_f64s(*a, simd.mul_f64s(multiplier, *p));
+                        *a = simd.mul_add_f64s(multiplier, *p, *a);
                     }
                 }
             }

@@ -12,7 +12,7 @@
 //! through a single sum, in which the columns it has to wait for come last. Sums have a fixed order
 //! whatever the registers.
 //!
-//! What a solution costs is the reading of the factors, so they may be kept rounded ([`Entry`]).
+//! What a solution costs is the reading of the factors, so they may be single ([`Entry`]).
 
 use super::banded::Band;
 use crate::lanes::{Simd, WithSimd, widest};
@@ -26,37 +26,61 @@ const SUMS: usize = 4;
 /// Sixteen numbers of a column.
 type Column<E> = [E; ROWS];
 
-/// A number as factors are kept: in full, or rounded to half the memory where the solution is itself
+/// A number as factors are computed and kept: in full, or in half the memory where the solution is itself
 /// corrected by iteration.
-pub trait Entry: Copy + std::fmt::Debug + 'static {
+pub trait Entry:
+    Copy
+    + std::fmt::Debug
+    + PartialOrd
+    + std::ops::Mul<Output = Self>
+    + std::ops::Neg<Output = Self>
+    + 'static
+{
     /// Several of them in a register.
     type Register<S: Simd>: Copy;
     /// 0.
     const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+    /// Most of them in a register of any processor.
+    const SET: usize;
 
     /// The nearest such number.
     fn nearest(value: f64) -> Self;
     /// The same number in double precision.
     fn widen(self) -> f64;
+    /// `self` `b` + `c`, rounded once.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// 1/`self`.
+    fn recip(self) -> Self;
+    /// The number without its sign.
+    fn abs(self) -> Self;
+    /// Several of them to a register.
+    fn cut<S: Simd>(numbers: &[Self]) -> &[Self::Register<S>];
+    /// The same, to write.
+    fn cut_mut<S: Simd>(numbers: &mut [Self]) -> &mut [Self::Register<S>];
     /// A register full of one number.
     fn splat<S: Simd>(self, simd: S) -> Self::Register<S>;
+    /// a b + c, rounded once.
+    fn multiply_add<S: Simd>(
+        simd: S,
+        a: Self::Register<S>,
+        b: Self::Register<S>,
+        c: Self::Register<S>,
+    ) -> Self::Register<S>;
     /// a + b.
     fn add<S: Simd>(simd: S, a: Self::Register<S>, b: Self::Register<S>) -> Self::Register<S>;
-    /// a b.
-    fn multiply<S: Simd>(simd: S, a: Self::Register<S>, b: Self::Register<S>) -> Self::Register<S>;
-    /// A column's registers.
-    fn registers<S: Simd>(column: &Column<Self>) -> &[Self::Register<S>];
-    /// The same, to write.
-    fn registers_mut<S: Simd>(column: &mut Column<Self>) -> &mut [Self::Register<S>];
     /// How many of them there are in a register.
     fn lanes<S: Simd>() -> usize;
 }
 
 macro_rules! entry {
-    ($number:ty, $register:ident, $splat:ident, $add:ident, $mul:ident, $cut:ident, $cut_mut:ident, $lanes:ident) => {
+    ($number:ty, $set:literal, $register:ident, $splat:ident, $add:ident, $mul_add:ident, $cut:ident, $cut_mut:ident, $lanes:ident) => {
         impl Entry for $number {
             type Register<S: Simd> = S::$register;
             const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const SET: usize = $set;
 
             #[inline(always)]
             #[allow(
@@ -83,18 +107,38 @@ macro_rules! entry {
             }
 
             #[inline(always)]
-            fn multiply<S: Simd>(simd: S, a: S::$register, b: S::$register) -> S::$register {
-                simd.$mul(a, b)
+            fn multiply_add<S: Simd>(
+                simd: S,
+                a: S::$register,
+                b: S::$register,
+                c: S::$register,
+            ) -> S::$register {
+                simd.$mul_add(a, b, c)
             }
 
             #[inline(always)]
-            fn registers<S: Simd>(column: &Column<Self>) -> &[S::$register] {
-                S::$cut(column).0
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                <$number>::mul_add(self, b, c)
             }
 
             #[inline(always)]
-            fn registers_mut<S: Simd>(column: &mut Column<Self>) -> &mut [S::$register] {
-                S::$cut_mut(column).0
+            fn recip(self) -> Self {
+                1.0 / self
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$number>::abs(self)
+            }
+
+            #[inline(always)]
+            fn cut<S: Simd>(numbers: &[Self]) -> &[S::$register] {
+                S::$cut(numbers).0
+            }
+
+            #[inline(always)]
+            fn cut_mut<S: Simd>(numbers: &mut [Self]) -> &mut [S::$register] {
+                S::$cut_mut(numbers).0
             }
 
             #[inline(always)]
@@ -107,20 +151,22 @@ macro_rules! entry {
 
 entry!(
     f64,
+    8,
     f64s,
     splat_f64s,
     add_f64s,
-    mul_f64s,
+    mul_add_f64s,
     as_simd_f64s,
     as_mut_simd_f64s,
     F64_LANES
 );
 entry!(
     f32,
+    16,
     f32s,
     splat_f32s,
     add_f32s,
-    mul_f32s,
+    mul_add_f32s,
     as_simd_f32s,
     as_mut_simd_f32s,
     F32_LANES
@@ -135,8 +181,8 @@ pub(super) struct Triangles<E> {
     lower: Vec<Column<E>>,
     /// Per block of rows: U_II⁻¹, then −U_II⁻¹ times the columns behind it.
     upper: Vec<Column<E>>,
-    /// Columns of one block before and behind, in full.
-    outside: [Vec<Column<f64>>; 2],
+    /// Columns of one block before and behind.
+    outside: [Vec<Column<E>>; 2],
     /// The solution as it comes, in whole blocks.
     x: Vec<E>,
 }
@@ -150,7 +196,7 @@ impl<E: Entry> Triangles<E> {
             band,
             lower: vec![[E::ZERO; ROWS]; blocks * (band.below + ROWS)],
             upper: vec![[E::ZERO; ROWS]; blocks * (band.above + ROWS)],
-            outside: [band.below, band.above].map(|columns| vec![[0.0; ROWS]; columns]),
+            outside: [band.below, band.above].map(|columns| vec![[E::ZERO; ROWS]; columns]),
             x: vec![E::ZERO; blocks * ROWS],
         }
     }
@@ -161,8 +207,8 @@ impl<E: Entry> Triangles<E> {
     pub(super) fn take<'r, S: Simd>(
         &mut self,
         simd: S,
-        row: impl Fn(usize) -> &'r [f64],
-        inverse_pivots: &[f64],
+        row: impl Fn(usize) -> &'r [E],
+        inverse_pivots: &[E],
     ) {
         let n = self.n;
         let Band { below, above } = self.band;
@@ -176,11 +222,11 @@ impl<E: Entry> Triangles<E> {
             let first = block * ROWS;
             let (lower_outside, lower_own) = lower.split_at_mut(below);
             let (upper_own, upper_outside) = upper.split_at_mut(ROWS);
-            before.fill([0.0; ROWS]);
-            behind.fill([0.0; ROWS]);
-            let mut unit = [[0.0; ROWS]; ROWS];
-            let mut full = [[0.0; ROWS]; ROWS];
-            let mut inverse = [1.0; ROWS];
+            before.fill([E::ZERO; ROWS]);
+            behind.fill([E::ZERO; ROWS]);
+            let mut unit = [[E::ZERO; ROWS]; ROWS];
+            let mut full = [[E::ZERO; ROWS]; ROWS];
+            let mut inverse = [E::ONE; ROWS];
             for r in 0..ROWS.min(n - first) {
                 // Entry k is column first + r − below + k.
                 let entries = row(first + r);
@@ -216,9 +262,9 @@ impl<E: Entry> Triangles<E> {
                 ),
             ] {
                 for (out, column) in out.iter_mut().zip(outside) {
-                    *out = less_product(simd, &inverse, column).map(E::nearest);
+                    *out = less_product(simd, &inverse, column);
                 }
-                round_into(&inverse, own);
+                own.copy_from_slice(&inverse);
             }
         }
     }
@@ -266,7 +312,7 @@ impl<E: Entry> Triangles<E> {
 /// Columns of the inverse of a lower triangle with a diagonal of ones, found together as the rows of
 /// the inverse of Lᵀ.
 #[inline(always)]
-fn inverse_of_unit_lower<S: Simd>(simd: S, l: &[Column<f64>; ROWS]) -> [Column<f64>; ROWS] {
+fn inverse_of_unit_lower<E: Entry, S: Simd>(simd: S, l: &[Column<E>; ROWS]) -> [Column<E>; ROWS] {
     let mut out = identity();
     for c in (1..ROWS).rev() {
         let source = out[c];
@@ -279,14 +325,17 @@ fn inverse_of_unit_lower<S: Simd>(simd: S, l: &[Column<f64>; ROWS]) -> [Column<f
 
 /// Columns of the inverse of an upper triangle whose diagonal is given inverted, likewise.
 #[inline(always)]
-fn inverse_of_upper<S: Simd>(
+fn inverse_of_upper<E: Entry, S: Simd>(
     simd: S,
-    u: &[Column<f64>; ROWS],
-    inverse_diagonal: &Column<f64>,
-) -> [Column<f64>; ROWS] {
+    u: &[Column<E>; ROWS],
+    inverse_diagonal: &Column<E>,
+) -> [Column<E>; ROWS] {
     let mut out = identity();
     for c in 0..ROWS {
-        let source = out[c].map(|v| v * inverse_diagonal[c]);
+        let mut source = out[c];
+        for v in &mut source {
+            *v = *v * inverse_diagonal[c];
+        }
         out[c] = source;
         for (r, row) in out.iter_mut().enumerate().skip(c + 1) {
             subtract(simd, row, u[c][r], &source);
@@ -295,14 +344,22 @@ fn inverse_of_upper<S: Simd>(
     out
 }
 
-fn identity() -> [Column<f64>; ROWS] {
-    std::array::from_fn(|r| std::array::from_fn(|c| if c == r { 1.0 } else { 0.0 }))
+fn identity<E: Entry>() -> [Column<E>; ROWS] {
+    let mut out = [[E::ZERO; ROWS]; ROWS];
+    for (k, row) in out.iter_mut().enumerate() {
+        row[k] = E::ONE;
+    }
+    out
 }
 
 /// − Σ `columns` times the numbers of `x`.
 #[inline(always)]
-fn less_product<S: Simd>(simd: S, columns: &[Column<f64>; ROWS], x: &Column<f64>) -> Column<f64> {
-    let mut out = [0.0; ROWS];
+fn less_product<E: Entry, S: Simd>(
+    simd: S,
+    columns: &[Column<E>; ROWS],
+    x: &Column<E>,
+) -> Column<E> {
+    let mut out = [E::ZERO; ROWS];
     for (column, x) in columns.iter().zip(x) {
         subtract(simd, &mut out, *x, column);
     }
@@ -311,18 +368,10 @@ fn less_product<S: Simd>(simd: S, columns: &[Column<f64>; ROWS], x: &Column<f64>
 
 /// `row` − `factor` `source`.
 #[inline(always)]
-fn subtract<S: Simd>(simd: S, row: &mut Column<f64>, factor: f64, source: &Column<f64>) {
-    let factor = simd.splat_f64s(factor);
-    let source = S::as_simd_f64s(source).0;
-    for (row, source) in S::as_mut_simd_f64s(row).0.iter_mut().zip(source) {
-        *row = simd.sub_f64s(*row, simd.mul_f64s(factor, *source));
-    }
-}
-
-#[inline(always)]
-fn round_into<E: Entry>(columns: &[Column<f64>], out: &mut [Column<E>]) {
-    for (out, column) in out.iter_mut().zip(columns) {
-        *out = column.map(E::nearest);
+fn subtract<E: Entry, S: Simd>(simd: S, row: &mut Column<E>, factor: E, source: &Column<E>) {
+    let factor = (-factor).splat(simd);
+    for (row, source) in E::cut_mut::<S>(row).iter_mut().zip(E::cut::<S>(source)) {
+        *row = E::multiply_add(simd, factor, *source, *row);
     }
 }
 
@@ -412,8 +461,8 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
     #[inline(always)]
     fn add_one(&mut self, simd: S, s: usize, column: &Column<E>, x: E) {
         let x = x.splat(simd);
-        for (sum, part) in self.0[s].iter_mut().zip(E::registers::<S>(column)) {
-            *sum = E::add(simd, *sum, E::multiply(simd, *part, x));
+        for (sum, part) in self.0[s].iter_mut().zip(E::cut::<S>(column)) {
+            *sum = E::multiply_add(simd, *part, x, *sum);
         }
     }
 
@@ -438,7 +487,7 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
     fn total(self, simd: S) -> Column<E> {
         let [a, b, c, d] = self.0;
         let mut out = [E::ZERO; ROWS];
-        for (v, out) in E::registers_mut::<S>(&mut out).iter_mut().enumerate() {
+        for (v, out) in E::cut_mut::<S>(&mut out).iter_mut().enumerate() {
             *out = E::add(simd, E::add(simd, a[v], b[v]), E::add(simd, c[v], d[v]));
         }
         out
