@@ -21,17 +21,22 @@ const LARGEST: f64 = 700.0;
 pub fn exp(x: f64) -> f64 {
     let x = if x > LARGEST { LARGEST } else { x };
     let x = if x < -LARGEST { -LARGEST } else { x };
-    let shifted = x * std::f64::consts::LOG2_E + ROUND;
+    let shifted = x.mul_add(std::f64::consts::LOG2_E, ROUND);
     let k = shifted - ROUND;
-    let r = (x - k * LN_2[0]) - k * LN_2[1];
+    let r = k.mul_add(-LN_2[1], k.mul_add(-LN_2[0], x));
     let r2 = r * r;
     let r4 = r2 * r2;
     // Pairs first (Estrin), which is shorter to wait for than one long chain.
-    let low = (1.0 / 2.0 + r * (1.0 / 6.0)) + r2 * (1.0 / 24.0 + r * (1.0 / 120.0));
-    let middle = (1.0 / 720.0 + r * (1.0 / 5040.0)) + r2 * (1.0 / 40_320.0 + r * (1.0 / 362_880.0));
-    let high = (1.0 / 3_628_800.0 + r * (1.0 / 39_916_800.0))
-        + r2 * (1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0));
-    let e = 1.0 + (r + r2 * (low + r4 * (middle + r4 * high)));
+    let four = |[a, b, c, d]: [f64; 4]| r2.mul_add(r.mul_add(d, c), r.mul_add(b, a));
+    let low = four([1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0]);
+    let middle = four([1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40_320.0, 1.0 / 362_880.0]);
+    let high = four([
+        1.0 / 3_628_800.0,
+        1.0 / 39_916_800.0,
+        1.0 / 479_001_600.0,
+        1.0 / 6_227_020_800.0,
+    ]);
+    let e = 1.0 + r2.mul_add(r4.mul_add(r4.mul_add(high, middle), low), r);
     e * f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52)
 }
 
@@ -48,7 +53,7 @@ pub fn ln(x: f64) -> f64 {
     let m = if upper { 0.5 * m } else { m };
     let k = if upper { exponent + 1.0 } else { exponent };
     let s = (m - 1.0) / (m + 1.0);
-    k * LN_2[0] + (2.0 * artanh(s) + k * LN_2[1])
+    k.mul_add(LN_2[0], k.mul_add(LN_2[1], 2.0 * artanh(s)))
 }
 
 /// artanh s by its series, |s| <= 0.172.
@@ -57,10 +62,23 @@ pub fn artanh(s: f64) -> f64 {
     let q = s * s;
     let q2 = q * q;
     let q4 = q2 * q2;
-    let low = (1.0 / 3.0 + q * (1.0 / 5.0)) + q2 * (1.0 / 7.0 + q * (1.0 / 9.0));
-    let middle = (1.0 / 11.0 + q * (1.0 / 13.0)) + q2 * (1.0 / 15.0 + q * (1.0 / 17.0));
-    let high = 1.0 / 19.0 + q * (1.0 / 21.0);
-    s + s * q * (low + q4 * (middle + q4 * high))
+    let four = |[a, b, c, d]: [f64; 4]| q2.mul_add(q.mul_add(d, c), q.mul_add(b, a));
+    let low = four([1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0]);
+    let middle = four([1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0]);
+    let high = q.mul_add(1.0 / 21.0, 1.0 / 19.0);
+    (s * q).mul_add(q4.mul_add(q4.mul_add(high, middle), low), s)
+}
+
+/// c₀ + c₁ x + c₂ x² + ..., from the last to the first.
+#[inline(always)]
+pub fn polynomial<const N: usize>(x: f64, c: [f64; N]) -> f64 {
+    let mut sum = c[N - 1];
+    let mut k = N - 1;
+    while k > 0 {
+        k -= 1;
+        sum = x.mul_add(sum, c[k]);
+    }
+    sum
 }
 
 #[cfg(test)]

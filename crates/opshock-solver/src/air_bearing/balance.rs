@@ -395,7 +395,7 @@ fn windy<const STEEP: bool>(
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     for k in 0..BLOCK {
         let p = (a.alpha[k] + b.alpha[k]) / (a.beta[k] + b.beta[k]);
-        flux[k] = length[k] * (a.alpha[k] - a.beta[k] * p);
+        flux[k] = length[k] * a.beta[k].mul_add(-p, a.alpha[k]);
         loads[0][k] = a.load::<true>(up, h_up, k, p);
         loads[1][k] = b.load::<false>(down, h_down, k, p);
     }
@@ -414,7 +414,7 @@ fn still(
         let (u, d) = (up.bare_half(k, h_up[k]), down.bare_half(k, h_down[k]));
         let ((a, b), (c, e)) = (u.still(), d.still());
         let p = (a + c) / (b + e);
-        flux[k] = length[k] * (a - b * p);
+        flux[k] = length[k] * b.mul_add(-p, a);
         loads[0][k] = up.area[k] * u.still_excess(p);
         loads[1][k] = down.area[k] * d.still_excess(p);
     }
@@ -435,7 +435,7 @@ fn edge(film: &Film, side: &SideBlock<'_>, h_face: &Block, length: &Block) -> Fa
     for k in 0..BLOCK {
         let half = side.bare_half(k, h_face[k]);
         let (alpha, beta) = half.still();
-        flux[k] = length[k] * (alpha - beta * p);
+        flux[k] = length[k] * beta.mul_add(-p, alpha);
         loads[0][k] = side.area[k] * half.still_excess(p);
     }
     FaceValues { flux, loads }
@@ -456,7 +456,7 @@ fn windy_edge<const UP: bool>(
     let (mut flux, mut loads) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
     let p = film.ambient_pa;
     for k in 0..BLOCK {
-        flux[k] = length[k] * (halves.alpha[k] - halves.beta[k] * p);
+        flux[k] = length[k] * halves.beta[k].mul_add(-p, halves.alpha[k]);
         loads[0][k] = halves.load::<UP>(side, h_face, k, p);
     }
     FaceValues { flux, loads }
@@ -483,10 +483,10 @@ impl Moments {
                 force[k] += load[k];
             }
             for k in 0..SUMS {
-                pitch[k] -= load[k] * x[k];
+                pitch[k] = load[k].mul_add(-x[k], pitch[k]);
             }
             for k in 0..SUMS {
-                roll[k] += load[k] * y[k];
+                roll[k] = load[k].mul_add(y[k], roll[k]);
             }
         }
         self.sums = [force, pitch, roll];

@@ -1,7 +1,7 @@
 //! The exponential profile of ψ between a cell's centre and a face, as a function of its Péclet number:
 //! B(x) = x/(eˣ − 1) and what else the flux needs of it.
 
-use crate::elementary::exp;
+use crate::elementary::{exp, polynomial};
 
 /// Below this |Pe| the series of B and of ω are used.
 pub(super) const SMALL: f64 = 0.02;
@@ -34,8 +34,10 @@ pub(super) fn growth(pe: f64) -> f64 {
 #[inline(always)]
 pub(super) fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
     let s = pe * pe;
-    let near = 1.0 - 0.5 * pe + s * (1.0 / 12.0 - s * (1.0 / 720.0 - s / 30240.0));
-    let near_slope = -0.5 + pe * (1.0 / 6.0 - s * (1.0 / 180.0 - s / 5040.0));
+    let even = polynomial(s, [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30240.0]);
+    let near = s.mul_add(even, pe.mul_add(-0.5, 1.0));
+    let odd = polynomial(s, [1.0 / 6.0, -1.0 / 180.0, 1.0 / 5040.0]);
+    let near_slope = pe.mul_add(odd, -0.5);
     let m = e - 1.0;
     let (r, inverse_pe, inverse_half) = if UP {
         let q = e + 1.0;
@@ -68,13 +70,13 @@ pub(super) fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
 #[inline(always)]
 pub(super) fn convective_share(pe: f64, inverse: f64, b: f64) -> [f64; 2] {
     let q = pe * pe;
-    let near = 1.0 / 6.0 - q * (1.0 / 360.0 - q / 15120.0);
-    let near_slope = -pe * (1.0 / 180.0 - q / 3780.0);
+    let near = polynomial(q, [1.0 / 6.0, -1.0 / 360.0, 1.0 / 15120.0]);
+    let near_slope = -pe * polynomial(q, [1.0 / 180.0, -1.0 / 3780.0]);
     let layer = (1.0 - b) * inverse;
     let b_slope = b * (1.0 - b - pe) * inverse;
     let layer_slope = -(b_slope + layer) * inverse;
-    let far = (1.0 - 2.0 * layer) * inverse;
-    let far_slope = -(2.0 * layer_slope + far) * inverse;
+    let far = layer.mul_add(-2.0, 1.0) * inverse;
+    let far_slope = -layer_slope.mul_add(2.0, far) * inverse;
     let small = pe.abs() < 0.05;
     [
         if small { near } else { far },

@@ -49,9 +49,8 @@ impl Places {
         );
         let mut out = [0.0; BLOCK];
         for k in 0..BLOCK {
-            out[k] = attitude.centre_height_m - attitude.pitch_rad * x[k]
-                + attitude.roll_rad * y[k]
-                + form[k];
+            let turned = attitude.pitch_rad.mul_add(-x[k], attitude.centre_height_m);
+            out[k] = attitude.roll_rad.mul_add(y[k], turned) + form[k];
         }
         out
     }

@@ -9,7 +9,7 @@
 //! the slider's edges with the ambient pressure on the face; the balance itself is in
 //! `balance`, the choice of the grid in [`super::layout`].
 
-use super::faces::{Block, Columns};
+use super::faces::{BLOCK, Block, Columns, block};
 use super::flow_factor::FlowFactor;
 use super::flux::HalfCell;
 use super::heights::inverses;
@@ -21,6 +21,7 @@ use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
 use crate::gas::GasParameters;
 use crate::grid::Lines;
+use crate::lanes::{Kernel, widest};
 use crate::slider::SliderParameters;
 use crate::slider::clearance::{Clearance, ClearanceMap};
 use crate::slider::surface::Surface;
@@ -308,6 +309,22 @@ impl Film {
         }
     }
 
+    /// Lowest pressure at a cell's centre, Pa; cells without a number do not count.
+    ///
+    /// # Panics
+    ///
+    /// When `psi` has not n_cells entries.
+    pub fn lowest_pressure_pa(&self, psi: &[f64], attitude: &Attitude) -> f64 {
+        assert_eq!(psi.len(), self.n_cells());
+        let film = self;
+        let lowest = widest(LowestPressure {
+            film,
+            psi,
+            attitude,
+        });
+        lowest.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// Height of the slider's surface over the disk at the cells' centres, m, not floored.
     ///
     /// # Panics
@@ -350,4 +367,35 @@ fn check(slider: &SliderParameters, gas: &GasParameters, floor_m: f64) -> Result
         }
     }
     Ok(())
+}
+
+struct LowestPressure<'a> {
+    film: &'a Film,
+    psi: &'a [f64],
+    attitude: &'a Attitude,
+}
+
+impl Kernel for LowestPressure<'_> {
+    type Output = Block;
+
+    #[inline(always)]
+    fn call(self) -> Block {
+        let columns = &self.film.columns;
+        let mut lowest = [f64::INFINITY; BLOCK];
+        for (at, cells) in self.psi.chunks(BLOCK).enumerate() {
+            let first = at * BLOCK;
+            let base = columns.places.heights(first, self.attitude);
+            let [h, _] = self
+                .film
+                .floored_block(&base, block(&columns.recess, first));
+            // What is left of the last block has no gas to be low in.
+            let mut psi = [f64::INFINITY; BLOCK];
+            psi[..cells.len()].copy_from_slice(cells);
+            for k in 0..BLOCK {
+                let p = psi[k] / h[k];
+                lowest[k] = if p < lowest[k] { p } else { lowest[k] };
+            }
+        }
+        lowest
+    }
 }

@@ -24,6 +24,7 @@
 //! without a logarithm; in an interval G is the cubic Hermite interpolant of G and G′.
 
 use super::FlowModel;
+use crate::elementary::polynomial;
 
 use std::f64::consts::PI;
 
@@ -190,8 +191,8 @@ fn hermite([c0, c1, c2, c3]: [f64; 4], s: f64) -> (f64, f64) {
     // An interval of the binade at 2ᵉ is 2^(e − INTERVAL_BITS) wide.
     let scale = f64::from_bits((2 * 1023 + u64::from(INTERVAL_BITS) - (bits >> 52)) << 52);
     (
-        c0 + t * (c1 + t * (c2 + t * c3)),
-        (c1 + t * (2.0 * c2 + t * 3.0 * c3)) * scale,
+        polynomial(t, [c0, c1, c2, c3]),
+        polynomial(t, [c1, 2.0 * c2, 3.0 * c3]) * scale,
     )
 }
 

@@ -178,7 +178,7 @@ impl HalfCell {
         };
         let beta = k * self.h_face;
         HalfFlux {
-            alpha: k * self.psi + conductance * pe * (self.psi + rise),
+            alpha: k.mul_add(self.psi, conductance * pe * (self.psi + rise)),
             beta: if beta > SMALLEST_BETA {
                 beta
             } else {
@@ -244,14 +244,14 @@ impl HalfCell {
             ..
         } = *profile;
         let q = pe * pe;
-        let near = pe * (1.0 / 6.0 - q * (7.0 / 360.0));
-        let near_slope = 1.0 / 6.0 - q * (7.0 / 120.0);
+        let near = pe * q.mul_add(-7.0 / 360.0, 1.0 / 6.0);
+        let near_slope = q.mul_add(-7.0 / 120.0, 1.0 / 6.0);
         // Pe/sinh(Pe) and coth(Pe) from coth(Pe/2) = 1 + 2/(exp(Pe) − 1).
-        let half = 1.0 + 2.0 * r;
+        let half = r.mul_add(2.0, 1.0);
         let coth = 0.5 * (half + inverse_half);
         let sink = pe * 0.5 * (half - inverse_half);
         let far = (1.0 - sink) * inverse_pe;
-        let far_slope = (sink * (coth - inverse_pe) - far) * inverse_pe;
+        let far_slope = sink.mul_add(coth - inverse_pe, -far) * inverse_pe;
         let small = pe.abs() < SMALL;
         let per_blow = if small { near } else { far };
         let slope = if small { near_slope } else { far_slope };
@@ -267,7 +267,7 @@ impl HalfCell {
         (
             self.psi * gain,
             [
-                gain + lever * ratio,
+                lever.mul_add(ratio, gain),
                 -lever,
                 self.psi * gain_slope * per_weight * blow * slope,
                 self.psi * gain_slope * per_weight * per_blow,
@@ -290,18 +290,18 @@ impl HalfCell {
         per_height: f64,
         p: f64,
     ) -> f64 {
-        let centre = self.psi * self.inverse_h;
+        let over = |p: f64| (-self.psi).mul_add(self.inverse_h, p);
         let carried = self.carried_mean::<UP>(rise, p) * per_height;
-        0.5 * (1.0 - convective) * (p - centre) + convective * (carried - centre)
+        convective.mul_add(over(carried), 0.5 * (1.0 - convective) * over(p))
     }
 
     /// Mean of ψ outside the exponential layer.
     #[inline(always)]
     fn carried_mean<const UP: bool>(&self, rise: f64, p: f64) -> f64 {
         if UP {
-            self.psi + 0.5 * rise
+            rise.mul_add(0.5, self.psi)
         } else {
-            0.5 * (self.psi + p * self.h_face)
+            0.5 * p.mul_add(self.h_face, self.psi)
         }
     }
 
@@ -310,7 +310,7 @@ impl HalfCell {
     pub(super) fn mean_inverse_height(&self) -> [f64; 3] {
         let (a, [m, b]) = (self.inverse_h, self.inverses);
         [
-            (a + 8.0 * m + b) * (1.0 / 6.0),
+            (m.mul_add(8.0, a) + b) * (1.0 / 6.0),
             (a * a + 8.0 * m * m) * (-1.0 / 6.0),
             (b * b + 8.0 * m * m) * (-1.0 / 6.0),
         ]

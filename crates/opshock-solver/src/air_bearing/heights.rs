@@ -1,6 +1,6 @@
 //! The two heights of a half cell: inverses and their logarithmic mean h̄ = (h_f − h_c)/ln(h_f/h_c).
 
-use crate::elementary::ln;
+use crate::elementary::{ln, polynomial};
 
 /// Below this ((h_f − h_c)/(h_f + h_c))² the logarithmic mean is a series.
 const FLAT: f64 = 0.0025;
@@ -53,13 +53,13 @@ impl LogarithmicMean {
         let s = (h_face - h_centre) * inverse_sum;
         let q = s * s;
         // s/artanh(s), its derivative, artanh(s), and artanh(s)/s.
-        let near =
-            1.0 - q * (1.0 / 3.0 + q * (4.0 / 45.0 + q * (44.0 / 945.0 + q * 428.0 / 14175.0)));
-        let near_slope =
-            -s * (2.0 / 3.0 + q * (16.0 / 45.0 + q * (264.0 / 945.0 + q * 3424.0 / 14175.0)));
-        let low = (1.0 / 3.0 + q * (1.0 / 5.0)) + q * q * (1.0 / 7.0 + q * (1.0 / 9.0));
-        let series = q * (low + q * q * (q * q) * (1.0 / 11.0 + q * (1.0 / 13.0)));
-        let (near_artanh, near_inverse) = (s + s * series, 1.0 + series);
+        let falling = [1.0 / 3.0, 4.0 / 45.0, 44.0 / 945.0, 428.0 / 14175.0];
+        let near = (-q).mul_add(polynomial(q, falling), 1.0);
+        let steepening = [2.0 / 3.0, 16.0 / 45.0, 264.0 / 945.0, 3424.0 / 14175.0];
+        let near_slope = -s * polynomial(q, steepening);
+        let odd = [1.0 / 3.0, 0.2, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0];
+        let series = q * polynomial(q, odd);
+        let (near_artanh, near_inverse) = (s.mul_add(series, s), 1.0 + series);
         let (ratio, slope, artanh, inverse_ratio) = if STEEP {
             let steep = is_steep(h_centre, h_face);
             let far_artanh = 0.5 * ln(h_face * inverse_h);
@@ -84,7 +84,10 @@ impl LogarithmicMean {
         Self {
             value: 0.5 * sum * ratio,
             inverse: 2.0 * inverse_sum * inverse_ratio,
-            by: [0.5 * ratio - lean * h_face, 0.5 * ratio + lean * h_centre],
+            by: [
+                lean.mul_add(-h_face, 0.5 * ratio),
+                lean.mul_add(h_centre, 0.5 * ratio),
+            ],
             log_ratio: 2.0 * artanh,
         }
     }

@@ -80,7 +80,7 @@ impl Kernel for AddStorage<'_> {
     fn call(self) {
         let of = self.capacity.iter().zip(self.psi).zip(self.known);
         for (r, ((c, psi), known)) in self.residual.iter_mut().zip(of) {
-            *r += c * (psi - known) * self.per_d;
+            *r = (c * (psi - known)).mul_add(self.per_d, *r);
         }
     }
 }
@@ -101,12 +101,12 @@ impl Kernel for RelativeSquares<'_> {
         for (e, psi) in e.iter().zip(psi) {
             for k in 0..SUMS {
                 let relative = e[k] / psi[k];
-                squares[k] += relative * relative;
+                squares[k] = relative.mul_add(relative, squares[k]);
             }
         }
         let mut square = 0.0;
         for (e, psi) in e_rest.iter().zip(psi_rest) {
-            square += (e / psi) * (e / psi);
+            square = (e / psi).mul_add(e / psi, square);
         }
         (squares, square)
     }
@@ -138,13 +138,14 @@ impl Kernel for Correct<'_> {
             // In a place of its own: stores into `delta` could change the rest, for all the compiler knows.
             let (mut change, mut relative) = ([0.0; SUMS], [0.0; SUMS]);
             for k in 0..SUMS {
-                change[k] =
-                    -delta[k] - (z0[k] * self.dq[0] + z1[k] * self.dq[1] + z2[k] * self.dq[2]);
+                let [a, b, c] = self.dq;
+                let moved = z0[k].mul_add(a, z1[k].mul_add(b, z2[k] * c));
+                change[k] = -delta[k] - moved;
                 relative[k] = change[k] / psi[k];
             }
             *delta = change;
             for k in 0..SUMS {
-                squares[k] += relative[k] * relative[k];
+                squares[k] = relative[k].mul_add(relative[k], squares[k]);
             }
             for k in 0..SUMS {
                 let loss = -relative[k];
@@ -153,11 +154,11 @@ impl Kernel for Correct<'_> {
         }
         let (mut square, mut loss) = (0.0, 0.0);
         for (k, (delta, psi)) in delta_rest.iter_mut().zip(psi_rest).enumerate() {
-            let change =
-                z0_rest[k] * self.dq[0] + z1_rest[k] * self.dq[1] + z2_rest[k] * self.dq[2];
-            *delta = -*delta - change;
+            let [a, b, c] = self.dq;
+            let moved = z0_rest[k].mul_add(a, z1_rest[k].mul_add(b, z2_rest[k] * c));
+            *delta = -*delta - moved;
             let relative = *delta / psi;
-            square += relative * relative;
+            square = relative.mul_add(relative, square);
             loss = f64::max(loss, -relative);
         }
         (squares, losses, [square, loss])

@@ -35,7 +35,6 @@ pub struct HeadWorkspace {
     stepper: Stepper,
     scratch: StageScratch,
     exchange: Option<FixedPoint>,
-    pressure: Vec<f64>,
     /// Coordinates and velocities over the pivot.
     seen: [Vec<f64>; 2],
     pulse_events_s: Vec<f64>,
@@ -55,7 +54,6 @@ impl HeadWorkspace {
                 .coupling
                 .method()
                 .map(|m| FixedPoint::new(m, 3)),
-            pressure: vec![0.0; model.film.n_cells()],
             seen: [0, 1].map(|_| vec![0.0; model.mechanics.len()]),
             pulse_events_s: Vec::new(),
         }
@@ -460,10 +458,8 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        model
-            .film
-            .pressure(&w.y[..n_cells], attitude, &mut w.pressure);
-        let lowest = w.pressure.iter().copied().fold(f64::INFINITY, f64::min);
+        let psi = &w.y[..n_cells];
+        let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
         self.record(attitude);
     }

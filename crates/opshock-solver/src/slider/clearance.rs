@@ -73,6 +73,10 @@ impl ClearanceMap {
                 piece.height_m + centre_height_m - pitch_rad * (x0 - xc) + roll_rad * (y0 - yc);
             let slope = piece.slope_m - pitch_rad * dx + roll_rad * dy;
             let end = start + slope + piece.curvature_m;
+            // A parabola sags below its ends by at most a quarter of its curvature.
+            if start.min(end) - 0.25 * piece.curvature_m.max(0.0) > best.value_m {
+                continue;
+            }
             let mut at = if end < start {
                 (1.0, end)
             } else {
