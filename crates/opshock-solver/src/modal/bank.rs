@@ -81,14 +81,7 @@ impl ModalState {
 
     /// Puts every mode to rest.
     pub fn reset(&mut self) {
-        for column in [
-            &mut self.q_re,
-            &mut self.q_im,
-            &mut self.r_re,
-            &mut self.r_im,
-        ] {
-            column.fill(0.0);
-        }
+        self.rest(0..self.len());
     }
 
     /// Takes the values of `other`, of the same length.
@@ -97,6 +90,18 @@ impl ModalState {
         self.q_im.copy_from_slice(&other.q_im);
         self.r_re.copy_from_slice(&other.r_re);
         self.r_im.copy_from_slice(&other.r_im);
+    }
+
+    /// Puts the modes of `range` to rest.
+    pub fn rest(&mut self, range: std::ops::Range<usize>) {
+        for column in [
+            &mut self.q_re,
+            &mut self.q_im,
+            &mut self.r_re,
+            &mut self.r_im,
+        ] {
+            column[range.clone()].fill(0.0);
+        }
     }
 
     /// Columns length.
@@ -111,9 +116,7 @@ impl ModalState {
 
     /// Adds `impulse` times the real `shape` to the velocities.
     pub fn kick(&mut self, shape: &[f64], impulse: f64) {
-        for (r, b) in self.r_re.iter_mut().zip(shape) {
-            *r += impulse * b;
-        }
+        lanes::add_scaled(&mut self.r_re, impulse, shape);
     }
 }
 
@@ -139,11 +142,12 @@ impl BankFlow {
         }
     }
 
-    /// `after` := flow of `before`.
-    pub fn apply(&self, before: &ModalState, after: &mut ModalState) {
+    /// `after` := flow of `before`, for the first `n_modes` of them, in whole chunks.
+    pub fn apply(&self, n_modes: usize, before: &ModalState, after: &mut ModalState) {
         let flow = self;
         lanes::widest(Apply {
             flow,
+            n: n_modes / LANES,
             before,
             after,
         });
@@ -151,13 +155,12 @@ impl BankFlow {
 
     /// Adds to `after` what an impulse of the real `shape` at the start of the flow leads to.
     pub fn add_kick(&self, shape: &[f64], impulse: f64, after: &mut ModalState) {
-        for (i, b) in shape.iter().enumerate() {
-            let p = impulse * b;
-            after.q_re[i] += p * self.qr.re[i];
-            after.q_im[i] += p * self.qr.im[i];
-            after.r_re[i] += p + p * self.rr.re[i];
-            after.r_im[i] += p * self.rr.im[i];
-        }
+        lanes::widest(AddKick {
+            flow: self,
+            shape,
+            impulse,
+            after,
+        });
     }
 
     /// Displacement of `shape` after the flow per unit impulse on `shape` at its start.
@@ -174,6 +177,7 @@ impl BankFlow {
 
 struct Apply<'a> {
     flow: &'a BankFlow,
+    n: usize,
     before: &'a ModalState,
     after: &'a mut ModalState,
 }
@@ -185,7 +189,7 @@ impl Kernel for Apply<'_> {
     fn call(self) {
         let BankFlow { qq, qr, rq, rr } = self.flow;
         // All of one length, so that nothing is left to check in the loop.
-        let n = chunks(&qq.re).len();
+        let n = self.n;
         let read = |column| &chunks(column)[..n];
         let flow = [qq, qr, rq, rr].map(|column| (read(&column.re), read(&column.im)));
         let [(ar, ai), (br, bi), (cr, ci), (dr, di)] = flow;
@@ -200,12 +204,53 @@ impl Kernel for Apply<'_> {
             let mut to = [[0.0; LANES]; 4];
             for l in 0..LANES {
                 let (qr, qi, rr, ri) = (qr[l], qi[l], rr[l], ri[l]);
-                to[0][l] = qr + ((ar[i][l] * qr - ai[i][l] * qi) + (br[i][l] * rr - bi[i][l] * ri));
-                to[1][l] = qi + ((ar[i][l] * qi + ai[i][l] * qr) + (br[i][l] * ri + bi[i][l] * rr));
-                to[2][l] = rr + ((cr[i][l] * qr - ci[i][l] * qi) + (dr[i][l] * rr - di[i][l] * ri));
-                to[3][l] = ri + ((cr[i][l] * qi + ci[i][l] * qr) + (dr[i][l] * ri + di[i][l] * rr));
+                let real = |a: f64, b: f64, c: f64, d: f64| {
+                    a.mul_add(qr, b.mul_add(-qi, c.mul_add(rr, -(d * ri))))
+                };
+                let imaginary = |a: f64, b: f64, c: f64, d: f64| {
+                    a.mul_add(qi, b.mul_add(qr, c.mul_add(ri, d * rr)))
+                };
+                to[0][l] = qr + real(ar[i][l], ai[i][l], br[i][l], bi[i][l]);
+                to[1][l] = qi + imaginary(ar[i][l], ai[i][l], br[i][l], bi[i][l]);
+                to[2][l] = rr + real(cr[i][l], ci[i][l], dr[i][l], di[i][l]);
+                to[3][l] = ri + imaginary(cr[i][l], ci[i][l], dr[i][l], di[i][l]);
             }
             [ur[i], ui[i], vr[i], vi[i]] = to;
+        }
+    }
+}
+
+struct AddKick<'a> {
+    flow: &'a BankFlow,
+    shape: &'a [f64],
+    impulse: f64,
+    after: &'a mut ModalState,
+}
+
+impl Kernel for AddKick<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let BankFlow { qr, rr, .. } = self.flow;
+        let n = chunks(self.shape).len();
+        let read = |column| &chunks(column)[..n];
+        let shape = read(self.shape);
+        let [qr_re, qr_im, rr_re, rr_im] = [&qr.re, &qr.im, &rr.re, &rr.im].map(|c| read(c));
+        let q_re = &mut self.after.q_re.as_chunks_mut::<LANES>().0[..n];
+        let q_im = &mut self.after.q_im.as_chunks_mut::<LANES>().0[..n];
+        let r_re = &mut self.after.r_re.as_chunks_mut::<LANES>().0[..n];
+        let r_im = &mut self.after.r_im.as_chunks_mut::<LANES>().0[..n];
+        for i in 0..n {
+            let mut to = [q_re[i], q_im[i], r_re[i], r_im[i]];
+            for l in 0..LANES {
+                let p = self.impulse * shape[i][l];
+                to[0][l] = p.mul_add(qr_re[i][l], to[0][l]);
+                to[1][l] = p.mul_add(qr_im[i][l], to[1][l]);
+                to[2][l] += p.mul_add(rr_re[i][l], p);
+                to[3][l] = p.mul_add(rr_im[i][l], to[3][l]);
+            }
+            [q_re[i], q_im[i], r_re[i], r_im[i]] = to;
         }
     }
 }

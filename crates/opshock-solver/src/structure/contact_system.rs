@@ -12,10 +12,16 @@ use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::lanes::abreast;
 use crate::modal::ModalState;
-use crate::modal::bank::dot;
+use crate::modal::bank::{LANES, dot};
 
 /// Impacts closer than this share an event of the head's integration, s.
 pub(super) const EVENT_SPACING_S: f64 = 2e-6;
+/// Nodes between looks for modes that have come to rest.
+const STILL_STEPS: usize = 64;
+/// Share of the largest energy without contact below which eight modes are at rest: 1e-13 of the motion, which no
+/// sum over all modes shows.
+const STILL_SHARE: f64 = 1e-26;
+
 pub(super) struct ContactSystem<'a> {
     run: RunBooks<'a>,
     driven: &'a Driven,
@@ -34,6 +40,7 @@ impl<'a> ContactSystem<'a> {
     /// Wakes what contact drives at the node that `run` has reached.
     pub fn wake(mut run: RunBooks<'a>, driven: &'a Driven) -> Self {
         run.wake(driven);
+        run.n_moving = driven.n_of_arms();
         let mut system = Self {
             run,
             driven,
@@ -76,10 +83,33 @@ impl<'a> ContactSystem<'a> {
         self.offset_s = 0.0;
         self.run.accumulated_steps += u64::from(report.accumulated);
         self.settle();
+        if self.run.k.is_multiple_of(STILL_STEPS) {
+            self.rest();
+        }
         for gap in self.gaps.iter().take(self.run.shared.n_contacts) {
             let depth = -gap.value_m;
             let largest = &mut self.run.complementarity.max_penetration_m;
             *largest = largest.max(depth);
+        }
+    }
+
+    /// Puts the modes at the end to rest that damping has stilled.
+    fn rest(&mut self) {
+        let run = &mut self.run;
+        let amplitude = run.amplitude;
+        let still_j = STILL_SHARE * (amplitude * amplitude) * run.shared.free.peak_energy;
+        while run.n_moving > self.driven.n_of_arms() {
+            let chunk = run.n_moving - LANES..run.n_moving;
+            let energy_j = self
+                .driven
+                .weights
+                .of_chunk(chunk.start / LANES, &run.state.now);
+            if energy_j > still_j {
+                return;
+            }
+            run.n_moving = chunk.start;
+            run.state.now.rest(chunk.clone());
+            run.state.ahead.rest(chunk);
         }
     }
 
@@ -95,9 +125,10 @@ impl<'a> ContactSystem<'a> {
     /// Gaps of a contact-driven state on top of the unit response `sample`.
     fn gaps_of(&self, state: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
         let (shared, driven) = (self.run.shared, self.driven);
+        let n = self.run.n_moving;
         let [value_m, rate_m_per_s] = abreast([
-            [&driven.contact, &state.q_re],
-            [&driven.contact, &state.r_re],
+            [&driven.contact, &state.q_re[..n]],
+            [&driven.contact, &state.r_re[..n]],
         ]);
         let mut disk = Gap {
             value_m,
@@ -143,10 +174,10 @@ impl<'a> ContactSystem<'a> {
             self.run
                 .ledger
                 .damping
-                .add(driven.weights.step_loss(&state.now));
+                .add(driven.weights.step_loss(self.run.n_moving, &state.now));
             free.exchange(&mut state.total_forced, self.run.k, self.run.amplitude)
         } else {
-            for (i, o) in driven.oscillators.iter().enumerate() {
+            for (i, o) in driven.oscillators[..self.run.n_moving].iter().enumerate() {
                 if !driven.forced_index.contains(&i) {
                     let q = nalgebra::Complex::new(state.now.q_re[i], state.now.q_im[i]);
                     let r = nalgebra::Complex::new(state.now.r_re[i], state.now.r_im[i]);
@@ -187,7 +218,8 @@ impl UnilateralSystem for ContactSystem<'_> {
         let free = &shared.free;
         if self.is_whole_step() {
             let state = &mut *self.run.state;
-            driven.step_flow.apply(&state.now, &mut state.ahead);
+            let flow = &driven.step_flow;
+            flow.apply(self.run.n_moving, &state.now, &mut state.ahead);
             if let Some(rotor) = &free.rotor {
                 rotor.flow(&state.rotor_now, None, &mut state.rotor_ahead);
             }
@@ -197,7 +229,8 @@ impl UnilateralSystem for ContactSystem<'_> {
             let start_s = self.now_s();
             let state = &mut *self.run.state;
             state.part_flow.set(&driven.oscillators, h_s);
-            state.part_flow.apply(&state.now, &mut state.ahead);
+            let flow = &state.part_flow;
+            flow.apply(self.run.n_moving, &state.now, &mut state.ahead);
             if let Some(rotor) = &free.rotor {
                 rotor.set_leap(h_s, None, &mut state.part_leap);
                 let leap = Some(&state.part_leap);
@@ -220,21 +253,10 @@ impl UnilateralSystem for ContactSystem<'_> {
 
     fn compliance_ahead(&self) -> [[f64; 2]; 2] {
         let (shared, driven) = (self.run.shared, self.driven);
-        let flow = if self.is_whole_step() {
-            &driven.step_flow
-        } else {
-            &self.run.state.part_flow
+        let mut compliance = match self.is_whole_step() {
+            true => driven.step_compliance,
+            false => driven.compliance(&self.run.state.part_flow),
         };
-        let disk = flow.compliance(&driven.contact);
-        let [top, bottom] = &driven.arm_shape;
-        let across = match driven.coupled {
-            true => disk + flow.compliance_across(top, bottom),
-            false => disk,
-        };
-        let mut compliance = [
-            [disk + flow.compliance(top), -across],
-            [-across, disk + flow.compliance(bottom)],
-        ];
         if let Some(rotor) = &shared.free.rotor {
             let partial = (!self.is_whole_step()).then_some(&self.run.state.part_leap);
             rotor::add(&mut compliance, &rotor.compliance(partial));
@@ -300,6 +322,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         } else {
             &state.part_flow
         };
+        self.run.n_moving = driven.oscillators.len();
         state.now.kick(&driven.contact, on_disk);
         flow.add_kick(&driven.contact, on_disk, &mut state.ahead);
         if let Some(rotor) = &shared.free.rotor {

@@ -1,12 +1,14 @@
 //! What contact drives: every mode of disk and arms, and the tables of one step.
 //!
-//! Nothing moves it before the first touch, so it is built when a run first needs it.
+//! Nothing moves it before the first touch, so it is built when a run first needs it. Modes that are damped
+//! sooner stand behind, so that those which an impact has moved and damping has stilled are a tail.
 
 use super::bank::Bank;
 use super::energy::EnergyWeights;
 use super::model::StructureWarning;
 use super::rotor::{self, Rotor};
 use crate::disk::{DiskBasis, DiskMode, DiskPose};
+use crate::modal::bank::padded;
 use crate::modal::{BankFlow, Oscillator, Readout};
 use std::ops::Range;
 
@@ -18,10 +20,8 @@ pub(super) struct Arm {
 
 /// The bank of oscillators and what is read from it.
 pub(super) struct Driven {
-    /// Disk modes, then the arms' modes, padded.
+    /// The arms' modes, padded, then the disk's, those of stronger damping later, padded.
     pub oscillators: Vec<Oscillator>,
-    /// Disk modes including padding.
-    pub n_disk: usize,
     /// Bank index of each forced mode.
     pub forced_index: Vec<usize>,
     pub arms: [Arm; 2],
@@ -41,6 +41,8 @@ pub(super) struct Driven {
     /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
     pub base_jumps: Option<[(DiskPose, f64); 3]>,
     pub step_flow: BankFlow,
+    /// [`Self::compliance`] of a step.
+    pub step_compliance: [[f64; 2]; 2],
     pub weights: EnergyWeights,
     pub mobility: [[f64; 2]; 2],
     pub ripple_loss: [[f64; 2]; 2],
@@ -49,7 +51,7 @@ pub(super) struct Driven {
 }
 
 impl Driven {
-    /// Tables over a padded bank for steps of `step_s`. `basis` is that of its disk.
+    /// Tables over a bank for steps of `step_s`. `basis` is that of its disk.
     pub fn new(
         bank: Bank,
         arms: [Arm; 2],
@@ -57,6 +59,8 @@ impl Driven {
         rotor: Option<&Rotor>,
         step_s: f64,
     ) -> Self {
+        let mut warnings = instabilities(&basis.modes, &bank.oscillators);
+        let (bank, arms) = sorted(bank, arms);
         let mut step_flow = BankFlow::zeros(bank.oscillators.len());
         step_flow.set(&bank.oscillators, step_s);
         let mut mobility = bank.contact_matrix(|_| 1.0);
@@ -71,13 +75,11 @@ impl Driven {
             jumps[0].0 = slider_jump;
             jumps
         });
-        let mut warnings = instabilities(&basis.modes, &bank.oscillators);
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
-        Self {
+        let mut driven = Self {
             weights: EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s),
-            n_disk: bank.n_disk,
             oscillators: bank.oscillators,
             forced_index: bank.forced_index,
             coupled: arms[0].modes == arms[1].modes && !arms[0].modes.is_empty(),
@@ -90,10 +92,32 @@ impl Driven {
             slider_jump,
             base_jumps,
             step_flow,
+            step_compliance: [[0.0; 2]; 2],
             mobility,
             ripple_loss,
             warnings,
-        }
+        };
+        driven.step_compliance = driven.compliance(&driven.step_flow);
+        driven
+    }
+
+    /// Gaps after `flow` per impulses at its start, s/kg, without what the rotor carries.
+    pub fn compliance(&self, flow: &BankFlow) -> [[f64; 2]; 2] {
+        let disk = flow.compliance(&self.contact);
+        let [top, bottom] = &self.arm_shape;
+        let across = match self.coupled {
+            true => disk + flow.compliance_across(top, bottom),
+            false => disk,
+        };
+        [
+            [disk + flow.compliance(top), -across],
+            [-across, disk + flow.compliance(bottom)],
+        ]
+    }
+
+    /// Modes of the arms with padding, which the disk's follow.
+    pub fn n_of_arms(&self) -> usize {
+        padded(self.arms[1].modes.end)
     }
 
     /// Modes of disk and arms, without padding.
@@ -101,6 +125,46 @@ impl Driven {
         let used = |o: &&Oscillator| o.omega_rad_per_s > 0.0;
         self.oscillators.iter().filter(used).count()
     }
+}
+
+/// Arms first, then the disk's modes by rising damping; and where the arms' modes are now.
+fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
+    let is_used = |&i: &usize| bank.oscillators[i].omega_rad_per_s > 0.0;
+    let disk = (0..bank.n_disk).filter(is_used);
+    let mut disk: Vec<usize> = disk.collect();
+    let damping = |i: usize| {
+        let o = &bank.oscillators[i];
+        o.half_damping_per_s + o.fixed_damping_per_s
+    };
+    disk.sort_by(|&a, &b| damping(a).total_cmp(&damping(b)));
+    let on_arms = (bank.n_disk..bank.oscillators.len()).filter(is_used);
+    let mut order: Vec<Option<usize>> = on_arms.map(Some).collect();
+    order.resize(padded(order.len()), None);
+    order.extend(disk.into_iter().map(Some));
+    order.resize(padded(order.len()), None);
+
+    let pick = |column: &mut Vec<f64>| {
+        let entry = |at: &Option<usize>| at.and_then(|i| column.get(i)).copied();
+        *column = order.iter().map(|at| entry(at).unwrap_or(0.0)).collect();
+    };
+    for column in [&mut bank.contact, &mut bank.contact_turn, &mut bank.rim] {
+        pick(column);
+    }
+    bank.arm_shape.iter_mut().for_each(pick);
+    for readout in &mut bank.slider {
+        pick(&mut readout.re);
+        pick(&mut readout.im);
+    }
+    let oscillator = |at: &Option<usize>| at.map(|i| bank.oscillators[i]).unwrap_or_default();
+    bank.oscillators = order.iter().map(oscillator).collect();
+    for index in &mut bank.forced_index {
+        let place = order.iter().position(|at| *at == Some(*index));
+        *index = place.expect("every mode has a place");
+    }
+    let arms = arms.map(|arm| Arm {
+        modes: arm.modes.start - bank.n_disk..arm.modes.end - bank.n_disk,
+    });
+    (bank, arms)
 }
 
 /// Modes that grow: air held in space above a critical speed.

@@ -74,10 +74,22 @@ impl EnergyWeights {
         }
     }
 
-    /// Loss of the modes without forcing over one whole step.
-    pub fn step_loss(&self, state: &ModalState) -> f64 {
-        let weights = self;
-        lanes::total(lanes::widest(LossSums { weights, state }))
+    /// Loss of those of the first `n_modes`, in whole chunks, that are without forcing, over one whole step.
+    pub fn step_loss(&self, n_modes: usize, state: &ModalState) -> f64 {
+        let (weights, n) = (self, n_modes / LANES);
+        lanes::total(lanes::widest(LossSums { weights, n, state }))
+    }
+
+    /// ½ Σ (|r|² + ω² |q|²) of a chunk of modes, J: the size of what moves in them.
+    pub fn of_chunk(&self, chunk: usize, state: &ModalState) -> f64 {
+        let modes = chunk * LANES..(chunk + 1) * LANES;
+        let squares = |a: f64, b: f64| a * a + b * b;
+        modes
+            .map(|i| {
+                let spring = self.stiffness[i] * squares(state.q_re[i], state.q_im[i]);
+                0.5 * (spring + squares(state.r_re[i], state.r_im[i]))
+            })
+            .sum()
     }
 }
 
@@ -108,12 +120,12 @@ impl Kernel for EnergySums<'_> {
             for l in 0..LANES {
                 let (xr, xi) = (q_re[i][l], q_im[i][l]);
                 let (vr, vi) = (r_re[i][l], r_im[i][l]);
-                let qq = xr * xr + xi * xi;
+                let qq = xr.mul_add(xr, xi * xi);
                 let turn = turn[i][l];
-                sums[0][l] += vr * vr + vi * vi;
-                sums[1][l] += turn * (vi * xr - vr * xi);
-                sums[2][l] += turn * turn * qq;
-                sums[3][l] += stiffness[i][l] * qq;
+                sums[0][l] += vr.mul_add(vr, vi * vi);
+                sums[1][l] = turn.mul_add(vi.mul_add(xr, -(vr * xi)), sums[1][l]);
+                sums[2][l] = (turn * turn).mul_add(qq, sums[2][l]);
+                sums[3][l] = stiffness[i][l].mul_add(qq, sums[3][l]);
             }
         }
         sums
@@ -122,6 +134,7 @@ impl Kernel for EnergySums<'_> {
 
 struct LossSums<'a> {
     weights: &'a EnergyWeights,
+    n: usize,
     state: &'a ModalState,
 }
 
@@ -137,7 +150,7 @@ impl Kernel for LossSums<'_> {
             loss_qr_im,
             ..
         } = self.weights;
-        let n = chunks(loss_qq).len();
+        let n = self.n;
         let read = |column| &chunks(column)[..n];
         let (qq, rr) = (read(loss_qq), read(loss_rr));
         let (qr_re, qr_im) = (read(loss_qr_re), read(loss_qr_im));
@@ -149,10 +162,13 @@ impl Kernel for LossSums<'_> {
                 let (xr, xi) = (q_re[i][l], q_im[i][l]);
                 let (vr, vi) = (r_re[i][l], r_im[i][l]);
                 // q* r = (xr vr + xi vi) + i (xr vi − xi vr)
-                sum[l] += qq[i][l] * (xr * xr + xi * xi)
-                    + rr[i][l] * (vr * vr + vi * vi)
-                    + qr_re[i][l] * (xr * vr + xi * vi)
-                    + qr_im[i][l] * (xr * vi - xi * vr);
+                let squares =
+                    qq[i][l].mul_add(xr.mul_add(xr, xi * xi), rr[i][l] * vr.mul_add(vr, vi * vi));
+                let products = qr_re[i][l].mul_add(
+                    xr.mul_add(vr, xi * vi),
+                    qr_im[i][l] * xr.mul_add(vi, -(xi * vr)),
+                );
+                sum[l] += squares + products;
             }
         }
         sum

@@ -218,8 +218,8 @@ impl Kernel for Read<'_> {
         let (mut x, mut v) = ([0.0; POINTS], [0.0; POINTS]);
         for ((shape, q), r) in self.points.iter().zip(self.x).zip(self.v) {
             for k in 0..POINTS {
-                x[k] += shape[k] * q;
-                v[k] += shape[k] * r;
+                x[k] = shape[k].mul_add(*q, x[k]);
+                v[k] = shape[k].mul_add(*r, v[k]);
             }
         }
         [x, v]
@@ -241,8 +241,8 @@ impl Kernel for Energy<'_> {
         for (eight, x, v) in with_states(self.eights, self.x, self.v) {
             for k in 0..SUMS {
                 let spring = eight.omega[k] * x[k];
-                kinetic[k] += 0.5 * v[k] * v[k];
-                elastic[k] += 0.5 * spring * spring;
+                kinetic[k] = (0.5 * v[k]).mul_add(v[k], kinetic[k]);
+                elastic[k] = (0.5 * spring).mul_add(spring, elastic[k]);
             }
         }
         [kinetic, elastic]
@@ -264,7 +264,8 @@ impl Kernel for FreeLoss<'_> {
         for (eight, x, v) in with_states(self.eights, self.x, self.v) {
             let [xx, vv, xv] = &eight.loss;
             for k in 0..SUMS {
-                loss[k] += xx[k] * x[k] * x[k] + vv[k] * v[k] * v[k] + xv[k] * x[k] * v[k];
+                let by_x = xx[k].mul_add(x[k], xv[k] * v[k]);
+                loss[k] += x[k].mul_add(by_x, vv[k] * v[k] * v[k]);
             }
         }
         loss
@@ -306,8 +307,8 @@ impl Kernel for Drive<'_> {
             let by_v = respond(&eight.velocity, &self.parts);
             let (mut to, mut to_v) = (*x, *v);
             for k in 0..SUMS {
-                to[k] += eight.gain[k] * by_x[k];
-                to_v[k] += eight.gain[k] * by_v[k];
+                to[k] = eight.gain[k].mul_add(by_x[k], to[k]);
+                to_v[k] = eight.gain[k].mul_add(by_v[k], to_v[k]);
             }
             (*x, *v) = (to, to_v);
         }
@@ -335,13 +336,12 @@ impl Kernel for RatesWithin<'_> {
             let by = respond(&within.forced, &self.parts);
             let mut rate = [0.0; SUMS];
             for k in 0..SUMS {
-                rate[k] = v[k]
-                    + (within.from_x[k] * x[k] + within.from_v[k] * v[k])
-                    + self.amplitude * eight.gain[k] * by[k];
+                let free = v[k] + within.from_x[k].mul_add(x[k], within.from_v[k] * v[k]);
+                rate[k] = (self.amplitude * eight.gain[k]).mul_add(by[k], free);
             }
             for k in 0..SUMS {
-                power[k] += eight.gain[k] * rate[k];
-                loss[k] += eight.damping[k] * rate[k] * rate[k];
+                power[k] = eight.gain[k].mul_add(rate[k], power[k]);
+                loss[k] = (eight.damping[k] * rate[k]).mul_add(rate[k], loss[k]);
             }
         }
         [power, loss]
@@ -354,8 +354,8 @@ fn carry(flow: &[[f64; SUMS]; 4], x: &mut [f64; SUMS], v: &mut [f64; SUMS]) {
     // In a place of its own: stores into `x` could change `flow`, for all the compiler knows.
     let (mut to, mut to_v) = (*x, *v);
     for k in 0..SUMS {
-        to[k] += xx[k] * x[k] + xv[k] * v[k];
-        to_v[k] += vx[k] * x[k] + vv[k] * v[k];
+        to[k] += xx[k].mul_add(x[k], xv[k] * v[k]);
+        to_v[k] += vx[k].mul_add(x[k], vv[k] * v[k]);
     }
     (*x, *v) = (to, to_v);
 }
@@ -366,7 +366,8 @@ fn respond(response: &[[f64; SUMS]; 4], parts: &[f64; 4]) -> [f64; SUMS] {
     let [a, b, c, d] = response;
     let mut out = [0.0; SUMS];
     for k in 0..SUMS {
-        out[k] = (a[k] * parts[0] + b[k] * parts[1]) + (c[k] * parts[2] + d[k] * parts[3]);
+        let first = a[k].mul_add(parts[0], b[k] * parts[1]);
+        out[k] = c[k].mul_add(parts[2], d[k].mul_add(parts[3], first));
     }
     out
 }

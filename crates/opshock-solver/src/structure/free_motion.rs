@@ -110,6 +110,8 @@ pub(super) struct Exchange {
 pub(super) struct FreeMotion {
     pub step_s: f64,
     pub samples: Vec<Sample>,
+    /// Largest energy of disk and arms, J per (m/s²)².
+    pub peak_energy: f64,
     /// Modal states every [`CHECKPOINT_STEPS`] nodes.
     checkpoints: Vec<ForcedState>,
     pub modes: ForcedModes,
@@ -179,6 +181,7 @@ impl FreeMotion {
         let mut free = Self {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
+            peak_energy: 0.0,
             checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
             columns: ForcedColumns::new(&modes, shapes.by_mode(), sigma, step_s, rule),
@@ -201,6 +204,7 @@ impl FreeMotion {
                 let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
                 sample.excess = of_rotor.fixed_frame - of_rotor.material();
             }
+            free.peak_energy = free.peak_energy.max(sample.energy);
             sample.work = work.value();
             sample.loss = loss.value();
             free.samples.push(sample);

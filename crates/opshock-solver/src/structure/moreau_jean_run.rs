@@ -206,12 +206,11 @@ impl<'a> March<'a> {
     /// Books node `k`, which the state has reached.
     fn record_node(&mut self, k: usize) {
         let (shared, driven, s) = (self.shared, self.driven, &self.now);
-        let n = driven.n_disk;
         let [w, p, r] = &driven.slider;
         let read = |re: &[f64], im: &[f64]| DiskPose {
-            displacement_m: w.read(&re[..n], &im[..n]),
-            pitch_rad: p.read(&re[..n], &im[..n]),
-            roll_rad: r.read(&re[..n], &im[..n]),
+            displacement_m: w.read(re, im),
+            pitch_rad: p.read(re, im),
+            roll_rad: r.read(re, im),
         };
         let time_s = k as f64 * shared.free.step_s;
         let (mut pose, mut rate) = (read(&s.q_re, &s.q_im), read(&s.r_re, &s.r_im));

@@ -69,10 +69,8 @@ impl StructureModel {
         }
         let driven = shared.driven()?;
         let one = Complex::new(1.0, 0.0);
-        let slider = |q: usize, i: usize| match i < driven.n_disk {
-            true => Complex::new(driven.slider[q].re[i], -driven.slider[q].im[i]),
-            false => Complex::default(),
-        };
+        let slider =
+            |q: usize, i: usize| Complex::new(driven.slider[q].re[i], -driven.slider[q].im[i]);
         let mut out = StructureAnswer::default();
         for (i, o) in driven.oscillators.iter().enumerate() {
             if o.omega_rad_per_s == 0.0 {

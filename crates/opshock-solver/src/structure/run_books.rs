@@ -54,6 +54,8 @@ pub(super) struct RunBooks<'a> {
     pub k: usize,
     /// What contact drives, once it has woken.
     pub driven: Option<&'a Driven>,
+    /// Modes of `driven` that are not at rest, in whole chunks.
+    pub n_moving: usize,
     /// `state.total_forced` is the state now.
     pub is_totalled: bool,
     pub ledger: Ledger,
@@ -110,6 +112,7 @@ impl RunState {
         let n = driven.oscillators.len();
         if self.now.len() == n {
             self.now.reset();
+            self.ahead.reset();
         } else {
             self.now = ModalState::at_rest(n);
             self.ahead = ModalState::at_rest(n);
@@ -127,6 +130,7 @@ impl<'a> RunBooks<'a> {
             state,
             k: 0,
             driven: None,
+            n_moving: 0,
             is_totalled: false,
             ledger: Ledger::default(),
             complementarity: Complementarity::default(),
@@ -190,8 +194,7 @@ impl<'a> RunBooks<'a> {
             }
         }
         if let Some(driven) = self.driven {
-            let n = driven.n_disk;
-            let now = &self.state.now;
+            let (n, now) = (self.n_moving, &self.state.now);
             let rows = &driven.slider;
             let driven = [
                 Readout::read_three(rows, &now.q_re[..n], &now.q_im[..n]),
@@ -210,8 +213,7 @@ impl<'a> RunBooks<'a> {
     fn slider_displacement_m(&self, sample: &Sample) -> f64 {
         let mut displacement_m = self.amplitude * sample.slider.value;
         if let Some(driven) = self.driven {
-            let n = driven.n_disk;
-            let now = &self.state.now;
+            let (n, now) = (self.n_moving, &self.state.now);
             displacement_m += driven.slider[0].read(&now.q_re[..n], &now.q_im[..n]);
             if let Some(rotor) = &self.shared.free.rotor {
                 displacement_m += rotor.slider_m(&self.state.rotor_now);
@@ -242,8 +244,8 @@ impl<'a> RunBooks<'a> {
         let mut arms = [a * sample.top.value, a * sample.bottom.value];
         if let Some(driven) = self.driven {
             let now = &self.state.now;
-            let [by_contact, at_rim] =
-                abreast([[&driven.contact, &now.q_re], [&driven.rim, &now.q_re]]);
+            let moving = &now.q_re[..self.n_moving];
+            let [by_contact, at_rim] = abreast([[&driven.contact, moving], [&driven.rim, moving]]);
             ramp += by_contact;
             rim += at_rim;
             if let Some(rotor) = &shared.free.rotor {
