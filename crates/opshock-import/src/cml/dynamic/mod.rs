@@ -1,6 +1,6 @@
 //! `DynLULS.def`: slider, pulse, disk and ramp of a dynamic run (load, unload, shock).
 //!
-//! Two lines of header, then 19 sections that a line of asterisks opens ([`layout`]). In a section a line of
+//! Two lines of header, then 19 sections that a line of asterisks opens (`layout`). In a section a line of
 //! names is followed by a line of values. Names are known of the first four sections, and of the disk's
 //! material and the place of its ramp; those values are read by name. Others are read by their order:
 //!
