@@ -10,8 +10,8 @@
 use super::Attitude;
 use super::mesh::{EdgeFace, Face, Mesh, Place, Side};
 
-/// Faces a kernel handles together.
-pub(super) const BLOCK: usize = 32;
+/// Faces a kernel handles together: two registers of the widest, so that what a pass keeps stays in registers.
+pub(super) const BLOCK: usize = 16;
 
 /// A number of every face or cell of a block.
 pub(super) type Block = [f64; BLOCK];
