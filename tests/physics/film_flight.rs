@@ -52,7 +52,8 @@ fn film_on(grid: &str, cuts: usize) -> Film {
     .unwrap()
 }
 
-fn cut(lines: &[f64], cuts: usize) -> Vec<f64> {
+/// Lines with every cell cut into `cuts`.
+pub(super) fn cut(lines: &[f64], cuts: usize) -> Vec<f64> {
     let mut out = vec![lines[0]];
     for w in lines.windows(2) {
         for k in 1..=cuts {

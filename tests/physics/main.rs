@@ -13,6 +13,7 @@ mod film_flight;
 mod film_flow_factor;
 mod film_plane;
 mod film_squeeze;
+mod film_squeezed_slider;
 mod film_steps;
 mod free_motion;
 mod head_coupling;
