@@ -20,6 +20,8 @@ const REQUEST: Request = Request {
 fn shock(c: &mut Criterion) {
     let scene = scenes::scene("fig13", "deformable", 0.5, &[]);
     let full = Model::build(&scene, Scope::Full, None).expect("the scene builds");
+    let coarse = scenes::scene("fig13", "deformable", 0.5, &[("solver.accuracy", "\"5%\"")]);
+    let coarse = Model::build(&coarse, Scope::Full, None).expect("the scene builds");
     let structure = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
     let rigid = Model::build(
         &scenes::scene("fig13", "rigid", 0.5, &[]),
@@ -39,6 +41,9 @@ fn shock(c: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("full", |b| {
         b.iter(|| black_box(simulate(&full, &REQUEST, &mut workspace)));
+    });
+    group.bench_function("full_5_percent", |b| {
+        b.iter(|| black_box(simulate(&coarse, &REQUEST, &mut workspace)));
     });
     group.bench_function("structure", |b| {
         b.iter(|| black_box(simulate(&structure, &REQUEST, &mut workspace)));
