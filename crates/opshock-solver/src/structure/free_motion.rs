@@ -199,12 +199,21 @@ impl FreeMotion {
                 free.checkpoints.push(state.clone());
             }
             let mut sample = free.sample(&state);
+            if free.rotor.is_none() && k as f64 * step_s >= free.pulse_end_s {
+                // Nothing but the columns moves, and nothing drives them.
+                let ([kinetic, elastic], step_loss) =
+                    free.columns.book_and_carry(&mut state.x, &mut state.v);
+                (sample.kinetic, sample.energy) = (kinetic, kinetic + elastic);
+                (sample.work, sample.loss) = (work.value(), loss.value());
+                loss.add(step_loss);
+                free.samples.push(sample);
+                continue;
+            }
             (sample.kinetic, sample.energy) = free.energy(&mut state);
             if let Some(rotor) = free.rotor.as_ref().filter(|rotor| rotor.is_tilted()) {
                 let of_rotor = rotor.energies(&state.rotor, &mut state.scratch);
                 sample.excess = of_rotor.fixed_frame - of_rotor.material();
             }
-            free.peak_energy = free.peak_energy.max(sample.energy);
             sample.work = work.value();
             sample.loss = loss.value();
             free.samples.push(sample);
@@ -220,6 +229,8 @@ impl FreeMotion {
             }
             free.step(&mut state, k);
         }
+        let energies = free.samples.iter().map(|sample| sample.energy);
+        free.peak_energy = energies.fold(0.0, f64::max);
         free
     }
 
