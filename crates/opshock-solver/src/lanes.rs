@@ -5,7 +5,7 @@
 //! not turn into vector code by itself say so with [`WithSimd`]. A product and a sum are fused, that is rounded
 //! once, only where `mul_add` says so, which every processor rounds alike, and every element of a loop is
 //! computed alone: all sets give the same bits. One without fused instructions (x86-64 before 2013) computes
-//! them by a library, some ten times slower.
+//! them one by one by a library.
 
 pub use pulp::{NullaryFnOnce as Kernel, Simd, WithSimd};
 
