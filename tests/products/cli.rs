@@ -49,6 +49,16 @@ impl Done {
     }
 }
 
+/// A coarse film and disk and a short window: milliseconds, and the same paths.
+pub const COARSE: [&str; 6] = [
+    "--set",
+    "solver.film_cells=300",
+    "--set",
+    "pulse.window_ms=1.5",
+    "--set",
+    "solver.disk_cut_khz=10",
+];
+
 /// A study of the repository.
 pub fn study(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

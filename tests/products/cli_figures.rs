@@ -1,20 +1,11 @@
 //! `figures`: what is drawn is what the runs computed and what the scene says, and always the same.
 
-use super::cli::{Done, files, study};
+use super::cli::{COARSE, Done, files, study};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The paper's drive on a coarse film and a short window.
-const COARSE: [&str; 8] = [
-    "--set",
-    "pulse.widths_ms=[0.5, 1.0]",
-    "--set",
-    "solver.film_cells=300",
-    "--set",
-    "pulse.window_ms=1.5",
-    "--set",
-    "solver.disk_cut_khz=10",
-];
+/// Pulses of the paper's drive, on a coarse film and a short window.
+const WIDTHS: [&str; 2] = ["--set", "pulse.widths_ms=[0.5, 1.0]"];
 const TABLE: &str = "ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags\n\
                      rigid,0.5,+,201.9,203.9,0,2,195.3,4,ok,\n\
                      none,0.5,-,473.5,,,,,17,above_range,window\n";
@@ -22,7 +13,7 @@ const TABLE: &str = "ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,o
 fn figures(folder: &Path, more: &[&str]) -> Done {
     let path = study("paper-cases");
     let start = ["figures", path.to_str().unwrap(), "--long", "1:300"];
-    Done::of(folder, &[&start[..], &COARSE, more].concat())
+    Done::of(folder, &[&start[..], &WIDTHS, &COARSE, more].concat())
 }
 
 /// Columns of a CSV as the words in it; empty cells left out.
@@ -87,7 +78,7 @@ fn every_figure_is_written_the_same_twice_and_holds_the_histories() {
     ];
     let done = Done::of(
         folder.path(),
-        &[&shock[..], &COARSE, &["--history", "h.csv"]].concat(),
+        &[&shock[..], &WIDTHS, &COARSE, &["--history", "h.csv"]].concat(),
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
     let run = columns(&at("h.csv"));
@@ -113,7 +104,7 @@ fn every_figure_is_written_the_same_twice_and_holds_the_histories() {
     }
     let done = Done::of(
         folder.path(),
-        &[&shock[..], &COARSE, &["--history", "h.h5"]].concat(),
+        &[&shock[..], &WIDTHS, &COARSE, &["--history", "h.h5"]].concat(),
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
     let file = hdf5::File::open(at("h.h5")).unwrap();

@@ -1,20 +1,11 @@
 //! `run`: one shock through the program; histories and plots agree with the JSON.
 
-use super::cli::{Done, files, study};
+use super::cli::{COARSE, Done, files, study};
 use serde_json::Value;
 use std::path::Path;
 
-/// The paper's drive on a coarse film and a short window: milliseconds, and the same paths.
-const COARSE: [&str; 8] = [
-    "--set",
-    "pulse.widths_ms=[0.5]",
-    "--set",
-    "solver.film_cells=300",
-    "--set",
-    "pulse.window_ms=1.5",
-    "--set",
-    "solver.disk_cut_khz=10",
-];
+/// Pulses of the paper's drive, on a coarse film and a short window.
+const WIDTHS: [&str; 2] = ["--set", "pulse.widths_ms=[0.5]"];
 
 fn run(folder: &Path, more: &[&str]) -> Done {
     let path = study("fig13");
@@ -28,7 +19,7 @@ fn run(folder: &Path, more: &[&str]) -> Done {
         "--sign",
         "+",
     ];
-    Done::of(folder, &[&shock[..], &COARSE, more].concat())
+    Done::of(folder, &[&shock[..], &WIDTHS, &COARSE, more].concat())
 }
 
 fn number(value: &Value, pointer: &str) -> f64 {
@@ -312,7 +303,7 @@ fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
             "--set",
             "search.certify=off",
         ];
-        Done::of(place, &[&arguments[..], &COARSE, more].concat())
+        Done::of(place, &[&arguments[..], &WIDTHS, &COARSE, more].concat())
     };
     let sweep = |more: &[&str]| sweep_in(folder.path(), more);
     for wrong in ["0", "soon", "30m7h", "-1h"] {

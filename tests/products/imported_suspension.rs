@@ -1,19 +1,9 @@
 //! A suspension as matrices: the geometry's finite elements, written and read again, fly and answer a
 //! shock as the geometry does; what is no suspension is refused.
 
-use crate::cli::{Done, study};
+use crate::cli::{COARSE, Done, study};
 use serde_json::Value;
 use std::path::Path;
-
-/// Coarse enough for milliseconds; the suspension is whole.
-const COARSE: [&str; 6] = [
-    "--set",
-    "solver.film_cells=300",
-    "--set",
-    "pulse.window_ms=1.5",
-    "--set",
-    "solver.disk_cut_khz=10",
-];
 
 /// The suspension of studies/drive-2.5in as matrices in `susp/`, and a study beside them that reads them.
 fn exported(at: &Path) {

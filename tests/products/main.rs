@@ -10,6 +10,7 @@ mod cli_figures;
 mod cli_run;
 mod cli_shards;
 mod cli_studies;
+mod cml_drives;
 mod compare;
 mod error_bars;
 mod hdf5_readers;

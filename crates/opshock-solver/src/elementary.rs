@@ -73,9 +73,7 @@ pub fn artanh(s: f64) -> f64 {
 #[inline(always)]
 pub fn polynomial<const N: usize>(x: f64, c: [f64; N]) -> f64 {
     let mut sum = c[N - 1];
-    let mut k = N - 1;
-    while k > 0 {
-        k -= 1;
+    for k in (0..N - 1).rev() {
         sum = x.mul_add(sum, c[k]);
     }
     sum

@@ -16,7 +16,7 @@
 //! means: the same arm has −6.1 degrees at 17.9 mm.
 
 use super::dynamic::layout;
-use super::dynamic::{DynamicFile, Shape, Shock};
+use super::dynamic::{DynamicFile, Gas, Shape, Shock};
 use super::rail::RailFile;
 use super::run::RunFile;
 use super::study::{Asked, Sections, Written, gas, sections, shortest, suspension};
@@ -117,23 +117,20 @@ fn fill(
             1e3 * place.ramp_m
         );
     }
-    if let Some(found) = &file.gas {
-        study.gas = gas(
-            found.pressure_pa,
-            found.viscosity_pa_s,
-            found.mean_free_path_m,
-            "fukui_kaneko",
-        );
-    } else if let Some(run) = run {
-        study.gas = gas(
-            run.pressure_pa,
-            run.viscosity_pa_s,
-            run.mean_free_path_m,
-            "fukui_kaneko",
-        );
-    } else {
-        study.gas = "[gas]\nmodel = \"fukui_kaneko\"\n\n".to_owned();
-    }
+    let of_run = run.map(|run| Gas {
+        pressure_pa: run.pressure_pa,
+        mean_free_path_m: run.mean_free_path_m,
+        viscosity_pa_s: run.viscosity_pa_s,
+    });
+    let model = "fukui_kaneko";
+    study.gas = match file.gas.or(of_run) {
+        Some(Gas {
+            pressure_pa,
+            mean_free_path_m,
+            viscosity_pa_s,
+        }) => gas(pressure_pa, viscosity_pa_s, mean_free_path_m, model),
+        None => format!("[gas]\nmodel = \"{model}\"\n\n"),
+    };
     study.suspension = suspension(file.load_kgf);
     study.slider = format!(
         "radius_mm = {}\nskew_deg = {}\n",

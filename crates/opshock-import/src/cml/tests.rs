@@ -400,21 +400,23 @@ fn no_damaged_number_of_a_dynamic_run_is_read() {
     assert_eq!(n, 15 + 5 + 6 + 5 + 11);
 }
 
+/// A dynamic run without `run.dat`.
+const DRIVE: study::Asked<'static> = study::Asked {
+    name: "drive",
+    surface_file: "surface.toml",
+    run_file: "",
+    radius: 1,
+    speed: 1,
+};
+
 /// The sample drive's ramp is 0.35 mm inside the rim, 7 degrees before the slider; at another radius the same arm
 /// has the skew that its circle gives, and finds the same ramp.
 #[test]
 fn the_ramps_place_follows_from_the_pivot() {
-    let asked = study::Asked {
-        name: "drive",
-        surface_file: "surface.toml",
-        run_file: "",
-        radius: 1,
-        speed: 1,
-    };
     let number = |file: &DynamicFile, section: &str, key: &str| -> f64 {
         let mut rail = surface();
         (rail.length_m, rail.width_m) = (1.25e-3, 1e-3);
-        let written = drive::study(&rail, None, (file, "DynLULS.def"), None, asked).unwrap();
+        let written = drive::study(&rail, None, (file, "DynLULS.def"), None, DRIVE).unwrap();
         let text = written.text.split(section).nth(1).unwrap();
         let line = text.lines().find(|line| line.starts_with(key)).unwrap();
         line.rsplit(' ').next().unwrap().parse().unwrap()
@@ -440,13 +442,6 @@ fn the_ramps_place_follows_from_the_pivot() {
 
 #[test]
 fn pulses_of_dynamic_runs_become_those_of_a_study() {
-    let asked = study::Asked {
-        name: "drive",
-        surface_file: "surface.toml",
-        run_file: "",
-        radius: 1,
-        speed: 1,
-    };
     let mut rail = surface();
     (rail.length_m, rail.width_m) = (1.25e-3, 1e-3);
     let pulse = |shape: Option<Shape>| {
@@ -456,7 +451,7 @@ fn pulses_of_dynamic_runs_become_those_of_a_study() {
             time_constant_s: 2e-3,
             ..shock
         });
-        let written = drive::study(&rail, None, (&file, "DynLULS.def"), None, asked).unwrap();
+        let written = drive::study(&rail, None, (&file, "DynLULS.def"), None, DRIVE).unwrap();
         let section = written.text.split("[pulse]\n").nth(1).unwrap();
         section.split("\n\n").next().unwrap().to_owned()
     };

@@ -82,7 +82,7 @@ impl StructureModel {
             let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
             (carried, basis.modes) = all.into_iter().partition(on_it);
         }
-        let stand = Stand {
+        let assembly = Assembly {
             disk: disk.clone(),
             ramp: ramp.clone(),
             slider,
@@ -90,7 +90,7 @@ impl StructureModel {
             is_on_base: !base.is_empty(),
             step_s,
         };
-        let (mut bank, arms) = stand.bank(&basis.modes);
+        let (mut bank, arms) = assembly.bank(&basis.modes);
         let riding = bank.riding.take().unwrap_or_default();
         let rotor = Rotor::build(
             &carried,
@@ -130,7 +130,7 @@ impl StructureModel {
                 slow_corrections(&mut rest, step_s);
                 basis.modes.append(&mut rest.modes);
                 basis.harmonics_bounded = rest.harmonics_bounded;
-                let (bank, arms) = stand.bank(&basis.modes);
+                let (bank, arms) = assembly.bank(&basis.modes);
                 Ok(Driven::new(bank, arms, &basis, None, step_s))
             })
         };
@@ -157,7 +157,7 @@ impl StructureModel {
 }
 
 /// What disk and arms are put together for.
-struct Stand {
+struct Assembly {
     disk: DiskParameters,
     ramp: RampParameters,
     slider: SliderPlace,
@@ -166,7 +166,7 @@ struct Stand {
     step_s: f64,
 }
 
-impl Stand {
+impl Assembly {
     /// Modes of the disk and both arms in one bank, padded.
     fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
         let Self { disk, ramp, .. } = self;

@@ -40,7 +40,6 @@ impl<'a> ContactSystem<'a> {
     /// Wakes what contact drives at the node that `run` has reached.
     pub fn wake(mut run: RunBooks<'a>, driven: &'a Driven) -> Self {
         run.wake(driven);
-        run.n_moving = driven.n_of_arms();
         let mut system = Self {
             run,
             driven,

@@ -94,14 +94,7 @@ impl RunState {
         self.rotor_now.reset();
         self.logs.iter_mut().for_each(ContactLog::clear);
         let n_nodes = if keeps_motion { shared.n_steps + 1 } else { 0 };
-        self.history = StructuralHistory {
-            step_s: shared.free.step_s,
-            pose: Vec::with_capacity(n_nodes),
-            rate: Vec::with_capacity(n_nodes),
-            breaks: Vec::new(),
-            events_s: vec![0.0],
-            pivot: shared.pivot_history(n_nodes),
-        };
+        self.history = shared.history(n_nodes);
         self.columns = StructureColumns::default();
         self.record = record;
         self.keeps_motion = keeps_motion;
@@ -160,6 +153,7 @@ impl<'a> RunBooks<'a> {
     /// Wakes the contact-driven state, at rest at the node reached.
     pub fn wake(&mut self, driven: &'a Driven) {
         self.driven = Some(driven);
+        self.n_moving = driven.n_of_arms();
         self.state.wake(driven);
         let free = &self.shared.free;
         free.state_at_node(self.k, &mut self.state.unit_now);

@@ -72,17 +72,23 @@ impl Shared {
         (pose, rate)
     }
 
-    /// An empty history of what contact does to the pivot, on a base that vibrates.
-    pub fn pivot_history(&self, n_nodes: usize) -> Option<Box<StructuralHistory>> {
+    /// An empty history for `n_nodes`: of the disk under the slider, and of what contact does to the pivot of a
+    /// base that vibrates.
+    pub fn history(&self, n_nodes: usize) -> StructuralHistory {
+        let empty = || StructuralHistory {
+            step_s: self.free.step_s,
+            pose: Vec::with_capacity(n_nodes),
+            rate: Vec::with_capacity(n_nodes),
+            ..StructuralHistory::default()
+        };
         let rotor = self.free.rotor.as_ref();
-        rotor.is_some_and(Rotor::has_pivot).then(|| {
-            Box::new(StructuralHistory {
-                step_s: self.free.step_s,
-                pose: Vec::with_capacity(n_nodes),
-                rate: Vec::with_capacity(n_nodes),
-                ..StructuralHistory::default()
-            })
-        })
+        StructuralHistory {
+            events_s: vec![0.0],
+            pivot: rotor
+                .is_some_and(Rotor::has_pivot)
+                .then(|| Box::new(empty())),
+            ..empty()
+        }
     }
 
     /// First step in which free motion closes a gap; the number of steps when none does.
