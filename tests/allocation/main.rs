@@ -39,7 +39,6 @@ fn allocations(window_s: f64) -> (u64, u64) {
     let mut workspace = Workspace::default();
     let request = Request {
         amplitude_m_per_s2: 190.0 * 9.80665,
-        stop_at_failure: true,
         record: false,
     };
     simulate(&model, &request, &mut workspace);

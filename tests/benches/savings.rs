@@ -51,7 +51,6 @@ fn all_threads_busy_s() -> f64 {
 fn request(amplitude_g: f64) -> Request {
     Request {
         amplitude_m_per_s2: m_per_s2_from_g(amplitude_g),
-        stop_at_failure: true,
         record: false,
     }
 }

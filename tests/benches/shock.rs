@@ -13,7 +13,6 @@ use opshock_tests::timing::median_of;
 
 const REQUEST: Request = Request {
     amplitude_m_per_s2: 190.0 * 9.80665,
-    stop_at_failure: true,
     record: false,
 };
 

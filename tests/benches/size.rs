@@ -32,7 +32,6 @@ fn modes(_: &mut Criterion) {
     println!("|---|---|---|");
     let request = Request {
         amplitude_m_per_s2: 190.0 * 9.80665,
-        stop_at_failure: true,
         record: false,
     };
     let (mut builds, mut runs) = (Vec::new(), Vec::new());

@@ -23,7 +23,6 @@ fn outcome(scene: &Scene, amplitude_g: f64) -> Outcome {
     let model = Model::build(scene, Scope::Full, None).expect("builds");
     let request = Request {
         amplitude_m_per_s2: amplitude_g * G,
-        stop_at_failure: true,
         record: true,
     };
     simulate(&model, &request, &mut Workspace::default())

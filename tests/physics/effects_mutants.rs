@@ -85,14 +85,14 @@ fn effects_mutants_of_the_structures_rules_are_caught() {
     }
 }
 
-/// A touch, and a run that survives: only the first may end before the window does.
+/// A shock that touches, and one that survives: only the first may end before the window does, and at
+/// its touch.
 #[test]
 fn effects_mutant_of_the_end_at_touch_is_caught() {
     let base = base();
     let shock = |amplitude_g: f64, mutant| {
         let pair = Pair {
             with_head: true,
-            whole_window: true,
             mutant,
             ..Pair::default()
         };

@@ -22,7 +22,6 @@ fn shaken(scene: &Scene, amplitude_g: f64, record: bool) -> Outcome {
     let model = Model::build(scene, Scope::Full, None).expect("builds");
     let request = Request {
         amplitude_m_per_s2: -amplitude_g * G,
-        stop_at_failure: true,
         record,
     };
     simulate(&model, &request, &mut Workspace::default())

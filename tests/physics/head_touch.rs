@@ -1,7 +1,7 @@
 //! Touching the disk: found between steps, in time, in place, and never by a number that is none.
 
 use opshock_solver::disk::{DiskMotion, DiskPose};
-use opshock_solver::head::{Cause, HeadModel, HeadWorkspace, ShockLoad, Verdict};
+use opshock_solver::head::{Cause, HeadModel, HeadRun, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_tests::heads::{
     SingleModeDisk, SuddenDisk, default_film, default_head, default_resolution, default_slider,
@@ -110,7 +110,7 @@ fn going_on_after_touch_keeps_the_first_touch() {
 }
 
 /// A run that stops at touch ends with the touch: smallest clearance, its time and place, the end
-/// of the run and the last row are one instant, between two steps of the run that goes on.
+/// of the run and the last row are one instant, between two steps of the run that goes on, which has it too.
 #[test]
 fn a_run_that_stops_ends_at_the_instant_of_touch() {
     let (film, flight) = default_film(300);
@@ -148,25 +148,126 @@ fn a_run_that_stops_ends_at_the_instant_of_touch() {
         let (last, earlier) = columns.min_clearance_m.split_last().expect("rows");
         assert!(earlier.iter().all(|h| h > last), "no row below the limit");
 
-        let gone_on = model.run(&disk, &load, 0.8e-3, false, true, &mut workspace);
-        let other = gone_on.columns.expect("recorded");
-        // The same steps up to the touch; the step that holds it ends behind it.
-        assert_eq!(columns.time_s[..rows - 1], other.time_s[..rows - 1]);
-        assert!(other.time_s[rows - 1] > t_fail_s);
-        assert!(gone_on.min_clearance_m < fail_below_m);
-        // Its film and slider are those of a moment between the rows around.
-        let between = |column: &[f64], neighbour: &[f64]| {
-            let (a, b) = (neighbour[rows - 2], neighbour[rows - 1]);
+        // A run that goes on has the same rows up to the touch, the touch included, and the same
+        // numbers but for its cost.
+        let mut gone_on = model.run(&disk, &load, 0.8e-3, false, true, &mut workspace);
+        let other = gone_on.columns.take().expect("recorded");
+        assert_eq!(columns.time_s, other.time_s[..rows]);
+        assert_eq!(columns.slider_z_m, other.slider_z_m[..rows]);
+        assert_eq!(columns.bearing_force_n, other.bearing_force_n[..rows]);
+        assert!(other.time_s.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(
+            other.min_clearance_m[rows..]
+                .iter()
+                .any(|h| *h < fail_below_m)
+        );
+        assert_eq!((gone_on.end_s, &gone_on.broke_off), (0.8e-3, &None));
+        assert_eq!(
+            gone_on.cost.steps as usize,
+            other.time_s.len() - 2,
+            "start and touch"
+        );
+        assert!(gone_on.cost.steps > run.cost.steps);
+        let own = HeadRun {
+            end_s: run.end_s,
+            columns: Some(columns.clone()),
+            cost: run.cost,
+            ..gone_on
+        };
+        assert_eq!(
+            own,
+            HeadRun {
+                columns: Some(columns.clone()),
+                ..run
+            }
+        );
+        // Film and slider at the touch are those of a moment between the rows around.
+        let between = |column: &[f64]| {
+            let (a, x, b) = (column[rows - 2], column[rows - 1], column[rows]);
             let slack = 0.1 * (b - a).abs();
-            let x = column[rows - 1];
             assert!(
                 x >= a.min(b) - slack && x <= a.max(b) + slack,
                 "{a} {x} {b}"
             );
         };
-        between(&columns.slider_z_m, &other.slider_z_m);
-        between(&columns.bearing_force_n, &other.bearing_force_n);
+        between(&other.slider_z_m);
+        between(&other.bearing_force_n);
     }
+}
+
+/// A disk that is not a number from `broken_from_s` on.
+struct BreakingDisk {
+    under: SingleModeDisk,
+    broken_from_s: f64,
+}
+
+impl DiskMotion for BreakingDisk {
+    fn pose(&self, t: f64) -> DiskPose {
+        match t > self.broken_from_s {
+            true => DiskPose {
+                displacement_m: f64::NAN,
+                ..DiskPose::default()
+            },
+            false => self.under.pose(t),
+        }
+    }
+    fn pose_rate(&self, t: f64) -> DiskPose {
+        self.under.pose_rate(t)
+    }
+    fn events_s(&self) -> &[f64] {
+        self.under.events_s()
+    }
+}
+
+/// What breaks a run behind its first touch, or ends it there, leaves the answer as it was.
+#[test]
+fn a_breakdown_behind_the_touch_changes_no_answer() {
+    let amplitude_m_per_s2 = 900.0 * G;
+    let disk = |broken_from_s: f64| BreakingDisk {
+        under: SingleModeDisk::new(amplitude_m_per_s2, 2e-3),
+        broken_from_s,
+    };
+    let load = ShockLoad {
+        base: None,
+        pulse: &PULSE,
+        amplitude_m_per_s2,
+    };
+    let run = |disk: &BreakingDisk, max_steps: u64, stops: bool| {
+        let mut resolution = default_resolution();
+        resolution.max_steps = max_steps;
+        let model = default_head(300, &resolution);
+        model.run(
+            disk,
+            &load,
+            0.8e-3,
+            stops,
+            false,
+            &mut HeadWorkspace::new(&model),
+        )
+    };
+    let whole = disk(f64::INFINITY);
+    let stopped = run(&whole, 200_000, true);
+    let Verdict::Fails { t_fail_s, .. } = stopped.verdict else {
+        panic!("{:?}", stopped.verdict)
+    };
+    let n_steps = stopped.cost.steps + stopped.cost.rejected;
+    let broken = run(&disk(t_fail_s + 2e-5), 200_000, false);
+    let limited = run(&whole, n_steps + 5, false);
+    for gone_on in [&broken, &limited] {
+        assert!(gone_on.end_s > t_fail_s && gone_on.end_s < t_fail_s + 2.1e-5);
+        let told = |run: &HeadRun| {
+            (
+                run.min_clearance_m,
+                run.t_min_clearance_s,
+                run.place,
+                run.dimple,
+            )
+        };
+        assert_eq!(gone_on.verdict, stopped.verdict);
+        assert_eq!(told(gone_on), told(&stopped));
+        assert!(gone_on.broke_off.is_some() && stopped.broke_off.is_none());
+    }
+    assert_eq!(limited.cost.steps + limited.cost.rejected, n_steps + 5);
 }
 
 struct BrokenDisk;

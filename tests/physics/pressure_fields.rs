@@ -22,7 +22,6 @@ fn run(scene: &Scene, amplitude_g: f64, times_s: &[f64], record: bool) -> Outcom
     let model = Model::assemble(scene, &plan, None).expect("the scene builds");
     let request = Request {
         amplitude_m_per_s2: m_per_s2_from_g(amplitude_g),
-        stop_at_failure: true,
         record,
     };
     simulate(&model, &request, &mut Workspace::default())

@@ -53,7 +53,7 @@ fn explain_lists_every_rule_for_every_scene() {
     let full = [&shock[..], &["--set", "solver.effects=full"]].concat();
     let json = program(folder.path(), "explain", &full).json();
     for scene in json["scenes"].as_array().unwrap() {
-        assert_eq!(applied(scene), ["R6", "R8", "R10"]);
+        assert_eq!(applied(scene), ["R8", "R10"]);
         assert_eq!(state(scene, "disk.travelling_waves"), "on");
     }
     let text = program(folder.path(), "explain", &[]).stdout;

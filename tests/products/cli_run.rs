@@ -208,6 +208,38 @@ fn pressure_fields_are_written_beside_the_history() {
     );
 }
 
+/// In full the head goes on behind its touch: the same answer, and the planned histories first.
+#[test]
+fn a_run_in_full_goes_on_behind_the_touch() {
+    let folder = tempfile::tempdir().unwrap();
+    let shock = |file: &str, more: &[&str]| {
+        let set = ["--amplitude-g", "400", "--json", "--history", file];
+        let mut json = run(folder.path(), &[&set[..], more].concat()).json();
+        assert_eq!(json["verdict"], "fails");
+        let answer = json.as_object_mut().unwrap();
+        // Work, what was built and left out, and the book that agrees to rounding.
+        for key in ["cost", "effects", "rules", "energy"] {
+            assert!(answer.remove(key).is_some(), "{key}");
+        }
+        json
+    };
+    let answer = shock("auto.h5", &[]);
+    assert_eq!(shock("full.h5", &["--set", "solver.effects=full"]), answer);
+    let [auto, full] = ["auto.h5", "full.h5"].map(|name| {
+        let file = hdf5::File::open(folder.path().join(name)).unwrap();
+        move |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap()
+    });
+    for name in ["time_s", "min_clearance_m", "slider_z_m", "dimple_force_n"] {
+        let name = format!("head/{name}");
+        assert!(full(&name).starts_with(&auto(&name)), "{name}");
+    }
+    let last = |column: Vec<f64>| column[column.len() - 1];
+    assert_eq!(last(auto("head/time_s")), number(&answer, "/t_fail_s"));
+    assert_eq!(last(full("head/time_s")), last(full("time_s")));
+    let deepest = full("head/min_clearance_m").into_iter().fold(0.0, f64::min);
+    assert!(deepest < 0.0, "{deepest:e}");
+}
+
 #[test]
 fn a_study_of_the_disk_alone_runs_without_a_head() {
     let folder = tempfile::tempdir().unwrap();

@@ -10,6 +10,7 @@ use opshock_solver::scene::Scene;
 use opshock_study::search::Probe;
 use opshock_study::study::{Faces, SetArg, Study, StudyErrors};
 use opshock_study::sweep::{Physics, Simulator};
+use opshock_tests::pairs::assert_same_answers;
 
 const DRIVE: &str = r#"study_format = 1
 name = "heads"
@@ -223,7 +224,9 @@ fn heads_of_one_drive_share_one_structural_history() {
     let full = SetArg::parse("solver.effects=full").unwrap();
     let full = Study::from_path(&at.join("study.toml"), &[full]).unwrap();
     let (answers, _, structures) = ask(&full);
-    assert_eq!(answers, shared);
+    for (shared, alone) in shared.iter().zip(&answers) {
+        assert_same_answers(shared, alone);
+    }
     assert_eq!(structures, 2 * n as u64);
     // The heads are five different ones.
     let mut heights: Vec<_> = shared[0].iter().map(|one| one.h_min_m).collect();

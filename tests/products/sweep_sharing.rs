@@ -4,6 +4,7 @@ use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_study::search::{Probe, ProbeResult};
 use opshock_study::study::Study;
 use opshock_study::sweep::{Physics, Simulator};
+use opshock_tests::pairs::assert_same_answers;
 use opshock_tests::scenes;
 
 /// Two sliders at two altitudes on one drive: the structure of all four points is the same.
@@ -52,8 +53,8 @@ fn shared_structures_and_flights_give_the_bits_of_points_simulated_alone() {
     let study = designs("\"auto\"");
     let shared = ask(&Physics::of(&study), 1);
     assert_eq!(shared, ask(&Physics::of(&study), 16));
-    let all = Physics::of(&designs("\"full\""));
-    assert_eq!(shared, ask(&all, 1));
+    let all = ask(&Physics::of(&designs("\"full\"")), 1);
+    assert_same_answers(&shared, &all);
     // Designs differ, and a question asked again has the same answer.
     assert_ne!(shared[0].h_min_m, shared[1].h_min_m);
     assert_eq!(shared[..8], shared[8..]);

@@ -356,7 +356,6 @@ impl StructureSimulator {
     fn lead_of(&self, model: &Model, amplitude_m_per_s2: f64) -> f64 {
         let request = Request {
             amplitude_m_per_s2,
-            stop_at_failure: true,
             record: false,
         };
         let outcome = simulate(model, &request, &mut Workspace::default());
@@ -436,7 +435,6 @@ fn whole(seed: u64, known: Known<'_>) -> Line {
         });
         let request = Request {
             amplitude_m_per_s2: point.sign.factor() * m_per_s2_from_g(amplitude_g),
-            stop_at_failure: true,
             record: false,
         };
         match simulate(model, &request, &mut workspace).verdict {

@@ -16,7 +16,7 @@
 //! (`stage`). Factorisations are kept while the iteration contracts. The iterations between film
 //! and structure that the literature uses are there too (`partitioned`).
 //!
-//! Touching ends a run: the smallest height of the slider's true surface over the disk's local
+//! Touching decides a run, and ends it unless the motion behind it is wanted: the smallest height of the slider's true surface over the disk's local
 //! plane falls below the limit, found inside the step on the cubic dense output of the slider and
 //! the exact motion of the disk.
 

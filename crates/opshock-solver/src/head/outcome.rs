@@ -83,7 +83,7 @@ impl std::fmt::Display for Cause {
     }
 }
 
-/// Dimple force over the simulated head.
+/// Dimple force up to the first touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DimpleRecord {
     /// Smallest contact force, N.
@@ -92,7 +92,7 @@ pub struct DimpleRecord {
     pub open_s: f64,
 }
 
-/// Force of a limiter or of the lift tab over the simulated head.
+/// Force of a limiter or of the lift tab up to the first touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StopRecord {
     /// Largest contact force, N; of limiters, of all together.
@@ -116,7 +116,7 @@ impl StopRecord {
     }
 }
 
-/// Columns at the head's accepted steps; a run that stops at touch ends with the touch.
+/// Columns at the head's accepted steps and at its first touch; a run that stops at touch ends with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadColumns {
     /// Time, s.
@@ -184,7 +184,7 @@ impl Default for HeadCost {
 pub struct HeadRun {
     /// Verdict.
     pub verdict: Verdict,
-    /// Smallest clearance met, between steps too, m.
+    /// Smallest clearance met up to the first touch, between steps too, m; the limit when there is one.
     pub min_clearance_m: f64,
     /// Its time, s.
     pub t_min_clearance_s: f64,
@@ -192,6 +192,8 @@ pub struct HeadRun {
     pub place: Place,
     /// Time up to which the head was simulated, s.
     pub end_s: f64,
+    /// What ended a run that was to go on behind its first touch before the window did.
+    pub broke_off: Option<Cause>,
     /// Dimple.
     pub dimple: DimpleRecord,
     /// Limiters, when there are some.

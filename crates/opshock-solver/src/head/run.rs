@@ -63,9 +63,10 @@ impl HeadWorkspace {
 impl HeadModel {
     /// Runs one shock for `window_s` after its onset under `motion` of the disk.
     ///
-    /// With `stop_at_failure` the run ends at the instant of touch, and its smallest clearance is
-    /// the limit; otherwise it goes on with the film's floored
-    /// height, and the verdict keeps the first touch. `record` asks for histories.
+    /// With `stops_at_touch` the run ends at the instant of its first touch; otherwise it goes on with
+    /// the film's floored height. Verdict, smallest clearance (then the limit) and forces are those up
+    /// to the first touch either way, with the same bits, whatever becomes of the run behind it;
+    /// histories and cost go on. `record` asks for histories.
     ///
     /// # Panics
     /// When `workspace` was made for another model's sizes.
@@ -74,7 +75,7 @@ impl HeadModel {
         motion: &dyn DiskMotion,
         load: &ShockLoad<'_>,
         window_s: f64,
-        stop_at_failure: bool,
+        stops_at_touch: bool,
         record: bool,
         workspace: &mut HeadWorkspace,
     ) -> HeadRun {
@@ -91,7 +92,7 @@ impl HeadModel {
             None => motion,
         };
         let mut run = Run::start(self, motion, *load, record, workspace);
-        let end = run.advance(window_s, stop_at_failure);
+        let end = run.advance(window_s, stops_at_touch);
         run.finish(end)
     }
 }
@@ -111,6 +112,7 @@ struct Run<'a> {
     time_s: f64,
     clearance: Clearance,
     smallest: (Clearance, f64),
+    /// The first touch, once it lies behind: smallest clearance, dimple and stops are told up to it.
     failed: Option<(f64, Place)>,
     dimple: DimpleRecord,
     dimple_force_n: f64,
@@ -204,13 +206,13 @@ impl<'a> Run<'a> {
             .acceleration(a, film, x, v, &mut w.scratch.small, out);
     }
 
-    fn advance(&mut self, window_s: f64, stop_at_failure: bool) -> End {
+    fn advance(&mut self, window_s: f64, stops_at_touch: bool) -> End {
         let resolution = &self.model.resolution;
         let table = self.model.tableau;
         let mut control = StepControl::new(table.error_order, SMALLEST_STEP_S, LARGEST_STEP_S);
         let mut dt = control.rung(FIRST_STEP_S);
         let (mut next_motion, mut next_pulse) = (0, 0);
-        let ends_untouched = stop_at_failure && mutant::is_on("R6 touch");
+        let ends_untouched = stops_at_touch && mutant::is_on("R6 touch");
         while self.time_s < window_s {
             let event = self.next_event(window_s, &mut next_motion, &mut next_pulse);
             let left = event - self.time_s;
@@ -252,12 +254,22 @@ impl<'a> Run<'a> {
                     dt = control.rung(trial * (0.9 / trial_step.approach).max(0.1));
                 }
                 Ok(trial_step) => {
-                    let touch = self.search_step(trial, &trial_step);
-                    if stop_at_failure && let Some(touch) = touch {
-                        self.end_at(trial, &touch);
-                        return End::Touch;
+                    // Time at an event is the event's own, so that rounding never opens a sliver
+                    // beside it.
+                    let end_s = if trial == left {
+                        event
+                    } else {
+                        self.time_s + trial
+                    };
+                    if let Some(touch) = self.search_step(trial, &trial_step) {
+                        if stops_at_touch {
+                            self.cost.steps += u64::from(touch.time_s > self.time_s);
+                            self.touch(trial, touch.time_s, &touch);
+                            return End::Touch;
+                        }
+                        self.touch(trial, end_s, &touch);
                     }
-                    self.accept(trial, event, &trial_step);
+                    self.accept(trial, end_s, &trial_step);
                     if ends_untouched {
                         return End::Window;
                     }
@@ -343,16 +355,10 @@ impl<'a> Run<'a> {
         ((gap + suspension) / gap_m + film) / model.resolution.tolerance
     }
 
-    /// Takes the whole trial step over.
-    fn accept(&mut self, dt_s: f64, event_s: f64, step: &TrialStep) {
-        let start_s = self.time_s;
-        // Time at an event is the event's own, so that rounding never opens a sliver beside it.
-        let end_s = if dt_s == event_s - start_s {
-            event_s
-        } else {
-            start_s + dt_s
-        };
+    /// Takes the whole trial step over, which ends at `end_s`.
+    fn accept(&mut self, dt_s: f64, end_s: f64, step: &TrialStep) {
         self.keep_fields(dt_s, end_s);
+        let before_s = self.time_s;
         self.time_s = end_s;
         let (model, w) = (self.model, &mut *self.w);
         w.y.copy_from_slice(w.stepper.value());
@@ -368,7 +374,11 @@ impl<'a> Run<'a> {
                 .add_acceleration_jump(da, &mut w.rate[velocities..]);
         }
         self.jump_of_pivot();
-        self.book(dt_s, &step.attitude);
+        self.cost.steps += 1;
+        // A touch at the very end of the step has its row already.
+        if self.time_s > before_s {
+            self.book(dt_s, &step.attitude);
+        }
     }
 
     /// Takes over a jump of the pivot's velocity now: dampers feel it at once.
@@ -393,10 +403,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Ends the run at a touch inside the trial step. The state there is that of the cubic through
-    /// both ends, in which the touch was located.
-    fn end_at(&mut self, dt_s: f64, touch: &Touch) {
-        self.keep_fields(dt_s, touch.time_s);
+    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic
+    /// through both ends, in which the touch was located. Fields are kept up to `until_s`, while the
+    /// start of the step is there to find them from.
+    fn touch(&mut self, dt_s: f64, until_s: f64, touch: &Touch) {
+        self.keep_fields(dt_s, until_s);
         let w = &mut *self.w;
         let ends = w.stepper.value().iter().zip(w.stepper.rate());
         for ((y, rate), (y1, rate1)) in w.y.iter_mut().zip(&w.rate).zip(ends) {
@@ -413,6 +424,11 @@ impl<'a> Run<'a> {
         if self.time_s > before_s {
             self.book(self.time_s - before_s, &attitude);
         }
+        let place = Place {
+            x_m: touch.clearance.x_m,
+            y_m: touch.clearance.y_m,
+        };
+        self.failed = Some((touch.time_s, place));
     }
 
     /// Keeps the asked pressure fields of the trial step, from the present state up to `until_s`.
@@ -430,9 +446,9 @@ impl<'a> Run<'a> {
         fields.keep_step(self.model, self.motion, &step, until_s);
     }
 
-    /// Books the state reached `dt_s` after the last: dimple, pressure, columns.
+    /// Books the state reached `dt_s` after the last: dimple and stops up to the touch, pressure,
+    /// columns.
     fn book(&mut self, dt_s: f64, attitude: &Attitude) {
-        self.cost.steps += 1;
         let (model, w) = (self.model, &mut *self.w);
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (x, v) = w.y[n_cells..].split_at(n);
@@ -443,17 +459,21 @@ impl<'a> Run<'a> {
         let (x, v) = (&*seen, &*seen_rate);
         let before = self.dimple_force_n;
         self.dimple_force_n = model.mechanics.dimple_force(x, v);
-        self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
-        let open_ends = [before, self.dimple_force_n]
-            .iter()
-            .filter(|&&f| f == 0.0)
-            .count();
-        self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
+        if self.failed.is_none() {
+            self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
+            let open_ends = [before, self.dimple_force_n]
+                .iter()
+                .filter(|&&f| f == 0.0)
+                .count();
+            self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
+        }
         if model.mechanics.n_stops() > 0 {
             let forces = model.mechanics.stop_forces(x, v);
             for (stop, force) in self.stops.iter_mut().zip(forces) {
                 if let Some((record, latest)) = stop {
-                    record.book([*latest, force], dt_s, self.time_s);
+                    if self.failed.is_none() {
+                        record.book([*latest, force], dt_s, self.time_s);
+                    }
                     *latest = force;
                 }
             }
@@ -467,6 +487,9 @@ impl<'a> Run<'a> {
     /// Looks for the smallest clearance and for touch inside the step from the present state to
     /// the stepper's; the run's first touch when it lies there.
     fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> Option<Touch> {
+        if self.failed.is_some() {
+            return None;
+        }
         let (model, w) = (self.model, &*self.w);
         let n_cells = model.film.n_cells();
         let n = model.mechanics.len();
@@ -497,7 +520,7 @@ impl<'a> Run<'a> {
         }
         let limit = model.fail_below_m;
         let below = lowest.value_m < limit;
-        if !below || self.failed.is_some() {
+        if !below {
             return None;
         }
         let crossing =
@@ -508,17 +531,11 @@ impl<'a> Run<'a> {
             // Located to 1e-9 of the step: what is left to the limit is the search's own.
             clearance.value_m = limit;
         }
-        let touch = Touch {
+        Some(Touch {
             theta,
             time_s: start_s + theta * dt_s,
             clearance,
-        };
-        let place = Place {
-            x_m: clearance.x_m,
-            y_m: clearance.y_m,
-        };
-        self.failed = Some((touch.time_s, place));
-        Some(touch)
+        })
     }
 
     fn record(&mut self, attitude: &Attitude) {
@@ -561,10 +578,16 @@ impl<'a> Run<'a> {
     }
 
     fn finish(self, end: End) -> HeadRun {
-        let verdict = match (self.failed, end) {
-            (Some((t_fail_s, place)), _) => Verdict::Fails { t_fail_s, place },
-            (None, End::Undecided(cause)) => Verdict::Undecided { cause },
-            (None, End::Window | End::Touch) => Verdict::Survives,
+        let (verdict, broke_off) = match (self.failed, end) {
+            (Some((t_fail_s, place)), end) => {
+                let cause = match end {
+                    End::Undecided(cause) => Some(cause),
+                    End::Window | End::Touch => None,
+                };
+                (Verdict::Fails { t_fail_s, place }, cause)
+            }
+            (None, End::Undecided(cause)) => (Verdict::Undecided { cause }, None),
+            (None, End::Window | End::Touch) => (Verdict::Survives, None),
         };
         let counters = self.w.scratch.counters;
         let (lowest, t_min_clearance_s) = self.smallest;
@@ -577,6 +600,7 @@ impl<'a> Run<'a> {
                 y_m: lowest.y_m,
             },
             end_s: self.time_s,
+            broke_off,
             dimple: self.dimple,
             limiters: self.stops[0].map(|(record, _)| record),
             lift_tab: self.stops[1].map(|(record, _)| record),

@@ -20,6 +20,9 @@
 //! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
+//! [`Mode::Full`] applies R8 and R10 alone. Its head goes on behind a touch (R6), with the film at its floored
+//! height; verdict, smallest clearance and forces are told up to the touch in both modes.
+//!
 //! R1 rests on the film's force on the disk being neglected beside the disk's inertia. An oblique shock on
 //! a hub drives n = 1 from the onset: R2 and R3 then speak of n ≥ 2.
 
@@ -137,7 +140,7 @@ pub enum Mode {
     /// Only what the outputs need.
     #[default]
     Auto,
-    /// Everything the scene has, marched from the onset, nothing shared.
+    /// Everything the scene has, marched from the onset to the end of the window, nothing shared.
     Full,
 }
 
@@ -165,6 +168,9 @@ pub struct Plan {
     /// Whether structure, film and steady flight of another model may be taken over, and a model
     /// kept for further shocks.
     pub shares_parts: bool,
+    /// Whether the head's run ends at its first touch, which decides the verdict; the structure
+    /// always runs the whole window.
+    pub stops_at_touch: bool,
     /// Times after the onset at which recorded runs keep pressure fields, s; none unless asked.
     pub field_times_s: Vec<f64>,
 }
@@ -242,6 +248,7 @@ impl Plan {
                 needs: asked.unwrap_or(Needs::Structure),
                 wake: Wake::AtTouch,
                 shares_parts: true,
+                stops_at_touch: true,
                 field_times_s: Vec::new(),
             },
             Mode::Full => Self {
@@ -250,6 +257,7 @@ impl Plan {
                 needs: Needs::Head,
                 wake: Wake::AtOnset,
                 shares_parts: false,
+                stops_at_touch: false,
                 field_times_s: Vec::new(),
             },
         }
@@ -266,6 +274,16 @@ impl Plan {
         };
         Self {
             field_times_s: times_s,
+            ..self
+        }
+    }
+
+    /// The plan whose head goes on after its first touch to the end of the window, whatever the mode:
+    /// histories have the motion there. All else but the cost stays that up to the touch.
+    #[must_use]
+    pub fn past_touch(self) -> Self {
+        Self {
+            stops_at_touch: false,
             ..self
         }
     }
@@ -449,7 +467,7 @@ impl Plan {
             decision(
                 "R6",
                 "the head's run ends at touch",
-                self.needs == Needs::Head,
+                self.stops_at_touch && self.needs == Needs::Head,
                 "a verdict is wanted; disk and ramp run the whole window",
                 if self.needs == Needs::Head {
                     format!("fails below {:e} nm", 1e9 * scene.fail_below_m)

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The film's force on the disk is neglected beside the disk's inertia (the paper's section 3), so
-//! the structure runs first, by itself, over the whole window; its history then drives the head.
+//! the structure runs first, by itself, over the whole window; its history then drives the head, up to
+//! its first touch or, when the plan says so, to the end of the window too.
 
 mod model;
 mod outcome;

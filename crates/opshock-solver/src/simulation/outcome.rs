@@ -47,7 +47,8 @@ pub struct Cost {
 pub struct Outcome {
     /// Verdict on what was simulated; [`Outcome::answer`] asks for that on the interface.
     pub verdict: Verdict,
-    /// Smallest clearance, m; `None` when the head was not simulated.
+    /// Smallest clearance, m, up to the first touch, where it is the limit; `None` when the head was
+    /// not simulated.
     pub min_clearance_m: Option<f64>,
     /// Time of the smallest clearance, s.
     pub t_min_clearance_s: Option<f64>,
@@ -110,7 +111,7 @@ pub struct Warning {
 pub struct History {
     /// Structure.
     pub structure: StructureColumns,
-    /// Head; ends at touch.
+    /// Head; ends at touch under a plan that [stops there](crate::scene::plan::Plan::stops_at_touch).
     pub head: HeadColumns,
     /// Pressure fields, when the plan keeps some.
     pub fields: Option<PressureFields>,

@@ -15,8 +15,6 @@ use crate::structure::{self, StructureError, StructureRun, StructureWarning};
 pub struct Request {
     /// Signed amplitude A, m/s2: the inertia load per mass at the pulse's peak.
     pub amplitude_m_per_s2: f64,
-    /// The head's run ends at touch; the structure always runs the whole window.
-    pub stop_at_failure: bool,
     /// Histories are kept.
     pub record: bool,
 }
@@ -87,7 +85,7 @@ pub fn simulate_head(
             &run.history,
             &load,
             run.end_s,
-            request.stop_at_failure,
+            model.plan().stops_at_touch,
             request.record,
             &mut scratch,
         );
@@ -98,7 +96,13 @@ pub fn simulate_head(
 }
 
 fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome {
-    let warnings = run.warnings.iter().map(describe).collect();
+    let mut warnings: Vec<Warning> = run.warnings.iter().map(describe).collect();
+    if let Some(cause) = head.as_ref().and_then(|head| head.broke_off.as_ref()) {
+        warnings.push(Warning {
+            code: "broke_off_behind_touch",
+            message: format!("the head fails, and its motion behind the touch breaks off: {cause}"),
+        });
+    }
     let mut cost = Cost {
         structure_steps: run.steps,
         ..Cost::default()

@@ -76,7 +76,6 @@ impl Bench {
     pub fn probe(&mut self, amplitude_g: f64) -> Outcome {
         let request = Request {
             amplitude_m_per_s2: self.sign * m_per_s2_from_g(amplitude_g),
-            stop_at_failure: true,
             record: false,
         };
         simulate(&self.model, &request, &mut self.workspace)

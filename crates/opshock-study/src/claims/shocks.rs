@@ -125,7 +125,7 @@ impl Shocks {
                     amplitude_g: None,
                 })?;
                 tasks.push(Task {
-                    plan: study.plan(),
+                    plan: study.plan().past_touch(),
                     scene: point.scene.at_levels(levels),
                     point,
                     amplitude_g: shot.amplitude_g,
@@ -192,7 +192,6 @@ impl Task {
         let amplitude_m_per_s2 = m_per_s2_from_g(self.amplitude_g);
         let request = Request {
             amplitude_m_per_s2,
-            stop_at_failure: false,
             record: true,
         };
         let outcome = simulate(&model, &request, &mut Workspace::default());

@@ -170,7 +170,6 @@ fn explain(
         let model = Model::assemble(scene, plan, None).map_err(refused)?;
         let request = Request {
             amplitude_m_per_s2,
-            stop_at_failure: true,
             record: false,
         };
         simulate(&model, &request, &mut Workspace::default());

@@ -98,7 +98,6 @@ pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outc
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let request = Request {
         amplitude_m_per_s2: shot.amplitude_m_per_s2,
-        stop_at_failure: true,
         record,
     };
     Ok(simulate(&model, &request, &mut Workspace::default()))

@@ -184,7 +184,6 @@ pub(super) fn d7() -> Vec<Check> {
     });
     let request = Request {
         amplitude_m_per_s2: 200.0 * G,
-        stop_at_failure: false,
         record: true,
     };
     let runs = [
@@ -194,7 +193,7 @@ pub(super) fn d7() -> Vec<Check> {
         (&heavy, Scope::Full),
     ]
     .map(|(scene, scope)| {
-        let model = Model::build(scene, scope, None).expect("builds");
+        let model = Model::assemble(scene, &scope.plan().past_touch(), None).expect("builds");
         simulate(&model, &request, &mut Workspace::default())
     });
     let columns = |k: usize| &runs[k].history.as_ref().expect("recorded").structure;

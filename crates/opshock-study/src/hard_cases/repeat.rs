@@ -184,7 +184,6 @@ pub(super) fn f3() -> Vec<Check> {
 fn outcome(model: &Model, amplitude_g: f64, workspace: &mut Workspace) -> Outcome {
     let request = Request {
         amplitude_m_per_s2: amplitude_g * G,
-        stop_at_failure: true,
         record: true,
     };
     simulate(model, &request, workspace)

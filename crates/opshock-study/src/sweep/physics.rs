@@ -283,7 +283,6 @@ impl Simulator for Physics {
             Ok(model) => {
                 let request = Request {
                     amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
-                    stop_at_failure: true,
                     record: false,
                 };
                 probe_result(&self.run(&model, &request))
@@ -295,7 +294,6 @@ impl Simulator for Physics {
         let model = self.model_for(point, probe).ok()?;
         let request = Request {
             amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
-            stop_at_failure: true,
             record: true,
         };
         Some(self.run(&model, &request))
