@@ -22,6 +22,7 @@ fn failing() -> Outcome {
         },
         min_clearance_m: Some(0.0),
         t_min_clearance_s: Some(1.25e-3),
+        lowest: None,
         steady: Some(SteadyState {
             min_clearance_m: 9.15e-9,
             pitch_rad: 1.13e-4,

@@ -134,6 +134,7 @@ pub fn laws_study(n: usize) -> SweepInput {
             knobs: Knob::ALL.to_vec(),
             film_halvings: 3,
             mesh_halvings: 0,
+            holds_films: false,
             accuracy: 0.01,
             climbs: 0,
         });

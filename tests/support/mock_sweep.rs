@@ -252,6 +252,7 @@ impl Simulator for MockSimulator<'_> {
             },
             min_clearance_m: result.h_min_m,
             t_min_clearance_s: result.t_min_s,
+            lowest: None,
             steady: None,
             disk: Default::default(),
             top: Default::default(),

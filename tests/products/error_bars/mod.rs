@@ -277,3 +277,52 @@ fn the_truth_lies_inside_the_bars_of_known_laws() {
 }
 
 mod verify;
+
+/// What a held film answers does not depend on whether the shock was run before; it is a clearance, with the
+/// cost of that film alone, and of a shock that fails its failure.
+#[test]
+fn held_films_answer_alike_with_and_without_the_shock_before() {
+    let sets = [
+        ("pulse.widths_ms", "[1.5]"),
+        ("pulse.window_ms", "2.0"),
+        ("ramp.models", "[\"none\"]"),
+        ("solver.film_cells", "500"),
+    ];
+    let study = study("fig13", &sets);
+    let minus = study
+        .table_order()
+        .into_iter()
+        .position(|place| study.points[place].sign.as_str() == "-")
+        .expect("a negative point");
+    let held = Probe {
+        levels: Levels::NONE.turned(Knob::HeldFilm, 1),
+        is_fine: true,
+        ..Probe::at(0)
+    };
+    let plain = Probe {
+        levels: Levels::NONE,
+        ..held
+    };
+    let at = |amplitude_g: f64| -m_per_s2_from_g(amplitude_g);
+    let (fresh, warm, full) = (
+        Physics::of(&study),
+        Physics::of(&study),
+        Physics::in_full(&study),
+    );
+    let own = warm.simulate(minus, plain, at(450.0));
+    let told = warm.simulate(minus, held, at(450.0));
+    for other in [&fresh, &full] {
+        assert_eq!(other.simulate(minus, held, at(450.0)), told);
+    }
+    assert_eq!(told.t_min_s, own.t_min_s);
+    let (own_m, told_m) = (own.h_min_m.expect("flies"), told.h_min_m.expect("flies"));
+    assert!(
+        told_m != own_m && (told_m / own_m - 1.0).abs() < 0.5,
+        "{own_m} {told_m}"
+    );
+    assert_eq!(told.cost.film_unknowns, 4 * own.cost.film_unknowns);
+    assert!(told.cost.steps == 0 && told.cost.film_solves < 100);
+    let failed = warm.simulate(minus, plain, at(700.0));
+    assert_eq!(failed.verdict.as_str(), "fails");
+    assert_eq!(warm.simulate(minus, held, at(700.0)), failed);
+}

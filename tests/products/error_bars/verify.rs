@@ -409,6 +409,7 @@ fn structure(seed: u64, known: Known<'_>) -> Line {
         knobs: vec![Knob::DiskModes, Knob::StructureStep],
         film_halvings: 0,
         mesh_halvings: 0,
+        holds_films: false,
         accuracy: 0.05,
         climbs: 0,
     });

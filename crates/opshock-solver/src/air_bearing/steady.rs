@@ -158,6 +158,22 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     }
 }
 
+/// The equilibrium under `load` that Newton's method finds from `start` alone, which is near it.
+///
+/// # Errors
+///
+/// [`SteadyError`] when it is not found or not stable.
+pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
+    let mut search = Search {
+        newton: Newton::new(film),
+        load: Vector3::from(load),
+        found: Vec::new(),
+        last: *start,
+    };
+    search.attempt(start, film.ambient(start))?;
+    search.finish()
+}
+
 /// First and smallest step in the share of the surface forces.
 const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 

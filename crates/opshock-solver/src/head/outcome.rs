@@ -1,6 +1,7 @@
 //! What the head answers about one shock. Times are seconds after the onset of the pulse.
 
 use super::fields::PressureFields;
+use crate::air_bearing::Attitude;
 
 /// Survival is decided, or it is not; a number that is not a number never decides it.
 #[derive(Clone, Debug, PartialEq)]
@@ -190,6 +191,8 @@ pub struct HeadRun {
     pub t_min_clearance_s: f64,
     /// Its place on the slider.
     pub place: Place,
+    /// Attitude of the slider over the disk then.
+    pub lowest: Attitude,
     /// Time up to which the head was simulated, s.
     pub end_s: f64,
     /// What ended a run that was to go on behind its first touch before the window did.

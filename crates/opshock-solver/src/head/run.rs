@@ -111,7 +111,7 @@ struct Run<'a> {
     w: &'a mut HeadWorkspace,
     time_s: f64,
     clearance: Clearance,
-    smallest: (Clearance, f64),
+    smallest: Lowest,
     /// The first touch, once it lies behind: smallest clearance, dimple and stops are told up to it.
     failed: Option<(f64, Place)>,
     dimple: DimpleRecord,
@@ -156,7 +156,11 @@ impl<'a> Run<'a> {
             w,
             time_s: 0.0,
             clearance,
-            smallest: (clearance, 0.0),
+            smallest: Lowest {
+                clearance,
+                time_s: 0.0,
+                attitude,
+            },
             failed: None,
             dimple: DimpleRecord {
                 min_force_n: preload,
@@ -416,10 +420,14 @@ impl<'a> Run<'a> {
         let before_s = self.time_s;
         self.time_s = touch.time_s;
         self.clearance = touch.clearance;
-        self.smallest = (touch.clearance, touch.time_s);
         let n_cells = self.model.film.n_cells();
         let pose = self.motion.pose(self.time_s);
         let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
+        self.smallest = Lowest {
+            clearance: touch.clearance,
+            time_s: touch.time_s,
+            attitude,
+        };
         // A slider that begins below the limit fails at once: that instant has its row already.
         if self.time_s > before_s {
             self.book(self.time_s - before_s, &attitude);
@@ -496,13 +504,14 @@ impl<'a> Run<'a> {
         let (x0, v0) = w.y[n_cells..].split_at(n);
         let (x1, v1) = w.stepper.value()[n_cells..].split_at(n);
         let (start_s, motion) = (self.time_s, self.motion);
-        let look = |theta: f64| -> Clearance {
+        let at = |theta: f64| -> Attitude {
             let x: [f64; 3] = std::array::from_fn(|i| {
                 hermite::value(theta, dt_s, [x0[i], x1[i]], [v0[i], v1[i]])
             });
             let pose = motion.pose(start_s + theta * dt_s);
-            model.film.min_clearance(&model.attitude(&x, &pose))
+            model.attitude(&x, &pose)
         };
+        let look = |theta: f64| model.film.min_clearance(&at(theta));
         let ends = self.clearance.value_m.min(step.clearance.value_m);
         let inside = (1..LOOKS)
             .map(|i| look(i as f64 / LOOKS as f64).value_m)
@@ -515,8 +524,12 @@ impl<'a> Run<'a> {
         } else {
             (0.0, self.clearance)
         };
-        if lowest.value_m < self.smallest.0.value_m {
-            self.smallest = (lowest, start_s + theta * dt_s);
+        if lowest.value_m < self.smallest.clearance.value_m {
+            self.smallest = Lowest {
+                clearance: lowest,
+                time_s: start_s + theta * dt_s,
+                attitude: at(theta),
+            };
         }
         let limit = model.fail_below_m;
         let below = lowest.value_m < limit;
@@ -590,15 +603,20 @@ impl<'a> Run<'a> {
             (None, End::Window | End::Touch) => (Verdict::Survives, None),
         };
         let counters = self.w.scratch.counters;
-        let (lowest, t_min_clearance_s) = self.smallest;
+        let Lowest {
+            clearance,
+            time_s,
+            attitude,
+        } = self.smallest;
         HeadRun {
             verdict,
-            min_clearance_m: lowest.value_m,
-            t_min_clearance_s,
+            min_clearance_m: clearance.value_m,
+            t_min_clearance_s: time_s,
             place: Place {
-                x_m: lowest.x_m,
-                y_m: lowest.y_m,
+                x_m: clearance.x_m,
+                y_m: clearance.y_m,
             },
+            lowest: attitude,
             end_s: self.time_s,
             broke_off,
             dimple: self.dimple,
@@ -617,6 +635,13 @@ impl<'a> Run<'a> {
             },
         }
     }
+}
+
+/// Where the slider came closest to the disk so far.
+struct Lowest {
+    clearance: Clearance,
+    time_s: f64,
+    attitude: Attitude,
 }
 
 /// A step that could be taken.

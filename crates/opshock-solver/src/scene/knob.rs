@@ -17,6 +17,10 @@
 //! A ramp comes to a scene as oscillators. Whoever made them of a geometry makes them of another mesh
 //! too; [`Scene::at_levels`] leaves them as they are, and `ramp_mesh` is none of [`Knob::ALL`]. Oscillators that
 //! the study itself gives are the model: no knob turns them.
+//!
+//! [`Knob::HeldFilm`] is no knob of a scene either. It asks of a shock what its smallest clearance would be on
+//! another film held still at the lowest attitude ([`crate::simulation::held`]): one step finer, the film with
+//! every cell cut in two, continued to infinitely many; a step coarser, one of half the cells.
 
 use super::Scene;
 use crate::ramp::RampModel;
@@ -39,10 +43,12 @@ pub enum Knob {
     CouplingTolerance,
     /// Elements of the solid that the ramp's oscillators were made of.
     RampMesh,
+    /// The film held still where the slider came closest.
+    HeldFilm,
 }
 
 /// All that can be turned; those of a scene come first.
-const EVERY: [Knob; 7] = [
+const EVERY: [Knob; 8] = [
     Knob::FilmGrid,
     Knob::DiskModes,
     Knob::SuspensionModes,
@@ -50,6 +56,7 @@ const EVERY: [Knob; 7] = [
     Knob::HeadTolerance,
     Knob::CouplingTolerance,
     Knob::RampMesh,
+    Knob::HeldFilm,
 ];
 
 impl Knob {
@@ -66,6 +73,7 @@ impl Knob {
             Knob::HeadTolerance => "head_tolerance",
             Knob::CouplingTolerance => "coupling_tolerance",
             Knob::RampMesh => "ramp_mesh",
+            Knob::HeldFilm => "held_film",
         }
     }
 
@@ -77,7 +85,11 @@ impl Knob {
     /// Factor by which one step finer divides the knob's error at its formal order.
     pub const fn formal_ratio(self) -> f64 {
         match self {
-            Knob::FilmGrid | Knob::DiskModes | Knob::StructureStep | Knob::RampMesh => 2.0,
+            Knob::FilmGrid
+            | Knob::DiskModes
+            | Knob::StructureStep
+            | Knob::RampMesh
+            | Knob::HeldFilm => 2.0,
             Knob::SuspensionModes | Knob::HeadTolerance => 4.0,
             Knob::CouplingTolerance => 8.0,
         }

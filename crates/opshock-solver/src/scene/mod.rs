@@ -82,9 +82,30 @@ impl Scene {
             self.disk.spin_rad_per_s,
             &self.film_resolution,
         )?;
-        Ok(match self.surface_forces {
+        Ok(self.with_surface_forces(film))
+    }
+
+    /// The same film on given grid lines, along x and along y.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::on_grid`].
+    pub fn film_on(&self, lines_m: [&[f64]; 2]) -> Result<Film, FilmError> {
+        let film = Film::on_grid(
+            &self.slider,
+            &self.gas,
+            self.flow,
+            self.disk.spin_rad_per_s,
+            self.film_resolution.floor_m,
+            lines_m,
+        )?;
+        Ok(self.with_surface_forces(film))
+    }
+
+    fn with_surface_forces(&self, film: Film) -> Film {
+        match self.surface_forces {
             Some(forces) => film.with_surface_forces(&self.slider, forces),
             None => film,
-        })
+        }
     }
 }

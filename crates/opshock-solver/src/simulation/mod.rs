@@ -8,6 +8,7 @@
 //! the structure runs first, by itself, over the whole window; its history then drives the head, up to
 //! its first touch or, when the plan says so, to the end of the window too.
 
+pub mod held;
 mod model;
 mod outcome;
 mod run;

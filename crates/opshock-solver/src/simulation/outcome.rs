@@ -1,5 +1,6 @@
 //! What one simulation answers. Times are seconds after the onset of the pulse.
 
+use crate::air_bearing::Attitude;
 pub use crate::head::{
     Cause, DimpleRecord, HeadColumns, Place, PressureFields, StopRecord, Verdict,
 };
@@ -52,6 +53,8 @@ pub struct Outcome {
     pub min_clearance_m: Option<f64>,
     /// Time of the smallest clearance, s.
     pub t_min_clearance_s: Option<f64>,
+    /// Attitude of the slider over the disk at that time.
+    pub lowest: Option<Attitude>,
     /// Steady flying state.
     pub steady: Option<SteadyState>,
     /// Disk extremes.

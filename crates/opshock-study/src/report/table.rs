@@ -167,11 +167,12 @@ pub(super) fn bars_cost(summary: &Summary) -> Option<String> {
 }
 
 /// What a reader of the parts must know.
-pub(super) const PARTS_NOTE: &str = "Parts add up; each but the search bracket goes both ways. \
+pub(super) const PARTS_NOTE: &str = "Halves of the parts, which add up to half the bar: the search bracket and what \
+    finer knobs have shown lie on one side, the rest on both. \
     `x3`: the knob showed no formal order and its part carries the wide factor. `structure`, `head`: \
     all knobs of disk and ramp, of the head, turned together.";
 
-/// The parts of every error bar as per cent of `A_crit`, header and rows; `x3` marks the wide
+/// Half the parts of every error bar as per cent of `A_crit`, header and rows; `x3` marks the wide
 /// factor. `None` where the bars have no other part than the bracket.
 pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
     let names: Vec<&str> = ERROR_PARTS
@@ -212,7 +213,7 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
             let part = point.err_parts.iter().find(|(known, _)| known == name);
             part.map_or(String::new(), |(_, part)| {
                 let wide = if part.factor > 2.0 { " x3" } else { "" };
-                format!("{}{wide}", per_cent(part.high_g))
+                format!("{}{wide}", per_cent(0.5 * (part.low_g + part.high_g)))
             })
         }));
         if has_climbed {

@@ -129,6 +129,7 @@ fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
             Some(ramp) => ramp.halvings(FLOOR + 1),
             None => 0,
         },
+        holds_films: true,
         accuracy: point.accuracy.share(),
         climbs,
     }

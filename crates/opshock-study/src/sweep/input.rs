@@ -18,6 +18,8 @@ pub struct BarPlan {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved.
     pub mesh_halvings: i8,
+    /// A film can be held still at the lowest attitude of a shock ([`Knob::HeldFilm`]).
+    pub holds_films: bool,
     /// Accuracy asked for, a share.
     pub accuracy: f64,
     /// Times that the point may be turned finer where its bar exceeds that.

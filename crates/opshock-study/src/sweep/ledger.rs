@@ -360,6 +360,7 @@ impl<'a> Ledger<'a> {
             knobs: plan.knobs.clone(),
             film_halvings: plan.film_halvings,
             mesh_halvings: plan.mesh_halvings,
+            holds_films: plan.holds_films,
             accuracy: plan.accuracy,
         })
     }

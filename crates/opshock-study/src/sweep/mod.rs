@@ -12,6 +12,7 @@ mod estimate;
 pub mod forecast;
 mod from_study;
 mod guard;
+mod held;
 mod histories;
 mod input;
 mod ledger;

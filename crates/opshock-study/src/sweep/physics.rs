@@ -19,6 +19,7 @@ use opshock_solver::simulation::{
     run_structure, simulate, simulate_head,
 };
 
+use super::held::{Lowest, LowestAttitudes, held_still};
 use super::shelf::{Counts, Shelf};
 use super::simulator::{Onset, Simulator};
 use crate::identity;
@@ -77,6 +78,8 @@ pub struct Physics {
     /// Structures built so far.
     structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
+    /// Where recent survivors came closest.
+    lowest: Mutex<LowestAttitudes>,
 }
 
 impl Physics {
@@ -143,6 +146,7 @@ impl Physics {
             shared_structures,
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
+            lowest: Mutex::default(),
         }
     }
 
@@ -270,23 +274,38 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 impl Simulator for Physics {
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
-        match self.model_for(point, probe) {
-            Err(error) => ProbeResult {
-                verdict: Verdict::Undecided {
-                    cause: UndecidedCause::NotBuilt,
-                    message: error.to_string(),
-                },
-                h_min_m: None,
-                t_min_s: None,
-                cost: RunCost::default(),
-            },
-            Ok(model) => {
-                let request = Request {
-                    amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
-                    record: false,
-                };
-                probe_result(&self.run(&model, &request))
+        let steps = probe.levels.of(Knob::HeldFilm);
+        let own = Probe {
+            levels: probe.levels.turned(Knob::HeldFilm, -steps),
+            ..probe
+        };
+        let model = match self.model_for(point, own) {
+            Err(error) => return not_built(&error),
+            Ok(model) => model,
+        };
+        let key = (point, own, amplitude_m_per_s2.to_bits());
+        let shake = || {
+            let request = Request {
+                amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
+                record: false,
+            };
+            let outcome = self.run(&model, &request);
+            if self.plan.shares_parts {
+                lock(&self.lowest).keep(key, &outcome);
             }
+            outcome
+        };
+        if steps == 0 {
+            return probe_result(&shake());
+        }
+        if let Some(lowest) = lock(&self.lowest).get(&key) {
+            return held_still(&model, lowest, steps);
+        }
+        let outcome = shake();
+        match Lowest::of(&outcome) {
+            Some(lowest) => held_still(&model, lowest, steps),
+            // What fails has no margin to correct.
+            None => probe_result(&outcome),
         }
     }
 
@@ -318,6 +337,19 @@ impl Simulator for Physics {
             Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
             None => Onset::Unknown,
         }
+    }
+}
+
+/// A scene that could not be built has no verdict.
+pub(super) fn not_built(error: &BuildError) -> ProbeResult {
+    ProbeResult {
+        verdict: Verdict::Undecided {
+            cause: UndecidedCause::NotBuilt,
+            message: error.to_string(),
+        },
+        h_min_m: None,
+        t_min_s: None,
+        cost: RunCost::default(),
     }
 }
 

@@ -17,24 +17,43 @@ pub(super) const WIDE: f64 = 3.0;
 pub(super) const NEGLIGIBLE: f64 = 0.25;
 /// An observed ratio counts as the formal one within half an order of refinement by two.
 const HALF_ORDER: f64 = std::f64::consts::SQRT_2;
+/// Share of what held films say that the slope of the margin, which is measured over some per cent, and the
+/// continuation of the grid may be off by.
+const CONTINUED: f64 = 0.1;
 /// Slowest ratio that is believed.
 const SLOWEST: f64 = 1.25;
 
 /// Error of the reported amplitude: what was seen of it, and what is thought to be left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Estimate {
-    /// Change of the answer by a finer scene, a share: certain, so it carries no factor.
-    pub known: f64,
-    /// Error beyond that, a share.
+    /// Change of the answer by a finer scene, downwards and upwards, shares: certain, so they carry no factor.
+    pub known: [f64; 2],
+    /// Error beyond that, either way, a share.
     pub share: f64,
     /// Factor of safety on it.
     pub factor: f64,
 }
 
 impl Estimate {
-    /// The error with its factor of safety.
+    /// How far below and above the answer the truth may lie, with the factor of safety.
+    pub(super) fn errors(self) -> [f64; 2] {
+        self.known.map(|known| known + self.share * self.factor)
+    }
+
+    /// The larger of the two.
     pub(super) fn error(self) -> f64 {
-        self.known + self.share * self.factor
+        let [below, above] = self.errors();
+        below.max(above)
+    }
+
+    /// The change that was seen may lie either way.
+    #[must_use]
+    pub(super) fn either_way(self) -> Estimate {
+        let [below, above] = self.known;
+        Estimate {
+            known: [below.max(above); 2],
+            ..self
+        }
     }
 
     /// Too little to matter.
@@ -45,11 +64,16 @@ impl Estimate {
     /// An error of which nothing was seen for certain.
     pub(super) fn unseen(share: f64, factor: f64) -> Estimate {
         Estimate {
-            known: 0.0,
+            known: [0.0; 2],
             share,
             factor,
         }
     }
+}
+
+/// A change `fine` of the scene's answer over a finer one's, downwards and upwards from the scene's.
+fn seen(fine: f64) -> [f64; 2] {
+    [fine.max(0.0), (-fine).max(0.0)]
 }
 
 fn is_formal(observed: f64, formal: f64) -> bool {
@@ -102,24 +126,35 @@ pub(super) fn with_finer(knobs: &[Knob], near: f64, fine: f64) -> Estimate {
     let (share, factor) = if observed > formal / HALF_ORDER {
         (fine.abs() / (observed.min(formal) - 1.0), NARROW)
     } else {
-        let seen = fine.abs().max(near.abs() / formal) / (formal - 1.0);
+        let left = fine.abs().max(near.abs() / formal) / (formal - 1.0);
         let slow = match observed > 1.0 {
             true => fine.abs() / (observed.max(SLOWEST) - 1.0),
             false => 0.0,
         };
-        (seen.max(slow * NARROW / WIDE), WIDE)
+        (left.max(slow * NARROW / WIDE), WIDE)
     };
     Estimate {
-        known: fine.abs(),
+        known: seen(fine),
         share,
         factor,
+    }
+}
+
+/// Error from a film held still: `fine` is the scene minus the film continued to infinitely many cells, and
+/// what held films said of half the cells is `missed` off what half the cells answered. Films with errors e and
+/// 2 e differ by e, so that as much may be missed of the error itself; [`CONTINUED`] of it at least.
+pub(super) fn held(fine: f64, missed: f64) -> Estimate {
+    Estimate {
+        known: seen(fine),
+        share: missed.abs() + CONTINUED * fine.abs(),
+        factor: NARROW,
     }
 }
 
 /// Error from one step finer alone: what it moved is certain, and no order was observed.
 pub(super) fn finer_alone(knobs: &[Knob], fine: f64) -> Estimate {
     Estimate {
-        known: fine.abs(),
+        known: seen(fine),
         share: fine.abs() / (slowest(knobs) - 1.0),
         factor: WIDE,
     }

@@ -8,7 +8,7 @@ use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
 use super::verdicts::DEEP;
-use super::{Ask, Limits, Seen, Walk};
+use super::{Ask, Known, Limits, SUBNODES, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.
@@ -25,6 +25,8 @@ pub(super) struct Reference {
     at: [Survivor; 2],
     /// Loss of clearance per relative growth of the amplitude, m: of the scene and of the proxy.
     slope_m: [f64; 2],
+    /// That of the scene next to the highest survivor, m.
+    last_slope_m: f64,
 }
 
 fn is_same_event(a_s: f64, b_s: f64) -> bool {
@@ -70,20 +72,23 @@ impl Reference {
             return Ok(None);
         }
         let reach = input.lattice.nodes_within(REACH);
-        let lower = input
-            .survivors
-            .iter()
-            .filter(|known| {
+        let below = || {
+            input.survivors.iter().filter(|known| {
                 known.index < at.index
                     && known.index >= at.index - reach
                     && known.h_min_m > at.h_min_m
                     && is_same_event(known.t_min_s, at.t_min_s)
             })
-            .min_by_key(|known| known.index);
-        let Some(lower) = lower else {
+        };
+        let Some(lower) = below().min_by_key(|known| known.index) else {
             return Ok(None);
         };
-        let span = walk.share(at.index - lower.index);
+        // A step of the search away at least, where rounding and steps of the head do not tell.
+        let next = below().filter(|known| known.index <= at.index - SUBNODES);
+        let next = next.max_by_key(|known| known.index).unwrap_or(lower);
+        let share = |known: &Known| walk.share(at.index - known.index);
+        let last_slope_m = (next.h_min_m - at.h_min_m) / share(next);
+        let span = share(lower);
         let mut survivors = [at, *lower].map(|known| Survivor {
             index: known.index,
             own_m: known.h_min_m,
@@ -102,6 +107,7 @@ impl Reference {
             event_s: at.t_min_s,
             at: survivors,
             slope_m,
+            last_slope_m,
         }))
     }
 
@@ -110,8 +116,8 @@ impl Reference {
         Ok(clearance(walk.see(levels, index)?, self.event_s))
     }
 
-    /// Error of the film's grid from half and a quarter of the cells, and from twice as many where
-    /// that is not little: at the survivor, or below it where another grid fails there.
+    /// Error of the film's grid from half and a quarter of the cells, and where that is not little from films
+    /// held still or from twice as many cells: at the survivor, or below it where another grid fails there.
     pub(super) fn film(
         &self,
         walk: &mut Walk<'_>,
@@ -135,6 +141,10 @@ impl Reference {
             if estimate.error() <= limits.little {
                 return Ok(Some(estimate));
             }
+            let held = self.held(walk, at, half_m)?;
+            if let Some(held) = held.filter(|held| held.error() <= estimate.error()) {
+                return Ok(Some(held));
+            }
             let double = judge::finer(Levels::NONE, &FILM);
             let fine = self
                 .see(walk, double, at.index)?
@@ -146,6 +156,33 @@ impl Reference {
             coarse_only = coarse_only.or(Some(estimate));
         }
         Ok(coarse_only)
+    }
+
+    /// Error of the film's grid from films held still: what they say of half the cells at `at`, where those
+    /// left `half_m`, tells how far what they say of the highest survivor is to be trusted.
+    fn held(
+        &self,
+        walk: &mut Walk<'_>,
+        at: Survivor,
+        half_m: f64,
+    ) -> Result<Option<Estimate>, Ask> {
+        if !walk.input.holds_films {
+            return Ok(None);
+        }
+        let on = |steps: i8| Levels::NONE.turned(Knob::HeldFilm, steps);
+        let Some(expected_m) = self.see(walk, on(-1), at.index)? else {
+            return Ok(None);
+        };
+        let [upper, _] = self.at;
+        let Some(continued_m) = self.see(walk, on(1), upper.index)? else {
+            return Ok(None);
+        };
+        // The slope falls towards the touch: the last one makes the most of a clearance.
+        let slope_m = self.last_slope_m.min(self.slope_m[0]);
+        let fine = (upper.own_m - continued_m) / slope_m;
+        let missed = (half_m - expected_m) / slope_m;
+        let is_near = fine.abs().max(missed.abs()) <= REACH;
+        Ok(is_near.then(|| judge::held(fine, missed)))
     }
 
     /// Error of other knobs turned together by one step on the proxy, and by one step finer where

@@ -15,9 +15,12 @@
 //!   or to a 16th of what is in the bar already.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
-//! 1994, J. Fluids Eng. 116, 405); the change seen by turning finer is certain and only what is left
-//! beyond it is multiplied. Parts add up; nothing is taken from their having signs. A part says that
-//! the answer may be wrong by a ratio 1 + e either way.
+//! 1994, J. Fluids Eng. 116, 405); the change seen by turning finer is certain and on the side to which it led,
+//! and only what is left beyond it is multiplied, either way. Parts add up on both sides; none takes from
+//! another. An error of e above is the ratio 1 + e, and so is one below.
+//!
+//! Where the margin tells the answer, the film's grid is judged by films held still at the lowest attitude
+//! ([`Knob::HeldFilm`]), provided that they say of half the cells what half the cells answered.
 //!
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.
@@ -109,6 +112,8 @@ pub struct BarInput {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved; 0 where it is none.
     pub mesh_halvings: i8,
+    /// A film can be held still at the lowest attitude of a shock ([`Knob::HeldFilm`]).
+    pub holds_films: bool,
     /// Accuracy asked for, a share.
     pub accuracy: f64,
 }
@@ -164,12 +169,12 @@ impl Bar {
             self.flags.insert(Flag::BarPartial);
             return;
         };
-        let error = estimate.error();
+        let [below, above] = estimate.errors();
         self.parts.push(Part {
             name,
             // The ratio 1 + e downwards.
-            low: error / (1.0 + error),
-            high: error,
+            low: below / (1.0 + below),
+            high: above,
             factor: estimate.factor,
         });
         if estimate.factor == judge::WIDE && !estimate.is_negligible(accuracy) {

@@ -232,7 +232,11 @@ pub(super) fn knobs(
         false => shift(walk, finer, base),
     };
     let fine = distance(walk, base, finer).copysign(sense);
-    Ok((Some(judge::with_finer(knobs, near, fine)), cheaper))
+    let mut estimate = judge::with_finer(knobs, near, fine);
+    if finer == base {
+        estimate = estimate.either_way();
+    }
+    Ok((Some(estimate), cheaper))
 }
 
 /// Halvings of the film from which on coarser films alone tell its error.
@@ -346,11 +350,14 @@ fn by_double(walk: &mut Walk<'_>, own: Bracket) -> Result<Film, Ask> {
     let fine = locate(walk, halved(-1), own, width)?;
     let seen = fine.map(|fine| distance(walk, own, fine).copysign(shift(walk, fine, own)));
     let near = coarse.map(|coarse| shift(walk, own, coarse));
-    let estimate = match (near, seen) {
+    let mut estimate = match (near, seen) {
         (Some(near), Some(seen)) => Some(judge::with_finer(&FILM, near, seen)),
         (None, Some(seen)) => Some(judge::finer_alone(&FILM, seen)),
         (Some(_), None) | (None, None) => None,
     };
+    if fine == Some(own) {
+        estimate = estimate.map(Estimate::either_way);
+    }
     let proxy = match coarse {
         Some(coarse) => Proxy::on_film(1, coarse),
         None => Proxy::on_film(0, own),
