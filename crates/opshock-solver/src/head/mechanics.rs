@@ -1,131 +1,73 @@
 //! Slider, gimbal, dimple contact and suspension as one small mechanical system.
 //!
-//! Coordinates x: slider (z, pitch, roll), then suspension bending (dimple z, pinned modes), then
-//! torsion (dimple roll, pinned modes); all increments from the loaded, flying state in the
-//! base's frame.
+//! Coordinates x: slider (z, pitch, roll), then the suspension's natural modes η of bending and of torsion
+//! (`oscillators`); all increments from the loaded, flying state in the base's frame. Everything but
+//! the inertia of the slider and the modes themselves acts at the ports p = P x (`ports`).
 //!
 //! ```text
-//! M ẍ = f a(t) + (F − F₀) − C ẋ − K x − B (N − N₀)
-//! N   = max(0, N₀ + k_d δ + c_d δ̇),   δ = Bᵀx = z − z_dimple,   c_d = 2 ζ_d √(k_d m)
-//! K ∋ k_z (z − z_dimple)²/2 + k_pitch (pitch + dw/dx|dimple)²/2 + k_roll (roll − roll_dimple)²/2
+//! M ẍ = f a(t) + (F − F₀) − C ẋ − K x − Pᵀ (G p + b (N − N₀))
+//! M = diag(m, J_pitch, J_roll, 1),   C = diag(0, 2 ζ ω),   K = diag(0, ω²)
+//! N = max(0, N₀ + k_d δ + c_d δ̇),   δ = b·p = z − z_dimple,   c_d = 2 ζ_d √(k_d m)
+//! G p = (0, k_z (z − z_dimple), k_pitch (pitch + dw/dx|dimple), k_roll (roll − roll_dimple), 0)
 //! ```
 //!
 //! Every mass feels +m a(t), so a > 0 lifts the load beam off the slider and unloads the dimple.
-//! dw/dx = Σ slope_row u has the sign opposite to pitch (pitch > 0: leading edge up; the
-//! suspension's root lies beyond the leading edge). The contact pushes only; its force is
-//! continuous with a kink where the dimple opens. Limiters and a lift tab, where there are some, are
-//! further contacts of that kind (`stops`).
+//! dw/dx has the sign opposite to pitch (pitch > 0: leading edge up; the suspension's root lies beyond
+//! the leading edge). The contact pushes only; its force is continuous with a kink where the dimple
+//! opens. Limiters and a lift tab, where there are some, are further contacts of that kind (`stops`).
 
+use super::oscillators::{ModalMotion, Oscillators};
+use super::ports::{AtPorts, CLOSING, PORTS, Ports, SLIDER, TAB, TILT_ACROSS, TILT_ALONG, parted};
 use super::stops::{Closed, Stop, Stops};
-use crate::linalg::pivoted::{PaddedColumns, PivotedInverse, sum_of_products};
+use crate::linalg::pivoted::PaddedColumns;
 use crate::slider::SliderParameters;
 use crate::slider::body::Inertia;
 use crate::suspension::{ContactLaw, ReducedSuspension, SuspensionParameters};
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// Index of the slider's z among the coordinates.
-const SLIDER_Z: usize = 0;
-/// Index of the dimple's z among the coordinates.
-const DIMPLE_Z: usize = 3;
-
-/// The linear matrices (row by row) and the dimple.
+/// The oscillators and what couples them.
 #[derive(Clone, Debug)]
 pub(super) struct Mechanics {
-    n: usize,
-    /// Mass, damping and stiffness once more, for products.
-    columns: [PaddedColumns; 3],
-    mass: Vec<f64>,
-    inverse_mass: PaddedColumns,
-    damping: Vec<f64>,
-    stiffness: Vec<f64>,
-    inertia_load: Vec<f64>,
+    /// m, J_pitch, J_roll.
+    inertia: [f64; SLIDER],
+    modes: Oscillators,
+    ports: Ports,
+    /// Stiffnesses of the gimbal at the ports, the diagonal of G.
+    gimbal: AtPorts,
     /// e = M⁻¹ f: the motion of every coordinate that an acceleration of the pivot asks for.
     rigid: Vec<f64>,
     preload_n: f64,
     contact_n_per_m: f64,
     contact_n_s_per_m: f64,
-    suspension_weights: Vec<f64>,
+    /// Force at the dimple per natural mode of bending, one row for every pinned mode.
+    suspension_weights: PaddedColumns,
     stops: Stops,
     /// Of the stops those that are limiters; the lift tab follows.
     n_limiters: usize,
 }
 
 impl Mechanics {
-    /// Assembles the system. `suspension` must come from `parameters`.
+    /// Assembles the system; `None` when the slider has no inertia or a mode is not finite. `suspension`
+    /// must come from `parameters`.
     pub fn new(
         parameters: &SuspensionParameters,
         suspension: &ReducedSuspension,
         slider: &SliderParameters,
     ) -> Option<Self> {
-        let (bending, torsion) = (&suspension.bending, &suspension.torsion);
-        let roll_at = DIMPLE_Z + bending.len();
-        let n = roll_at + torsion.len();
-        let mut mass = vec![0.0; n * n];
-        let mut damping = vec![0.0; n * n];
-        let mut stiffness = vec![0.0; n * n];
-        let mut inertia_load = vec![0.0; n];
-
         let inertia = Inertia::of(slider);
-        for (i, m) in inertia.diagonal().into_iter().enumerate() {
-            mass[i * n + i] = m;
-        }
-        inertia_load[SLIDER_Z] = inertia.mass_kg;
-        for (first, block) in [(DIMPLE_Z, bending), (roll_at, torsion)] {
-            for i in 0..block.len() {
-                for j in 0..block.len() {
-                    mass[(first + i) * n + first + j] = block.mass[(i, j)];
-                    damping[(first + i) * n + first + j] = block.damping[(i, j)];
-                }
-                stiffness[(first + i) * n + first + i] = block.stiffness[i];
-                inertia_load[first + i] = block.inertia_load[i];
-            }
-        }
-
-        let gimbal = &parameters.gimbal;
-        let mut vertical = vec![0.0; n];
-        vertical[SLIDER_Z] = 1.0;
-        vertical[DIMPLE_Z] = -1.0;
-        let mut pitch = vec![0.0; n];
-        pitch[1] = 1.0;
-        pitch[DIMPLE_Z..roll_at].copy_from_slice(bending.slope_row.as_slice());
-        let mut roll = vec![0.0; n];
-        roll[2] = 1.0;
-        roll[roll_at] = -1.0;
-        for (spring, row) in [
-            (gimbal.vertical_n_per_m, &vertical),
-            (gimbal.pitch_n_m_per_rad, &pitch),
-            (gimbal.roll_n_m_per_rad, &roll),
-        ] {
-            for i in 0..n {
-                for j in 0..n {
-                    stiffness[i * n + j] += spring * row[i] * row[j];
-                }
-            }
-        }
-
-        let mut inverse = PivotedInverse::new(n);
-        inverse.matrix_mut().copy_from_slice(&mass);
-        if !inverse.invert() {
+        let modes = Oscillators::new(suspension);
+        let has_inertia = inertia.diagonal().iter().all(|m| *m > 0.0 && m.is_finite());
+        let stiffness = &modes.stiffness;
+        if !has_inertia || stiffness.iter().chain(&modes.load).any(|x| !x.is_finite()) {
             return None;
         }
-        let inverse_mass = inverse.into_columns();
-
-        let mut rigid = vec![0.0; n];
-        sum_of_products([(&inverse_mass, &inertia_load)], &mut rigid);
-
-        // Force at the dimple that an error of a suspension coordinate causes through the mass
-        // coupling at its own frequency, or directly for the interface coordinates.
-        let mut suspension_weights = vec![0.0; n];
-        for (k, weight) in suspension_weights.iter_mut().enumerate().take(roll_at) {
-            if k > DIMPLE_Z {
-                *weight = bending.mass[(0, k - DIMPLE_Z)].abs() * bending.stiffness[k - DIMPLE_Z];
-            }
-        }
+        let mut rigid = vec![1.0, 0.0, 0.0];
+        rigid.extend_from_slice(&modes.load);
 
         let damper = |law: &ContactLaw| {
             2.0 * law.damping_ratio * (law.stiffness_n_per_m * inertia.mass_kg).sqrt()
         };
-        let stop = |row: Vec<f64>, gap_m: f64, law: &ContactLaw| Stop {
+        let stop = |row: AtPorts, gap_m: f64, law: &ContactLaw| Stop {
             row,
             gap_m,
             stiffness_n_per_m: law.stiffness_n_per_m,
@@ -133,34 +75,33 @@ impl Mechanics {
         };
         let mut stops = Vec::new();
         for limiter in &parameters.limiters {
-            let opening = vertical.iter().zip(&pitch).zip(&roll);
-            let row = opening
-                .map(|((v, p), r)| limiter.along_m * p - limiter.across_m * r - v)
-                .collect();
+            let mut row = [0.0; PORTS];
+            row[CLOSING] = -1.0;
+            row[TILT_ALONG] = limiter.along_m;
+            row[TILT_ACROSS] = -limiter.across_m;
             stops.push(stop(row, limiter.gap_m, &limiter.contact));
         }
-        if let (Some(tab), Some(shape)) = (&parameters.lift_tab, &bending.tab_row) {
-            let mut row = vec![0.0; n];
-            row[DIMPLE_Z..roll_at].copy_from_slice(shape.as_slice());
+        if let (Some(tab), true) = (&parameters.lift_tab, suspension.bending.tab_row.is_some()) {
+            let mut row = [0.0; PORTS];
+            row[TAB] = 1.0;
             stops.push(stop(row, tab.gap_m, &tab.contact));
         }
 
+        let mut gimbal = [0.0; PORTS];
+        gimbal[CLOSING] = parameters.gimbal.vertical_n_per_m;
+        gimbal[TILT_ALONG] = parameters.gimbal.pitch_n_m_per_rad;
+        gimbal[TILT_ACROSS] = parameters.gimbal.roll_n_m_per_rad;
         let dimple = &parameters.dimple;
         Some(Self {
-            n,
-            columns: [&mass, &damping, &stiffness].map(|rows| PaddedColumns::new(n, rows)),
-            mass,
-            inverse_mass,
-            damping,
-            stiffness,
-            inertia_load,
+            inertia: inertia.diagonal(),
+            modes,
+            ports: Ports::new(suspension),
+            gimbal,
             rigid,
             preload_n: parameters.gram_load_n,
             contact_n_per_m: dimple.stiffness_n_per_m,
-            contact_n_s_per_m: 2.0
-                * dimple.damping_ratio
-                * (dimple.stiffness_n_per_m * inertia.mass_kg).sqrt(),
-            suspension_weights,
+            contact_n_s_per_m: damper(dimple),
+            suspension_weights: suspension_weights(suspension),
             stops: Stops::new(stops),
             n_limiters: parameters.limiters.len(),
         })
@@ -178,61 +119,79 @@ impl Mechanics {
 
     /// Forces of the limiters together, and of the lift tab; 0 where there are none.
     pub fn stop_forces(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
+        let [p, rate] = self.ports.read_both(x, v);
         let mut forces = [0.0; 2];
         for (k, stop) in self.stops.iter().enumerate() {
-            forces[usize::from(k >= self.n_limiters)] += stop.force(x, v);
+            forces[usize::from(k >= self.n_limiters)] += stop.force(&p, &rate);
         }
         forces
     }
 
     /// Number of coordinates.
     pub fn len(&self) -> usize {
-        self.n
+        SLIDER + self.modes.len()
+    }
+
+    /// Number of modes of the suspension.
+    pub fn n_modes(&self) -> usize {
+        self.modes.len()
+    }
+
+    /// Where slider and suspension meet everything else.
+    pub fn ports(&self) -> &Ports {
+        &self.ports
+    }
+
+    /// Mass and moments of inertia of the slider against z, pitch and roll.
+    pub fn slider_inertia(&self) -> [f64; SLIDER] {
+        self.inertia
+    }
+
+    /// What every mode yields to a force within a stage of `d_s`.
+    pub fn modal_flexibility(&self, d_s: f64, out: &mut [f64]) {
+        self.modes.flexibility(d_s, out);
     }
 
     /// Contact force N of the dimple; 0 when it is open.
     #[inline]
     pub fn dimple_force(&self, x: &[f64], v: &[f64]) -> f64 {
-        self.signed_dimple_force(x, v).max(0.0)
+        let [p, rate] = self.ports.read_both(x, v);
+        self.signed_dimple_force(&p, &rate).max(0.0)
     }
 
     #[inline]
-    fn signed_dimple_force(&self, x: &[f64], v: &[f64]) -> f64 {
-        self.preload_n
-            + self.contact_n_per_m * (x[SLIDER_Z] - x[DIMPLE_Z])
-            + self.contact_n_s_per_m * (v[SLIDER_Z] - v[DIMPLE_Z])
+    fn signed_dimple_force(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
+        self.preload_n + self.contact_n_per_m * p[CLOSING] + self.contact_n_s_per_m * rate[CLOSING]
     }
 
-    /// Adds the generalised force at inertia load `a` with the film's excess force F − F₀, without
-    /// springs and dampers of the linear matrices.
-    fn add_load(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
-        for (out, load) in out.iter_mut().zip(&self.inertia_load) {
-            *out += load * a;
+    /// Force at the ports of gimbal, contacts and the film's excess F − F₀, and which contacts are closed.
+    fn force_at_ports(&self, film: [f64; 3], p: &AtPorts, rate: &AtPorts) -> (AtPorts, Closed) {
+        let mut out: AtPorts = std::array::from_fn(|k| -self.gimbal[k] * p[k]);
+        for (out, film) in out.iter_mut().zip(film) {
+            *out += film;
         }
-        for (out, f) in out.iter_mut().zip(film) {
-            *out += f;
-        }
-        let excess = self.dimple_force(x, v) - self.preload_n;
-        out[SLIDER_Z] -= excess;
-        out[DIMPLE_Z] += excess;
-        self.stops.add_force(x, v, out);
+        let signed = self.signed_dimple_force(p, rate);
+        out[CLOSING] += self.preload_n - signed.max(0.0);
+        self.stops.add_force(p, rate, &mut out);
+        let dimple = Closed::of_dimple(signed > 0.0);
+        (out, self.stops.add_closed(p, rate, dimple))
     }
 
     /// Acceleration ẍ.
-    pub fn acceleration(
-        &self,
-        a: f64,
-        film: [f64; 3],
-        x: &[f64],
-        v: &[f64],
-        scratch: &mut [f64],
-        out: &mut [f64],
-    ) {
-        let [_, damping, stiffness] = &self.columns;
-        sum_of_products([(damping, v), (stiffness, x)], scratch);
-        scratch.iter_mut().for_each(|f| *f = -*f);
-        self.add_load(a, film, x, v, scratch);
-        sum_of_products([(&self.inverse_mass, scratch)], out);
+    pub fn acceleration(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
+        // A stage without inertia.
+        let state = StageState {
+            d_s: f64::INFINITY,
+            a,
+            film,
+            x,
+            v,
+            v_known: v,
+        };
+        self.imbalance(&state, out);
+        for (out, m) in out.iter_mut().zip(self.inertia) {
+            *out /= m;
+        }
     }
 
     /// Adds the jump of ẍ that a jump `da` of the inertia load causes.
@@ -252,103 +211,125 @@ impl Mechanics {
         }
     }
 
-    /// Force less M (v − v_known)/d of a stage: its residual with the sign that a correction wants.
-    pub fn imbalance(&self, state: &StageState<'_>, out: &mut [f64], scratch: &mut [f64]) {
+    /// Force less M (v − v_known)/d of a stage: its residual with the sign that a correction wants. Returns
+    /// which contacts are closed.
+    pub fn imbalance(&self, state: &StageState<'_>, out: &mut [f64]) -> Closed {
+        let [p, rate] = self.ports.read_both(state.x, state.v);
+        let (force, closed) = self.force_at_ports(state.film, &p, &rate);
+        let (on_q, on_joints) = parted(force);
         let per_d = 1.0 / state.d_s;
-        for ((rate, v), known) in scratch.iter_mut().zip(state.v).zip(state.v_known) {
-            *rate = (v - known) * per_d;
+        let (on_slider, on_modes) = out.split_at_mut(SLIDER);
+        for (i, out) in on_slider.iter_mut().enumerate() {
+            *out = on_q[i] - self.inertia[i] * (state.v[i] - state.v_known[i]) * per_d;
         }
-        let [mass, damping, stiffness] = &self.columns;
-        sum_of_products(
-            [(mass, scratch), (damping, state.v), (stiffness, state.x)],
-            out,
-        );
-        out.iter_mut().for_each(|f| *f = -*f);
-        self.add_load(state.a, state.film, state.x, state.v, out);
+        on_slider[0] += self.inertia[0] * state.a;
+        let motion = ModalMotion {
+            per_d,
+            a: state.a,
+            x: &state.x[SLIDER..],
+            v: &state.v[SLIDER..],
+            v_known: &state.v_known[SLIDER..],
+        };
+        self.modes
+            .imbalance(&motion, self.ports.rows(), on_joints, on_modes);
+        closed
     }
 
-    /// Derivative of the residual by x with v = (x − x_known)/d, without the film; `closed` is the
-    /// state of the contacts.
-    pub fn stage_matrix(&self, d_s: f64, closed: Closed, out: &mut [f64]) {
-        let (per_d, per_d2) = (1.0 / d_s, 1.0 / (d_s * d_s));
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = self.mass[i] * per_d2 + self.damping[i] * per_d + self.stiffness[i];
+    /// Derivative by p of the forces that gimbal and closed contacts take up, with rate = (p − p_known)/d.
+    pub fn coupling(&self, d_s: f64, closed: Closed) -> [AtPorts; PORTS] {
+        let mut out = [[0.0; PORTS]; PORTS];
+        for (k, stiffness) in self.gimbal.into_iter().enumerate() {
+            out[k][k] = stiffness;
         }
         if closed.dimple() {
-            let contact = self.contact_n_per_m + self.contact_n_s_per_m * per_d;
-            let n = self.n;
-            out[SLIDER_Z * n + SLIDER_Z] += contact;
-            out[DIMPLE_Z * n + DIMPLE_Z] += contact;
-            out[SLIDER_Z * n + DIMPLE_Z] -= contact;
-            out[DIMPLE_Z * n + SLIDER_Z] -= contact;
+            out[CLOSING][CLOSING] += self.contact_n_per_m + self.contact_n_s_per_m / d_s;
         }
-        self.stops.add_matrix(d_s, closed, out);
+        self.stops.add_coupling(d_s, closed, &mut out);
+        out
     }
 
     /// s² M + s C + K with the dimple closed and every stop open, as in steady flight.
     pub fn dynamic_matrix(&self, s: Complex<f64>) -> DMatrix<Complex<f64>> {
-        let n = self.n;
-        let mut out = DMatrix::from_fn(n, n, |i, j| {
-            let at = i * n + j;
-            s * s * self.mass[at] + s * self.damping[at] + self.stiffness[at]
-        });
-        let contact = s * self.contact_n_s_per_m + self.contact_n_per_m;
-        out[(SLIDER_Z, SLIDER_Z)] += contact;
-        out[(DIMPLE_Z, DIMPLE_Z)] += contact;
-        out[(SLIDER_Z, DIMPLE_Z)] -= contact;
-        out[(DIMPLE_Z, SLIDER_Z)] -= contact;
+        let n = self.len();
+        let mut out = DMatrix::zeros(n, n);
+        for i in 0..SLIDER {
+            out[(i, i)] = s * s * self.inertia[i];
+        }
+        let modes = &self.modes;
+        for (k, (c, stiffness)) in modes.damping.iter().zip(&modes.stiffness).enumerate() {
+            out[(SLIDER + k, SLIDER + k)] = s * s + s * *c + *stiffness;
+        }
+        let mut springs = self.gimbal.map(Complex::from);
+        springs[CLOSING] += s * self.contact_n_s_per_m + self.contact_n_per_m;
+        for (port, stiffness) in springs.into_iter().enumerate() {
+            let row = self.ports.row(port).map(Complex::from);
+            out.ger(stiffness, &row, &row, Complex::from(1.0));
+        }
         out
     }
 
     /// Load of every coordinate per inertia load a.
     pub fn inertia_load(&self) -> DVector<f64> {
-        DVector::from_column_slice(&self.inertia_load)
+        let mut load = DVector::from_column_slice(&self.rigid);
+        load[0] = self.inertia[0];
+        load
     }
 
-    /// Index of the dimple's z among the coordinates.
-    pub fn dimple_index(&self) -> usize {
-        DIMPLE_Z
+    /// Row that reads the dimple's z of the suspension from the coordinates.
+    pub fn dimple_row(&self) -> DVector<f64> {
+        let closing = -self.ports.row(CLOSING);
+        self.ports.row(0) + closing
     }
 
     /// Right-hand side of the filter: M e_v/d + (M/d² + C/d) e_x.
-    pub fn filter_load(
-        &self,
-        d_s: f64,
-        closed: Closed,
-        e_x: &[f64],
-        e_v: &[f64],
-        out: &mut [f64],
-        scratch: &mut [f64],
-    ) {
+    pub fn filter_load(&self, d_s: f64, closed: Closed, e_x: &[f64], e_v: &[f64], out: &mut [f64]) {
         let per_d = 1.0 / d_s;
-        for ((rate, x), v) in scratch.iter_mut().zip(e_x).zip(e_v) {
-            *rate = v + x * per_d;
-        }
-        let [mass, damping, _] = &self.columns;
-        sum_of_products([(mass, scratch), (damping, e_x)], out);
-        out.iter_mut().for_each(|f| *f *= per_d);
+        let e = self.ports.read(e_x);
+        let mut force = [0.0; PORTS];
         if closed.dimple() {
-            let f = self.contact_n_s_per_m * (e_x[SLIDER_Z] - e_x[DIMPLE_Z]) / d_s;
-            out[SLIDER_Z] += f;
-            out[DIMPLE_Z] -= f;
+            force[CLOSING] = self.contact_n_s_per_m * e[CLOSING] * per_d;
         }
-        self.stops.add_filter_load(d_s, closed, e_x, out);
+        self.stops.add_filter_load(d_s, closed, &e, &mut force);
+        let (on_q, on_joints) = parted(force);
+        let (on_slider, on_modes) = out.split_at_mut(SLIDER);
+        for (i, out) in on_slider.iter_mut().enumerate() {
+            *out = on_q[i] + self.inertia[i] * (e_v[i] + e_x[i] * per_d) * per_d;
+        }
+        let errors = [&e_x[SLIDER..], &e_v[SLIDER..]];
+        self.modes
+            .filter_load(per_d, errors, self.ports.rows(), on_joints, on_modes);
     }
 
     /// Which contacts are closed at (x, v).
     pub fn closed(&self, x: &[f64], v: &[f64]) -> Closed {
-        let dimple = Closed::of_dimple(self.signed_dimple_force(x, v) > 0.0);
-        self.stops.add_closed(x, v, dimple)
+        let [p, rate] = self.ports.read_both(x, v);
+        let dimple = Closed::of_dimple(self.signed_dimple_force(&p, &rate) > 0.0);
+        self.stops.add_closed(&p, &rate, dimple)
     }
 
-    /// Force at the dimple that errors of the suspension's modes cause, N.
-    pub fn suspension_force_error(&self, e_x: &[f64]) -> f64 {
-        self.suspension_weights
-            .iter()
-            .zip(e_x)
-            .map(|(w, e)| w * e.abs())
-            .sum()
+    /// Force at the dimple that errors of the suspension's pinned modes cause, N: Σ |ψᵀMφᵢ| ωᵢ² |e_i| with
+    /// ψ, φ, ω of the reduction to the dimple (`suspension`) and e_i = (Φ e_η)_i.
+    pub fn suspension_force_error(&self, e_x: &[f64], scratch: &mut [f64]) -> f64 {
+        let n = self.suspension_weights.order();
+        let (errors, forces) = (&e_x[SLIDER..SLIDER + n], &mut scratch[..n]);
+        self.suspension_weights.product(errors, forces);
+        forces.iter().map(|f| f.abs()).sum()
     }
+}
+
+/// Row i > 0: force at the held dimple by pinned mode i of bending as it vibrates at its frequency, per
+/// natural mode; row 0, of the dimple itself, is 0.
+fn suspension_weights(suspension: &ReducedSuspension) -> PaddedColumns {
+    let bending = &suspension.bending;
+    let n = bending.len();
+    let mut rows = vec![0.0; n * n];
+    for (i, row) in rows.chunks_exact_mut(n).enumerate().skip(1) {
+        let weight = bending.mass[(0, i)].abs() * bending.stiffness[i];
+        for (j, out) in row.iter_mut().enumerate() {
+            *out = weight * bending.natural_modes[(i, j)];
+        }
+    }
+    PaddedColumns::new(n, &rows)
 }
 
 /// One iterate of a stage.

@@ -12,8 +12,8 @@
 //!
 //! One step is an L-stable ESDIRK step ([`crate::integrator`]). Its stages are solved together by
 //! one Newton iteration: the film's unknowns are eliminated by a banded factorisation onto the
-//! three columns of the slider, which leaves a dense system of a dozen mechanical unknowns
-//! (`stage`). Factorisations are kept while the iteration contracts. The iterations between film
+//! three columns of the slider (`stage`), the suspension's modes onto the few places where they are acted
+//! on (`stage_matrix`), which leaves a dense system of seven mechanical unknowns. Factorisations are kept while the iteration contracts. The iterations between film
 //! and structure that the literature uses are there too (`partitioned`).
 //!
 //! Touching decides a run, and ends it unless the motion behind it is wanted: the smallest height of the slider's true surface over the disk's local
@@ -25,11 +25,16 @@ mod film_passes;
 mod following;
 mod mechanics;
 mod model;
+mod oscillators;
 mod outcome;
 mod partitioned;
+mod ports;
 pub mod response;
 mod run;
+#[cfg(test)]
+mod sample;
 mod stage;
+mod stage_matrix;
 mod stops;
 
 pub use fields::PressureFields;

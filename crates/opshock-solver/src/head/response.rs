@@ -83,7 +83,8 @@ impl<'a> HeadResponse<'a> {
                 load[f] += z[(f, q)] * drive.disk[q];
             }
         }
-        load[mechanics.dimple_index()] += drive.dimple_n;
+        let dimple = mechanics.dimple_row().map(Complex::from);
+        load.axpy(drive.dimple_n, &dimple, Complex::from(1.0));
         let resonance = ImpedanceError::Resonance {
             frequency_hz: omega_rad_per_s / std::f64::consts::TAU,
         };
@@ -95,7 +96,7 @@ impl<'a> HeadResponse<'a> {
         });
         Ok(Answer {
             slider,
-            dimple_m: x[mechanics.dimple_index()],
+            dimple_m: dimple.dot(&x),
             film,
             coordinates: x.iter().copied().collect(),
         })

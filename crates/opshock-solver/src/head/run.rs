@@ -146,9 +146,8 @@ impl<'a> Run<'a> {
         pulse_events(load.pulse, &mut w.pulse_events_s);
         let attitude = model.attitude(&w.y[n_cells..], &motion.pose(0.0));
         let clearance = model.film.min_clearance(&attitude);
-        let preload = model
-            .mechanics
-            .dimple_force(&w.y[n_cells..], &w.y[n_cells + model.mechanics.len()..]);
+        let (x, v) = w.y[n_cells..].split_at(model.mechanics.len());
+        let preload = model.mechanics.dimple_force(x, v);
         let mut run = Self {
             model,
             motion,
@@ -205,9 +204,7 @@ impl<'a> Run<'a> {
         w.rate[n_cells..n_cells + n].copy_from_slice(v);
         let a = self.load.just_after(0.0);
         let out = &mut w.rate[n_cells + n..];
-        model
-            .mechanics
-            .acceleration(a, film, x, v, &mut w.scratch.small, out);
+        model.mechanics.acceleration(a, film, x, v, out);
     }
 
     fn advance(&mut self, window_s: f64, stops_at_touch: bool) -> End {
@@ -347,7 +344,7 @@ impl<'a> Run<'a> {
 
     /// Error of the trial step over tolerance: gap error at the slider's ends, directly and
     /// through its velocity, that of the film's gas, and that which the suspension's modes cause.
-    fn error_norm(&self, gap_m: f64) -> f64 {
+    fn error_norm(&mut self, gap_m: f64) -> f64 {
         let model = self.model;
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (e_psi, rest) = self.w.stepper.error().split_at(n_cells);
@@ -355,7 +352,9 @@ impl<'a> Run<'a> {
         let psi = &self.w.stepper.value()[..n_cells];
         let film = relative_size(e_psi, psi);
         let gap = model.gap_change(e_x) + model.velocity_to_gap_s * model.gap_change(e_v);
-        let suspension = model.mechanics.suspension_force_error(e_x) / model.film_n_per_m;
+        let forces = &mut self.w.scratch.mechanical;
+        let force = model.mechanics.suspension_force_error(e_x, forces);
+        let suspension = force / model.film_n_per_m;
         ((gap + suspension) / gap_m + film) / model.resolution.tolerance
     }
 
@@ -399,8 +398,8 @@ impl<'a> Run<'a> {
         mechanics.over_pivot(moved, x, seen);
         for (rate, sign) in [(before, -1.0), (after, 1.0)] {
             mechanics.over_pivot(rate, v, seen_rate);
-            let (force, out) = (&mut w.scratch.small, &mut w.scratch.mechanical);
-            mechanics.acceleration(0.0, [0.0; 3], seen, seen_rate, force, out);
+            let out = &mut w.scratch.mechanical;
+            mechanics.acceleration(0.0, [0.0; 3], seen, seen_rate, out);
             for (rate, out) in w.rate[n_cells + n..].iter_mut().zip(&*out) {
                 *rate += sign * out;
             }

@@ -8,7 +8,7 @@
 //! (S − F_q + F_ψ Z) δx = −r_m − F_ψ A⁻¹ r_f,     δψ = −A⁻¹ r_f − Z δq
 //! ```
 //!
-//! with S the derivative of r_m by x without the film. A, Z, F_ψ and F_q are kept as long as the
+//! with S the derivative of r_m by x without the film (`stage_matrix`). A, Z, F_ψ and F_q are kept as long as the
 //! iteration contracts; S follows the contacts at every iterate, so opening and closing cost no
 //! factorisation. An iterate that would take more than nine tenths of a cell's gas away is cut,
 //! and a cut iterate is never accepted.
@@ -20,6 +20,7 @@ use super::HeadModel;
 use super::ShockLoad;
 use super::film_passes::{add_storage, correct_film};
 use super::mechanics::StageState;
+use super::stage_matrix::StageMatrix;
 use super::stops::Closed;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
 use crate::disk::{DiskMotion, DiskPose};
@@ -27,7 +28,6 @@ use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
 use crate::lanes::{add_scaled, combine, product, products, sum};
 use crate::linalg::banded::BandedLu;
-use crate::linalg::pivoted::PivotedInverse;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
@@ -74,12 +74,11 @@ pub(super) struct StageScratch {
     pub residual: Vec<f64>,
     pub mechanical: Vec<f64>,
     pub velocity: Vec<f64>,
-    pub small: Vec<f64>,
     /// Coordinates, velocities and known velocities over a pivot that moves.
     seen: [Vec<f64>; 3],
-    /// Inverse of S + film's condensed stiffness, and what it was made for.
-    inverse: PivotedInverse,
-    inverse_key: Option<SmallKey>,
+    /// S + film's condensed stiffness, and what it was made for.
+    matrix: StageMatrix,
+    matrix_key: Option<MatrixKey>,
     /// Contraction of the last iteration with the present factors.
     contraction: f64,
     /// Contacts that were closed at the last mechanical iterate.
@@ -89,7 +88,7 @@ pub(super) struct StageScratch {
 
 /// What the matrix of slider and suspension depends on besides the film's condensed stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct SmallKey {
+struct MatrixKey {
     d_s: f64,
     closed: Closed,
     with_film: bool,
@@ -122,10 +121,9 @@ impl StageScratch {
             residual: vec![0.0; n_cells],
             mechanical: vec![0.0; n],
             velocity: vec![0.0; n],
-            small: vec![0.0; n],
             seen: [0, 1, 2].map(|_| vec![0.0; n]),
-            inverse: PivotedInverse::new(n),
-            inverse_key: None,
+            matrix: StageMatrix::new(model.mechanics.n_modes()),
+            matrix_key: None,
             contraction: FIRST_CONTRACTION,
             last_closed: Closed::DIMPLE,
             counters: Counters::default(),
@@ -135,7 +133,8 @@ impl StageScratch {
     /// Forgets factors and counts, keeping the storage.
     pub fn reset(&mut self) {
         self.factored_d_s = None;
-        self.inverse_key = None;
+        self.matrix.forget();
+        self.matrix_key = None;
         self.contraction = FIRST_CONTRACTION;
         self.counters = Counters::default();
     }
@@ -225,7 +224,7 @@ impl Stages<'_> {
         }
         s.factored_d_s = Some(d_s);
         s.n_borrowed = 0;
-        s.inverse_key = None;
+        s.matrix_key = None;
         s.contraction = FIRST_CONTRACTION;
         Ok(())
     }
@@ -273,32 +272,29 @@ impl Stages<'_> {
         *worst = worst.max((spurious / mass).abs());
     }
 
-    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness; its
-    /// inverse is kept while d, contacts and film stay. False when there is none.
-    fn solve_small(&mut self, d_s: f64, closed: Closed, with_film: bool) -> bool {
-        let (n, s) = (self.model.mechanics.len(), &mut *self.scratch);
-        let key = SmallKey {
+    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness, which is
+    /// kept while d, contacts and film stay. False when there is none.
+    fn solve_mechanics(&mut self, d_s: f64, closed: Closed, with_film: bool) -> bool {
+        let s = &mut *self.scratch;
+        let key = MatrixKey {
             d_s,
             closed,
             with_film,
         };
-        if s.inverse_key != Some(key) {
-            s.inverse_key = None;
-            let matrix = s.inverse.matrix_mut();
-            self.model.mechanics.stage_matrix(d_s, closed, matrix);
-            if with_film {
-                for f in 0..3 {
-                    for q in 0..3 {
-                        matrix[f * n + q] += s.film_matrix[f][q];
-                    }
-                }
-            }
-            if !s.inverse.invert() {
+        if s.matrix_key != Some(key) {
+            s.matrix_key = None;
+            let film = if with_film {
+                s.film_matrix
+            } else {
+                [[0.0; 3]; 3]
+            };
+            let mechanics = &self.model.mechanics;
+            if !s.matrix.prepare(mechanics, d_s, closed, &film) {
                 return false;
             }
-            s.inverse_key = Some(key);
+            s.matrix_key = Some(key);
         }
-        s.inverse.solve(&mut s.mechanical)
+        s.matrix.solve(&mut s.mechanical)
     }
 
     /// Contacts that are closed at `x` with the velocities in the scratch.
@@ -338,15 +334,14 @@ impl Stages<'_> {
             mechanics.over_pivot(pivot[1], stage.v_known, v_known);
             (stage.x, stage.v, stage.v_known) = (x, v, v_known);
         }
-        mechanics.imbalance(&stage, &mut s.mechanical, &mut s.small);
-        let closed = mechanics.closed(stage.x, stage.v);
+        let closed = mechanics.imbalance(&stage, &mut s.mechanical);
         s.last_closed = closed;
         if let Some(condensed) = condensed {
             for (r, f) in s.mechanical.iter_mut().zip(condensed) {
                 *r -= f;
             }
         }
-        if self.solve_small(state.instant.d_s, closed, condensed.is_some()) {
+        if self.solve_mechanics(state.instant.d_s, closed, condensed.is_some()) {
             Ok(())
         } else {
             Err(StageFailure::NotFinite("slider and suspension"))
@@ -508,11 +503,11 @@ impl StageSystem for Stages<'_> {
         let closed = s.last_closed;
         self.model
             .mechanics
-            .filter_load(d_s, closed, e_x, e_v, &mut s.mechanical, &mut s.small);
+            .filter_load(d_s, closed, e_x, e_v, &mut s.mechanical);
         for (r, f) in s.mechanical.iter_mut().zip(force) {
             *r += f;
         }
-        if !self.solve_small(d_s, closed, true) {
+        if !self.solve_mechanics(d_s, closed, true) {
             error.fill(f64::NAN);
             return;
         }

@@ -1,7 +1,7 @@
 //! Small dense matrices in columns of whole registers: products, and inverses with row exchanges.
 //!
-//! A matrix of some twenty rows that is solved with thousands of times is worth its inverse: a product of
-//! columns runs over whole registers, where a triangular solve waits in every row for the row before.
+//! A matrix of a few rows that is solved with thousands of times is worth its inverse: a product of columns
+//! runs over whole registers, where a triangular solve waits in every row for the row before.
 
 use crate::lanes::{Kernel, SUMS, Simd, WithSimd, widest};
 
@@ -30,6 +30,11 @@ impl PaddedColumns {
         out
     }
 
+    /// Rows.
+    pub fn order(&self) -> usize {
+        self.n
+    }
+
     fn fill(&mut self, rows: &[f64]) {
         let n = self.n;
         assert_eq!(rows.len(), n * n);
@@ -42,53 +47,42 @@ impl PaddedColumns {
             }
         }
     }
-}
 
-/// `out` := Σ Aᵢ xᵢ over all `terms`, of one size.
-///
-/// # Panics
-///
-/// When sizes differ.
-pub fn sum_of_products<const K: usize>(terms: [(&PaddedColumns, &[f64]); K], out: &mut [f64]) {
-    for (matrix, x) in &terms {
-        assert!(matrix.n == out.len() && x.len() == out.len());
+    /// `out` := A x.
+    ///
+    /// # Panics
+    ///
+    /// When sizes differ.
+    pub fn product(&self, x: &[f64], out: &mut [f64]) {
+        assert!(self.n == out.len() && x.len() == out.len());
+        widest(Product {
+            matrix: self,
+            x,
+            out,
+        });
     }
-    widest(SumOfProducts { terms, out });
 }
 
-struct SumOfProducts<'a, const K: usize> {
-    terms: [(&'a PaddedColumns, &'a [f64]); K],
+struct Product<'a> {
+    matrix: &'a PaddedColumns,
+    x: &'a [f64],
     out: &'a mut [f64],
 }
 
-impl<const K: usize> Kernel for SumOfProducts<'_, K> {
+impl Kernel for Product<'_> {
     type Output = ();
 
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "many columns are walked in step, which an index says plainest"
-    )]
     #[inline(always)]
     fn call(self) {
-        let n = self.out.len();
-        for (at, out) in self.out.chunks_mut(SUMS).enumerate() {
-            let mut sums = [[0.0; SUMS]; K];
-            for j in 0..n {
-                for i in 0..K {
-                    let (matrix, x) = &self.terms[i];
-                    let (column, x) = (&matrix.entries[at * n + j], x[j]);
-                    for k in 0..SUMS {
-                        sums[i][k] = column[k].mul_add(x, sums[i][k]);
-                    }
-                }
-            }
-            let mut sum = [0.0; SUMS];
-            for i in 0..K {
+        let panels = self.matrix.entries.chunks_exact(self.matrix.n);
+        for (panel, out) in panels.zip(self.out.chunks_mut(SUMS)) {
+            let mut sums = [0.0; SUMS];
+            for (column, x) in panel.iter().zip(self.x) {
                 for k in 0..SUMS {
-                    sum[k] += sums[i][k];
+                    sums[k] = column[k].mul_add(*x, sums[k]);
                 }
             }
-            out.copy_from_slice(&sum[..out.len()]);
+            out.copy_from_slice(&sums[..out.len()]);
         }
     }
 }
@@ -146,14 +140,9 @@ impl PivotedInverse {
     ///
     /// When `rhs` has not n entries.
     pub fn solve(&mut self, rhs: &mut [f64]) -> bool {
-        sum_of_products([(&self.inverse, rhs)], &mut self.product);
+        self.inverse.product(rhs, &mut self.product);
         rhs.copy_from_slice(&self.product);
         rhs.iter().all(|x| x.is_finite())
-    }
-
-    /// The last inverse.
-    pub fn into_columns(self) -> PaddedColumns {
-        self.inverse
     }
 }
 
@@ -302,11 +291,10 @@ mod tests {
             let mut inverse = PivotedInverse::new(n);
             inverse.matrix_mut().copy_from_slice(&rows);
             assert!(inverse.invert());
-            let inverse = inverse.into_columns();
             for j in 0..n {
                 let unit: Vec<f64> = (0..n).map(|k| f64::from(k == j)).collect();
-                let mut column = vec![f64::NAN; n];
-                sum_of_products([(&inverse, &unit)], &mut column);
+                let mut column = unit.clone();
+                assert!(inverse.solve(&mut column));
                 for i in 0..n {
                     let product: f64 = (0..n).map(|k| rows[i * n + k] * column[k]).sum();
                     let one = unit[i];
@@ -319,17 +307,12 @@ mod tests {
     #[test]
     fn products_are_those_of_rows_at_every_size() {
         for n in [1, 3, 8, 17, 20] {
-            let (a, mut b) = (rows(n), rows(n));
-            b.reverse();
+            let a = rows(n);
             let x: Vec<f64> = (0..n).map(|k| (0.3 * k as f64).cos()).collect();
-            let y: Vec<f64> = (0..n).map(|k| (0.9 * k as f64).sin()).collect();
             let mut out = vec![f64::NAN; n];
-            let (left, right) = (PaddedColumns::new(n, &a), PaddedColumns::new(n, &b));
-            sum_of_products([(&left, &x), (&right, &y)], &mut out);
+            PaddedColumns::new(n, &a).product(&x, &mut out);
             for (i, out) in out.iter().enumerate() {
-                let wanted: f64 = (0..n)
-                    .map(|j| a[i * n + j] * x[j] + b[i * n + j] * y[j])
-                    .sum();
+                let wanted: f64 = (0..n).map(|j| a[i * n + j] * x[j]).sum();
                 assert!((out - wanted).abs() < 1e-13 * n as f64, "{n} {i}");
             }
         }

@@ -10,8 +10,9 @@
 //! ψᵀM1 is the mass that a shock seems to have at the dimple ("effective shock mass"): the static
 //! reaction at a held dimple under a uniform inertia load a is f₀ a.
 //!
-//! Damping is the same ratio for every mode of the free reduced beam,
-//! C = M Φ diag(2 ζ ω) Φᵀ M.
+//! Damping is the same ratio ζ for every natural mode Φ of the reduced beam with the dimple free: in the
+//! coordinates η of those modes, u = Φ η, mass, damping and stiffness are 1, diag(2 ζ ω) and diag(ω²), or
+//! C = M Φ diag(2 ζ ω) Φᵀ M in u.
 //!
 //! With a lift tab one shape more is kept: the static shape of a force at the tab's end with the dimple held,
 //! less what the kept modes have of it. It is orthogonal to them in M and K, so it enters like one of them, at
@@ -35,8 +36,12 @@ pub struct Reduction {
     pub mass: DMatrix<f64>,
     /// Stiffness, diagonal, n.
     pub stiffness: DVector<f64>,
-    /// Damping, n × n.
-    pub damping: DMatrix<f64>,
+    /// Damping ratio of the natural modes.
+    pub damping_ratio: f64,
+    /// Natural modes Φ with the dimple free, mass-normalised columns by rising frequency, n × n.
+    pub natural_modes: DMatrix<f64>,
+    /// Their circular frequencies ω, n, rad/s.
+    pub natural_rad_per_s: DVector<f64>,
     /// Generalised force of a unit inertia load per mass, n.
     pub inertia_load: DVector<f64>,
     /// Slope dw/dx at the dimple per coordinate, n (zero for torsion), 1/m and 1/(√kg m).
@@ -53,6 +58,14 @@ impl Reduction {
     /// Coordinates.
     pub fn len(&self) -> usize {
         self.stiffness.len()
+    }
+
+    /// A row over the coordinates, or a load on them, over the natural modes: Φᵀ `row`.
+    ///
+    /// # Panics
+    /// When `row` has not n entries.
+    pub fn in_natural_modes(&self, row: &DVector<f64>) -> DVector<f64> {
+        self.natural_modes.tr_mul(row)
     }
 
     /// Whether there are no coordinates; never true for one that was built.
@@ -207,24 +220,20 @@ fn reduce(
     for (k, omega) in reduced_stiffness.iter_mut().skip(1).zip(&omegas) {
         *k = omega * omega;
     }
-    let (omega, free_modes) = lowest_modes(
+    let (omega, natural_modes) = lowest_modes(
         DMatrix::from_diagonal(&reduced_stiffness),
         &reduced_mass,
         size,
     )?;
-    let weighted = &reduced_mass * free_modes;
-    let rates = DMatrix::from_diagonal(&DVector::from_iterator(
-        size,
-        omega.iter().map(|w| 2.0 * damping_ratio * w),
-    ));
-    let damping = &weighted * rates * weighted.transpose();
 
     let (free, _) = lowest_modes(stiffness.clone(), mass, size)?;
     let to_hz = |omega: &[f64]| omega.iter().map(|w| w / std::f64::consts::TAU).collect();
     Ok(Reduction {
         mass: reduced_mass,
         stiffness: reduced_stiffness,
-        damping,
+        damping_ratio,
+        natural_modes,
+        natural_rad_per_s: DVector::from_vec(omega),
         inertia_load: basis.transpose() * load,
         slope_row: basis.transpose() * slope,
         tab_row: tab.map(|tab| basis.row(tab).transpose()),

@@ -1,13 +1,13 @@
 //! Limiters of the gimbal and lift tab: contacts that hold back what opens.
 //!
 //! ```text
-//! o = r·x,    N = max(0, k (o − g) + c ȯ),    force on the coordinates −r N,    c = 2 ζ √(k m)
+//! o = r·p,    N = max(0, k (o − g) + c ȯ),    force at the ports −r N,    c = 2 ζ √(k m)
 //! ```
 //!
 //! | symbol | what | unit |
 //! |---|---|---|
 //! | o | opening, 0 in the steady loaded state | m |
-//! | r | opening per coordinate | |
+//! | p, r | motions at the ports (`ports`), opening per port | |
 //! | g | gap at rest | m |
 //! | k, c, ζ | stiffness, damping, damping ratio on the slider's mass m | N/m, N s/m, 1 |
 //! | N | force of the contact | N |
@@ -24,7 +24,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::linalg::dense::dot;
+use super::ports::{AtPorts, PORTS, add_along, add_square, along};
 
 /// Most stops beside the dimple that [`Closed`] has room for.
 const MOST: usize = 7;
@@ -33,7 +33,7 @@ const MOST: usize = 7;
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     /// r.
-    pub row: Vec<f64>,
+    pub row: AtPorts,
     pub gap_m: f64,
     pub stiffness_n_per_m: f64,
     pub damping_n_s_per_m: f64,
@@ -41,14 +41,14 @@ pub(super) struct Stop {
 
 impl Stop {
     #[inline]
-    fn signed_force(&self, x: &[f64], v: &[f64]) -> f64 {
-        self.stiffness_n_per_m * (dot(&self.row, x) - self.gap_m)
-            + self.damping_n_s_per_m * dot(&self.row, v)
+    fn signed_force(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
+        self.stiffness_n_per_m * (along(&self.row, p) - self.gap_m)
+            + self.damping_n_s_per_m * along(&self.row, rate)
     }
 
-    /// N; 0 when it is open.
-    pub fn force(&self, x: &[f64], v: &[f64]) -> f64 {
-        self.signed_force(x, v).max(0.0)
+    /// N at motions and rates at the ports; 0 when it is open.
+    pub fn force(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
+        self.signed_force(p, rate).max(0.0)
     }
 }
 
@@ -99,46 +99,36 @@ impl Stops {
         stops.filter_map(move |(k, stop)| closed.stop(k).then_some(stop))
     }
 
-    /// `closed` with the state of every stop at (x, v).
+    /// `closed` with the state of every stop at (p, rate).
     #[inline]
-    pub fn add_closed(&self, x: &[f64], v: &[f64], mut closed: Closed) -> Closed {
+    pub fn add_closed(&self, p: &AtPorts, rate: &AtPorts, mut closed: Closed) -> Closed {
         for (k, stop) in self.0.iter().enumerate() {
-            closed.0 |= u8::from(stop.signed_force(x, v) > 0.0) << (k + 1);
+            closed.0 |= u8::from(stop.signed_force(p, rate) > 0.0) << (k + 1);
         }
         closed
     }
 
-    /// Adds the forces on the coordinates.
+    /// Adds the forces at the ports.
     #[inline]
-    pub fn add_force(&self, x: &[f64], v: &[f64], out: &mut [f64]) {
+    pub fn add_force(&self, p: &AtPorts, rate: &AtPorts, out: &mut AtPorts) {
         for stop in &self.0 {
-            let force = stop.force(x, v);
-            for (out, r) in out.iter_mut().zip(&stop.row) {
-                *out -= r * force;
-            }
+            add_along(out, -stop.force(p, rate), &stop.row);
         }
     }
 
-    /// Adds the derivative of −force by x with v = (x − x_known)/d, n × n.
-    pub fn add_matrix(&self, d_s: f64, closed: Closed, out: &mut [f64]) {
+    /// Adds the derivative of −force by p with rate = (p − p_known)/d.
+    pub fn add_coupling(&self, d_s: f64, closed: Closed, out: &mut [AtPorts; PORTS]) {
         for stop in self.closed(closed) {
             let contact = stop.stiffness_n_per_m + stop.damping_n_s_per_m / d_s;
-            let n = stop.row.len();
-            for (out, left) in out.chunks_exact_mut(n).zip(&stop.row) {
-                for (out, right) in out.iter_mut().zip(&stop.row) {
-                    *out += contact * left * right;
-                }
-            }
+            add_square(out, contact, &stop.row);
         }
     }
 
-    /// Adds C/d e_x of the closed stops.
-    pub fn add_filter_load(&self, d_s: f64, closed: Closed, e_x: &[f64], out: &mut [f64]) {
+    /// Adds C/d e of the closed stops, e at the ports.
+    pub fn add_filter_load(&self, d_s: f64, closed: Closed, e: &AtPorts, out: &mut AtPorts) {
         for stop in self.closed(closed) {
-            let force = stop.damping_n_s_per_m * dot(&stop.row, e_x) / d_s;
-            for (out, r) in out.iter_mut().zip(&stop.row) {
-                *out += r * force;
-            }
+            let force = stop.damping_n_s_per_m * along(&stop.row, e) / d_s;
+            add_along(out, force, &stop.row);
         }
     }
 }

@@ -1,86 +1,13 @@
 //! Stops of a suspension whose slider stands on a spring in place of a film.
 
 use super::super::mechanics::{Mechanics, StageState};
+use super::super::sample::{law, limiter, slider, suspension};
+use super::super::stage_matrix::StageMatrix;
 use super::Closed;
 use crate::integrator::{StageSystem, Stepper, TR_BDF2};
-use crate::linalg::pivoted::PivotedInverse;
 use crate::slider::body::Inertia;
-use crate::slider::{SliderParameters, SurfaceParameters};
-use crate::suspension::{
-    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, ReducedSuspension,
-    SuspensionParameters,
-};
-
-fn slider() -> SliderParameters {
-    SliderParameters {
-        radius_m: 21e-3,
-        angle_rad: 0.0,
-        skew_rad: 0.0,
-        length_m: 0.85e-3,
-        width_m: 0.70e-3,
-        height_m: 0.23e-3,
-        density_kg_per_m3: 4300.0,
-        surface: SurfaceParameters::default(),
-    }
-}
-
-/// Gimbals that pitch and roll freely: then nothing but z moves under a straight load.
-fn suspension() -> SuspensionParameters {
-    SuspensionParameters {
-        gram_load_n: 20e-3,
-        hinge: Hinge {
-            length_m: 1.3e-3,
-            width_m: 1.8e-3,
-            thickness_m: 40e-6,
-        },
-        load_beam: LoadBeam {
-            dimple_m: 10.5e-3,
-            end_m: 11.8e-3,
-            web_m: 28e-6,
-            width_root_m: 3.8e-3,
-            width_dimple_m: 1.2e-3,
-            tab_width_m: 0.6e-3,
-        },
-        flange: Flange {
-            height_m: 0.14e-3,
-            from_m: 1.9e-3,
-            to_m: 9.6e-3,
-        },
-        flexure: Flexure {
-            mass_kg: 0.9e-6,
-            from_m: 1.0e-3,
-        },
-        youngs_modulus_pa: 193e9,
-        shear_modulus_pa: 74e9,
-        density_kg_per_m3: 7900.0,
-        damping_ratio: 0.02,
-        gimbal: Gimbal {
-            vertical_n_per_m: 15.0,
-            pitch_n_m_per_rad: 1e-30,
-            roll_n_m_per_rad: 1e-30,
-        },
-        dimple: law(5e5, 0.05),
-        limiters: Vec::new(),
-        lift_tab: None,
-        modes: Vec::new(),
-    }
-}
-
-fn law(stiffness_n_per_m: f64, damping_ratio: f64) -> ContactLaw {
-    ContactLaw {
-        stiffness_n_per_m,
-        damping_ratio,
-    }
-}
-
-fn limiter(gap_m: f64, along_m: f64, across_m: f64, contact: ContactLaw) -> Limiter {
-    Limiter {
-        gap_m,
-        along_m,
-        across_m,
-        contact,
-    }
-}
+use crate::suspension::{LiftTab, ReducedSuspension, SuspensionParameters};
+use nalgebra::DVector;
 
 /// Mechanics on springs k of the slider's z, pitch and roll, under a load a.
 struct OnSprings {
@@ -109,16 +36,33 @@ impl OnSprings {
         std::array::from_fn(|i| -self.springs[i] * x[i])
     }
 
-    fn matrix(&self, d_s: f64, closed: Closed) -> PivotedInverse {
-        let n = self.mechanics.len();
-        let mut inverse = PivotedInverse::new(n);
-        self.mechanics
-            .stage_matrix(d_s, closed, inverse.matrix_mut());
-        for i in 0..3 {
-            inverse.matrix_mut()[i * n + i] += self.springs[i];
+    fn solve(&self, d_s: f64, closed: Closed, b: &mut [f64]) {
+        let mut matrix = StageMatrix::new(self.mechanics.n_modes());
+        let mut springs = [[0.0; 3]; 3];
+        for (i, spring) in self.springs.into_iter().enumerate() {
+            springs[i][i] = spring;
         }
-        assert!(inverse.invert());
-        inverse
+        assert!(matrix.prepare(&self.mechanics, d_s, closed, &springs));
+        assert!(matrix.solve(b));
+    }
+
+    /// Coordinates of the reduction to the dimple, bending: its z and pinned modes.
+    fn pinned(&self, x: &[f64]) -> Vec<f64> {
+        let bending = &self.reduced.bending;
+        let modes = DVector::from_column_slice(&x[3..3 + bending.len()]);
+        (&bending.natural_modes * modes).as_slice().to_vec()
+    }
+
+    /// z of the suspension's dimple.
+    fn dimple(&self, x: &[f64]) -> f64 {
+        self.pinned(x)[0]
+    }
+
+    /// Moves the dimple by `z` with its static shape; Φ⁻¹ = Φᵀ M.
+    fn move_dimple(&self, x: &mut [f64], z: f64) {
+        let bending = &self.reduced.bending;
+        let modes = bending.in_natural_modes(&(bending.mass.column(0) * z));
+        x[3..3 + bending.len()].copy_from_slice(modes.as_slice());
     }
 
     /// (x, v) after `n` steps of `dt_s` from `y`; `look` sees every state with its time.
@@ -136,7 +80,7 @@ impl OnSprings {
         let film = self.film(x);
         let (_, accelerations) = rate.split_at_mut(size);
         self.mechanics
-            .acceleration(self.a, film, x, v, &mut vec![0.0; size], accelerations);
+            .acceleration(self.a, film, x, v, accelerations);
         let mut stepper = Stepper::new(TR_BDF2, 2 * size);
         for k in 0..n {
             stepper
@@ -154,7 +98,7 @@ impl OnSprings {
         let (x, v) = y.split_at(self.mechanics.len());
         let bending = &self.reduced.bending;
         let n = bending.len();
-        let (u, w) = (&x[3..3 + n], &v[3..3 + n]);
+        let (u, w) = (self.pinned(x), self.pinned(v));
         let mut twice = 0.0;
         for i in 0..n {
             twice += bending.stiffness[i] * u[i] * u[i];
@@ -167,12 +111,12 @@ impl OnSprings {
             twice += inertia[i] * v[i] * v[i] + self.springs[i] * x[i] * x[i];
         }
         let gimbal = &parameters.gimbal;
-        let slope: f64 = bending.slope_row.iter().zip(u).map(|(s, u)| s * u).sum();
-        twice += gimbal.vertical_n_per_m * (x[0] - x[3]).powi(2);
+        let slope: f64 = bending.slope_row.iter().zip(&u).map(|(s, u)| s * u).sum();
+        twice += gimbal.vertical_n_per_m * (x[0] - u[0]).powi(2);
         twice += gimbal.pitch_n_m_per_rad * (x[1] + slope).powi(2);
         // N − N₀ of the dimple is the slope of (N₀ + k δ)²/2k − N₀ δ.
         let (k, preload) = (parameters.dimple.stiffness_n_per_m, parameters.gram_load_n);
-        let delta = x[0] - x[3];
+        let delta = x[0] - u[0];
         twice += (preload + k * delta).max(0.0).powi(2) / k - 2.0 * preload * delta;
         for limiter in &parameters.limiters {
             let opening = limiter.along_m * (x[1] + slope) - delta;
@@ -190,7 +134,7 @@ impl StageSystem for OnSprings {
         let n = self.mechanics.len();
         let (x_known, v_known) = known.split_at(n);
         let (x, v) = y.split_at_mut(n);
-        let (mut r, mut small) = (vec![0.0; n], vec![0.0; n]);
+        let mut r = vec![0.0; n];
         let mut before = None;
         for _ in 0..20 {
             for ((v, x), known) in v.iter_mut().zip(&*x).zip(x_known) {
@@ -211,8 +155,8 @@ impl StageSystem for OnSprings {
                 v,
                 v_known,
             };
-            self.mechanics.imbalance(&state, &mut r, &mut small);
-            self.matrix(d_s, closed).solve(&mut r);
+            assert_eq!(self.mechanics.imbalance(&state, &mut r), closed);
+            self.solve(d_s, closed, &mut r);
             for (x, r) in x.iter_mut().zip(&r) {
                 *x += r;
             }
@@ -223,10 +167,10 @@ impl StageSystem for OnSprings {
     fn filter(&mut self, d_s: f64, error: &mut [f64]) {
         let n = self.mechanics.len();
         let (e_x, e_v) = error.split_at_mut(n);
-        let (mut load, mut small) = (vec![0.0; n], vec![0.0; n]);
+        let mut load = vec![0.0; n];
         self.mechanics
-            .filter_load(d_s, self.last, e_x, e_v, &mut load, &mut small);
-        self.matrix(d_s, self.last).solve(&mut load);
+            .filter_load(d_s, self.last, e_x, e_v, &mut load);
+        self.solve(d_s, self.last, &mut load);
         for ((e_x, e_v), x) in e_x.iter_mut().zip(e_v).zip(&load) {
             *e_v = (x - *e_x) / d_s;
             *e_x = *x;
@@ -266,7 +210,7 @@ fn a_lasting_load_presses_on_the_limiters_by_stiffness_times_excess() {
 
     let (x, v) = y.split_at(n);
     let [limiters, tab] = head.mechanics.stop_forces(x, v);
-    let found = x[3] - x[0] - g;
+    let found = head.dimple(x) - x[0] - g;
     assert!((found / excess - 1.0).abs() < 1e-9, "{found:e} {excess:e}");
     assert!((limiters / (2.0 * k * excess) - 1.0).abs() < 1e-9);
     assert_eq!((tab, head.mechanics.dimple_force(x, v)), (0.0, 0.0));
@@ -318,16 +262,16 @@ fn hit(damping_ratio: f64, dt_s: f64) -> (Hit, f64) {
     let beam = head.reduced.bending.mass[(0, 0)];
     let mut y = vec![0.0; 2 * n];
     // Half the gap from the limiters, so that the hit is over long before the dimple is met again.
-    y[3] = 0.5 * g;
+    head.move_dimple(&mut y[..n], 0.5 * g);
     y[n] = -0.2;
-    y[n + 3] = 0.1;
+    head.move_dimple(&mut y[n..], 0.1);
     let mut peak_n: f64 = 0.0;
     let end = (8e-6 / dt_s).round() as usize;
     head.march(&mut y, dt_s, end, |head, _, y| {
         let (x, v) = y.split_at(n);
         peak_n = peak_n.max(head.mechanics.stop_forces(x, v)[0]);
     });
-    let (v_slider, v_beam) = (y[n], y[n + 3]);
+    let (v_slider, v_beam) = (y[n], head.dimple(&y[n..]));
     let reduced = m * beam / (m + beam);
     let hit = Hit {
         momentum: m * v_slider + beam * v_beam - (-0.2 * m + 0.1 * beam),
@@ -381,7 +325,7 @@ fn no_contact_gives_energy() {
         let mut head = OnSprings::new(&parameters, 4, [1e6, 1.0, 1.0], 0.0);
         let n = head.mechanics.len();
         let mut y = vec![0.0; 2 * n];
-        y[n + 3] = 0.6;
+        head.move_dimple(&mut y[n..], 0.6);
         let start = head.energy(&y, &parameters);
         let (mut last, mut rise, mut hits, mut was_closed) = (start, 0.0_f64, 0, false);
         let end = (1e-3 / dt_s) as usize;
