@@ -19,6 +19,7 @@ mod identity;
 mod imported_base;
 mod imported_suspension;
 mod imports;
+mod longer_window;
 mod lowest_gap;
 mod mode_shapes;
 mod multi_body;

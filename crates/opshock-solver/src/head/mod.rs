@@ -42,7 +42,7 @@ pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
     Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, StopRecord, Verdict,
 };
-pub use run::HeadWorkspace;
+pub use run::{HeadState, HeadWorkspace, Stretch};
 
 /// How film and slider are solved together at a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

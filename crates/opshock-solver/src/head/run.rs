@@ -1,5 +1,7 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
+mod resume;
+
 use super::fields::{FieldRecord, StepEnds};
 use super::film_passes::relative_size;
 use super::following::Following;
@@ -16,6 +18,8 @@ use crate::integrator::{StepControl, Stepper, hermite};
 use crate::mutant;
 use crate::shock::{Pulse, PulseShape};
 use crate::slider::clearance::Clearance;
+
+pub use self::resume::{HeadState, Stretch};
 
 /// Smallest step, s: below it a stage that does not converge leaves the run undecided.
 const SMALLEST_STEP_S: f64 = 1e-14;
@@ -79,6 +83,28 @@ impl HeadModel {
         record: bool,
         workspace: &mut HeadWorkspace,
     ) -> HeadRun {
+        let stretch = Stretch {
+            end_s: window_s,
+            ..Stretch::default()
+        };
+        self.run_stretch(motion, load, stretch, stops_at_touch, record, workspace)
+            .0
+    }
+
+    /// The same over `stretch`, with the state at its end when that is kept. A run that goes on from another
+    /// has recorded nothing before.
+    ///
+    /// # Panics
+    /// As [`HeadModel::run`], and when the state is that of another model.
+    pub fn run_stretch(
+        &self,
+        motion: &dyn DiskMotion,
+        load: &ShockLoad<'_>,
+        stretch: Stretch<'_>,
+        stops_at_touch: bool,
+        record: bool,
+        workspace: &mut HeadWorkspace,
+    ) -> (HeadRun, Option<HeadState>) {
         assert_eq!(workspace.y.len(), self.n_unknowns());
         let wavy;
         let motion = match &self.following {
@@ -91,9 +117,22 @@ impl HeadModel {
             }
             None => motion,
         };
-        let mut run = Run::start(self, motion, *load, record, workspace);
-        let end = run.advance(window_s, stops_at_touch);
-        run.finish(end)
+        let mut run = match stretch.from {
+            Some(state) => Run::resume(self, motion, *load, state, workspace),
+            None => Run::start(self, motion, *load, record, workspace),
+        };
+        let restart_s = stretch.restart_s.filter(|_| stretch.from.is_none());
+        let mut end = End::Window;
+        if let Some(restart_s) = restart_s {
+            end = run.advance(restart_s.min(stretch.end_s), stops_at_touch);
+            run.forget();
+        }
+        if matches!(end, End::Window) {
+            end = run.advance(stretch.end_s, stops_at_touch);
+        }
+        let is_whole = matches!(end, End::Window) && run.failed.is_none();
+        let state = (stretch.keeps_end && is_whole).then(|| run.state());
+        (run.finish(end), state)
     }
 }
 
@@ -637,6 +676,7 @@ impl<'a> Run<'a> {
 }
 
 /// Where the slider came closest to the disk so far.
+#[derive(Clone, Copy, Debug)]
 struct Lowest {
     clearance: Clearance,
     time_s: f64,

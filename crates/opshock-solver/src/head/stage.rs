@@ -132,11 +132,16 @@ impl StageScratch {
 
     /// Forgets factors and counts, keeping the storage.
     pub fn reset(&mut self) {
+        self.forget();
+        self.counters = Counters::default();
+    }
+
+    /// Forgets factors and what the iterations have told of them.
+    pub fn forget(&mut self) {
         self.factored_d_s = None;
         self.matrix.forget();
         self.matrix_key = None;
         self.contraction = FIRST_CONTRACTION;
-        self.counters = Counters::default();
     }
 
     /// The factors no longer fit the state.

@@ -13,6 +13,9 @@ mod model;
 mod outcome;
 mod run;
 
+pub use crate::head::HeadState;
 pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;
-pub use run::{Request, Workspace, run_structure, simulate, simulate_head};
+pub use run::{
+    Going, Request, Workspace, run_structure, simulate, simulate_head, simulate_head_on,
+};

@@ -6,7 +6,7 @@ use super::model::Model;
 use super::outcome::{
     Cause, Cost, DiskExtremes, EnergyBook, History, Outcome, SteadyState, Verdict, Warning,
 };
-use crate::head::{HeadRun, HeadWorkspace, ShockLoad};
+use crate::head::{HeadRun, HeadState, HeadWorkspace, ShockLoad, Stretch};
 use crate::ramp::RampModel;
 use crate::structure::{self, StructureError, StructureRun, StructureWarning};
 
@@ -59,10 +59,33 @@ pub fn simulate_head(
     structure: Result<&StructureRun, &StructureError>,
     workspace: &mut Workspace,
 ) -> Outcome {
+    simulate_head_on(model, request, structure, Going::default(), workspace).0
+}
+
+/// How a head's run is cut in two, so that one of a longer window goes on where one of a shorter ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Going<'a> {
+    /// End of the shorter window, s: the head begins anew from its state there.
+    pub restart_s: Option<f64>,
+    /// State there of a run of the same shock; without it the run begins at the onset, with the same answer.
+    pub from: Option<&'a HeadState>,
+    /// The state at the end is told, where the head has not touched.
+    pub keeps_end: bool,
+}
+
+/// [`simulate_head`], going on from an earlier run or to be gone on with.
+pub fn simulate_head_on(
+    model: &Model,
+    request: &Request,
+    structure: Result<&StructureRun, &StructureError>,
+    going: Going<'_>,
+    workspace: &mut Workspace,
+) -> (Outcome, Option<HeadState>) {
     let run = match structure {
         Ok(run) => run,
-        Err(error) => return without_structure(error),
+        Err(error) => return (without_structure(error), None),
     };
+    let mut state = None;
     let head = model.head.as_ref().map(|head| {
         let mut scratch = match workspace.head.take() {
             Some((owner, scratch)) if Arc::ptr_eq(&owner, &model.identity) => scratch,
@@ -81,18 +104,25 @@ pub fn simulate_head(
                 None => request.amplitude_m_per_s2,
             },
         };
-        let result = head.run(
+        let stretch = Stretch {
+            end_s: run.end_s,
+            restart_s: going.restart_s,
+            from: going.from,
+            keeps_end: going.keeps_end,
+        };
+        let (result, end) = head.run_stretch(
             &run.history,
             &load,
-            run.end_s,
+            stretch,
             model.plan().stops_at_touch,
             request.record,
             &mut scratch,
         );
+        state = end;
         workspace.head = Some((Arc::clone(&model.identity), scratch));
         result
     });
-    assemble(model, run, head)
+    (assemble(model, run, head), state)
 }
 
 fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome {

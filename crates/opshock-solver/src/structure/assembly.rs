@@ -243,7 +243,7 @@ fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
     Ok(())
 }
 
-fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
+pub(super) fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
     // A window that is a multiple of the step but for rounding gets no step more.
     let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
     if n > MAX_STEPS {

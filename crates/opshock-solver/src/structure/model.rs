@@ -1,5 +1,6 @@
 //! What is common to all amplitudes of one scene, and the run of one amplitude.
 
+use super::assembly::count_steps;
 use super::contact_system::ContactSystem;
 use super::history::StructuralHistory;
 use super::record::{
@@ -237,6 +238,13 @@ impl StructureModel {
     /// When the contact-driven state starts to be marched.
     pub fn wake(&self) -> Wake {
         self.wake
+    }
+
+    /// Node of the grid at which a run over `window` ends at the latest, s; `None` where there is no such window.
+    pub fn end_of(&self, window: Window) -> Option<f64> {
+        let step_s = self.shared.free.step_s;
+        let n_steps = count_steps(window, step_s).ok()?;
+        Some(n_steps as f64 * step_s)
     }
 
     /// Steps of the grid over the whole window.

@@ -18,7 +18,7 @@ use crate::search::{Probe, ProbeResult, RunCost, Verdict};
 const MOST: usize = 4096;
 
 /// Point, run and bits of the amplitude.
-type Key = (usize, Probe, u64);
+pub(super) type Key = (usize, Probe, u64);
 
 /// Where a survivor came closest to the disk.
 #[derive(Clone, Copy, Debug)]

@@ -7,6 +7,7 @@
 //! of the scenes.
 
 mod audit;
+mod ends;
 mod engine;
 mod estimate;
 pub mod forecast;

@@ -15,10 +15,11 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
-    Bearing, BuildError, Cause, Model, Outcome, Request, Verdict as SolverVerdict, Workspace,
-    run_structure, simulate, simulate_head,
+    Bearing, BuildError, Cause, Going, Model, Outcome, Request, Verdict as SolverVerdict,
+    Workspace, run_structure, simulate_head_on,
 };
 
+use super::ends::Ends;
 use super::held::{Lowest, LowestAttitudes, held_still};
 use super::shelf::{Counts, Shelf};
 use super::simulator::{Onset, Simulator};
@@ -80,6 +81,8 @@ pub struct Physics {
     workspaces: Mutex<Vec<Workspace>>,
     /// Where recent survivors came closest.
     lowest: Mutex<LowestAttitudes>,
+    /// Where recent survivors ended.
+    ends: Mutex<Ends>,
 }
 
 impl Physics {
@@ -147,6 +150,7 @@ impl Physics {
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
             lowest: Mutex::default(),
+            ends: Mutex::default(),
         }
     }
 
@@ -241,20 +245,48 @@ impl Physics {
         }
     }
 
-    fn run(&self, model: &Model, request: &Request) -> Outcome {
+    /// Runs a shock. What goes on where the same shock in the study's window ended does so from its end when that is
+    /// still kept.
+    fn run(&self, model: &Model, request: &Request, (point, probe): (usize, Probe)) -> Outcome {
         let mut workspace = lock(&self.workspaces).pop().unwrap_or_default();
         let structure = structure_key(model.scene());
         let is_shared = self.plan.shares_parts && self.shared_structures.contains(&structure);
-        let outcome = if is_shared && !request.record {
-            let key = (structure, request.amplitude_m_per_s2.to_bits());
+        let amplitude_bits = request.amplitude_m_per_s2.to_bits();
+        let is_plain = probe.retry == Retry::None && probe.levels.is_none() && !request.record;
+        let in_study = Probe {
+            window_factor: 1,
+            ..probe
+        };
+        let key = (point, in_study, amplitude_bits);
+        let from = match probe.window_factor {
+            1 => None,
+            _ => lock(&self.ends).take(&key).filter(|_| is_plain),
+        };
+        let going = Going {
+            restart_s: match probe.window_factor {
+                1 => None,
+                _ => model
+                    .structure()
+                    .end_of(self.slots[self.points[point].0].scene.window),
+            },
+            from: from.as_ref(),
+            keeps_end: self.plan.shares_parts && is_plain && probe.window_factor == 1,
+        };
+        let (outcome, end) = if is_shared && !request.record {
             let nodes = model.structure().n_steps() + 1;
             let run = || run_structure(model, request, &mut workspace);
-            let shared = self.shelf.get_or_run(key, nodes, run);
+            let shared = self
+                .shelf
+                .get_or_run((structure, amplitude_bits), nodes, run);
             let structure = shared.wait().as_ref();
-            simulate_head(model, request, structure, &mut workspace)
+            simulate_head_on(model, request, structure, going, &mut workspace)
         } else {
-            simulate(model, request, &mut workspace)
+            let structure = run_structure(model, request, &mut workspace);
+            simulate_head_on(model, request, structure.as_ref(), going, &mut workspace)
         };
+        if let Some(end) = end {
+            lock(&self.ends).keep(key, end);
+        }
         lock(&self.workspaces).push(workspace);
         outcome
     }
@@ -289,7 +321,7 @@ impl Simulator for Physics {
                 amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
                 record: false,
             };
-            let outcome = self.run(&model, &request);
+            let outcome = self.run(&model, &request, (point, own));
             if self.plan.shares_parts {
                 lock(&self.lowest).keep(key, &outcome);
             }
@@ -315,7 +347,7 @@ impl Simulator for Physics {
             amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
             record: true,
         };
-        Some(self.run(&model, &request))
+        Some(self.run(&model, &request, (point, probe)))
     }
 
     fn onset(&self, point: usize) -> Onset {

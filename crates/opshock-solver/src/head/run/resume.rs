@@ -1,0 +1,102 @@
+//! Going on with a head where another run of the same shock has left it.
+//!
+//! At the instant of a restart a run forgets what its steps have taught it: guesses, factors, contraction, the
+//! length of the next step. What it does then follows from state and rate alone, so that a run from the onset and
+//! one from a kept state have the same bits behind it.
+
+use super::{HeadWorkspace, Lowest, Run, pulse_events};
+use crate::disk::DiskMotion;
+use crate::head::stage::Counters;
+use crate::head::{DimpleRecord, HeadCost, HeadModel, ShockLoad, StopRecord};
+use crate::slider::clearance::Clearance;
+
+/// How far a head runs, and from where.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stretch<'a> {
+    /// End of the run after the onset, s.
+    pub end_s: f64,
+    /// Instant at which the head forgets its steps and factors, s; none behind `end_s`.
+    pub restart_s: Option<f64>,
+    /// State of a run of the same shock that ended there, untouched.
+    pub from: Option<&'a HeadState>,
+    /// The state at the end is kept, where the head has not touched.
+    pub keeps_end: bool,
+}
+
+/// A head that has not touched, at the end of a run.
+#[derive(Clone, Debug)]
+pub struct HeadState {
+    time_s: f64,
+    y: Vec<f64>,
+    rate: Vec<f64>,
+    clearance: Clearance,
+    smallest: Lowest,
+    dimple: DimpleRecord,
+    dimple_force_n: f64,
+    stops: [Option<(StopRecord, f64)>; 2],
+    cost: HeadCost,
+    counters: Counters,
+}
+
+impl HeadState {
+    /// Memory that it takes, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of::<f64>() * (self.y.len() + self.rate.len())
+    }
+}
+
+impl<'a> Run<'a> {
+    /// Goes on from `state`. Nothing is recorded.
+    pub(super) fn resume(
+        model: &'a HeadModel,
+        motion: &'a dyn DiskMotion,
+        load: ShockLoad<'a>,
+        state: &HeadState,
+        w: &'a mut HeadWorkspace,
+    ) -> Self {
+        w.y.copy_from_slice(&state.y);
+        w.rate.copy_from_slice(&state.rate);
+        w.scratch.reset();
+        w.scratch.counters = state.counters;
+        w.stepper.forget();
+        pulse_events(load.pulse, &mut w.pulse_events_s);
+        Self {
+            model,
+            motion,
+            load,
+            w,
+            time_s: state.time_s,
+            clearance: state.clearance,
+            smallest: state.smallest,
+            failed: None,
+            dimple: state.dimple,
+            dimple_force_n: state.dimple_force_n,
+            stops: state.stops,
+            columns: None,
+            fields: None,
+            cost: state.cost,
+        }
+    }
+
+    /// The state now.
+    pub(super) fn state(&self) -> HeadState {
+        HeadState {
+            time_s: self.time_s,
+            y: self.w.y.clone(),
+            rate: self.w.rate.clone(),
+            clearance: self.clearance,
+            smallest: self.smallest,
+            dimple: self.dimple,
+            dimple_force_n: self.dimple_force_n,
+            stops: self.stops,
+            cost: self.cost,
+            counters: self.w.scratch.counters,
+        }
+    }
+
+    /// Forgets what steps have taught.
+    pub(super) fn forget(&mut self) {
+        self.w.scratch.forget();
+        self.w.stepper.forget();
+    }
+}
