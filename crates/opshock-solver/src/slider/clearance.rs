@@ -5,9 +5,11 @@
 //! point. The visible boundaries (outlines of rails where no later rail covers both sides alike,
 //! the slider's own outline, the end of the taper) are cut into straight pieces once; on a piece
 //! the height is a parabola whose minimum has a closed form. A call then costs a few operations
-//! per piece and allocates nothing.
+//! per piece, most of them for eight pieces at once, and allocates nothing.
 
+use super::pieces::{Eight, Lowest, Piece};
 use super::surface::Surface;
+use crate::lanes::{SUMS, widest};
 
 /// Smallest clearance and its place in slider coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,24 +22,13 @@ pub struct Clearance {
     pub y_m: f64,
 }
 
-/// Straight piece of a visible boundary with the lower recess of its two sides.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    start_m: [f64; 2],
-    span_m: [f64; 2],
-    /// Recess and form at the start, m.
-    height_m: f64,
-    /// Derivative of the form along the piece at its start, for the parameter 0 ... 1, m.
-    slope_m: f64,
-    /// Half the second derivative for the same parameter, m.
-    curvature_m: f64,
-}
-
 /// Candidates for the smallest clearance of one surface.
 #[derive(Clone, Debug)]
 pub struct ClearanceMap {
     surface: Surface,
     pieces: Vec<Piece>,
+    /// The same pieces eight at a time.
+    eights: Vec<Eight>,
     /// Inverse of the form's matrix of second derivatives where that is positive definite: xx, xy,
     /// yy, m.
     bulge_m: Option<[f64; 3]>,
@@ -50,9 +41,15 @@ impl ClearanceMap {
         let determinant = xx * yy - xy * xy;
         let bulge_m = (determinant > 0.0 && xx > 0.0)
             .then(|| [yy / determinant, -xy / determinant, xx / determinant]);
+        let pieces = visible_pieces(surface);
+        let centre_m = surface.centre_m();
         Self {
             surface: surface.clone(),
-            pieces: visible_pieces(surface),
+            eights: pieces
+                .chunks(SUMS)
+                .map(|some| Eight::new(some, centre_m))
+                .collect(),
+            pieces,
             bulge_m,
         }
     }
@@ -66,35 +63,24 @@ impl ClearanceMap {
             x_m: xc,
             y_m: yc,
         };
-        for piece in &self.pieces {
-            let [x0, y0] = piece.start_m;
-            let [dx, dy] = piece.span_m;
-            let start =
-                piece.height_m + centre_height_m - pitch_rad * (x0 - xc) + roll_rad * (y0 - yc);
-            let slope = piece.slope_m - pitch_rad * dx + roll_rad * dy;
-            let end = start + slope + piece.curvature_m;
-            // A parabola sags below its ends by at most a quarter of its curvature.
-            if start.min(end) - 0.25 * piece.curvature_m.max(0.0) > best.value_m {
-                continue;
-            }
-            let mut at = if end < start {
-                (1.0, end)
-            } else {
-                (0.0, start)
+        let lowest = widest(Lowest {
+            eights: &self.eights,
+            pieces: &self.pieces,
+            centre_height_m,
+            pitch_rad,
+            roll_rad,
+        });
+        if lowest.value_m < best.value_m {
+            let Piece {
+                start_m: [x0, y0],
+                span_m: [dx, dy],
+                ..
+            } = self.pieces[lowest.piece];
+            best = Clearance {
+                value_m: lowest.value_m,
+                x_m: x0 + lowest.at * dx,
+                y_m: y0 + lowest.at * dy,
             };
-            if piece.curvature_m > 0.0 {
-                let s = -0.5 * slope / piece.curvature_m;
-                if s > 0.0 && s < 1.0 {
-                    at = (s, start + 0.5 * slope * s);
-                }
-            }
-            if at.1 < best.value_m {
-                best = Clearance {
-                    value_m: at.1,
-                    x_m: x0 + at.0 * dx,
-                    y_m: y0 + at.0 * dy,
-                };
-            }
         }
         if let Some([a, b, d]) = self.bulge_m {
             let taper = self.surface.taper_length_m();
@@ -337,6 +323,48 @@ mod tests {
                         }
                     });
                 assert!((near - found.value_m).abs() < 1e-14, "{found:?} {near:e}");
+            }
+        }
+    }
+
+    /// Eight at a time gives the bits of one after the other.
+    #[test]
+    fn eights_are_read_as_pieces_one_by_one() {
+        for (crown, camber, twist) in [(15e-9, 2e-9, 0.0), (0.0, 0.0, 0.0), (-20e-9, 4e-9, 3e-9)] {
+            let surface = surface(crown, camber, twist);
+            let map = ClearanceMap::new(&surface);
+            assert!(map.pieces.len() > SUMS && !map.pieces.len().is_multiple_of(SUMS));
+            let [xc, yc] = surface.centre_m();
+            for k in 0..200 {
+                let (pitch, roll) = (
+                    3e-4 * (1.3 * f64::from(k)).sin(),
+                    2e-4 * (2.9 * f64::from(k)).cos(),
+                );
+                let mut wanted = (f64::INFINITY, [0.0; 2]);
+                for piece in &map.pieces {
+                    let ([x0, y0], [dx, dy]) = (piece.start_m, piece.span_m);
+                    let start = piece.height_m + 5e-8 - pitch * (x0 - xc) + roll * (y0 - yc);
+                    let slope = piece.slope_m - pitch * dx + roll * dy;
+                    let curvature = piece.curvature_m;
+                    let mut points = vec![(start, 0.0), (start + slope + curvature, 1.0)];
+                    let s = -0.5 * slope / curvature;
+                    if curvature > 0.0 && s > 0.0 && s < 1.0 {
+                        points = vec![(start + 0.5 * slope * s, s)];
+                    }
+                    for (value, s) in points {
+                        if value < wanted.0 {
+                            wanted = (value, [x0 + s * dx, y0 + s * dy]);
+                        }
+                    }
+                }
+                let found = map.minimum(5e-8, pitch, roll);
+                if found.value_m < wanted.0 {
+                    // In the middle of a face.
+                    assert!(map.bulge_m.is_some());
+                    continue;
+                }
+                assert_eq!(found.value_m.to_bits(), wanted.0.to_bits());
+                assert_eq!([found.x_m, found.y_m], wanted.1);
             }
         }
     }

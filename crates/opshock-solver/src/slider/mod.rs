@@ -4,6 +4,8 @@ pub mod body;
 pub mod clearance;
 pub mod surface;
 
+mod pieces;
+
 /// Slider body and its place over the disk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SliderParameters {
