@@ -1,8 +1,10 @@
 //! One shock: the time loop, its events, the search for touch between steps, the record.
 
+mod books;
 mod resume;
+mod touch;
 
-use super::fields::{FieldRecord, StepEnds};
+use super::fields::FieldRecord;
 use super::film_passes::relative_size;
 use super::following::Following;
 use super::model::{HeadModel, ShockLoad};
@@ -14,7 +16,7 @@ use crate::air_bearing::Attitude;
 use crate::disk::DiskMotion;
 use crate::disk::run_out::WavyDisk;
 use crate::fixed_point::FixedPoint;
-use crate::integrator::{StepControl, Stepper, hermite};
+use crate::integrator::{StepControl, Stepper};
 use crate::mutant;
 use crate::shock::{Pulse, PulseShape};
 use crate::slider::clearance::Clearance;
@@ -27,8 +29,6 @@ const SMALLEST_STEP_S: f64 = 1e-14;
 const LARGEST_STEP_S: f64 = 10e-6;
 /// First step of a run, s.
 const FIRST_STEP_S: f64 = 1e-7;
-/// Places inside a step at which the clearance is looked at.
-const LOOKS: usize = 5;
 
 /// State and scratch of one run at a time, sized once for a model.
 #[derive(Clone, Debug)]
@@ -445,176 +445,6 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic
-    /// through both ends, in which the touch was located. Fields are kept up to `until_s`, while the
-    /// start of the step is there to find them from.
-    fn touch(&mut self, dt_s: f64, until_s: f64, touch: &Touch) {
-        self.keep_fields(dt_s, until_s);
-        let w = &mut *self.w;
-        let ends = w.stepper.value().iter().zip(w.stepper.rate());
-        for ((y, rate), (y1, rate1)) in w.y.iter_mut().zip(&w.rate).zip(ends) {
-            *y = hermite::value(touch.theta, dt_s, [*y, *y1], [*rate, *rate1]);
-        }
-        let before_s = self.time_s;
-        self.time_s = touch.time_s;
-        self.clearance = touch.clearance;
-        let n_cells = self.model.film.n_cells();
-        let pose = self.motion.pose(self.time_s);
-        let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
-        self.smallest = Lowest {
-            clearance: touch.clearance,
-            time_s: touch.time_s,
-            attitude,
-        };
-        // A slider that begins below the limit fails at once: that instant has its row already.
-        if self.time_s > before_s {
-            self.book(self.time_s - before_s, &attitude);
-        }
-        let place = Place {
-            x_m: touch.clearance.x_m,
-            y_m: touch.clearance.y_m,
-        };
-        self.failed = Some((touch.time_s, place));
-    }
-
-    /// Keeps the asked pressure fields of the trial step, from the present state up to `until_s`.
-    fn keep_fields(&mut self, dt_s: f64, until_s: f64) {
-        let Some(fields) = &mut self.fields else {
-            return;
-        };
-        let w = &*self.w;
-        let step = StepEnds {
-            start_s: self.time_s,
-            dt_s,
-            y: [&w.y, w.stepper.value()],
-            rate: [&w.rate, w.stepper.rate()],
-        };
-        fields.keep_step(self.model, self.motion, &step, until_s);
-    }
-
-    /// Books the state reached `dt_s` after the last: dimple and stops up to the touch, pressure,
-    /// columns.
-    fn book(&mut self, dt_s: f64, attitude: &Attitude) {
-        let (model, w) = (self.model, &mut *self.w);
-        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
-        let (x, v) = w.y[n_cells..].split_at(n);
-        let [moved, rate] = self.motion.pivot(self.time_s);
-        let [seen, seen_rate] = &mut w.seen;
-        model.mechanics.over_pivot(moved, x, seen);
-        model.mechanics.over_pivot(rate, v, seen_rate);
-        let (x, v) = (&*seen, &*seen_rate);
-        let before = self.dimple_force_n;
-        self.dimple_force_n = model.mechanics.dimple_force(x, v);
-        if self.failed.is_none() {
-            self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
-            let open_ends = [before, self.dimple_force_n]
-                .iter()
-                .filter(|&&f| f == 0.0)
-                .count();
-            self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
-        }
-        if model.mechanics.n_stops() > 0 {
-            let forces = model.mechanics.stop_forces(x, v);
-            for (stop, force) in self.stops.iter_mut().zip(forces) {
-                if let Some((record, latest)) = stop {
-                    if self.failed.is_none() {
-                        record.book([*latest, force], dt_s, self.time_s);
-                    }
-                    *latest = force;
-                }
-            }
-        }
-        let psi = &w.y[..n_cells];
-        let lowest = model.film.lowest_pressure_pa(psi, attitude);
-        self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
-        self.record(attitude);
-    }
-
-    /// Looks for the smallest clearance and for touch inside the step from the present state to
-    /// the stepper's; the run's first touch when it lies there.
-    fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> Option<Touch> {
-        if self.failed.is_some() {
-            return None;
-        }
-        let (model, w) = (self.model, &*self.w);
-        let n_cells = model.film.n_cells();
-        let n = model.mechanics.len();
-        let (x0, v0) = w.y[n_cells..].split_at(n);
-        let (x1, v1) = w.stepper.value()[n_cells..].split_at(n);
-        let (start_s, motion) = (self.time_s, self.motion);
-        let at = |theta: f64| -> Attitude {
-            let x: [f64; 3] = std::array::from_fn(|i| {
-                hermite::value(theta, dt_s, [x0[i], x1[i]], [v0[i], v1[i]])
-            });
-            let pose = motion.pose(start_s + theta * dt_s);
-            model.attitude(&x, &pose)
-        };
-        let look = |theta: f64| model.film.min_clearance(&at(theta));
-        let ends = self.clearance.value_m.min(step.clearance.value_m);
-        let inside = (1..LOOKS)
-            .map(|i| look(i as f64 / LOOKS as f64).value_m)
-            .fold(f64::INFINITY, f64::min);
-        let (theta, lowest) = if inside < ends {
-            let (theta, _) = hermite::minimum(LOOKS, |theta| look(theta).value_m);
-            (theta, look(theta))
-        } else if step.clearance.value_m <= self.clearance.value_m {
-            (1.0, step.clearance)
-        } else {
-            (0.0, self.clearance)
-        };
-        if lowest.value_m < self.smallest.clearance.value_m {
-            self.smallest = Lowest {
-                clearance: lowest,
-                time_s: start_s + theta * dt_s,
-                attitude: at(theta),
-            };
-        }
-        let limit = model.fail_below_m;
-        let below = lowest.value_m < limit;
-        if !below {
-            return None;
-        }
-        let crossing =
-            hermite::first_below_zero(LOOKS, Some(theta), |theta| look(theta).value_m - limit);
-        let theta = crossing.unwrap_or(theta);
-        let mut clearance = look(theta);
-        if theta > 0.0 {
-            // Located to 1e-9 of the step: what is left to the limit is the search's own.
-            clearance.value_m = limit;
-        }
-        Some(Touch {
-            theta,
-            time_s: start_s + theta * dt_s,
-            clearance,
-        })
-    }
-
-    fn record(&mut self, attitude: &Attitude) {
-        let Some(columns) = &mut self.columns else {
-            return;
-        };
-        let n_cells = self.model.film.n_cells();
-        let x = &self.w.y[n_cells..];
-        let steady = &self.model.flight.attitude;
-        columns.time_s.push(self.time_s);
-        // Over the base as it would move rigidly, as the disk is told.
-        let carried_m = self.load.carried_m(self.time_s);
-        columns.slider_z_m.push(x[0] + carried_m);
-        columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
-        columns.slider_roll_rad.push(steady.roll_rad + x[2]);
-        columns.min_clearance_m.push(self.clearance.value_m);
-        let scratch = &mut self.w.scratch.film;
-        let force = self
-            .model
-            .film
-            .air_force(&self.w.y[..n_cells], attitude, scratch);
-        columns.bearing_force_n.push(force[0]);
-        columns.dimple_force_n.push(self.dimple_force_n);
-        let [limiters, lift_tab] = &self.stops;
-        columns.limiter_force_n.extend(limiters.map(|(_, f)| f));
-        columns.lift_tab_force_n.extend(lift_tab.map(|(_, f)| f));
-    }
-
     fn cause(&self, failure: StageFailure) -> Cause {
         match failure {
             StageFailure::NotConverged(residual) => Cause::NotConverged {
@@ -690,14 +520,6 @@ struct TrialStep {
     /// Relative approach over its share.
     approach: f64,
     attitude: Attitude,
-    clearance: Clearance,
-}
-
-/// The first passage of the limit inside a step.
-struct Touch {
-    /// Share of the step.
-    theta: f64,
-    time_s: f64,
     clearance: Clearance,
 }
 

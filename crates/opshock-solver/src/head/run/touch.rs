@@ -1,0 +1,111 @@
+//! The search for touch between steps.
+
+use super::{Lowest, Run, TrialStep};
+use crate::air_bearing::Attitude;
+use crate::head::Place;
+use crate::integrator::hermite;
+use crate::slider::clearance::Clearance;
+
+/// Places inside a step at which the clearance is looked at.
+const LOOKS: usize = 5;
+
+/// The first passage of the limit inside a step.
+pub(super) struct Touch {
+    /// Share of the step.
+    pub(super) theta: f64,
+    pub(super) time_s: f64,
+    pub(super) clearance: Clearance,
+}
+
+impl Run<'_> {
+    /// Looks for the smallest clearance and for touch inside the step from the present state to
+    /// the stepper's; the run's first touch when it lies there.
+    pub(super) fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> Option<Touch> {
+        if self.failed.is_some() {
+            return None;
+        }
+        let (model, w) = (self.model, &*self.w);
+        let n_cells = model.film.n_cells();
+        let n = model.mechanics.len();
+        let (x0, v0) = w.y[n_cells..].split_at(n);
+        let (x1, v1) = w.stepper.value()[n_cells..].split_at(n);
+        let (start_s, motion) = (self.time_s, self.motion);
+        let at = |theta: f64| -> Attitude {
+            let x: [f64; 3] = std::array::from_fn(|i| {
+                hermite::value(theta, dt_s, [x0[i], x1[i]], [v0[i], v1[i]])
+            });
+            let pose = motion.pose(start_s + theta * dt_s);
+            model.attitude(&x, &pose)
+        };
+        let look = |theta: f64| model.film.min_clearance(&at(theta));
+        let ends = self.clearance.value_m.min(step.clearance.value_m);
+        let inside = (1..LOOKS)
+            .map(|i| look(i as f64 / LOOKS as f64).value_m)
+            .fold(f64::INFINITY, f64::min);
+        let (theta, lowest) = if inside < ends {
+            let (theta, _) = hermite::minimum(LOOKS, |theta| look(theta).value_m);
+            (theta, look(theta))
+        } else if step.clearance.value_m <= self.clearance.value_m {
+            (1.0, step.clearance)
+        } else {
+            (0.0, self.clearance)
+        };
+        if lowest.value_m < self.smallest.clearance.value_m {
+            self.smallest = Lowest {
+                clearance: lowest,
+                time_s: start_s + theta * dt_s,
+                attitude: at(theta),
+            };
+        }
+        let limit = model.fail_below_m;
+        let below = lowest.value_m < limit;
+        if !below {
+            return None;
+        }
+        let crossing =
+            hermite::first_below_zero(LOOKS, Some(theta), |theta| look(theta).value_m - limit);
+        let theta = crossing.unwrap_or(theta);
+        let mut clearance = look(theta);
+        if theta > 0.0 {
+            // Located to 1e-9 of the step: what is left to the limit is the search's own.
+            clearance.value_m = limit;
+        }
+        Some(Touch {
+            theta,
+            time_s: start_s + theta * dt_s,
+            clearance,
+        })
+    }
+
+    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic
+    /// through both ends, in which the touch was located. Fields are kept up to `until_s`, while the
+    /// start of the step is there to find them from.
+    pub(super) fn touch(&mut self, dt_s: f64, until_s: f64, touch: &Touch) {
+        self.keep_fields(dt_s, until_s);
+        let w = &mut *self.w;
+        let ends = w.stepper.value().iter().zip(w.stepper.rate());
+        for ((y, rate), (y1, rate1)) in w.y.iter_mut().zip(&w.rate).zip(ends) {
+            *y = hermite::value(touch.theta, dt_s, [*y, *y1], [*rate, *rate1]);
+        }
+        let before_s = self.time_s;
+        self.time_s = touch.time_s;
+        self.clearance = touch.clearance;
+        let n_cells = self.model.film.n_cells();
+        let pose = self.motion.pose(self.time_s);
+        let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
+        self.smallest = Lowest {
+            clearance: touch.clearance,
+            time_s: touch.time_s,
+            attitude,
+        };
+        // A slider that begins below the limit fails at once: that instant has its row already.
+        if self.time_s > before_s {
+            self.book(self.time_s - before_s, &attitude);
+        }
+        let place = Place {
+            x_m: touch.clearance.x_m,
+            y_m: touch.clearance.y_m,
+        };
+        self.failed = Some((touch.time_s, place));
+    }
+}
