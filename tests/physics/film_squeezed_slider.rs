@@ -154,15 +154,7 @@ fn squeezed_clearance_converges_with_the_formal_order_on_nested_grids() {
     };
     let clearance_nm = |cuts: usize| {
         let [x, y] = [&lines[0], &lines[1]].map(|lines| super::film_flight::cut(lines, cuts));
-        let film = Film::on_grid(
-            &own.slider,
-            &own.gas,
-            own.flow,
-            own.disk.spin_rad_per_s,
-            own.film_resolution.floor_m,
-            [&x, &y],
-        )
-        .expect("film");
+        let film = own.film_on([&x, &y]).expect("film");
         let flight = fly_from(&film, load, &start).expect("flies");
         flight.min_clearance_m * 1e9
     };

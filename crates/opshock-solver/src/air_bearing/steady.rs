@@ -164,12 +164,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
 ///
 /// [`SteadyError`] when it is not found or not stable.
 pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
-    let mut search = Search {
-        newton: Newton::new(film),
-        load: Vector3::from(load),
-        found: Vec::new(),
-        last: *start,
-    };
+    let mut search = Search::new(film, Vector3::from(load), *start);
     search.attempt(start, film.ambient(start))?;
     search.finish()
 }
@@ -190,12 +185,7 @@ fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyEr
     loop {
         let share = f64::min(reached.0 + step, 1.0);
         let under = film.with_surface_share(share);
-        let mut search = Search {
-            newton: Newton::new(&under),
-            load,
-            found: Vec::new(),
-            last: reached.1,
-        };
+        let mut search = Search::new(&under, load, reached.1);
         let (mut attitude, mut psi) = (reached.1, reached.2.clone());
         search.settle(&mut psi, &mut attitude, 0)?;
         let flies = |found: &Found| found.stable && found.clearance_m >= 2.0 * film.floor_m();
@@ -223,12 +213,7 @@ fn seek(
     may_drift: bool,
 ) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
-    let mut search = Search {
-        newton: Newton::new(film),
-        load,
-        found: Vec::new(),
-        last: *start,
-    };
+    let mut search = Search::new(film, load, *start);
     let usual = film.usual_attitude();
     if *start != usual {
         search.attempt(start, film.ambient(start))?;
@@ -333,7 +318,16 @@ impl Found {
     }
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(film: &'a Film, load: Vector3<f64>, last: Attitude) -> Self {
+        Self {
+            newton: Newton::new(film),
+            load,
+            found: Vec::new(),
+            last,
+        }
+    }
+
     /// Newton from a start, the film from `psi`; what it converges to joins `found`.
     fn attempt(&mut self, start: &Attitude, mut psi: Vec<f64>) -> Result<(), BandedError> {
         let before = self.newton.n_factored;

@@ -4,21 +4,13 @@
 //! A bar asks this of survivors that were just run: their lowest attitudes are kept. Whether one is at hand or
 //! the shock is run again does not reach the answer.
 
-use std::collections::{HashMap, VecDeque};
-
 use opshock_solver::air_bearing::Attitude;
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::simulation::held::{Other, held_clearance};
 use opshock_solver::simulation::{Model, Outcome, Verdict as SolverVerdict};
 
 use super::physics::not_built;
-use crate::search::{Probe, ProbeResult, RunCost, Verdict};
-
-/// Survivors whose lowest attitude is kept: many times those of the points that two threads work on.
-const MOST: usize = 4096;
-
-/// Point, run and bits of the amplitude.
-pub(super) type Key = (usize, Probe, u64);
+use crate::search::{ProbeResult, RunCost, Verdict};
 
 /// Where a survivor came closest to the disk.
 #[derive(Clone, Copy, Debug)]
@@ -33,35 +25,6 @@ impl Lowest {
         let survives = matches!(outcome.verdict, SolverVerdict::Survives);
         let (attitude, time_s) = outcome.lowest.zip(outcome.t_min_clearance_s)?;
         survives.then_some(Lowest { attitude, time_s })
-    }
-}
-
-/// Lowest attitudes of the latest survivors.
-#[derive(Default)]
-pub(super) struct LowestAttitudes {
-    kept: HashMap<Key, Lowest>,
-    order: VecDeque<Key>,
-}
-
-impl LowestAttitudes {
-    /// Keeps that of a survivor, and drops the oldest when there are too many.
-    pub(super) fn keep(&mut self, key: Key, outcome: &Outcome) {
-        let Some(lowest) = Lowest::of(outcome) else {
-            return;
-        };
-        if self.kept.insert(key, lowest).is_none() {
-            self.order.push_back(key);
-        }
-        if self.order.len() > MOST
-            && let Some(oldest) = self.order.pop_front()
-        {
-            self.kept.remove(&oldest);
-        }
-    }
-
-    /// That of a run, when it is kept.
-    pub(super) fn get(&self, key: &Key) -> Option<Lowest> {
-        self.kept.get(key).copied()
     }
 }
 

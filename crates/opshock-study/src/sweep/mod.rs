@@ -7,7 +7,6 @@
 //! of the scenes.
 
 mod audit;
-mod ends;
 mod engine;
 mod estimate;
 pub mod forecast;
@@ -16,6 +15,7 @@ mod guard;
 mod held;
 mod histories;
 mod input;
+mod latest;
 mod ledger;
 mod merge;
 pub mod physics;

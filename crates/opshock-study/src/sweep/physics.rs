@@ -6,7 +6,7 @@
 //! building is deterministic and a model never changes. With `effects = "full"` nothing is shared:
 //! every simulation builds its own model.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -15,12 +15,12 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
-    Bearing, BuildError, Cause, Going, Model, Outcome, Request, Verdict as SolverVerdict,
-    Workspace, run_structure, simulate_head_on,
+    Bearing, BuildError, Cause, Going, HeadState, Model, Outcome, Request,
+    Verdict as SolverVerdict, Workspace, run_structure, simulate_head_on,
 };
 
-use super::ends::Ends;
-use super::held::{Lowest, LowestAttitudes, held_still};
+use super::held::{Lowest, held_still};
+use super::latest::Latest;
 use super::shelf::{Counts, Shelf};
 use super::simulator::{Onset, Simulator};
 use crate::identity;
@@ -58,12 +58,11 @@ impl Slot {
 /// several times and some by both signs; kept for all scenes they would fill the memory.
 const TURNED: usize = 24;
 
-/// A model with turned knobs.
-struct Turned {
-    slot: usize,
-    levels: Levels,
-    model: Arc<Model>,
-}
+/// Survivors whose lowest attitude is kept: many times those of the points that two threads work on.
+const MOST_LOWEST: usize = 4096;
+
+/// Memory of the ends that are kept, bytes: some hundred on 1000 cells. A search asks for one of its last survivors.
+const MOST_END_BYTES: usize = 4 << 20;
 
 /// Runs the physics for the points of a study.
 pub struct Physics {
@@ -71,7 +70,8 @@ pub struct Physics {
     /// Slot, sign of the shock, and sense of its axis along the scene's, of every point.
     points: Vec<(usize, f64, f64)>,
     plan: Plan,
-    turned: Mutex<VecDeque<Turned>>,
+    /// Models with turned knobs, by slot and levels.
+    turned: Mutex<Latest<(usize, Levels), Arc<Model>>>,
     donors: Mutex<Vec<Arc<Model>>>,
     shelf: Shelf,
     /// Structures that several scenes of the study have.
@@ -79,10 +79,10 @@ pub struct Physics {
     /// Structures built so far.
     structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
-    /// Where recent survivors came closest.
-    lowest: Mutex<LowestAttitudes>,
-    /// Where recent survivors ended.
-    ends: Mutex<Ends>,
+    /// Where recent survivors came closest to the disk, by point, run and bits of the amplitude.
+    lowest: Mutex<Latest<(usize, Probe, u64), Lowest>>,
+    /// Where recent survivors ended, by point and bits of the signed amplitude, for the doubled window to go on from.
+    ends: Mutex<Latest<(usize, u64), HeadState>>,
 }
 
 impl Physics {
@@ -143,14 +143,14 @@ impl Physics {
             slots,
             points,
             plan,
-            turned: Mutex::new(VecDeque::new()),
+            turned: Mutex::new(Latest::new(TURNED)),
             donors: Mutex::new(Vec::new()),
             shelf: Shelf::default(),
             shared_structures,
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
-            lowest: Mutex::default(),
-            ends: Mutex::default(),
+            lowest: Mutex::new(Latest::new(MOST_LOWEST)),
+            ends: Mutex::new(Latest::new(MOST_END_BYTES)),
         }
     }
 
@@ -192,22 +192,13 @@ impl Physics {
 
     /// A scene with turned knobs in the study's window.
     fn turned_model(&self, slot: usize, levels: Levels) -> Built {
-        let is_it = |turned: &Turned| turned.slot == slot && turned.levels == levels;
-        if let Some(turned) = lock(&self.turned).iter().find(|turned| is_it(turned)) {
-            return Ok(Arc::clone(&turned.model));
+        let key = (slot, levels);
+        let known = lock(&self.turned).get(&key).cloned();
+        if let Some(model) = known {
+            return Ok(model);
         }
         let model = self.build(&self.slots[slot].at_levels(levels))?;
-        let mut kept = lock(&self.turned);
-        if !kept.iter().any(is_it) {
-            if kept.len() == TURNED {
-                kept.pop_front();
-            }
-            kept.push_back(Turned {
-                slot,
-                levels,
-                model: Arc::clone(&model),
-            });
-        }
+        lock(&self.turned).keep(key, Arc::clone(&model), 1);
         Ok(model)
     }
 
@@ -253,24 +244,21 @@ impl Physics {
         let is_shared = self.plan.shares_parts && self.shared_structures.contains(&structure);
         let amplitude_bits = request.amplitude_m_per_s2.to_bits();
         let is_plain = probe.retry == Retry::None && probe.levels.is_none() && !request.record;
-        let in_study = Probe {
-            window_factor: 1,
-            ..probe
-        };
-        let key = (point, in_study, amplitude_bits);
-        let from = match probe.window_factor {
-            1 => None,
-            _ => lock(&self.ends).take(&key).filter(|_| is_plain),
-        };
-        let going = Going {
-            restart_s: match probe.window_factor {
-                1 => None,
-                _ => model
-                    .structure()
-                    .end_of(self.slots[self.points[point].0].scene.window),
-            },
-            from: from.as_ref(),
-            keeps_end: self.plan.shares_parts && is_plain && probe.window_factor == 1,
+        let key = (point, amplitude_bits);
+        let from;
+        let going = if probe.window_factor == 1 {
+            Going {
+                keeps_end: self.plan.shares_parts && is_plain,
+                ..Going::default()
+            }
+        } else {
+            let study = &self.slots[self.points[point].0].scene;
+            from = lock(&self.ends).take(&key).filter(|_| is_plain);
+            Going {
+                restart_s: model.structure().end_of(study.window),
+                from: from.as_ref(),
+                keeps_end: false,
+            }
         };
         let (outcome, end) = if is_shared && !request.record {
             let nodes = model.structure().n_steps() + 1;
@@ -285,7 +273,8 @@ impl Physics {
             simulate_head_on(model, request, structure.as_ref(), going, &mut workspace)
         };
         if let Some(end) = end {
-            lock(&self.ends).keep(key, end);
+            let bytes = end.bytes();
+            lock(&self.ends).keep(key, end, bytes);
         }
         lock(&self.workspaces).push(workspace);
         outcome
@@ -322,15 +311,16 @@ impl Simulator for Physics {
                 record: false,
             };
             let outcome = self.run(&model, &request, (point, own));
-            if self.plan.shares_parts {
-                lock(&self.lowest).keep(key, &outcome);
+            if let Some(lowest) = Lowest::of(&outcome).filter(|_| self.plan.shares_parts) {
+                lock(&self.lowest).keep(key, lowest, 1);
             }
             outcome
         };
         if steps == 0 {
             return probe_result(&shake());
         }
-        if let Some(lowest) = lock(&self.lowest).get(&key) {
+        let known = lock(&self.lowest).get(&key).copied();
+        if let Some(lowest) = known {
             return held_still(&model, lowest, steps);
         }
         let outcome = shake();
