@@ -58,7 +58,7 @@ fn shock(c: &mut Criterion) {
         b.iter(|| black_box(simulate(&none, &REQUEST, &mut workspace)));
     });
     group.bench_function("steady_flight", |b| {
-        b.iter(|| black_box(Bearing::build(&scene)));
+        b.iter(|| black_box(Bearing::build(&scene, None)));
     });
     group.bench_function("build_structure", |b| {
         b.iter(|| {

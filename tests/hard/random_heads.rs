@@ -59,6 +59,7 @@ fn random_head(seeded: &mut Seeded) -> Option<HeadModel> {
         &FilmResolution {
             cells: 100 + seeded.below(100),
             floor_m: 0.3e-9,
+            reference_cells: 0,
         },
     )
     .expect("film");

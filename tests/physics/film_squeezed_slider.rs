@@ -7,7 +7,9 @@ use opshock_solver::air_bearing::{Attitude, Film};
 use opshock_solver::quantity::{GRAM_FORCE_N, STANDARD_GRAVITY_M_PER_S2 as G};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::held::{Other, held_clearance};
-use opshock_solver::simulation::{Model, Outcome, Request, Scope, Verdict, Workspace, simulate};
+use opshock_solver::simulation::{
+    Bearing, Model, Outcome, Request, Scope, Verdict, Workspace, simulate,
+};
 use opshock_tests::scenes::scene;
 
 /// Figure 13 without a ramp, 1.5 ms, on about `cells` film cells; 2 ms hold the squeeze.
@@ -15,6 +17,7 @@ fn squeezed(cells: usize) -> Scene {
     let sets = [("pulse.window_ms", "2.0")];
     let mut scene = scene("fig13", "none", 1.5, &sets);
     scene.film_resolution.cells = cells;
+    scene.film_resolution.reference_cells = 0;
     scene
 }
 
@@ -99,7 +102,8 @@ fn grid_error_of_a_slow_squeeze_is_that_of_the_held_film() {
 #[test]
 fn held_films_tell_what_other_grids_leave_of_the_clearance() {
     let own = squeezed(1000);
-    let film = own.film().expect("film");
+    let bearing = Bearing::build(&own, None).expect("flies");
+    let film = &*bearing.film;
     let amplitude_g = 500.0;
     let run = shaken(&own, amplitude_g);
     let (q, own_nm) = (
@@ -107,7 +111,7 @@ fn held_films_tell_what_other_grids_leave_of_the_clearance() {
         1e9 * run.min_clearance_m.expect("a head"),
     );
     let held_nm = |other: Other| {
-        let held = held_clearance(&own, &film, &q, other).expect("held");
+        let held = held_clearance(&own, &bearing, &q, other).expect("held");
         1e9 * held.min_clearance_m
     };
     for cells in [500, 2000] {
@@ -124,7 +128,7 @@ fn held_films_tell_what_other_grids_leave_of_the_clearance() {
         .lines_m()
         .map(|lines| super::film_flight::cut(lines, 3));
     let third = own.film_on([&lines[0], &lines[1]]).expect("film");
-    let carried = force(&film, &q);
+    let carried = force(film, &q);
     let third = fly_from(&third, carried.into(), &q).expect("flies");
     let by_third = 9.0 / 8.0 * (1e9 * third.min_clearance_m - own_nm);
     let by_half = held_nm(Other::Continued) - own_nm;

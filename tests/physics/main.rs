@@ -9,6 +9,7 @@ mod coupled_ramp;
 mod effects;
 mod effects_hard_cases;
 mod effects_mutants;
+mod film_defect;
 mod film_flight;
 mod film_flow_factor;
 mod film_plane;

@@ -109,7 +109,7 @@ fn fields_carry_the_bearing_force() {
     let fields = fields(&outcome);
     let (n, nx, cells) = (fields.n_cells(), fields.x_lines_m.len() - 1, cells(fields));
 
-    let bearing = Bearing::build(&scene).expect("flies");
+    let bearing = Bearing::build(&scene, None).expect("flies");
     let (film, steady) = (&bearing.film, &bearing.flight.attitude);
     let change = |i: usize| fields.gap_m[n + i] - fields.gap_m[i];
     let along = (change(nx - 1) - change(0)) / (cells[nx - 1][0] - cells[0][0]);

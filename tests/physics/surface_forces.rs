@@ -54,6 +54,7 @@ fn default_film(cells: usize) -> Film {
     let resolution = FilmResolution {
         cells,
         floor_m: FLOOR_M,
+        reference_cells: 0,
     };
     let spin = rad_per_s_from_rpm(5400.0);
     let flow = FlowModel::FukuiKaneko;

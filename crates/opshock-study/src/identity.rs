@@ -241,8 +241,13 @@ impl Digester {
             FlowModel::FukuiKaneko => "fukui_kaneko",
         });
         self.numbers(&[*fail_below_m]);
-        let FilmResolution { cells, floor_m } = film_resolution;
+        let FilmResolution {
+            cells,
+            floor_m,
+            reference_cells,
+        } = film_resolution;
         self.integer(*cells as u64);
+        self.integer(*reference_cells as u64);
         self.numbers(&[*floor_m]);
         let HeadResolution {
             tolerance,

@@ -50,13 +50,15 @@ impl Film {
             scratch,
         })
         .total();
-        match &self.interaction {
-            None => force,
-            Some(_) => {
-                let surface = self.surface_force(attitude);
-                std::array::from_fn(|f| force[f] + surface[f])
-            }
+        let mut force = force;
+        let mut add = |more: [f64; 3]| (0..3).for_each(|f| force[f] += more[f]);
+        if self.interaction.is_some() {
+            add(self.surface_force(attitude));
         }
+        if let Some(defect) = &self.defect {
+            add(defect.force(attitude));
+        }
+        force
     }
 
     /// R alone, as from [`Film::flux_residual_and_force`].

@@ -9,13 +9,14 @@
 //! the slider's edges with the ambient pressure on the face; the balance itself is in
 //! `balance`, the choice of the grid in [`super::layout`].
 
+use super::defect::{Defect, ReferenceForces};
 use super::faces::{BLOCK, Block, Columns, block};
 use super::flow_factor::FlowFactor;
 use super::flux::HalfCell;
 use super::heights::inverses;
 use super::layout;
 use super::mesh::{Cell, Mesh, Side};
-use super::steady::usual_attitude;
+use super::steady::{SteadyError, usual_attitude};
 use super::surface_forces::Interaction;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
@@ -69,6 +70,8 @@ pub struct Film {
     usual_psi: Vec<f64>,
     /// Surface forces beside the film; none unless asked for.
     pub(super) interaction: Option<Interaction>,
+    /// What the grid leaves out, put back; none unless asked for.
+    pub(super) defect: Option<Defect>,
 }
 
 impl Film {
@@ -180,9 +183,22 @@ impl Film {
             usual,
             usual_psi: Vec::new(),
             interaction: None,
+            defect: None,
         };
         film.usual_psi = film.ambient(&usual);
         Ok(film)
+    }
+
+    /// The same film with what its grid leaves out of force and moments put back: [`Film::force`] and the
+    /// linearisation hold it from then on, pressures and fluxes do not.
+    ///
+    /// # Errors
+    ///
+    /// [`SteadyError`] when the film does not settle under a slider held still.
+    pub fn corrected_by(mut self, reference: &ReferenceForces) -> Result<Self, SteadyError> {
+        self.defect = None;
+        self.defect = Some(reference.defect_of(&self)?);
+        Ok(self)
     }
 
     /// Number of cells n, the length of every ψ.

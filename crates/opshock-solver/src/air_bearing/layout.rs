@@ -92,32 +92,36 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// ψ on the cells of another film of the same slider, at the pressure of the cell around each
-    /// centre, Pa m.
+    /// ψ on the cells of another film of the same slider, Pa m.
     pub(super) fn carried_to(&self, film: &Film) -> Vec<f64> {
-        let attitude = film.usual_attitude();
-        let mut psi = film.ambient(&attitude);
-        let ambient = self.film.ambient(&attitude);
-        let lines = film.mesh.lines.each_ref();
-        let column = |d: usize| -> Vec<usize> {
-            let old = self.film.mesh.lines[d].as_slice();
-            let around = |x: f64| {
-                old.partition_point(|line| *line <= x)
-                    .clamp(1, old.len() - 1)
-                    - 1
-            };
-            (0..lines[d].n_cells())
-                .map(|k| around(lines[d].centre(k)))
-                .collect()
-        };
-        let columns = [column(0), column(1)];
-        for (cell, psi) in psi.iter_mut().enumerate() {
-            let [i, j] = film.mesh.place_of(cell);
-            let old = self.film.mesh.index(columns[0][i], columns[1][j]);
-            *psi *= self.psi[old] / ambient[old];
-        }
-        psi
+        carried(&self.film, &self.psi, film, &film.usual_attitude())
     }
+}
+
+/// ψ of `film` on the cells of `to`, a film of the same slider, at the pressure of the cell around each
+/// centre, Pa m.
+pub(super) fn carried(film: &Film, psi: &[f64], to: &Film, attitude: &Attitude) -> Vec<f64> {
+    let mut out = to.ambient(attitude);
+    let ambient = film.ambient(attitude);
+    let lines = to.mesh.lines.each_ref();
+    let column = |d: usize| -> Vec<usize> {
+        let old = film.mesh.lines[d].as_slice();
+        let around = |x: f64| {
+            old.partition_point(|line| *line <= x)
+                .clamp(1, old.len() - 1)
+                - 1
+        };
+        (0..lines[d].n_cells())
+            .map(|k| around(lines[d].centre(k)))
+            .collect()
+    };
+    let columns = [column(0), column(1)];
+    for (cell, out) in out.iter_mut().enumerate() {
+        let [i, j] = to.mesh.place_of(cell);
+        let old = film.mesh.index(columns[0][i], columns[1][j]);
+        *out *= psi[old] / ambient[old];
+    }
+    out
 }
 
 /// Lines after the error of `film`, and its state, which was sought from `psi`; `None` when it could

@@ -96,7 +96,9 @@ impl Film {
         });
         out.force_by_attitude = totals.force_by_attitude.map(|row| row.map(total));
         out.force = totals.moments.total();
-        if let Some(load) = self.surface_load(attitude) {
+        let defect = self.defect.as_ref();
+        let defect = defect.map(|defect| defect.load(attitude));
+        for load in self.surface_load(attitude).into_iter().chain(defect) {
             for f in 0..3 {
                 out.force[f] += load.force[f];
                 for q in 0..3 {

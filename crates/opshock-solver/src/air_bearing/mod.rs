@@ -2,6 +2,7 @@
 
 mod balance;
 mod corner;
+mod defect;
 mod derivatives;
 mod exponential;
 mod faces;
@@ -22,6 +23,7 @@ mod thickness;
 #[cfg(test)]
 mod tests;
 
+pub use defect::ReferenceForces;
 pub use film::{Film, FilmError};
 pub use flow_factor::FlowFactor;
 pub use linearise::FilmLinearisation;
@@ -48,6 +50,9 @@ pub struct FilmResolution {
     pub cells: usize,
     /// Height h0 of the C1 floor the film sees, m.
     pub floor_m: f64,
+    /// Wanted number of cells of the reference grid from which the force that the film's own leaves out is told
+    /// ([`ReferenceForces`]); 0: the grid is taken as it is.
+    pub reference_cells: usize,
 }
 
 /// Pose of the slider's reference plane over the disk's local plane.

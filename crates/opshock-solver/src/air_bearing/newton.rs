@@ -12,6 +12,7 @@
 
 use super::Attitude;
 use super::film::Film;
+use super::steady::SteadyError;
 use super::{FilmLinearisation, FilmScratch};
 use crate::lanes::product;
 use crate::linalg::banded::{BandedError, BandedLu};
@@ -23,6 +24,14 @@ pub(super) const CONVERGED: f64 = 1e-9;
 pub(super) const NEAR: f64 = 1e-2;
 /// Most Newton iterations of one attempt.
 pub(super) const MOST_ITERATIONS: usize = 60;
+/// Relative step at which the force under a slider held still is known to rounding of single precision.
+const HELD: f64 = 1e-7;
+/// Contraction of the iteration with kept factors above which they are renewed.
+const CONTRACTION: f64 = 0.3;
+/// Relative step after which kept factors are from elsewhere.
+const FARTHEST: f64 = 0.5;
+/// Most iterations under a slider held still.
+const MOST_HELD: usize = 200;
 /// Most steps of the overdamped motion.
 const MOST_DRIFT_STEPS: usize = 200;
 /// Share of a cell's ψ a step must leave.
@@ -38,6 +47,8 @@ pub(super) struct Newton<'a> {
     pub(super) columns: [Vec<f64>; 4],
     zero: Vec<f64>,
     pub(super) n_factored: usize,
+    /// Whether `lu` holds factors from near the state.
+    has_factors: bool,
 }
 
 impl<'a> Newton<'a> {
@@ -52,6 +63,7 @@ impl<'a> Newton<'a> {
             columns: [0; 4].map(|_| vec![0.0; n]),
             zero: vec![0.0; n],
             n_factored: 0,
+            has_factors: false,
         }
     }
 
@@ -138,6 +150,51 @@ impl<'a> Newton<'a> {
             }
         }
         Ok((most, step))
+    }
+
+    /// The factors at hand are of no use from here on.
+    pub(super) fn forget(&mut self) {
+        self.has_factors = false;
+    }
+
+    /// Force and moments of the air under a slider held still, from ψ near its equilibrium, which it becomes: by
+    /// factors that are kept for as long as they contract, those at hand first.
+    ///
+    /// # Errors
+    ///
+    /// [`SteadyError`] where it does not settle.
+    pub(super) fn force_held(
+        &mut self,
+        psi: &mut [f64],
+        attitude: &Attitude,
+    ) -> Result<[f64; 3], SteadyError> {
+        let mut before = f64::INFINITY;
+        let mut delta = vec![0.0; psi.len()];
+        for _ in 0..MOST_HELD {
+            if self.has_factors {
+                self.film
+                    .flux_residual(psi, attitude, &mut delta, &mut self.scratch);
+            } else {
+                self.factor(psi, attitude)?;
+                delta.copy_from_slice(&self.linearisation.residual);
+            }
+            self.lu.solve(&mut delta);
+            let mut step = 0.0_f64;
+            for (psi, delta) in psi.iter_mut().zip(&delta) {
+                let new = (*psi - delta).max(PSI_KEPT * *psi);
+                step = step.max((new - *psi).abs() / *psi);
+                *psi = new;
+            }
+            self.has_factors = step < CONTRACTION * before && step < FARTHEST;
+            if step < HELD {
+                return Ok(self.film.air_force(psi, attitude, &mut self.scratch));
+            }
+            before = step;
+        }
+        Err(SteadyError::NotConverged {
+            iterations: MOST_HELD,
+            attitude: *attitude,
+        })
     }
 
     /// Newton on (ψ, q), in place; whether it converged.

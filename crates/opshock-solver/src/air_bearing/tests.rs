@@ -53,7 +53,11 @@ fn slider() -> SliderParameters {
 }
 
 fn film(cells: usize, floor_m: f64) -> Film {
-    let resolution = FilmResolution { cells, floor_m };
+    let resolution = FilmResolution {
+        cells,
+        floor_m,
+        reference_cells: 0,
+    };
     Film::build(
         &slider(),
         &air(),

@@ -8,11 +8,14 @@
 //! F'(q') = F(q),   h' - h = h(q') - h(q)
 //! ```
 //!
-//! F and F' are forces and moments of films in equilibrium under a held slider. With every cell cut in two the
-//! error of second order is a quarter of what it was, so that the film without error is a third of the
-//! difference further (Roache 1994, J. Fluids Eng. 116, 405): h + 4/3 (h' - h).
+//! F and F' are forces and moments of films in equilibrium under a held slider. With every cell of a grid cut in
+//! two the error of second order is a quarter of what it was, so that the film without error is a third of the
+//! difference further (Roache 1994, J. Fluids Eng. 116, 405): h'' + (h'' - h')/3 of clearances h' on the grid and
+//! h'' on the cut one. That grid is the film's own; of a film that is corrected already
+//! ([`crate::air_bearing::ReferenceForces`]) it is one of twice the reference's cells, so that what is left of
+//! the error is told by a grid that had no part in the correction.
 
-use super::model::BuildError;
+use super::model::{Bearing, BuildError, halved};
 use crate::air_bearing::steady::{fixed_attitude, fly_near};
 use crate::air_bearing::{Attitude, Film};
 use crate::scene::Scene;
@@ -38,41 +41,51 @@ pub struct HeldClearance {
     pub n_iterations: usize,
 }
 
-/// Smallest clearance at the attitude `lowest` over the disk on `film`, the film of `scene`, if the grid were
-/// `other`.
+/// Smallest clearance at the attitude `lowest` over the disk on the film of `bearing`, which is that of `scene`,
+/// if the grid were `other`.
 ///
 /// # Errors
 ///
 /// [`BuildError`] when there is no such film, or a film does not settle.
 pub fn held_clearance(
     scene: &Scene,
-    film: &Film,
+    bearing: &Bearing,
     lowest: &Attitude,
     other: Other,
 ) -> Result<HeldClearance, BuildError> {
+    let film = &*bearing.film;
     let carried = fixed_attitude(film, lowest)?.force;
-    let own_m = film.min_clearance(lowest).value_m;
-    let (finer, beyond) = match other {
-        Other::Cells(cells) => {
-            let mut scene = scene.clone();
-            scene.film_resolution.cells = cells;
-            (scene.film()?, 1.0)
+    let on = |film: &Film| -> Result<HeldClearance, BuildError> {
+        let flight = fly_near(film, carried, lowest)?;
+        Ok(HeldClearance {
+            min_clearance_m: flight.min_clearance_m,
+            n_cells: film.n_cells(),
+            n_iterations: flight.n_iterations,
+        })
+    };
+    let with_cells = |cells: usize| {
+        let mut scene = scene.clone();
+        scene.film_resolution.cells = cells;
+        scene
+    };
+    let cut = |film: &Film| {
+        let [x, y] = film.lines_m().map(halved);
+        on(&scene.film_on([&x, &y])?)
+    };
+    let (held, coarse_m) = match (other, &bearing.reference) {
+        (Other::Cells(cells), _) => {
+            let other = Bearing::build(&with_cells(cells), Some(bearing))?;
+            return on(&other.film);
         }
-        Other::Continued => {
-            let [x, y] = film.lines_m().map(halved);
-            (scene.film_on([&x, &y])?, 4.0 / 3.0)
+        (Other::Continued, None) => (cut(film)?, film.min_clearance(lowest).value_m),
+        (Other::Continued, Some(_)) => {
+            let apart = with_cells(2 * scene.film_resolution.reference_cells).film()?;
+            (cut(&apart)?, on(&apart)?.min_clearance_m)
         }
     };
-    let flight = fly_near(&finer, carried, lowest)?;
+    let fine_m = held.min_clearance_m;
     Ok(HeldClearance {
-        min_clearance_m: own_m + beyond * (flight.min_clearance_m - own_m),
-        n_cells: finer.n_cells(),
-        n_iterations: flight.n_iterations,
+        min_clearance_m: fine_m + (fine_m - coarse_m) / 3.0,
+        ..held
     })
-}
-
-/// These lines with one more in the middle between any two.
-fn halved(lines_m: &[f64]) -> Vec<f64> {
-    let between = lines_m.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
-    between.chain(lines_m.last().copied()).collect()
 }

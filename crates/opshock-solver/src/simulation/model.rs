@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::air_bearing::steady::{Flight, SteadyError, fly};
-use crate::air_bearing::{Film, FilmError};
+use crate::air_bearing::{Film, FilmError, ReferenceForces};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
 use crate::scene::Scene;
@@ -56,30 +56,53 @@ pub struct Bearing {
     pub film: Arc<Film>,
     /// Steady flying state under the gram load.
     pub flight: Arc<Flight>,
+    /// What corrects the film's grid; `None` where it is taken as it is.
+    pub reference: Option<Arc<ReferenceForces>>,
 }
 
 impl Bearing {
-    /// Builds the film of `scene` and finds its steady flying state.
+    /// Builds the film of `scene` and finds its steady flying state. The forces that correct its grid are those
+    /// of `known`, a bearing for which [`Bearing::has_reference`] holds, or sampled.
     ///
     /// # Errors
     /// [`BuildError::Film`], [`BuildError::Steady`].
-    pub fn build(scene: &Scene) -> Result<Self, BuildError> {
-        let film = scene.film()?;
+    pub fn build(scene: &Scene, known: Option<&Self>) -> Result<Self, BuildError> {
+        let reference = match known.and_then(|known| known.reference.clone()) {
+            _ if scene.film_resolution.reference_cells == 0 => None,
+            Some(known) => Some(known),
+            None => Some(Arc::new(reference_forces(scene)?)),
+        };
+        let plain = scene.film()?;
+        let film = match &reference {
+            Some(reference) => plain.corrected_by(reference)?,
+            None => plain,
+        };
         let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
         Ok(Self {
             film: Arc::new(film),
             flight: Arc::new(flight),
+            reference,
         })
     }
 
     /// Whether two scenes have the same film and the same steady flight.
     pub fn is_shared(a: &Scene, b: &Scene) -> bool {
+        let cells = a.film_resolution.cells == b.film_resolution.cells;
+        Self::has_reference(a, b) && all_agree([("R9 film cells", cells)])
+    }
+
+    /// Whether the same forces correct the grids of two scenes, be they of as many cells or not.
+    pub fn has_reference(a: &Scene, b: &Scene) -> bool {
+        let [one, other] = [a, b].map(|scene| {
+            let film = &scene.film_resolution;
+            (film.floor_m, film.reference_cells)
+        });
         all_agree([
             ("R9 slider", a.slider == b.slider),
             ("R9 gas", a.gas == b.gas),
             ("R9 flow model", a.flow == b.flow),
             ("R9 surface forces", a.surface_forces == b.surface_forces),
-            ("R9 film cells", a.film_resolution == b.film_resolution),
+            ("R9 film reference", one == other),
             ("R9 speed", a.disk.spin_rad_per_s == b.disk.spin_rad_per_s),
             (
                 "R9 gram load",
@@ -258,14 +281,35 @@ fn slider_place(scene: &Scene) -> SliderPlace {
     }
 }
 
+/// Forces by which every grid of the film of `scene` is corrected.
+fn reference_forces(scene: &Scene) -> Result<ReferenceForces, BuildError> {
+    let mut coarse = scene.clone();
+    coarse.film_resolution.cells = scene.film_resolution.reference_cells;
+    let film = coarse.film()?;
+    let [x, y] = film.lines_m().map(halved);
+    let finer = scene.film_on([&x, &y])?;
+    let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
+    Ok(ReferenceForces::sample(&film, &finer, &flight)?)
+}
+
+/// These lines with one more in the middle between any two.
+pub(super) fn halved(lines_m: &[f64]) -> Vec<f64> {
+    let between = lines_m.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+    between.chain(lines_m.last().copied()).collect()
+}
+
 /// Film and steady flight of `scene`: a donor's when they are the same.
 fn bearing(scene: &Scene, donors: &[&Model]) -> Result<Bearing, BuildError> {
     let shared = donors
         .iter()
         .filter(|other| Bearing::is_shared(scene, &other.scene))
         .find_map(|other| other.bearing.clone());
+    let known = donors
+        .iter()
+        .filter(|other| Bearing::has_reference(scene, &other.scene))
+        .find_map(|other| other.bearing.as_ref());
     match shared {
         Some(bearing) => Ok(bearing),
-        None => Bearing::build(scene),
+        None => Bearing::build(scene, known),
     }
 }

@@ -158,6 +158,7 @@ fn rung_value(settings: &Settings, path: &str) -> Option<String> {
         "solver.head_tolerance" => number(base.head.tolerance),
         "solver.approach_share" => number(base.head.approach_share),
         "solver.film_cells" => base.film.cells.to_string(),
+        "solver.film_reference_cells" => base.film.reference_cells.to_string(),
         "solver.film_floor_nm" => number(nearest(base.film.floor_m, 1e9)),
         "solver.coupling_tolerance" => number(base.head.coupling_tolerance),
         "solver.suspension_modes" => base.head.suspension_modes.to_string(),

@@ -112,6 +112,14 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
         film: FilmResolution {
             cells: count("solver.film_cells", base.film.cells),
             floor_m: number("solver.film_floor_nm", base.film.floor_m),
+            // A grid that the study sets is taken as it is.
+            reference_cells: count(
+                "solver.film_reference_cells",
+                match view.maybe_integer("solver.film_cells") {
+                    Some(_) => 0,
+                    None => base.film.reference_cells,
+                },
+            ),
         },
         head: HeadResolution {
             tolerance: number("solver.head_tolerance", base.head.tolerance),

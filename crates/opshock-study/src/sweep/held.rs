@@ -42,7 +42,7 @@ pub(super) fn held_still(model: &Model, lowest: Lowest, steps: i8) -> ProbeResul
             Other::Cells(scene.at_levels(coarser).film_resolution.cells)
         }
     };
-    match held_clearance(scene, &bearing.film, &lowest.attitude, other) {
+    match held_clearance(scene, bearing, &lowest.attitude, other) {
         Err(error) => not_built(&error),
         Ok(held) => ProbeResult {
             verdict: Verdict::Survives,

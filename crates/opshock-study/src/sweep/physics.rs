@@ -166,11 +166,13 @@ impl Physics {
     fn build(&self, scene: &Scene) -> Built {
         let has_structure = |model: &Arc<Model>| model.has_structure(scene, &self.plan);
         let has_film = |model: &Arc<Model>| Bearing::is_shared(scene, model.scene());
+        let has_reference = |model: &Arc<Model>| Bearing::has_reference(scene, model.scene());
         let donors: Vec<Arc<Model>> = match self.plan.shares_parts {
             true => {
                 let all = lock(&self.donors);
                 let structure = all.iter().find(|model| has_structure(model));
                 let film = all.iter().find(|model| has_film(model));
+                let film = film.or_else(|| all.iter().find(|model| has_reference(model)));
                 structure.into_iter().chain(film).cloned().collect()
             }
             false => Vec::new(),

@@ -68,6 +68,7 @@ pub fn default_film(cells: usize) -> (Arc<Film>, Arc<Flight>) {
         &FilmResolution {
             cells,
             floor_m: 0.3e-9,
+            reference_cells: 0,
         },
     )
     .expect("film builds");

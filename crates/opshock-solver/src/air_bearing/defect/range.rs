@@ -1,0 +1,207 @@
+//! The attitudes that shocks squeeze a slider into, and the variables in which a grid's defect is smooth.
+//!
+//! Most of a squeezed film's load sits at the trailing edge between the two points that come closest when the
+//! slider rolls either way. With their heights h₁ and h₂ over the disk and the film's floor h₀ the variables are
+//!
+//! ```text
+//! x = ½ ln (h₁ + h₀)(h₂ + h₀),   y = θ − θ_eq(½ (h₁ + h₂)),   w = ½ ln (h₁ + h₀)/(h₂ + h₀)
+//! ```
+//!
+//! with the pitch θ and θ_eq, what it is in equilibrium under a larger or smaller load, each over half its range.
+//! An attitude out of range counts as the nearest one in it.
+
+use crate::air_bearing::Attitude;
+use crate::air_bearing::film::Film;
+use crate::air_bearing::steady::{Flight, fly_near};
+
+/// Loads of equilibria that tell θ_eq, in those of steady flight.
+const LOADS: [f64; 3] = [0.6, 1.0, 2.5];
+
+/// Mean height of the two points, in that of steady flight.
+const HEIGHTS: [f64; 2] = [0.05, 1.5];
+
+/// Pitch about θ_eq and largest roll, in the pitch of steady flight: what survivors of the study of Fig. 13 show
+/// below 4 nm, nineteen times of twenty.
+const PITCH: f64 = 0.18;
+const ROLL: f64 = 0.12;
+
+/// Least distance of the two points, in the slider's width.
+const APART: f64 = 0.02;
+
+/// Attitudes that samples fill.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Range {
+    /// The film's floor h₀, m.
+    floor_m: f64,
+    /// Heights of the two points: at zero attitude, m, and derivatives by (h_c, pitch, roll).
+    points: [(f64, [f64; 3]); 2],
+    /// Lowest and highest mean height of the points, m.
+    heights_m: [f64; 2],
+    /// Largest half difference of their heights, m.
+    lean_m: f64,
+    /// θ_eq at three logarithms of the mean height: the logarithms, and divided differences, rad.
+    equilibrium: ([f64; 3], [f64; 3]),
+    /// Largest distance of pitch from θ_eq, rad.
+    pitch_rad: f64,
+}
+
+/// A number with its derivatives by (h_c, pitch, roll).
+#[derive(Clone, Copy)]
+pub(super) struct Varying(pub f64, pub [f64; 3]);
+
+impl Varying {
+    /// f of this one, given f and f'.
+    fn of(self, value: f64, slope: f64) -> Self {
+        Self(value, self.1.map(|by| slope * by))
+    }
+
+    /// a of this one and b of another.
+    fn mixed(self, a: f64, other: Self, b: f64) -> Self {
+        let by = std::array::from_fn(|q| a * self.1[q] + b * other.1[q]);
+        Self(a * self.0 + b * other.0, by)
+    }
+
+    fn clamped(self, low: f64, high: f64) -> Self {
+        match self.0 {
+            x if x < low => Self(low, [0.0; 3]),
+            x if x > high => Self(high, [0.0; 3]),
+            _ => self,
+        }
+    }
+
+    fn ln(self) -> Self {
+        self.of(self.0.ln(), 1.0 / self.0)
+    }
+}
+
+impl Range {
+    /// The range about a steady `flight` of `film`.
+    pub(super) fn around(film: &Film, flight: &Flight) -> Self {
+        let floor_m = film.floor_m();
+        let steady = flight.attitude;
+        // A slider that flies level has the range of one with a hundredth of the usual pitch.
+        let usual = film.usual_attitude().pitch_rad.abs();
+        let scale = steady.pitch_rad.abs().max(0.01 * usual);
+        let [length, width] = film.extent_m();
+        let mut points = [1.0, -1.0].map(|sense| {
+            let mut rolled = steady;
+            rolled.roll_rad += sense * ROLL * scale;
+            let closest = film.min_clearance(&rolled);
+            let arms = [1.0, 0.5 * length - closest.x_m, closest.y_m - 0.5 * width];
+            // What the height is without attitude: recess and form of the surface.
+            let form_m = closest.value_m - height(&rolled, &arms);
+            (form_m, arms)
+        });
+        let apart = points[1].1[2] - points[0].1[2];
+        let missing = 0.5 * (APART * width - apart.abs()).max(0.0).copysign(apart);
+        points[0].1[2] -= missing;
+        points[1].1[2] += missing;
+        let mean = |attitude: &Attitude| {
+            0.5 * points
+                .iter()
+                .map(|(form_m, arms)| form_m + height(attitude, arms))
+                .sum::<f64>()
+        };
+        let mean_m = mean(&steady);
+        let level = ([0.0, 1.0, 2.0], [steady.pitch_rad, 0.0, 0.0]);
+        let load_n = flight.lift_n + flight.suction_n;
+        let flights = LOADS.map(|share| {
+            let load = [share * load_n, 0.0, 0.0];
+            let found = match share {
+                1.0 => steady,
+                _ => fly_near(film, load, &steady).ok()?.attitude,
+            };
+            Some(((mean(&found) + floor_m).ln(), found.pitch_rad))
+        });
+        let equilibrium = match flights {
+            [Some(a), Some(b), Some(c)] => divided([a, b, c]),
+            // Without neighbours the pitch of steady flight is taken for all heights.
+            _ => level,
+        };
+        let half_m = 0.5 * (points[1].1[2] - points[0].1[2]).abs();
+        Self {
+            floor_m,
+            points,
+            heights_m: HEIGHTS.map(|share| share * mean_m),
+            lean_m: ROLL * scale * half_m,
+            equilibrium,
+            pitch_rad: PITCH * scale,
+        }
+    }
+
+    /// θ_eq and its derivative by the logarithm of the mean height above minus the floor.
+    fn equilibrium(&self, logarithm: f64) -> (f64, f64) {
+        let ([a, b, _], [constant, linear, quadratic]) = self.equilibrium;
+        let (from_a, from_b) = (logarithm - a, logarithm - b);
+        (
+            constant + from_a * (linear + from_b * quadratic),
+            linear + quadratic * (from_a + from_b),
+        )
+    }
+
+    /// The attitude at shares from -1 to 1 of the ranges of height, pitch and roll.
+    pub(super) fn attitude(&self, [high, up, aside]: [f64; 3]) -> Attitude {
+        let [low_m, high_m] = self.heights_m.map(|h| (h + self.floor_m).ln());
+        let logarithm = 0.5 * ((low_m + high_m) + high * (high_m - low_m));
+        let mean_m = logarithm.exp() - self.floor_m;
+        let lean_m = aside * self.lean_m.min(mean_m);
+        let pitch_rad = self.equilibrium(logarithm).0 + up * self.pitch_rad;
+        // Heights of the points are mean + lean and mean - lean: two equations for roll and height.
+        let [(first_m, [_, a, b]), (second_m, [_, c, d])] = self.points;
+        let rise_m = 2.0 * lean_m - (first_m - second_m) - pitch_rad * (a - c);
+        let roll_rad = rise_m / (b - d);
+        Attitude {
+            centre_height_m: mean_m + lean_m - first_m - pitch_rad * a - roll_rad * b,
+            pitch_rad,
+            roll_rad,
+        }
+    }
+
+    /// Variables of the polynomial, of the order of 1, at the nearest attitude in the range.
+    pub(super) fn variables(&self, attitude: &Attitude) -> [Varying; 3] {
+        let heights = self
+            .points
+            .map(|(form_m, arms)| Varying(form_m + height(attitude, &arms), arms));
+        let [first, second] = heights;
+        let [low_m, high_m] = self.heights_m;
+        let mean = first.mixed(0.5, second, 0.5).clamped(low_m, high_m);
+        let lean = first.mixed(0.5, second, -0.5);
+        let most_m = self.lean_m.min(mean.0);
+        let lean = match lean.0.abs() {
+            d if d <= most_m => lean,
+            // On the edge of the range, which follows the mean height where a point touches.
+            _ if most_m < self.lean_m => mean.of(most_m.copysign(lean.0), 1f64.copysign(lean.0)),
+            _ => Varying(most_m.copysign(lean.0), [0.0; 3]),
+        };
+        let above = |sense: f64| {
+            let height = mean.mixed(1.0, lean, sense);
+            Varying(height.0 + self.floor_m, height.1).ln()
+        };
+        let (first, second) = (above(1.0), above(-1.0));
+        let floor_m = Varying(mean.0 + self.floor_m, mean.1).ln();
+        let (pitch_rad, slope) = self.equilibrium(floor_m.0);
+        let up = Varying(attitude.pitch_rad, [0.0, 1.0, 0.0]);
+        let up = up.mixed(1.0, floor_m.of(pitch_rad, slope), -1.0);
+        let up = up.clamped(-self.pitch_rad, self.pitch_rad);
+        let [low, high] = self.heights_m.map(|h| (h + self.floor_m).ln());
+        let half = 0.5 * (high - low);
+        let x = first.mixed(0.5 / half, second, 0.5 / half);
+        [
+            Varying(x.0 - 0.5 * (low + high) / half, x.1),
+            up.of(up.0 / self.pitch_rad, 1.0 / self.pitch_rad),
+            first.mixed(0.5 / half, second, -0.5 / half),
+        ]
+    }
+}
+
+/// Height of the reference plane at a point with these derivatives by (h_c, pitch, roll), m.
+fn height(attitude: &Attitude, [by_h, by_pitch, by_roll]: &[f64; 3]) -> f64 {
+    by_h * attitude.centre_height_m + by_pitch * attitude.pitch_rad + by_roll * attitude.roll_rad
+}
+
+/// Places and divided differences of the parabola through three points.
+fn divided([a, b, c]: [(f64, f64); 3]) -> ([f64; 3], [f64; 3]) {
+    let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (q.0 - p.0);
+    let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
+    ([a.0, b.0, c.0], [a.1, slope(a, b), bend])
+}
