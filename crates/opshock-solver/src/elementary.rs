@@ -40,6 +40,60 @@ pub fn exp(x: f64) -> f64 {
     e * f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52)
 }
 
+/// sin x and cos x for |x| <= 1.6, by Taylor to x²¹ and x²².
+#[inline(always)]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    let square = x * x;
+    let mut sine = SINE[9];
+    let mut cosine = COSINE[10];
+    for k in (0..9).rev() {
+        sine = sine.mul_add(square, SINE[k]);
+    }
+    for k in (0..10).rev() {
+        cosine = cosine.mul_add(square, COSINE[k]);
+    }
+    // The leading term apart: its rounding is the last one.
+    ((sine * square).mul_add(x, x), cosine.mul_add(square, 1.0))
+}
+
+/// eˣ - 1 for -2 <= x <= 0, to 4 units in the last place: Taylor to the 13th power of x/4, doubled twice.
+#[inline(always)]
+pub fn exp_m1(x: f64) -> f64 {
+    let quarter = 0.25 * x;
+    let mut sum = EXPONENTIAL[11];
+    for k in (0..11).rev() {
+        sum = sum.mul_add(quarter, EXPONENTIAL[k]);
+    }
+    let once = (sum * quarter).mul_add(quarter, quarter);
+    let twice = once * (2.0 + once);
+    twice * (2.0 + twice)
+}
+
+/// (-1)ᵏ/(2k + 1)! from k = 1.
+const SINE: [f64; 10] = inverse_factorials(3, 2, -1.0);
+/// (-1)ᵏ/(2k)! from k = 1.
+const COSINE: [f64; 11] = inverse_factorials(2, 2, -1.0);
+/// 1/k! from k = 2.
+const EXPONENTIAL: [f64; 12] = inverse_factorials(2, 1, 1.0);
+
+/// 1/k! for k = `first`, `first` + `stride` and so on, times powers of `sign` from its first.
+const fn inverse_factorials<const N: usize>(first: u32, stride: u32, sign: f64) -> [f64; N] {
+    let mut out = [0.0; N];
+    let (mut i, mut factor) = (0, sign);
+    while i < N {
+        // Products of whole numbers up to 22! < 2¹²⁸ are exact.
+        let (mut factorial, mut k): (u128, u32) = (1, 2);
+        while k <= first + stride * i as u32 {
+            factorial *= k as u128;
+            k += 1;
+        }
+        out[i] = factor / factorial as f64;
+        factor *= sign;
+        i += 1;
+    }
+    out
+}
+
 /// ln x for normal positive x.
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
@@ -102,6 +156,20 @@ mod tests {
             let x = 1.0 + k as f64 * 1e-3;
             assert!((ln(x) - x.ln()).abs() <= 4.5e-16 * x.ln().abs(), "ln({x})");
         }
+    }
+
+    #[test]
+    fn angles_are_within_two_units_in_the_last_place_and_small_powers_within_four() {
+        for k in -1600..=1600 {
+            let x = 1e-3 * f64::from(k);
+            let ((sine, cosine), (s, c)) = (sin_cos(x), x.sin_cos());
+            assert!((sine - s).abs() <= 4.5e-16 * s.abs(), "sin({x})");
+            assert!((cosine - c).abs() <= 2.3e-16, "cos({x})");
+            let power = -1.25 * x.abs();
+            let (found, exact) = (exp_m1(power), power.exp_m1());
+            assert!((found - exact).abs() <= 9e-16 * exact.abs(), "{power}");
+        }
+        assert_eq!((sin_cos(0.0), exp_m1(0.0)), ((0.0, 1.0), 0.0));
     }
 
     #[test]

@@ -114,9 +114,9 @@ impl ModalState {
         self.q_re.is_empty()
     }
 
-    /// Adds `impulse` times the real `shape` to the velocities.
+    /// Adds `impulse` times the real `shape` of the first modes to the velocities.
     pub fn kick(&mut self, shape: &[f64], impulse: f64) {
-        lanes::add_scaled(&mut self.r_re, impulse, shape);
+        lanes::add_scaled(&mut self.r_re[..shape.len()], impulse, shape);
     }
 }
 
@@ -134,11 +134,26 @@ impl BankFlow {
     /// Sets the flow of all `oscillators` to that over `h_s`; does not allocate.
     pub fn set(&mut self, oscillators: &[Oscillator], h_s: f64) {
         for (i, oscillator) in oscillators.iter().enumerate() {
-            let Flow { qq, qr, rq, rr } = oscillator.flow(h_s);
-            self.qq.set(i, qq);
-            self.qr.set(i, qr);
-            self.rq.set(i, rq);
-            self.rr.set(i, rr);
+            self.set_mode(i, &oscillator.flow(h_s));
+        }
+    }
+
+    /// Sets the flow of mode `i`.
+    pub fn set_mode(&mut self, i: usize, flow: &Flow) {
+        self.qq.set(i, flow.qq);
+        self.qr.set(i, flow.qr);
+        self.rq.set(i, flow.rq);
+        self.rr.set(i, flow.rr);
+    }
+
+    /// Sets the flow of chunk `i`, in the order of [`ChunkFlow`].
+    #[inline(always)]
+    pub fn set_chunk(&mut self, i: usize, flow: &[[f64; LANES]; 8]) {
+        let Self { qq, qr, rq, rr } = self;
+        let [a, b, c, d, e, f, g, h] = flow;
+        for (column, from) in [(qq, [a, b]), (qr, [c, d]), (rq, [e, f]), (rr, [g, h])] {
+            column.re.as_chunks_mut::<LANES>().0[i] = *from[0];
+            column.im.as_chunks_mut::<LANES>().0[i] = *from[1];
         }
     }
 
@@ -153,7 +168,17 @@ impl BankFlow {
         });
     }
 
-    /// Adds to `after` what an impulse of the real `shape` at the start of the flow leads to.
+    /// Flow of chunk `i`.
+    #[inline(always)]
+    pub fn of_chunk(&self, i: usize) -> ChunkFlow<'_> {
+        let Self { qq, qr, rq, rr } = self;
+        let columns = [
+            &qq.re, &qq.im, &qr.re, &qr.im, &rq.re, &rq.im, &rr.re, &rr.im,
+        ];
+        ChunkFlow(columns.map(|column| &chunks(column)[i]))
+    }
+
+    /// Adds to `after` what an impulse of the real `shape` of the first modes at the start of the flow leads to.
     pub fn add_kick(&self, shape: &[f64], impulse: f64, after: &mut ModalState) {
         lanes::widest(AddKick {
             flow: self,
@@ -200,23 +225,36 @@ impl Kernel for Apply<'_> {
         let vr = &mut self.after.r_re.as_chunks_mut::<LANES>().0[..n];
         let vi = &mut self.after.r_im.as_chunks_mut::<LANES>().0[..n];
         for i in 0..n {
-            let (qr, qi, rr, ri) = (xr[i], xi[i], yr[i], yi[i]);
-            let mut to = [[0.0; LANES]; 4];
-            for l in 0..LANES {
-                let (qr, qi, rr, ri) = (qr[l], qi[l], rr[l], ri[l]);
-                let real = |a: f64, b: f64, c: f64, d: f64| {
-                    a.mul_add(qr, b.mul_add(-qi, c.mul_add(rr, -(d * ri))))
-                };
-                let imaginary = |a: f64, b: f64, c: f64, d: f64| {
-                    a.mul_add(qi, b.mul_add(qr, c.mul_add(ri, d * rr)))
-                };
-                to[0][l] = qr + real(ar[i][l], ai[i][l], br[i][l], bi[i][l]);
-                to[1][l] = qi + imaginary(ar[i][l], ai[i][l], br[i][l], bi[i][l]);
-                to[2][l] = rr + real(cr[i][l], ci[i][l], dr[i][l], di[i][l]);
-                to[3][l] = ri + imaginary(cr[i][l], ci[i][l], dr[i][l], di[i][l]);
-            }
-            [ur[i], ui[i], vr[i], vi[i]] = to;
+            let flow = [ar, ai, br, bi, cr, ci, dr, di].map(|column| &column[i]);
+            [ur[i], ui[i], vr[i], vi[i]] = ChunkFlow(flow).carry([xr[i], xi[i], yr[i], yi[i]]);
         }
+    }
+}
+
+/// Flow of one chunk of modes: real and imaginary parts of q from q, q from r, r from q, r from r.
+pub struct ChunkFlow<'a>(pub [&'a [f64; LANES]; 8]);
+
+impl ChunkFlow<'_> {
+    /// q and r, real and imaginary parts, after the flow.
+    #[inline(always)]
+    pub fn carry(&self, at: [[f64; LANES]; 4]) -> [[f64; LANES]; 4] {
+        let [ar, ai, br, bi, cr, ci, dr, di] = self.0;
+        let [qr, qi, rr, ri] = at;
+        let mut to = [[0.0; LANES]; 4];
+        for l in 0..LANES {
+            let (qr, qi, rr, ri) = (qr[l], qi[l], rr[l], ri[l]);
+            let real = |a: f64, b: f64, c: f64, d: f64| {
+                a.mul_add(qr, b.mul_add(-qi, c.mul_add(rr, -(d * ri))))
+            };
+            let imaginary = |a: f64, b: f64, c: f64, d: f64| {
+                a.mul_add(qi, b.mul_add(qr, c.mul_add(ri, d * rr)))
+            };
+            to[0][l] = qr + real(ar[l], ai[l], br[l], bi[l]);
+            to[1][l] = qi + imaginary(ar[l], ai[l], br[l], bi[l]);
+            to[2][l] = rr + real(cr[l], ci[l], dr[l], di[l]);
+            to[3][l] = ri + imaginary(cr[l], ci[l], dr[l], di[l]);
+        }
+        to
     }
 }
 

@@ -4,6 +4,7 @@ pub mod bank;
 pub mod coupled;
 pub mod forcing;
 pub mod oscillator;
+pub mod part_flow;
 
 pub use bank::{BankFlow, ModalState, Readout};
 pub use coupled::{
@@ -12,3 +13,4 @@ pub use coupled::{
 };
 pub use forcing::{ForcedResponse, Phase};
 pub use oscillator::{Flow, LossForm, Oscillator};
+pub use part_flow::PartFlows;

@@ -23,16 +23,16 @@ const STILL_STEPS: usize = 64;
 const STILL_SHARE: f64 = 1e-26;
 
 pub(super) struct ContactSystem<'a> {
-    run: RunBooks<'a>,
-    driven: &'a Driven,
+    pub(super) run: RunBooks<'a>,
+    pub(super) driven: &'a Driven,
     /// Time since the node reached.
     offset_s: f64,
     /// Time from now to the instant ahead.
     reach_s: f64,
     /// `gaps` are those of the node reached.
-    is_settled: bool,
-    gaps: [Gap; 2],
-    gaps_ahead: [Gap; 2],
+    pub(super) is_settled: bool,
+    pub(super) gaps: [Gap; 2],
+    pub(super) gaps_ahead: [Gap; 2],
     sample_ahead: Sample,
 }
 
@@ -82,9 +82,7 @@ impl<'a> ContactSystem<'a> {
         self.offset_s = 0.0;
         self.run.accumulated_steps += u64::from(report.accumulated);
         self.settle();
-        if self.run.k.is_multiple_of(STILL_STEPS) {
-            self.rest();
-        }
+        self.rest();
         for gap in self.gaps.iter().take(self.run.shared.n_contacts) {
             let depth = -gap.value_m;
             let largest = &mut self.run.complementarity.max_penetration_m;
@@ -92,8 +90,11 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
-    /// Puts the modes at the end to rest that damping has stilled.
-    fn rest(&mut self) {
+    /// Puts the modes at the end to rest that damping has stilled, at some of the nodes.
+    pub(super) fn rest(&mut self) {
+        if !self.run.k.is_multiple_of(STILL_STEPS) {
+            return;
+        }
         let run = &mut self.run;
         let amplitude = run.amplitude;
         let still_j = STILL_SHARE * (amplitude * amplitude) * run.shared.free.peak_energy;
@@ -122,7 +123,7 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Gaps of a contact-driven state on top of the unit response `sample`.
-    fn gaps_of(&self, state: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
+    pub(super) fn gaps_of(&self, state: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
         let (shared, driven) = (self.run.shared, self.driven);
         let n = self.run.n_moving;
         let [value_m, rate_m_per_s] = abreast([
@@ -173,16 +174,12 @@ impl<'a> ContactSystem<'a> {
             self.run
                 .ledger
                 .damping
-                .add(driven.weights.step_loss(self.run.n_moving, &state.now));
+                .add(driven.step_loss.loss(self.run.n_moving, &state.now));
             free.exchange(&mut state.total_forced, self.run.k, self.run.amplitude)
         } else {
-            for (i, o) in driven.oscillators[..self.run.n_moving].iter().enumerate() {
-                if !driven.forced_index.contains(&i) {
-                    let q = nalgebra::Complex::new(state.now.q_re[i], state.now.q_im[i]);
-                    let r = nalgebra::Complex::new(state.now.r_re[i], state.now.r_im[i]);
-                    self.run.ledger.damping.add(o.loss_form(reach).loss(q, r));
-                }
-            }
+            let (n, forced) = (self.run.n_moving, &driven.forced_index);
+            let loss = driven.part_flows.loss(n, &state.now, reach, forced);
+            self.run.ledger.damping.add(loss);
             free.exchange_within(&mut state.total_forced, now_s, reach, self.run.amplitude)
         };
         self.run.ledger.work.add(exchange.work);
@@ -227,7 +224,10 @@ impl UnilateralSystem for ContactSystem<'_> {
         } else {
             let start_s = self.now_s();
             let state = &mut *self.run.state;
-            state.part_flow.set(&driven.oscillators, h_s);
+            if state.part_s != h_s {
+                driven.part_flows.set(h_s, &mut state.part_flow);
+                state.part_s = h_s;
+            }
             let flow = &state.part_flow;
             flow.apply(self.run.n_moving, &state.now, &mut state.ahead);
             if let Some(rotor) = &free.rotor {
@@ -331,8 +331,10 @@ impl UnilateralSystem for ContactSystem<'_> {
         }
         for (side, force) in [(0, p[0]), (1, -p[1])] {
             if force != 0.0 && !driven.arms[side].modes.is_empty() {
-                state.now.kick(&driven.arm_shape[side], force);
-                flow.add_kick(&driven.arm_shape[side], force, &mut state.ahead);
+                // Both arms stand before the disk.
+                let shape = &driven.arm_shape[side][..driven.n_of_arms()];
+                state.now.kick(shape, force);
+                flow.add_kick(shape, force, &mut state.ahead);
             }
         }
         for side in 0..2 {

@@ -4,12 +4,13 @@
 //! sooner stand behind, so that those which an impact has moved and damping has stilled are a tail.
 
 use super::bank::Bank;
-use super::energy::EnergyWeights;
+use super::energy::{EnergyWeights, LossWeights};
+use super::flight::Flight;
 use super::model::StructureWarning;
 use super::rotor::{self, Rotor};
 use crate::disk::{DiskBasis, DiskMode, DiskPose};
 use crate::modal::bank::padded;
-use crate::modal::{BankFlow, Oscillator, Readout};
+use crate::modal::{BankFlow, Oscillator, PartFlows, Readout};
 use std::ops::Range;
 
 /// One arm in the bank of oscillators.
@@ -41,9 +42,15 @@ pub(super) struct Driven {
     /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
     pub base_jumps: Option<[(DiskPose, f64); 3]>,
     pub step_flow: BankFlow,
+    /// Flows over parts of a step.
+    pub part_flows: PartFlows,
     /// [`Self::compliance`] of a step.
     pub step_compliance: [[f64; 2]; 2],
     pub weights: EnergyWeights,
+    /// Loss over a step.
+    pub step_loss: LossWeights,
+    /// Many steps at once, of a disk that stands on a rigid base by itself.
+    pub flight: Option<Flight>,
     pub mobility: [[f64; 2]; 2],
     pub ripple_loss: [[f64; 2]; 2],
     /// Harmonics left out, waves that grow.
@@ -78,8 +85,11 @@ impl Driven {
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
+        let part_flows = PartFlows::new(&bank.oscillators);
         let mut driven = Self {
-            weights: EnergyWeights::new(&bank.oscillators, &bank.forced_index, step_s),
+            weights: EnergyWeights::new(&bank.oscillators),
+            step_loss: LossWeights::new(&bank.oscillators, &bank.forced_index, step_s),
+            flight: rotor.is_none().then(|| Flight::new(&bank, step_s)),
             oscillators: bank.oscillators,
             forced_index: bank.forced_index,
             coupled: arms[0].modes == arms[1].modes && !arms[0].modes.is_empty(),
@@ -92,6 +102,7 @@ impl Driven {
             slider_jump,
             base_jumps,
             step_flow,
+            part_flows,
             step_compliance: [[0.0; 2]; 2],
             mobility,
             ripple_loss,

@@ -6,7 +6,7 @@
 
 use crate::lanes::{self, Kernel};
 use crate::modal::bank::{LANES, chunks};
-use crate::modal::{ModalState, Oscillator};
+use crate::modal::{LossForm, ModalState, Oscillator};
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,35 +31,30 @@ impl Energies {
     }
 }
 
-/// Weights of the quadratic forms over the bank.
+/// Weights of the energies over the bank.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EnergyWeights {
     stiffness: Vec<f64>,
     turn: Vec<f64>,
-    loss_qq: Vec<f64>,
-    loss_rr: Vec<f64>,
-    loss_qr_re: Vec<f64>,
-    loss_qr_im: Vec<f64>,
+}
+
+/// Weights of the loss over one time, over the bank.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LossWeights {
+    qq: Vec<f64>,
+    rr: Vec<f64>,
+    qr_re: Vec<f64>,
+    qr_im: Vec<f64>,
 }
 
 impl EnergyWeights {
-    /// Weights for steps of `step_s`; the modes in `forced` are booked with their forcing.
-    pub fn new(oscillators: &[Oscillator], forced: &[usize], step_s: f64) -> Self {
-        let mut w = Self::default();
-        for (i, o) in oscillators.iter().enumerate() {
-            w.stiffness.push(o.omega_rad_per_s * o.omega_rad_per_s);
-            w.turn.push(o.turn_rad_per_s);
-            let loss = if forced.contains(&i) {
-                crate::modal::LossForm::default()
-            } else {
-                o.loss_form(step_s)
-            };
-            w.loss_qq.push(loss.qq);
-            w.loss_rr.push(loss.rr);
-            w.loss_qr_re.push(2.0 * loss.qr.re);
-            w.loss_qr_im.push(-2.0 * loss.qr.im);
+    /// Weights of all modes.
+    pub fn new(oscillators: &[Oscillator]) -> Self {
+        let squared = |o: &Oscillator| o.omega_rad_per_s * o.omega_rad_per_s;
+        Self {
+            stiffness: oscillators.iter().map(squared).collect(),
+            turn: oscillators.iter().map(|o| o.turn_rad_per_s).collect(),
         }
-        w
     }
 
     /// Energies of a total state.
@@ -74,12 +69,6 @@ impl EnergyWeights {
         }
     }
 
-    /// Loss of those of the first `n_modes`, in whole chunks, that are without forcing, over one whole step.
-    pub fn step_loss(&self, n_modes: usize, state: &ModalState) -> f64 {
-        let (weights, n) = (self, n_modes / LANES);
-        lanes::total(lanes::widest(LossSums { weights, n, state }))
-    }
-
     /// ½ Σ (|r|² + ω² |q|²) of a chunk of modes, J: the size of what moves in them.
     pub fn of_chunk(&self, chunk: usize, state: &ModalState) -> f64 {
         let modes = chunk * LANES..(chunk + 1) * LANES;
@@ -90,6 +79,31 @@ impl EnergyWeights {
                 0.5 * (spring + squares(state.r_re[i], state.r_im[i]))
             })
             .sum()
+    }
+}
+
+impl LossWeights {
+    /// Weights for a time `h_s`; the modes in `forced` are booked with their forcing.
+    pub fn new(oscillators: &[Oscillator], forced: &[usize], h_s: f64) -> Self {
+        let mut w = Self::default();
+        for (i, o) in oscillators.iter().enumerate() {
+            let loss = if forced.contains(&i) {
+                LossForm::default()
+            } else {
+                o.loss_form(h_s)
+            };
+            w.qq.push(loss.qq);
+            w.rr.push(loss.rr);
+            w.qr_re.push(2.0 * loss.qr.re);
+            w.qr_im.push(-2.0 * loss.qr.im);
+        }
+        w
+    }
+
+    /// Loss of those of the first `n_modes`, in whole chunks, that are without forcing.
+    pub fn loss(&self, n_modes: usize, state: &ModalState) -> f64 {
+        let (weights, n) = (self, n_modes / LANES);
+        lanes::total(lanes::widest(LossSums { weights, n, state }))
     }
 }
 
@@ -133,7 +147,7 @@ impl Kernel for EnergySums<'_> {
 }
 
 struct LossSums<'a> {
-    weights: &'a EnergyWeights,
+    weights: &'a LossWeights,
     n: usize,
     state: &'a ModalState,
 }
@@ -143,17 +157,16 @@ impl Kernel for LossSums<'_> {
 
     #[inline(always)]
     fn call(self) -> [f64; LANES] {
-        let EnergyWeights {
-            loss_qq,
-            loss_rr,
-            loss_qr_re,
-            loss_qr_im,
-            ..
+        let LossWeights {
+            qq,
+            rr,
+            qr_re,
+            qr_im,
         } = self.weights;
         let n = self.n;
         let read = |column| &chunks(column)[..n];
-        let (qq, rr) = (read(loss_qq), read(loss_rr));
-        let (qr_re, qr_im) = (read(loss_qr_re), read(loss_qr_im));
+        let (qq, rr) = (read(qq), read(rr));
+        let (qr_re, qr_im) = (read(qr_re), read(qr_im));
         let (q_re, q_im) = (read(&self.state.q_re), read(&self.state.q_im));
         let (r_re, r_im) = (read(&self.state.r_re), read(&self.state.r_im));
         let mut sum = [0.0; LANES];

@@ -7,9 +7,11 @@
 //! base that vibrates the disk's modes are coupled with it and carried as a `rotor`.
 
 use super::closing::BodySample;
-use super::energy::LongSum;
+use super::energy::{Ledger, LongSum};
+use super::flight::FLIGHT_NODES;
 use super::forced_columns::ForcedColumns;
 use super::rotor::{Rotor, RotorScratch, RotorState};
+use super::span::Span;
 use super::stretches::{Piece, Stretches};
 use crate::modal::bank::padded;
 use crate::modal::oscillator::GAUSS_8;
@@ -112,8 +114,10 @@ pub(super) struct FreeMotion {
     pub samples: Vec<Sample>,
     /// Largest energy of disk and arms, J per (m/s²)².
     pub peak_energy: f64,
-    /// Modal states every [`CHECKPOINT_STEPS`] nodes.
+    /// Modal states every [`FLIGHT_NODES`] nodes: a run that wakes redoes at most so many steps.
     checkpoints: Vec<ForcedState>,
+    /// What happens between one of these and the next.
+    pub spans: Vec<Span>,
     pub modes: ForcedModes,
     /// The same over a grid step.
     columns: ForcedColumns,
@@ -127,8 +131,6 @@ pub(super) struct FreeMotion {
     pub pulse_end_s: f64,
 }
 
-/// Nodes between stored modal states: a run that wakes redoes at most so many steps.
-const CHECKPOINT_STEPS: usize = 64;
 
 /// Gauss rule on (0, 1) for the work and loss within a step, exact to degree 9.
 const GAUSS_5: [(f64, f64); 5] = [
@@ -182,7 +184,8 @@ impl FreeMotion {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
             peak_energy: 0.0,
-            checkpoints: Vec::with_capacity(n_steps / CHECKPOINT_STEPS + 1),
+            checkpoints: Vec::with_capacity(n_steps / FLIGHT_NODES + 1),
+            spans: Vec::new(),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
             columns: ForcedColumns::new(&modes, shapes.by_mode(), sigma, step_s, rule),
             modes,
@@ -195,7 +198,7 @@ impl FreeMotion {
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
         let mut supports = [LongSum::default(); 2];
         for k in 0..=n_steps {
-            if k % CHECKPOINT_STEPS == 0 {
+            if k % FLIGHT_NODES == 0 {
                 free.checkpoints.push(state.clone());
             }
             let mut sample = free.sample(&state);
@@ -231,6 +234,10 @@ impl FreeMotion {
         }
         let energies = free.samples.iter().map(|sample| sample.energy);
         free.peak_energy = energies.fold(0.0, f64::max);
+        let last_of = |first: usize| (first + FLIGHT_NODES).min(n_steps);
+        let firsts = (0..n_steps).step_by(FLIGHT_NODES);
+        let nodes = firsts.map(|first| &free.samples[first..=last_of(first)]);
+        free.spans = nodes.map(|nodes| Span::new(nodes, step_s)).collect();
         free
     }
 
@@ -269,9 +276,9 @@ impl FreeMotion {
 
     /// Unit response of the modes at node `k`: the bits behind the samples.
     pub fn state_at_node(&self, k: usize, state: &mut ForcedState) {
-        let first = k / CHECKPOINT_STEPS;
+        let first = k / FLIGHT_NODES;
         state.copy_from(&self.checkpoints[first]);
-        for j in first * CHECKPOINT_STEPS..k {
+        for j in first * FLIGHT_NODES..k {
             self.step(state, j);
         }
     }
@@ -334,7 +341,34 @@ impl FreeMotion {
         total
     }
 
-    /// The same over any time; slower, nothing tabulated.
+    /// Books work and loss over a flight from node `k` into `ledger`, step by step as long as the pulse lasts:
+    /// `unit` is the unit response there and is carried along, `contact` what contact adds to it, `total` scratch.
+    pub fn exchange_in_flight(
+        &self,
+        [contact, unit, total]: [&mut ForcedState; 3],
+        k: usize,
+        amplitude: f64,
+        ledger: &mut Ledger,
+    ) {
+        for k in k..k + FLIGHT_NODES {
+            for (total, from) in [
+                (&mut total.x, [&contact.x, &unit.x]),
+                (&mut total.v, [&contact.v, &unit.v]),
+            ] {
+                let [contact, unit] = from;
+                for ((total, contact), unit) in total.iter_mut().zip(contact).zip(unit) {
+                    *total = contact + amplitude * unit;
+                }
+            }
+            let exchange = self.exchange(total, k, amplitude);
+            ledger.work.add(exchange.work);
+            ledger.damping.add(exchange.loss);
+            self.step(unit, k);
+            self.columns.carry(&mut contact.x, &mut contact.v);
+        }
+    }
+
+    /// [`Self::exchange`] over any time; slower, nothing tabulated.
     pub fn exchange_within(
         &self,
         state: &mut ForcedState,

@@ -8,6 +8,7 @@ mod contact_log;
 mod contact_system;
 mod driven;
 mod energy;
+mod flight;
 mod forced_columns;
 mod free_motion;
 mod history;
@@ -20,6 +21,7 @@ mod response;
 mod rotor;
 mod run_books;
 mod shared;
+mod span;
 mod stretches;
 
 pub use history::StructuralHistory;

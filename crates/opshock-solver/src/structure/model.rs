@@ -315,10 +315,13 @@ impl StructureModel {
             return books.finish();
         }
         let mut system = ContactSystem::wake(books, shared.driven()?);
-        for _ in first_awake..shared.n_steps {
-            let step_s = shared.free.step_s;
-            let report = complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
-            system.end_step(report);
+        while system.books().k < shared.n_steps {
+            if !system.fly() {
+                let step_s = shared.free.step_s;
+                let report =
+                    complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
+                system.end_step(report);
+            }
             system.books().record_node();
             if system.books().decayed() {
                 break;

@@ -8,6 +8,7 @@ use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::driven::Driven;
 use super::energy::{Energies, Ledger, LongSum};
+use super::flight::FLIGHT_NODES;
 use super::free_motion::{ForcedState, Sample};
 use super::history::StructuralHistory;
 use super::model::{StructureError, StructureRun, StructureWarning};
@@ -21,20 +22,23 @@ use crate::lanes::abreast;
 use crate::modal::bank::padded;
 use crate::modal::{BankFlow, ModalState, Readout};
 
-/// In a fixed window the peaks of the energies are looked for in every node of so many. Books of work
-/// and losses are kept at every step.
-const ENERGY_NODES: usize = 8;
+/// The peaks of the energies are looked for in every node of so many: those where flights begin and end. Books of
+/// work and losses are kept at every step.
+const ENERGY_NODES: usize = FLIGHT_NODES;
 
 /// All that changes in a run; kept in the workspace so that runs reuse its memory.
 #[derive(Default)]
 pub(super) struct RunState {
     pub now: ModalState,
     pub ahead: ModalState,
-    total: ModalState,
     pub unit_now: ForcedState,
     pub unit_ahead: ForcedState,
     pub total_forced: ForcedState,
+    /// What contact adds to the forced modes, in flights under the pulse.
+    pub forced: ForcedState,
     pub part_flow: BankFlow,
+    /// Time of `part_flow`, s.
+    pub part_s: f64,
     /// The disk's harmonics on hub or base: driven by contact; no parts without one.
     pub rotor_now: RotorState,
     pub rotor_ahead: RotorState,
@@ -42,7 +46,7 @@ pub(super) struct RunState {
     pub logs: [ContactLog; 2],
     pub history: StructuralHistory,
     columns: StructureColumns,
-    record: bool,
+    pub record: bool,
     pub keeps_motion: bool,
 }
 
@@ -66,7 +70,7 @@ pub(super) struct RunBooks<'a> {
     pub both_arms: bool,
     pub bodies: Option<BodyBook>,
     energies: Energies,
-    extremes: DiskExtremes,
+    pub extremes: DiskExtremes,
     decayed: bool,
     /// First node whose motion is not a finite number.
     not_finite: Option<usize>,
@@ -84,6 +88,7 @@ impl RunState {
             self.unit_now = ForcedState::at_rest(n_forced, rotor);
             self.unit_ahead = self.unit_now.clone();
             self.total_forced = self.unit_now.clone();
+            self.forced = self.unit_now.clone();
             self.rotor_now = self.unit_now.rotor.clone();
             self.rotor_ahead = self.unit_now.rotor.clone();
             self.part_leap = rotor.map_or_else(Leap::default, |rotor| rotor.step.clone());
@@ -91,6 +96,8 @@ impl RunState {
         // Padding stays at rest, whatever an earlier model left there.
         self.total_forced.x.fill(0.0);
         self.total_forced.v.fill(0.0);
+        self.forced.x.fill(0.0);
+        self.forced.v.fill(0.0);
         self.rotor_now.reset();
         self.logs.iter_mut().for_each(ContactLog::clear);
         let n_nodes = if keeps_motion { shared.n_steps + 1 } else { 0 };
@@ -103,13 +110,14 @@ impl RunState {
     /// Room for the contact-driven state, at rest.
     fn wake(&mut self, driven: &Driven) {
         let n = driven.oscillators.len();
+        // No flow of this model yet.
+        self.part_s = f64::NAN;
         if self.now.len() == n {
             self.now.reset();
             self.ahead.reset();
         } else {
             self.now = ModalState::at_rest(n);
             self.ahead = ModalState::at_rest(n);
-            self.total = ModalState::at_rest(n);
             self.part_flow = BankFlow::zeros(n);
         }
     }
@@ -163,20 +171,27 @@ impl<'a> RunBooks<'a> {
         self.ledger.damping = LongSum::from_value(a2 * sample.loss);
     }
 
-    /// Pose and rate of the disk under the slider now.
-    pub fn slider(&self, sample: &Sample) -> (DiskPose, DiskPose) {
+    /// Pose and rate of the disk under the slider in free motion, but for what the rotor carries.
+    pub fn free_slider(&self, sample: &Sample) -> (DiskPose, DiskPose) {
         let a = self.amplitude;
         let [pitch, roll] = self.shared.slope_to_pose;
-        let mut pose = DiskPose {
+        let pose = DiskPose {
             displacement_m: a * sample.slider.value,
             pitch_rad: a * pitch * sample.slider_slope.value,
             roll_rad: a * roll * sample.slider_slope.value,
         };
-        let mut rate = DiskPose {
+        let rate = DiskPose {
             displacement_m: a * sample.slider.rate,
             pitch_rad: a * pitch * sample.slider_slope.rate,
             roll_rad: a * roll * sample.slider_slope.rate,
         };
+        (pose, rate)
+    }
+
+    /// Pose and rate of the disk under the slider now.
+    pub fn slider(&self, sample: &Sample) -> (DiskPose, DiskPose) {
+        let a = self.amplitude;
+        let (mut pose, mut rate) = self.free_slider(sample);
         if let Some(rotor) = &self.shared.free.rotor {
             let [pitch, roll] = sample.tilt;
             pose.pitch_rad += a * pitch.value;
@@ -218,7 +233,7 @@ impl<'a> RunBooks<'a> {
 
     /// Books the node reached.
     pub fn record_node(&mut self) {
-        let (shared, sample, a) = (self.shared, self.sample(), self.amplitude);
+        let (shared, sample) = (self.shared, self.sample());
         // Rates are the head's alone; slopes also stand in columns.
         let (pose, rate) = if self.state.keeps_motion || self.state.record {
             self.slider(sample)
@@ -234,6 +249,61 @@ impl<'a> RunBooks<'a> {
         if !sum.is_finite() && self.not_finite.is_none() {
             self.not_finite = Some(self.k);
         }
+        let is_look = self.k.is_multiple_of(ENERGY_NODES);
+        let may_end = matches!(shared.window, Window::UntilDecayed { .. });
+        if is_look || may_end || self.state.record {
+            self.energies = self.energies_now();
+        }
+        if self.state.keeps_motion {
+            self.keep_motion(self.k, pose, rate);
+        }
+        let node = self.node(pose);
+        self.extremes.include(&node);
+        self.record_bodies();
+        let material = self.energies.material();
+        if is_look {
+            let ledger = &mut self.ledger;
+            ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
+            ledger.peak_material = ledger.peak_material.max(material);
+        }
+        self.decayed = self.has_decayed(self.k, material);
+        if self.state.record {
+            self.state.columns.push(&node);
+        }
+    }
+
+    /// A row of the columns for a node inside a flight, which neither extremes nor peaks need.
+    pub fn record_within(&mut self, pose: DiskPose) {
+        self.energies = self.energies_now();
+        let node = self.node(pose);
+        self.state.columns.push(&node);
+    }
+
+    /// Whether the run ends at node `k` with such a material energy.
+    pub fn has_decayed(&self, k: usize, material_j: f64) -> bool {
+        let Window::UntilDecayed { share, .. } = self.shared.window else {
+            return false;
+        };
+        let is_driven = (k as f64 * self.shared.free.step_s) < self.shared.free.pulse_end_s;
+        !is_driven && material_j <= share * self.ledger.peak_material
+    }
+
+    /// Appends node `k` to the history that the head reads.
+    pub fn keep_motion(&mut self, k: usize, pose: DiskPose, rate: DiskPose) {
+        let time_s = k as f64 * self.shared.free.step_s;
+        let (pose, rate) = self.shared.over_pivot(self.amplitude, time_s, pose, rate);
+        self.state.history.pose.push(pose);
+        self.state.history.rate.push(rate);
+        let (pose, rate) = self.pivot();
+        if let Some(pivot) = &mut self.state.history.pivot {
+            pivot.pose.push(pose);
+            pivot.rate.push(rate);
+        }
+    }
+
+    /// The node reached, with the disk's `pose` under the slider there.
+    fn node(&self, pose: DiskPose) -> Node {
+        let (shared, sample, a) = (self.shared, self.sample(), self.amplitude);
         let (mut ramp, mut rim) = (a * sample.contact.value, a * sample.rim);
         let mut arms = [a * sample.top.value, a * sample.bottom.value];
         if let Some(driven) = self.driven {
@@ -255,62 +325,33 @@ impl<'a> RunBooks<'a> {
                 }
             }
         }
-        let is_look = match shared.window {
-            Window::Fixed { .. } => self.k.is_multiple_of(ENERGY_NODES),
-            Window::UntilDecayed { .. } => true,
-        };
-        if is_look || self.state.record {
-            self.energies = self.energies_now();
-        }
         let time_s = self.k as f64 * shared.free.step_s;
-        if self.state.keeps_motion {
-            let (pose, rate) = shared.over_pivot(a, time_s, pose, rate);
-            self.state.history.pose.push(pose);
-            self.state.history.rate.push(rate);
-            let (pose, rate) = self.pivot();
-            if let Some(pivot) = &mut self.state.history.pivot {
-                pivot.pose.push(pose);
-                pivot.rate.push(rate);
-            }
-        }
-        let node = Node {
+        Node {
             time_s,
-            shock_m_per_s2: a * shared.pulse.value(time_s),
+            shock_m_per_s2: match self.state.record {
+                true => a * shared.pulse.value(time_s),
+                // Columns alone have it.
+                false => 0.0,
+            },
             pose,
             ramp_m: ramp,
             rim_m: rim,
             arms_m: arms,
             energies: self.energies,
-        };
-        self.extremes.include(&node);
-        self.record_bodies();
-        if is_look {
-            let material = self.energies.material();
-            let ledger = &mut self.ledger;
-            ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(self.energies.fixed_frame);
-            ledger.peak_material = ledger.peak_material.max(material);
-            if let Window::UntilDecayed { share, .. } = shared.window {
-                self.decayed =
-                    time_s >= shared.free.pulse_end_s && material <= share * ledger.peak_material;
-            }
-        }
-        if self.state.record {
-            self.state.columns.push(&node);
         }
     }
 
     /// Energies at the node reached.
-    fn energies_now(&mut self) -> Energies {
+    pub fn energies_now(&mut self) -> Energies {
         let shared = self.shared;
         if let Some(driven) = self.driven {
             self.total_forced(driven);
             let state = &mut *self.state;
-            state.total.copy_from(&state.now);
-            for (j, &i) in driven.forced_index.iter().enumerate() {
-                state.total.q_re[i] = state.total_forced.x[j];
-                state.total.r_re[i] = state.total_forced.v[j];
-            }
-            let mut energies = driven.weights.energies(&state.total);
+            // The forced modes' total stands in their places as long as the sums are made.
+            let ForcedState { x, v, .. } = &mut state.total_forced;
+            swap_forced(driven, &mut state.now, x, v);
+            let mut energies = driven.weights.energies(&state.now);
+            swap_forced(driven, &mut state.now, x, v);
             if let Some(rotor) = &shared.free.rotor {
                 let ForcedState {
                     rotor: total,
@@ -426,5 +467,13 @@ impl<'a> RunBooks<'a> {
             run.warnings.push(StructureWarning::BothArmsOnePoint);
         }
         Ok(run)
+    }
+}
+
+/// Exchanges displacements and velocities of the forced modes with `x` and `v`.
+fn swap_forced(driven: &Driven, state: &mut ModalState, x: &mut [f64], v: &mut [f64]) {
+    for ((&i, x), v) in driven.forced_index.iter().zip(x).zip(v) {
+        std::mem::swap(&mut state.q_re[i], x);
+        std::mem::swap(&mut state.r_re[i], v);
     }
 }

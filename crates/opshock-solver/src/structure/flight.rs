@@ -1,0 +1,448 @@
+//! Many steps at once where no gap can close: flights.
+//!
+//! Between contacts modes are free: their flow over many nodes, and what damping takes meanwhile, are closed forms.
+//! What must be known is that nothing happens in between. A point's motion by contact strays from the cubic through
+//! its values and rates at both ends by h⁴/384 times the largest fourth derivative, and
+//!
+//! ```text
+//! |p(t)| ≤ A = |p| + |ṗ|/ω,   |q⁽⁴⁾| ≤ Λ⁴ A,   Λ = √|κ| + 2γ + c + N
+//! ```
+//!
+//! by the energy of a mode in its turning frame ([`crate::modal::oscillator`]); a mode so fast that this says
+//! nothing strays by no more than it and its cubic can reach together. The unit response has its bounds from its
+//! nodes ([`super::span`]). Where both together leave the gaps open, no step between can do anything but carry
+//! the state, so they are left out. The nodes between are looked at where a history or an extreme needs them.
+
+use super::bank::Bank;
+use super::contact_system::ContactSystem;
+use super::driven::Driven;
+use super::energy::LossWeights;
+use super::run_books::RunBooks;
+use super::span::Range;
+use super::{Window, record::DiskExtremes};
+use crate::disk::DiskPose;
+use crate::lanes::{self, Kernel, Simd, WithSimd, abreast};
+use crate::modal::bank::{ChunkFlow, LANES, chunks};
+use crate::modal::{BankFlow, LossForm, ModalState, Oscillator};
+
+/// Steps of a flight. It begins at a multiple of them.
+pub(super) const FLIGHT_NODES: usize = 16;
+/// What bounds by the energy are widened by: damping fixed in space may feed a mode a little in a flight.
+const WIDENING: f64 = 1.01;
+
+/// Tables over a flight.
+pub(super) struct Flight {
+    length_s: f64,
+    flow: BankFlow,
+    loss: LossWeights,
+    /// Loss of the forced modes, in their order.
+    forced_loss: Vec<LossForm>,
+    /// How far any point that is looked at may stray, per |q| and per |r|.
+    stray_q: Vec<f64>,
+    stray_r: Vec<f64>,
+}
+
+/// Displacement and rate by contact of the points whose extremes are kept: contact point, rim, slider.
+type Sight = [[f64; 2]; 3];
+
+impl Flight {
+    /// Tables over the modes of `bank` for steps of `step_s`.
+    pub fn new(bank: &Bank, step_s: f64) -> Self {
+        let length_s = FLIGHT_NODES as f64 * step_s;
+        let mut flow = BankFlow::zeros(bank.oscillators.len());
+        flow.set(&bank.oscillators, length_s);
+        let forced = bank.forced_index.iter();
+        let stray = |i: usize| {
+            let slider = f64::hypot(bank.slider[0].re[i], bank.slider[0].im[i]);
+            let arm = bank.arm_shape[0][i].abs().max(bank.arm_shape[1][i].abs());
+            let largest = (bank.contact[i].abs() + arm).max(bank.rim[i].abs());
+            stray_of(&bank.oscillators[i], largest.max(slider), length_s)
+        };
+        let strays = (0..bank.oscillators.len()).map(stray);
+        let (stray_q, stray_r) = strays.unzip();
+        Self {
+            length_s,
+            flow,
+            loss: LossWeights::new(&bank.oscillators, &bank.forced_index, length_s),
+            forced_loss: forced
+                .map(|&i| bank.oscillators[i].loss_form(length_s))
+                .collect(),
+            stray_q,
+            stray_r,
+        }
+    }
+
+    /// How far a point may stray from the cubic between the ends of a flight that begins at `state`, m.
+    fn stray_m(&self, n_modes: usize, state: &ModalState) -> f64 {
+        let (flight, n) = (self, n_modes / LANES);
+        lanes::total(lanes::widest(Stray { flight, n, state }))
+    }
+}
+
+/// Weights of |q| and |r| in how far a point of that `shape` may stray.
+fn stray_of(o: &Oscillator, shape: f64, h_s: f64) -> (f64, f64) {
+    let omega = o.omega_rad_per_s;
+    if omega == 0.0 {
+        return (0.0, 0.0);
+    }
+    let turn = o.turn_rad_per_s.abs();
+    let kappa = f64::hypot(omega * omega, o.fixed_damping_per_s * turn);
+    let rate = kappa.sqrt() + 2.0 * o.half_damping_per_s + o.fixed_damping_per_s + turn;
+    let angle = rate * h_s;
+    // The cubic's own reach: its ends, and 4/27 of a flight at the rates of both.
+    let share = (angle.powi(4) / 384.0).min(2.0 + 0.3 * angle);
+    let weight = WIDENING * share * shape;
+    (weight * (1.0 + turn / omega), weight / omega)
+}
+
+impl Driven {
+    fn sight(&self, n_modes: usize, state: &ModalState) -> Sight {
+        let n = n_modes;
+        let (q_re, q_im) = (&state.q_re[..n], &state.q_im[..n]);
+        let (r_re, r_im) = (&state.r_re[..n], &state.r_im[..n]);
+        let slider = &self.slider[0];
+        let [contact, contact_rate, rim, rim_rate, re, im, re_rate, im_rate] = abreast([
+            [&self.contact, q_re],
+            [&self.contact, r_re],
+            [&self.rim, q_re],
+            [&self.rim, r_re],
+            [&slider.re, q_re],
+            [&slider.im, q_im],
+            [&slider.re, r_re],
+            [&slider.im, r_im],
+        ]);
+        [
+            [contact, contact_rate],
+            [rim, rim_rate],
+            [re + im, re_rate + im_rate],
+        ]
+    }
+}
+
+impl ContactSystem<'_> {
+    /// Carries the system over a whole flight, books and history with it, and says so; or leaves all as it is,
+    /// where something might happen in between.
+    pub fn fly(&mut self) -> bool {
+        let (driven, k) = (self.driven, self.run.k);
+        let Some(flight) = &driven.flight else {
+            return false;
+        };
+        let to = k + FLIGHT_NODES;
+        if !k.is_multiple_of(FLIGHT_NODES) || to > self.run.shared.n_steps {
+            return false;
+        }
+        let n = self.run.n_moving;
+        let state = &mut *self.run.state;
+        flight.flow.apply(n, &state.now, &mut state.ahead);
+        let stray_m = flight.stray_m(n, &state.now);
+        if !self.stays_open(flight, stray_m) || self.decays() {
+            return false;
+        }
+        let is_watched = !self.stays_within(flight, stray_m);
+        self.land(flight, is_watched);
+        true
+    }
+
+    /// Whether both gaps stay open until the state ahead, the end of a flight.
+    fn stays_open(&mut self, flight: &Flight, stray_m: f64) -> bool {
+        let (shared, a, k) = (self.run.shared, self.run.amplitude, self.run.k);
+        let samples = [k, k + FLIGHT_NODES].map(|k| &shared.free.samples[k]);
+        let state = &*self.run.state;
+        self.gaps_ahead = self.gaps_of(&state.ahead, &state.rotor_ahead, samples[1]);
+        let span = &shared.free.spans[k / FLIGHT_NODES];
+        (0..shared.n_contacts).all(|side| {
+            let ends = [(self.gaps[side], samples[0]), (self.gaps_ahead[side], samples[1])];
+            let by_contact = ends.map(|(gap, sample)| {
+                let free = shared.free_gap(side, a, sample);
+                [gap.value_m - free.value_m, gap.rate_m_per_s - free.rate_m_per_s]
+            });
+            let driven = Range::of_motion(by_contact, flight.length_s, stray_m);
+            let free = span.gaps[side].times(a);
+            shared.clearance_m[side] + (free.low + driven.low) > shared.law.gap_tolerance_m
+        })
+    }
+
+    /// Whether no point goes further than it has been, or is at the end of the flight.
+    fn stays_within(&self, flight: &Flight, stray_m: f64) -> bool {
+        let (shared, a, k) = (self.run.shared, self.run.amplitude, self.run.k);
+        let (n, state) = (self.run.n_moving, &*self.run.state);
+        let ends = [&state.now, &state.ahead].map(|state| self.driven.sight(n, state));
+        let span = &shared.free.spans[k / FLIGHT_NODES];
+        let last = &shared.free.samples[k + FLIGHT_NODES];
+        let last = [last.contact.value, last.rim, last.slider.value];
+        let mut extremes = self.run.extremes;
+        let at_end: [f64; 3] = std::array::from_fn(|i| a * last[i] + ends[1][i][0]);
+        extremes.include_points(at_end);
+        (0..3).all(|i| {
+            let driven = Range::of_motion(ends.map(|end| end[i]), flight.length_s, stray_m);
+            let range = span.points[i].times(a).plus(driven);
+            let most = extremes.of_point(i);
+            most.low <= range.low && range.high <= most.high
+        })
+    }
+
+    /// Whether the motion has decayed by the end of the flight, the state ahead: energies fall, so what is above
+    /// its share there has been so before.
+    fn decays(&mut self) -> bool {
+        if matches!(self.run.shared.window, Window::Fixed { .. }) {
+            return false;
+        }
+        let k = self.run.k;
+        let to = k + FLIGHT_NODES;
+        let free = &self.run.shared.free;
+        free.state_at_node(to, &mut self.run.state.unit_ahead);
+        self.turn_to(to);
+        let material_j = self.run.energies_now().material();
+        self.turn_to(k);
+        self.run.has_decayed(to, material_j)
+    }
+
+    /// Makes node `k` and the states ahead the present ones, and these those ahead.
+    fn turn_to(&mut self, k: usize) {
+        self.run.k = k;
+        self.run.is_totalled = false;
+        let state = &mut *self.run.state;
+        std::mem::swap(&mut state.now, &mut state.ahead);
+        std::mem::swap(&mut state.unit_now, &mut state.unit_ahead);
+    }
+
+    /// Books the flight and ends it.
+    fn land(&mut self, flight: &Flight, is_watched: bool) {
+        let (shared, k, n) = (self.run.shared, self.run.k, self.run.n_moving);
+        let free = &shared.free;
+        let run = &mut self.run;
+        run.ledger.damping.add(flight.loss.loss(n, &run.state.now));
+        if k as f64 * free.step_s >= free.pulse_end_s {
+            run.total_forced(self.driven);
+            let total = &run.state.total_forced;
+            let states = total.x.iter().zip(&total.v).zip(&flight.forced_loss);
+            let loss = states.map(|((x, v), form)| form.loss((*x).into(), (*v).into()));
+            run.ledger.damping.add(loss.sum());
+            free.state_at_node(k + FLIGHT_NODES, &mut run.state.unit_ahead);
+        } else {
+            let state = &mut *run.state;
+            let forced = &mut state.forced;
+            for (j, &i) in self.driven.forced_index.iter().enumerate() {
+                (forced.x[j], forced.v[j]) = (state.now.q_re[i], state.now.r_re[i]);
+            }
+            state.unit_ahead.copy_from(&state.unit_now);
+            let states = [forced, &mut state.unit_ahead, &mut state.total_forced];
+            free.exchange_in_flight(states, k, run.amplitude, &mut run.ledger);
+            run.is_totalled = false;
+        }
+        if is_watched || run.state.keeps_motion || run.state.record {
+            run.watch(self.driven);
+        }
+        self.turn_to(k + FLIGHT_NODES);
+        (self.gaps, self.is_settled) = (self.gaps_ahead, true);
+        self.rest();
+    }
+}
+
+impl RunBooks<'_> {
+    /// Looks at the nodes inside a flight that begins now.
+    fn watch(&mut self, driven: &Driven) {
+        let first = self.k;
+        let mut sums = [[[0.0; LANES]; WATCHED]; FLIGHT_NODES - 1];
+        lanes::widest(Watch {
+            driven,
+            n: self.n_moving / LANES,
+            state: &self.state.now,
+            sums: &mut sums,
+        });
+        let mut seen = [(DiskPose::default(), DiskPose::default()); FLIGHT_NODES - 1];
+        for (j, (sums, seen)) in sums.into_iter().zip(&mut seen).enumerate() {
+            let sample = &self.shared.free.samples[first + j + 1];
+            let [contact, rim, w, pitch, roll, w_rate, pitch_rate, roll_rate] =
+                sums.map(lanes::total);
+            let (pose, rate) = self.free_slider(sample);
+            let pose = pose.plus(&DiskPose {
+                displacement_m: w,
+                pitch_rad: pitch,
+                roll_rad: roll,
+            });
+            let rate = rate.plus(&DiskPose {
+                displacement_m: w_rate,
+                pitch_rad: pitch_rate,
+                roll_rad: roll_rate,
+            });
+            let a = self.amplitude;
+            let [contact, rim] = [a * sample.contact.value + contact, a * sample.rim + rim];
+            self.extremes
+                .include_points([contact, rim, pose.displacement_m]);
+            if self.state.keeps_motion {
+                self.keep_motion(first + j + 1, pose, rate);
+            }
+            *seen = (pose, rate);
+        }
+        if self.state.record {
+            self.record_flight(driven, &seen);
+        }
+    }
+
+    /// Rows of the columns for the nodes inside a flight, which is taken by steps for their sake and undone.
+    fn record_flight(&mut self, driven: &Driven, seen: &[(DiskPose, DiskPose)]) {
+        let (first, free) = (self.k, &self.shared.free);
+        let (now, unit) = (self.state.now.clone(), self.state.unit_now.clone());
+        for (pose, _) in seen {
+            let state = &mut *self.state;
+            let before = state.now.clone();
+            driven.step_flow.apply(self.n_moving, &before, &mut state.now);
+            free.step(&mut state.unit_now, self.k);
+            self.k += 1;
+            self.is_totalled = false;
+            self.record_within(*pose);
+        }
+        (self.k, self.is_totalled) = (first, false);
+        (self.state.now, self.state.unit_now) = (now, unit);
+    }
+}
+
+impl DiskExtremes {
+    /// Widened by the displacements of contact point, rim and slider.
+    fn include_points(&mut self, [contact, rim, slider]: [f64; 3]) {
+        self.slider_max_m = self.slider_max_m.max(slider);
+        self.slider_min_m = self.slider_min_m.min(slider);
+        self.ramp_max_m = self.ramp_max_m.max(contact);
+        self.ramp_min_m = self.ramp_min_m.min(contact);
+        self.rim_max_m = self.rim_max_m.max(rim.abs());
+    }
+
+    /// Where contact point, rim and slider have been.
+    fn of_point(&self, point: usize) -> Range {
+        let (low, high) = match point {
+            0 => (self.ramp_min_m, self.ramp_max_m),
+            1 => (-self.rim_max_m, self.rim_max_m),
+            _ => (self.slider_min_m, self.slider_max_m),
+        };
+        Range { low, high }
+    }
+}
+
+struct Stray<'a> {
+    flight: &'a Flight,
+    n: usize,
+    state: &'a ModalState,
+}
+
+impl Kernel for Stray<'_> {
+    type Output = [f64; LANES];
+
+    #[inline(always)]
+    fn call(self) -> [f64; LANES] {
+        let n = self.n;
+        let read = |column| &chunks(column)[..n];
+        let (by_q, by_r) = (read(&self.flight.stray_q), read(&self.flight.stray_r));
+        let (q_re, q_im) = (read(&self.state.q_re), read(&self.state.q_im));
+        let (r_re, r_im) = (read(&self.state.r_re), read(&self.state.r_im));
+        let mut sum = [0.0; LANES];
+        for i in 0..n {
+            for l in 0..LANES {
+                let q = q_re[i][l].abs() + q_im[i][l].abs();
+                let r = r_re[i][l].abs() + r_im[i][l].abs();
+                sum[l] = by_q[i][l].mul_add(q, by_r[i][l].mul_add(r, sum[l]));
+            }
+        }
+        sum
+    }
+}
+
+/// What is read at a node inside a flight: contact point, rim, and the slider's pose and its rate.
+const WATCHED: usize = 8;
+
+struct Watch<'a> {
+    driven: &'a Driven,
+    n: usize,
+    state: &'a ModalState,
+    sums: &'a mut [[[f64; LANES]; WATCHED]; FLIGHT_NODES - 1],
+}
+
+impl WithSimd for Watch<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match S::F64_LANES {
+            8 => self.run::<S, 1>(simd),
+            4 => self.run::<S, 2>(simd),
+            2 => self.run::<S, 4>(simd),
+            _ => self.run::<S, 8>(simd),
+        }
+    }
+}
+
+impl Watch<'_> {
+    /// Chunk by chunk, each carried over all nodes in registers, `V` of them a chunk.
+    #[inline(always)]
+    fn run<S: Simd, const V: usize>(self, simd: S) {
+        let n = self.n;
+        let read = |column| &chunks(column)[..n];
+        let Driven {
+            contact,
+            rim,
+            slider,
+            step_flow,
+            ..
+        } = self.driven;
+        let [w, pitch, roll] = slider;
+        let rows = [contact, rim, &w.re, &w.im, &pitch.re, &pitch.im, &roll.re, &roll.im];
+        let rows = rows.map(|row| read(row));
+        let ModalState {
+            q_re,
+            q_im,
+            r_re,
+            r_im,
+        } = self.state;
+        let state = [q_re, q_im, r_re, r_im].map(|column| read(column));
+        for i in 0..n {
+            let load = |x: &[f64; LANES]| -> [S::f64s; V] {
+                let parts = S::as_simd_f64s(x).0;
+                std::array::from_fn(|v| parts[v])
+            };
+            let ChunkFlow(flow) = step_flow.of_chunk(i);
+            let [ar, ai, br, bi, cr, ci, dr, di] = flow.map(load);
+            let [contact, rim, wr, wi, pr, pi, rr, ri] = rows.map(|row| load(&row[i]));
+            let [mut qr, mut qi, mut vr, mut vi] = state.map(|column| load(&column[i]));
+            for sums in self.sums.iter_mut() {
+                for v in 0..V {
+                    let fused = |a, b, c| simd.mul_add_f64s(a, b, c);
+                    let less = |a, b, c| simd.negate_mul_add_f64s(a, b, c);
+                    let (x, y, p, q) = (qr[v], qi[v], vr[v], vi[v]);
+                    // Two halves of each sum, so that a step waits for three products and not for five.
+                    let half = |re, im, at| fused(re, x, less(im, y, at));
+                    let other = |re, im| less(im, q, simd.mul_f64s(re, p));
+                    qr[v] = simd.add_f64s(half(ar[v], ai[v], x), other(br[v], bi[v]));
+                    vr[v] = simd.add_f64s(half(cr[v], ci[v], p), other(dr[v], di[v]));
+                    let half = |re, im, at| fused(re, y, fused(im, x, at));
+                    let other = |re, im| fused(re, q, simd.mul_f64s(im, p));
+                    qi[v] = simd.add_f64s(half(ar[v], ai[v], y), other(br[v], bi[v]));
+                    vi[v] = simd.add_f64s(half(cr[v], ci[v], q), other(dr[v], di[v]));
+                    let (x, y, p, q) = (qr[v], qi[v], vr[v], vi[v]);
+                    let [s0, s1, s2, s3, s4, s5, s6, s7] = &mut *sums;
+                    add(simd, s0, v, [(contact[v], x)]);
+                    add(simd, s1, v, [(rim[v], x)]);
+                    add(simd, s2, v, [(wr[v], x), (wi[v], y)]);
+                    add(simd, s3, v, [(pr[v], x), (pi[v], y)]);
+                    add(simd, s4, v, [(rr[v], x), (ri[v], y)]);
+                    add(simd, s5, v, [(wr[v], p), (wi[v], q)]);
+                    add(simd, s6, v, [(pr[v], p), (pi[v], q)]);
+                    add(simd, s7, v, [(rr[v], p), (ri[v], q)]);
+                }
+            }
+        }
+    }
+}
+
+/// Adds products to register `v` of `sums`.
+#[inline(always)]
+fn add<S: Simd, const K: usize>(
+    simd: S,
+    sums: &mut [f64; LANES],
+    v: usize,
+    products: [(S::f64s, S::f64s); K],
+) {
+    let sum = &mut S::as_mut_simd_f64s(sums).0[v];
+    for (a, b) in products {
+        *sum = simd.mul_add_f64s(a, b, *sum);
+    }
+}
