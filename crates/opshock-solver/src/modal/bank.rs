@@ -146,6 +146,17 @@ impl BankFlow {
         self.rr.set(i, flow.rr);
     }
 
+    /// Flow of mode `i`.
+    pub fn of_mode(&self, i: usize) -> Flow {
+        let of = |column: &Columns| Complex::new(column.re[i], column.im[i]);
+        Flow {
+            qq: of(&self.qq),
+            qr: of(&self.qr),
+            rq: of(&self.rq),
+            rr: of(&self.rr),
+        }
+    }
+
     /// Sets the flow of chunk `i`, in the order of [`ChunkFlow`].
     #[inline(always)]
     pub fn set_chunk(&mut self, i: usize, flow: &[[f64; LANES]; 8]) {
@@ -188,9 +199,10 @@ impl BankFlow {
         });
     }
 
-    /// Displacement of `shape` after the flow per unit impulse on `shape` at its start.
-    pub fn compliance(&self, shape: &[f64]) -> f64 {
-        self.compliance_across(shape, shape)
+    /// Velocity of `to` after the flow per unit impulse on `from` at its start.
+    pub fn response_across(&self, from: &[f64], to: &[f64]) -> f64 {
+        let pairs = from.iter().zip(to).zip(&self.rr.re);
+        pairs.map(|((a, b), c)| a * b * (1.0 + c)).sum()
     }
 
     /// Displacement of `to` after the flow per unit impulse on `from` at its start.

@@ -34,6 +34,8 @@ pub(super) struct ContactSystem<'a> {
     pub(super) gaps: [Gap; 2],
     pub(super) gaps_ahead: [Gap; 2],
     sample_ahead: Sample,
+    /// The contact point a step on, by contact alone, while nothing has changed the state since it was seen.
+    pub(super) contact_ahead: Option<Gap>,
 }
 
 impl<'a> ContactSystem<'a> {
@@ -49,6 +51,7 @@ impl<'a> ContactSystem<'a> {
             gaps: [Gap::default(); 2],
             gaps_ahead: [Gap::default(); 2],
             sample_ahead: Sample::default(),
+            contact_ahead: None,
         };
         system.settle();
         system
@@ -139,20 +142,25 @@ impl<'a> ContactSystem<'a> {
             disk.value_m += on_hub.value_m;
             disk.rate_m_per_s += on_hub.rate_m_per_s;
         }
-        std::array::from_fn(|side| {
-            if side >= shared.n_contacts {
-                return Gap::default();
-            }
-            let mut arm = Gap::default();
-            for j in driven.arms[side].modes.clone() {
-                arm.value_m += driven.arm_shape[side][j] * state.q_re[j];
-                arm.rate_m_per_s += driven.arm_shape[side][j] * state.r_re[j];
-            }
+        self.gaps_between(disk, sample, |side| {
+            let mut arm = driven.arm_now(side, state);
             if let Some(rotor) = &shared.free.rotor {
                 let on_base = rotor.arm(side, hub);
                 arm.value_m += on_base.value_m;
                 arm.rate_m_per_s += on_base.rate_m_per_s;
             }
+            arm
+        })
+    }
+
+    /// Gaps between the disk and the arms, moved by contact, on top of the unit response `sample`.
+    fn gaps_between(&self, disk: Gap, sample: &Sample, arm: impl Fn(usize) -> Gap) -> [Gap; 2] {
+        let shared = self.run.shared;
+        std::array::from_fn(|side| {
+            if side >= shared.n_contacts {
+                return Gap::default();
+            }
+            let arm = arm(side);
             let free = shared.free_gap(side, self.run.amplitude, sample);
             let sign = if side == 0 { 1.0 } else { -1.0 };
             Gap {
@@ -197,6 +205,11 @@ impl<'a> ContactSystem<'a> {
     fn is_whole_step(&self) -> bool {
         self.offset_s == 0.0 && self.reach_s == self.run.shared.free.step_s
     }
+
+    /// Whether the step is taken in one pass, once nothing can happen in it any more.
+    fn is_stride(&self) -> bool {
+        self.is_whole_step() && self.run.shared.free.rotor.is_none()
+    }
 }
 
 impl UnilateralSystem for ContactSystem<'_> {
@@ -212,6 +225,16 @@ impl UnilateralSystem for ContactSystem<'_> {
         self.reach_s = h_s;
         let (shared, driven) = (self.run.shared, self.driven);
         let free = &shared.free;
+        if self.is_stride() {
+            let n = self.run.n_moving;
+            let now = &self.run.state.now;
+            let seen = self.contact_ahead;
+            let disk = seen.unwrap_or_else(|| driven.outlook.of(n, now));
+            let sample = &free.samples[self.run.k + 1];
+            self.gaps_ahead =
+                self.gaps_between(disk, sample, |side| driven.arm_ahead(side, now));
+            return;
+        }
         if self.is_whole_step() {
             let state = &mut *self.run.state;
             let flow = &driven.step_flow;
@@ -315,18 +338,20 @@ impl UnilateralSystem for ContactSystem<'_> {
         self.book_jump(p, kind);
 
         (self.is_settled, self.run.is_totalled) = (false, false);
+        (self.contact_ahead, self.run.seen) = (None, None);
+        let (is_whole, is_stride) = (self.is_whole_step(), self.is_stride());
         let state = &mut *self.run.state;
-        let flow = if self.offset_s == 0.0 && self.reach_s == shared.free.step_s {
-            &driven.step_flow
-        } else {
-            &state.part_flow
+        let flow = match is_whole {
+            true => &driven.step_flow,
+            false => &state.part_flow,
         };
         self.run.n_moving = driven.oscillators.len();
         state.now.kick(&driven.contact, on_disk);
-        flow.add_kick(&driven.contact, on_disk, &mut state.ahead);
+        if !is_stride {
+            flow.add_kick(&driven.contact, on_disk, &mut state.ahead);
+        }
         if let Some(rotor) = &shared.free.rotor {
-            let is_partial = self.offset_s != 0.0 || self.reach_s != shared.free.step_s;
-            let partial = is_partial.then_some(&state.part_leap);
+            let partial = (!is_whole).then_some(&state.part_leap);
             rotor.kick(p, partial, &mut state.rotor_now, &mut state.rotor_ahead);
         }
         for (side, force) in [(0, p[0]), (1, -p[1])] {
@@ -334,16 +359,31 @@ impl UnilateralSystem for ContactSystem<'_> {
                 // Both arms stand before the disk.
                 let shape = &driven.arm_shape[side][..driven.n_of_arms()];
                 state.now.kick(shape, force);
-                flow.add_kick(shape, force, &mut state.ahead);
+                if !is_stride {
+                    flow.add_kick(shape, force, &mut state.ahead);
+                }
             }
         }
         for side in 0..2 {
             self.gaps[side].rate_m_per_s = rate[side] + jump[side];
         }
-        self.gaps_ahead = self.gaps_at_reach();
+        if is_stride {
+            let (value, rate) = (driven.step_compliance, driven.outlook.response);
+            for (i, gap) in self.gaps_ahead.iter_mut().enumerate() {
+                gap.value_m += value[i][0] * p[0] + value[i][1] * p[1];
+                gap.rate_m_per_s += rate[i][0] * p[0] + rate[i][1] * p[1];
+            }
+        } else {
+            self.gaps_ahead = self.gaps_at_reach();
+        }
     }
 
     fn commit(&mut self) {
+        if self.is_stride() {
+            self.stride();
+            return;
+        }
+        (self.contact_ahead, self.run.seen) = (None, None);
         self.book_free_motion();
         let whole = self.is_whole_step();
         let state = &mut *self.run.state;
@@ -362,6 +402,35 @@ impl UnilateralSystem for ContactSystem<'_> {
 }
 
 impl ContactSystem<'_> {
+    /// Commits a whole step in one pass.
+    fn stride(&mut self) {
+        let (driven, n) = (self.driven, self.run.n_moving);
+        self.book_exchange();
+        let run = &mut self.run;
+        let (loss, sight) = driven.stride(n, &run.state.now, &mut run.state.ahead);
+        run.ledger.damping.add(loss);
+        std::mem::swap(&mut run.state.now, &mut run.state.ahead);
+        run.shared.free.step(&mut run.state.unit_now, run.k);
+        run.is_totalled = false;
+        run.seen = Some(sight);
+        self.offset_s += self.reach_s;
+        let (now, k) = (&self.run.state.now, self.run.k);
+        let sample = &self.run.shared.free.samples[k + 1];
+        let arm = |side| driven.arm_now(side, now);
+        self.gaps = self.gaps_between(sight.contact, sample, arm);
+        self.is_settled = true;
+        self.contact_ahead = Some(sight.contact_ahead);
+    }
+
+    /// Books what forced modes and the shock exchange from now to the instant ahead.
+    fn book_exchange(&mut self) {
+        self.run.total_forced(self.driven);
+        let (free, run) = (&self.run.shared.free, &mut self.run);
+        let exchange = free.exchange(&mut run.state.total_forced, run.k, run.amplitude);
+        run.ledger.work.add(exchange.work);
+        run.ledger.damping.add(exchange.loss);
+    }
+
     /// Books the jumps of the rates of slider and pivot by impulses of both contacts now.
     fn book_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
         if !self.run.state.keeps_motion {

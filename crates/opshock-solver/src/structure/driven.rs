@@ -8,6 +8,7 @@ use super::energy::{EnergyWeights, LossWeights};
 use super::flight::Flight;
 use super::model::StructureWarning;
 use super::rotor::{self, Rotor};
+use super::stride::Outlook;
 use crate::disk::{DiskBasis, DiskMode, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{BankFlow, Oscillator, PartFlows, Readout};
@@ -42,6 +43,8 @@ pub(super) struct Driven {
     /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
     pub base_jumps: Option<[(DiskPose, f64); 3]>,
     pub step_flow: BankFlow,
+    /// What the contact point does in a step.
+    pub outlook: Outlook,
     /// Flows over parts of a step.
     pub part_flows: PartFlows,
     /// [`Self::compliance`] of a step.
@@ -85,6 +88,7 @@ impl Driven {
         if basis.harmonics_bounded {
             warnings.push(StructureWarning::HarmonicsBounded);
         }
+        let outlook = Outlook::new(&bank.contact, &step_flow);
         let part_flows = PartFlows::new(&bank.oscillators);
         let mut driven = Self {
             weights: EnergyWeights::new(&bank.oscillators),
@@ -102,6 +106,7 @@ impl Driven {
             slider_jump,
             base_jumps,
             step_flow,
+            outlook,
             part_flows,
             step_compliance: [[0.0; 2]; 2],
             mobility,
@@ -109,20 +114,27 @@ impl Driven {
             warnings,
         };
         driven.step_compliance = driven.compliance(&driven.step_flow);
+        let flow = &driven.step_flow;
+        driven.outlook.response = driven.answers(|a, b| flow.response_across(a, b));
         driven
     }
 
     /// Gaps after `flow` per impulses at its start, s/kg, without what the rotor carries.
     pub fn compliance(&self, flow: &BankFlow) -> [[f64; 2]; 2] {
-        let disk = flow.compliance(&self.contact);
+        self.answers(|a, b| flow.compliance_across(a, b))
+    }
+
+    /// Answers of both gaps to impulses of both contacts, from that `across` two shapes.
+    fn answers(&self, across: impl Fn(&[f64], &[f64]) -> f64) -> [[f64; 2]; 2] {
+        let disk = across(&self.contact, &self.contact);
         let [top, bottom] = &self.arm_shape;
-        let across = match self.coupled {
-            true => disk + flow.compliance_across(top, bottom),
+        let other = match self.coupled {
+            true => disk + across(top, bottom),
             false => disk,
         };
         [
-            [disk + flow.compliance(top), -across],
-            [-across, disk + flow.compliance(bottom)],
+            [disk + across(top, top), -other],
+            [-other, disk + across(bottom, bottom)],
         ]
     }
 

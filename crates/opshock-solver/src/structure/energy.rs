@@ -100,6 +100,11 @@ impl LossWeights {
         w
     }
 
+    /// Weights of |q|², |r|² and the real and imaginary part of q* r.
+    pub fn columns(&self) -> [&[f64]; 4] {
+        [&self.qq, &self.rr, &self.qr_re, &self.qr_im]
+    }
+
     /// Loss of those of the first `n_modes`, in whole chunks, that are without forcing.
     pub fn loss(&self, n_modes: usize, state: &ModalState) -> f64 {
         let (weights, n) = (self, n_modes / LANES);

@@ -43,7 +43,7 @@ pub(super) struct Flight {
 }
 
 /// Displacement and rate by contact of the points whose extremes are kept: contact point, rim, slider.
-type Sight = [[f64; 2]; 3];
+type Points = [[f64; 2]; 3];
 
 impl Flight {
     /// Tables over the modes of `bank` for steps of `step_s`.
@@ -96,7 +96,7 @@ fn stray_of(o: &Oscillator, shape: f64, h_s: f64) -> (f64, f64) {
 }
 
 impl Driven {
-    fn sight(&self, n_modes: usize, state: &ModalState) -> Sight {
+    fn points(&self, n_modes: usize, state: &ModalState) -> Points {
         let n = n_modes;
         let (q_re, q_im) = (&state.q_re[..n], &state.q_im[..n]);
         let (r_re, r_im) = (&state.r_re[..n], &state.r_im[..n]);
@@ -129,6 +129,10 @@ impl ContactSystem<'_> {
         };
         let to = k + FLIGHT_NODES;
         if !k.is_multiple_of(FLIGHT_NODES) || to > self.run.shared.n_steps {
+            return false;
+        }
+        let gaps = self.gaps.iter().take(self.run.shared.n_contacts);
+        if gaps.fold(f64::INFINITY, |least, gap| least.min(gap.value_m)) <= 0.0 {
             return false;
         }
         let n = self.run.n_moving;
@@ -166,7 +170,7 @@ impl ContactSystem<'_> {
     fn stays_within(&self, flight: &Flight, stray_m: f64) -> bool {
         let (shared, a, k) = (self.run.shared, self.run.amplitude, self.run.k);
         let (n, state) = (self.run.n_moving, &*self.run.state);
-        let ends = [&state.now, &state.ahead].map(|state| self.driven.sight(n, state));
+        let ends = [&state.now, &state.ahead].map(|state| self.driven.points(n, state));
         let span = &shared.free.spans[k / FLIGHT_NODES];
         let last = &shared.free.samples[k + FLIGHT_NODES];
         let last = [last.contact.value, last.rim, last.slider.value];
@@ -230,6 +234,7 @@ impl ContactSystem<'_> {
             free.exchange_in_flight(states, k, run.amplitude, &mut run.ledger);
             run.is_totalled = false;
         }
+        (self.contact_ahead, run.seen) = (None, None);
         if is_watched || run.state.keeps_motion || run.state.record {
             run.watch(self.driven);
         }
@@ -240,6 +245,26 @@ impl ContactSystem<'_> {
 }
 
 impl RunBooks<'_> {
+    /// Free motion over a flight before any contact that may begin at node `end` or later, where nobody needs the
+    /// nodes in between; says whether it was one.
+    pub fn sleep_flight(&mut self, end: usize) -> bool {
+        let (k, shared) = (self.k, self.shared);
+        let is_idle = !(self.state.keeps_motion || self.state.record || self.bodies.is_some());
+        let is_fixed = matches!(shared.window, Window::Fixed { .. });
+        let is_whole = k.is_multiple_of(FLIGHT_NODES) && k + FLIGHT_NODES <= end;
+        if !(is_idle && is_fixed && is_whole) {
+            return false;
+        }
+        let points = shared.free.spans[k / FLIGHT_NODES].points;
+        let [contact, rim, slider] = points.map(|range| range.times(self.amplitude));
+        self.extremes
+            .include_points([contact.low, rim.low, slider.low]);
+        self.extremes
+            .include_points([contact.high, rim.high, slider.high]);
+        self.k += FLIGHT_NODES;
+        true
+    }
+
     /// Looks at the nodes inside a flight that begins now.
     fn watch(&mut self, driven: &Driven) {
         let first = self.k;

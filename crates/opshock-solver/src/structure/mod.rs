@@ -23,6 +23,7 @@ mod run_books;
 mod shared;
 mod span;
 mod stretches;
+mod stride;
 
 pub use history::StructuralHistory;
 pub use model::{

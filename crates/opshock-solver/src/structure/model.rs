@@ -304,8 +304,10 @@ impl StructureModel {
             Wake::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
             Wake::AtOnset => 0,
         };
-        for _ in 0..first_awake {
-            books.sleep_step();
+        while books.k < first_awake {
+            if !books.sleep_flight(first_awake) {
+                books.sleep_step();
+            }
             books.record_node();
             if books.decayed() {
                 return books.finish();

@@ -16,6 +16,7 @@ use super::node::Node;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{Leap, RotorState};
 use super::shared::Shared;
+use super::stride::Sight;
 use crate::complementarity::Gap;
 use crate::disk::DiskPose;
 use crate::lanes::abreast;
@@ -62,6 +63,8 @@ pub(super) struct RunBooks<'a> {
     pub n_moving: usize,
     /// `state.total_forced` is the state now.
     pub is_totalled: bool,
+    /// What a step has seen of the state it led to.
+    pub seen: Option<Sight>,
     pub ledger: Ledger,
     pub complementarity: Complementarity,
     /// Steps in which bounces were taken as lasting contact.
@@ -133,6 +136,7 @@ impl<'a> RunBooks<'a> {
             driven: None,
             n_moving: 0,
             is_totalled: false,
+            seen: None,
             ledger: Ledger::default(),
             complementarity: Complementarity::default(),
             accumulated_steps: 0,
@@ -221,7 +225,9 @@ impl<'a> RunBooks<'a> {
     /// The displacement of [`Self::slider`], to the same bits.
     fn slider_displacement_m(&self, sample: &Sample) -> f64 {
         let mut displacement_m = self.amplitude * sample.slider.value;
-        if let Some(driven) = self.driven {
+        if let Some(sight) = &self.seen {
+            displacement_m += sight.slider_m;
+        } else if let Some(driven) = self.driven {
             let (n, now) = (self.n_moving, &self.state.now);
             displacement_m += driven.slider[0].read(&now.q_re[..n], &now.q_im[..n]);
             if let Some(rotor) = &self.shared.free.rotor {
@@ -309,7 +315,10 @@ impl<'a> RunBooks<'a> {
         if let Some(driven) = self.driven {
             let now = &self.state.now;
             let moving = &now.q_re[..self.n_moving];
-            let [by_contact, at_rim] = abreast([[&driven.contact, moving], [&driven.rim, moving]]);
+            let [by_contact, at_rim] = match &self.seen {
+                Some(sight) => [sight.contact.value_m, sight.rim_m],
+                None => abreast([[&driven.contact, moving], [&driven.rim, moving]]),
+            };
             ramp += by_contact;
             rim += at_rim;
             if let Some(rotor) = &shared.free.rotor {

@@ -1,10 +1,12 @@
 //! What all runs of one model share.
 
 use super::driven::Driven;
+use super::flight::FLIGHT_NODES;
 use super::free_motion::{FreeMotion, Sample};
 use super::history::StructuralHistory;
 use super::model::{StructureError, StructureWarning};
 use super::rotor::Rotor;
+use super::span::Span;
 use super::{ContactMethod, Window};
 use crate::complementarity::{self, Gap, ImpactLaw};
 use crate::disk::DiskPose;
@@ -96,9 +98,23 @@ impl Shared {
         if self.n_contacts == 0 {
             return self.n_steps;
         }
-        (0..self.n_steps)
-            .find(|&k| self.may_touch(amplitude, k))
+        let flights = (0..).zip(&self.free.spans);
+        flights
+            .filter(|(_, span)| !self.stays_open(amplitude, span))
+            .find_map(|(i, _)| {
+                let first = i * FLIGHT_NODES;
+                let mut steps = first..(first + FLIGHT_NODES).min(self.n_steps);
+                steps.find(|&k| self.may_touch(amplitude, k))
+            })
             .unwrap_or(self.n_steps)
+    }
+
+    /// Whether free motion leaves both gaps open over a flight.
+    fn stays_open(&self, amplitude: f64, span: &Span) -> bool {
+        (0..self.n_contacts).all(|side| {
+            let change_m = span.gaps[side].times(amplitude);
+            self.clearance_m[side] + change_m.low > self.law.gap_tolerance_m
+        })
     }
 
     /// True when free motion from node `k` closes a gap before node `k + 1`, or a gap is closed.
