@@ -148,10 +148,7 @@ fn flow_over(of: Constants<'_>, h_s: f64) -> [[f64; LANES]; 8] {
         let re = 1.0 + rl_re;
         // Products with 1 + i N, as the oscillator takes them.
         let (a, b) = (pp, n * pv);
-        let (qq_re, qq_im) = (
-            rl_re + re.mul_add(a, -(im * b)),
-            im + re.mul_add(b, im * a),
-        );
+        let (qq_re, qq_im) = (rl_re + re.mul_add(a, -(im * b)), im + re.mul_add(b, im * a));
         let (qr_re, qr_im) = (re * pv, im * pv);
         let (a, b) = (vp, n * vv);
         let (sq_re, sq_im) = (
@@ -228,8 +225,8 @@ impl Kernel for Loss<'_> {
                     chunk[j % LANES] = 0.0;
                 }
             }
-            for l in 0..LANES {
-                self.sums[l] += chunk[l];
+            for (sum, taken) in self.sums.iter_mut().zip(chunk) {
+                *sum += taken;
             }
         }
     }
@@ -294,7 +291,10 @@ mod tests {
                 })
                 .sum();
             let found = flows.loss(16, &state, h, &[2]);
-            assert!((found / wanted - 1.0).abs() < 1e-11, "{h:e}: {found} {wanted}");
+            assert!(
+                (found / wanted - 1.0).abs() < 1e-11,
+                "{h:e}: {found} {wanted}"
+            );
         }
     }
 }

@@ -4,6 +4,7 @@
 //! unit response times the amplitude. [`super::run_books`] keeps what becomes of it.
 
 use super::driven::Driven;
+use super::flight::Points;
 use super::free_motion::Sample;
 use super::history::Break;
 use super::rotor::{self, RotorState};
@@ -26,9 +27,9 @@ pub(super) struct ContactSystem<'a> {
     pub(super) run: RunBooks<'a>,
     pub(super) driven: &'a Driven,
     /// Time since the node reached.
-    offset_s: f64,
+    pub(super) offset_s: f64,
     /// Time from now to the instant ahead.
-    reach_s: f64,
+    pub(super) reach_s: f64,
     /// `gaps` are those of the node reached.
     pub(super) is_settled: bool,
     pub(super) gaps: [Gap; 2],
@@ -36,6 +37,8 @@ pub(super) struct ContactSystem<'a> {
     sample_ahead: Sample,
     /// The contact point a step on, by contact alone, while nothing has changed the state since it was seen.
     pub(super) contact_ahead: Option<Gap>,
+    /// Node at which a flight has ended, and what the points did there by contact.
+    pub(super) landed: Option<(usize, Points)>,
 }
 
 impl<'a> ContactSystem<'a> {
@@ -52,6 +55,7 @@ impl<'a> ContactSystem<'a> {
             gaps_ahead: [Gap::default(); 2],
             sample_ahead: Sample::default(),
             contact_ahead: None,
+            landed: None,
         };
         system.settle();
         system
@@ -126,7 +130,12 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Gaps of a contact-driven state on top of the unit response `sample`.
-    pub(super) fn gaps_of(&self, state: &ModalState, hub: &RotorState, sample: &Sample) -> [Gap; 2] {
+    pub(super) fn gaps_of(
+        &self,
+        state: &ModalState,
+        hub: &RotorState,
+        sample: &Sample,
+    ) -> [Gap; 2] {
         let (shared, driven) = (self.run.shared, self.driven);
         let n = self.run.n_moving;
         let [value_m, rate_m_per_s] = abreast([
@@ -154,7 +163,12 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Gaps between the disk and the arms, moved by contact, on top of the unit response `sample`.
-    fn gaps_between(&self, disk: Gap, sample: &Sample, arm: impl Fn(usize) -> Gap) -> [Gap; 2] {
+    pub(super) fn gaps_between(
+        &self,
+        disk: Gap,
+        sample: &Sample,
+        arm: impl Fn(usize) -> Gap,
+    ) -> [Gap; 2] {
         let shared = self.run.shared;
         std::array::from_fn(|side| {
             if side >= shared.n_contacts {
@@ -207,7 +221,7 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Whether the step is taken in one pass, once nothing can happen in it any more.
-    fn is_stride(&self) -> bool {
+    pub(super) fn is_stride(&self) -> bool {
         self.is_whole_step() && self.run.shared.free.rotor.is_none()
     }
 }
@@ -231,8 +245,7 @@ impl UnilateralSystem for ContactSystem<'_> {
             let seen = self.contact_ahead;
             let disk = seen.unwrap_or_else(|| driven.outlook.of(n, now));
             let sample = &free.samples[self.run.k + 1];
-            self.gaps_ahead =
-                self.gaps_between(disk, sample, |side| driven.arm_ahead(side, now));
+            self.gaps_ahead = self.gaps_between(disk, sample, |side| driven.arm_ahead(side, now));
             return;
         }
         if self.is_whole_step() {
@@ -338,7 +351,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         self.book_jump(p, kind);
 
         (self.is_settled, self.run.is_totalled) = (false, false);
-        (self.contact_ahead, self.run.seen) = (None, None);
+        (self.contact_ahead, self.run.seen, self.landed) = (None, None, None);
         let (is_whole, is_stride) = (self.is_whole_step(), self.is_stride());
         let state = &mut *self.run.state;
         let flow = match is_whole {
@@ -402,35 +415,6 @@ impl UnilateralSystem for ContactSystem<'_> {
 }
 
 impl ContactSystem<'_> {
-    /// Commits a whole step in one pass.
-    fn stride(&mut self) {
-        let (driven, n) = (self.driven, self.run.n_moving);
-        self.book_exchange();
-        let run = &mut self.run;
-        let (loss, sight) = driven.stride(n, &run.state.now, &mut run.state.ahead);
-        run.ledger.damping.add(loss);
-        std::mem::swap(&mut run.state.now, &mut run.state.ahead);
-        run.shared.free.step(&mut run.state.unit_now, run.k);
-        run.is_totalled = false;
-        run.seen = Some(sight);
-        self.offset_s += self.reach_s;
-        let (now, k) = (&self.run.state.now, self.run.k);
-        let sample = &self.run.shared.free.samples[k + 1];
-        let arm = |side| driven.arm_now(side, now);
-        self.gaps = self.gaps_between(sight.contact, sample, arm);
-        self.is_settled = true;
-        self.contact_ahead = Some(sight.contact_ahead);
-    }
-
-    /// Books what forced modes and the shock exchange from now to the instant ahead.
-    fn book_exchange(&mut self) {
-        self.run.total_forced(self.driven);
-        let (free, run) = (&self.run.shared.free, &mut self.run);
-        let exchange = free.exchange(&mut run.state.total_forced, run.k, run.amplitude);
-        run.ledger.work.add(exchange.work);
-        run.ledger.damping.add(exchange.loss);
-    }
-
     /// Books the jumps of the rates of slider and pivot by impulses of both contacts now.
     fn book_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
         if !self.run.state.keeps_motion {

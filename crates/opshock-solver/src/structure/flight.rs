@@ -19,10 +19,11 @@ use super::driven::Driven;
 use super::energy::LossWeights;
 use super::run_books::RunBooks;
 use super::span::Range;
+use super::stride::Sight;
 use super::{Window, record::DiskExtremes};
-use crate::disk::DiskPose;
-use crate::lanes::{self, Kernel, Simd, WithSimd, abreast};
-use crate::modal::bank::{ChunkFlow, LANES, chunks};
+use crate::complementarity::Gap;
+use crate::lanes::{self, Kernel, abreast};
+use crate::modal::bank::{LANES, chunks};
 use crate::modal::{BankFlow, LossForm, ModalState, Oscillator};
 
 /// Steps of a flight. It begins at a multiple of them.
@@ -43,7 +44,7 @@ pub(super) struct Flight {
 }
 
 /// Displacement and rate by contact of the points whose extremes are kept: contact point, rim, slider.
-type Points = [[f64; 2]; 3];
+pub(super) type Points = [[f64; 2]; 3];
 
 impl Flight {
     /// Tables over the modes of `bank` for steps of `step_s`.
@@ -96,12 +97,22 @@ fn stray_of(o: &Oscillator, shape: f64, h_s: f64) -> (f64, f64) {
 }
 
 impl Driven {
+    /// The points by contact in `state`, of which the first `n_modes` move.
     fn points(&self, n_modes: usize, state: &ModalState) -> Points {
         let n = n_modes;
         let (q_re, q_im) = (&state.q_re[..n], &state.q_im[..n]);
         let (r_re, r_im) = (&state.r_re[..n], &state.r_im[..n]);
         let slider = &self.slider[0];
-        let [contact, contact_rate, rim, rim_rate, re, im, re_rate, im_rate] = abreast([
+        let [
+            contact,
+            contact_rate,
+            rim,
+            rim_rate,
+            re,
+            im,
+            re_rate,
+            im_rate,
+        ] = abreast([
             [&self.contact, q_re],
             [&self.contact, r_re],
             [&self.rim, q_re],
@@ -139,26 +150,57 @@ impl ContactSystem<'_> {
         let state = &mut *self.run.state;
         flight.flow.apply(n, &state.now, &mut state.ahead);
         let stray_m = flight.stray_m(n, &state.now);
-        if !self.stays_open(flight, stray_m) || self.decays() {
+        if !stray_m.is_finite() {
             return false;
         }
-        let is_watched = !self.stays_within(flight, stray_m);
+        // One flight begins where the last one ended.
+        let before = self.landed.filter(|(node, _)| *node == k);
+        let points = [
+            before.map_or_else(|| driven.points(n, &state.now), |(_, points)| points),
+            driven.points(n, &state.ahead),
+        ];
+        if !self.stays_open(flight, &points[1], stray_m) || self.decays() {
+            return false;
+        }
+        let is_watched = !self.stays_within(flight, &points, stray_m);
         self.land(flight, is_watched);
+        self.landed = Some((to, points[1]));
+        let [[value_m, rate_m_per_s], [rim_m, _], [slider_m, _]] = points[1];
+        let contact = Gap {
+            value_m,
+            rate_m_per_s,
+        };
+        self.run.seen = Some(Sight {
+            contact,
+            rim_m,
+            slider_m,
+        });
         true
     }
 
     /// Whether both gaps stay open until the state ahead, the end of a flight.
-    fn stays_open(&mut self, flight: &Flight, stray_m: f64) -> bool {
+    fn stays_open(&mut self, flight: &Flight, ahead: &Points, stray_m: f64) -> bool {
         let (shared, a, k) = (self.run.shared, self.run.amplitude, self.run.k);
         let samples = [k, k + FLIGHT_NODES].map(|k| &shared.free.samples[k]);
-        let state = &*self.run.state;
-        self.gaps_ahead = self.gaps_of(&state.ahead, &state.rotor_ahead, samples[1]);
+        let [value_m, rate_m_per_s] = ahead[0];
+        let contact = Gap {
+            value_m,
+            rate_m_per_s,
+        };
+        let arm = |side| self.driven.arm_now(side, &self.run.state.ahead);
+        self.gaps_ahead = self.gaps_between(contact, samples[1], arm);
         let span = &shared.free.spans[k / FLIGHT_NODES];
         (0..shared.n_contacts).all(|side| {
-            let ends = [(self.gaps[side], samples[0]), (self.gaps_ahead[side], samples[1])];
+            let ends = [
+                (self.gaps[side], samples[0]),
+                (self.gaps_ahead[side], samples[1]),
+            ];
             let by_contact = ends.map(|(gap, sample)| {
                 let free = shared.free_gap(side, a, sample);
-                [gap.value_m - free.value_m, gap.rate_m_per_s - free.rate_m_per_s]
+                [
+                    gap.value_m - free.value_m,
+                    gap.rate_m_per_s - free.rate_m_per_s,
+                ]
             });
             let driven = Range::of_motion(by_contact, flight.length_s, stray_m);
             let free = span.gaps[side].times(a);
@@ -167,10 +209,8 @@ impl ContactSystem<'_> {
     }
 
     /// Whether no point goes further than it has been, or is at the end of the flight.
-    fn stays_within(&self, flight: &Flight, stray_m: f64) -> bool {
+    fn stays_within(&self, flight: &Flight, ends: &[Points; 2], stray_m: f64) -> bool {
         let (shared, a, k) = (self.run.shared, self.run.amplitude, self.run.k);
-        let (n, state) = (self.run.n_moving, &*self.run.state);
-        let ends = [&state.now, &state.ahead].map(|state| self.driven.points(n, state));
         let span = &shared.free.spans[k / FLIGHT_NODES];
         let last = &shared.free.samples[k + FLIGHT_NODES];
         let last = [last.contact.value, last.rim, last.slider.value];
@@ -264,68 +304,11 @@ impl RunBooks<'_> {
         self.k += FLIGHT_NODES;
         true
     }
-
-    /// Looks at the nodes inside a flight that begins now.
-    fn watch(&mut self, driven: &Driven) {
-        let first = self.k;
-        let mut sums = [[[0.0; LANES]; WATCHED]; FLIGHT_NODES - 1];
-        lanes::widest(Watch {
-            driven,
-            n: self.n_moving / LANES,
-            state: &self.state.now,
-            sums: &mut sums,
-        });
-        let mut seen = [(DiskPose::default(), DiskPose::default()); FLIGHT_NODES - 1];
-        for (j, (sums, seen)) in sums.into_iter().zip(&mut seen).enumerate() {
-            let sample = &self.shared.free.samples[first + j + 1];
-            let [contact, rim, w, pitch, roll, w_rate, pitch_rate, roll_rate] =
-                sums.map(lanes::total);
-            let (pose, rate) = self.free_slider(sample);
-            let pose = pose.plus(&DiskPose {
-                displacement_m: w,
-                pitch_rad: pitch,
-                roll_rad: roll,
-            });
-            let rate = rate.plus(&DiskPose {
-                displacement_m: w_rate,
-                pitch_rad: pitch_rate,
-                roll_rad: roll_rate,
-            });
-            let a = self.amplitude;
-            let [contact, rim] = [a * sample.contact.value + contact, a * sample.rim + rim];
-            self.extremes
-                .include_points([contact, rim, pose.displacement_m]);
-            if self.state.keeps_motion {
-                self.keep_motion(first + j + 1, pose, rate);
-            }
-            *seen = (pose, rate);
-        }
-        if self.state.record {
-            self.record_flight(driven, &seen);
-        }
-    }
-
-    /// Rows of the columns for the nodes inside a flight, which is taken by steps for their sake and undone.
-    fn record_flight(&mut self, driven: &Driven, seen: &[(DiskPose, DiskPose)]) {
-        let (first, free) = (self.k, &self.shared.free);
-        let (now, unit) = (self.state.now.clone(), self.state.unit_now.clone());
-        for (pose, _) in seen {
-            let state = &mut *self.state;
-            let before = state.now.clone();
-            driven.step_flow.apply(self.n_moving, &before, &mut state.now);
-            free.step(&mut state.unit_now, self.k);
-            self.k += 1;
-            self.is_totalled = false;
-            self.record_within(*pose);
-        }
-        (self.k, self.is_totalled) = (first, false);
-        (self.state.now, self.state.unit_now) = (now, unit);
-    }
 }
 
 impl DiskExtremes {
     /// Widened by the displacements of contact point, rim and slider.
-    fn include_points(&mut self, [contact, rim, slider]: [f64; 3]) {
+    pub(super) fn include_points(&mut self, [contact, rim, slider]: [f64; 3]) {
         self.slider_max_m = self.slider_max_m.max(slider);
         self.slider_min_m = self.slider_min_m.min(slider);
         self.ramp_max_m = self.ramp_max_m.max(contact);
@@ -350,6 +333,7 @@ struct Stray<'a> {
     state: &'a ModalState,
 }
 
+/// Σ of both weights times |re| + |im|, which is no less than the magnitude.
 impl Kernel for Stray<'_> {
     type Output = [f64; LANES];
 
@@ -369,105 +353,5 @@ impl Kernel for Stray<'_> {
             }
         }
         sum
-    }
-}
-
-/// What is read at a node inside a flight: contact point, rim, and the slider's pose and its rate.
-const WATCHED: usize = 8;
-
-struct Watch<'a> {
-    driven: &'a Driven,
-    n: usize,
-    state: &'a ModalState,
-    sums: &'a mut [[[f64; LANES]; WATCHED]; FLIGHT_NODES - 1],
-}
-
-impl WithSimd for Watch<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        match S::F64_LANES {
-            8 => self.run::<S, 1>(simd),
-            4 => self.run::<S, 2>(simd),
-            2 => self.run::<S, 4>(simd),
-            _ => self.run::<S, 8>(simd),
-        }
-    }
-}
-
-impl Watch<'_> {
-    /// Chunk by chunk, each carried over all nodes in registers, `V` of them a chunk.
-    #[inline(always)]
-    fn run<S: Simd, const V: usize>(self, simd: S) {
-        let n = self.n;
-        let read = |column| &chunks(column)[..n];
-        let Driven {
-            contact,
-            rim,
-            slider,
-            step_flow,
-            ..
-        } = self.driven;
-        let [w, pitch, roll] = slider;
-        let rows = [contact, rim, &w.re, &w.im, &pitch.re, &pitch.im, &roll.re, &roll.im];
-        let rows = rows.map(|row| read(row));
-        let ModalState {
-            q_re,
-            q_im,
-            r_re,
-            r_im,
-        } = self.state;
-        let state = [q_re, q_im, r_re, r_im].map(|column| read(column));
-        for i in 0..n {
-            let load = |x: &[f64; LANES]| -> [S::f64s; V] {
-                let parts = S::as_simd_f64s(x).0;
-                std::array::from_fn(|v| parts[v])
-            };
-            let ChunkFlow(flow) = step_flow.of_chunk(i);
-            let [ar, ai, br, bi, cr, ci, dr, di] = flow.map(load);
-            let [contact, rim, wr, wi, pr, pi, rr, ri] = rows.map(|row| load(&row[i]));
-            let [mut qr, mut qi, mut vr, mut vi] = state.map(|column| load(&column[i]));
-            for sums in self.sums.iter_mut() {
-                for v in 0..V {
-                    let fused = |a, b, c| simd.mul_add_f64s(a, b, c);
-                    let less = |a, b, c| simd.negate_mul_add_f64s(a, b, c);
-                    let (x, y, p, q) = (qr[v], qi[v], vr[v], vi[v]);
-                    // Two halves of each sum, so that a step waits for three products and not for five.
-                    let half = |re, im, at| fused(re, x, less(im, y, at));
-                    let other = |re, im| less(im, q, simd.mul_f64s(re, p));
-                    qr[v] = simd.add_f64s(half(ar[v], ai[v], x), other(br[v], bi[v]));
-                    vr[v] = simd.add_f64s(half(cr[v], ci[v], p), other(dr[v], di[v]));
-                    let half = |re, im, at| fused(re, y, fused(im, x, at));
-                    let other = |re, im| fused(re, q, simd.mul_f64s(im, p));
-                    qi[v] = simd.add_f64s(half(ar[v], ai[v], y), other(br[v], bi[v]));
-                    vi[v] = simd.add_f64s(half(cr[v], ci[v], q), other(dr[v], di[v]));
-                    let (x, y, p, q) = (qr[v], qi[v], vr[v], vi[v]);
-                    let [s0, s1, s2, s3, s4, s5, s6, s7] = &mut *sums;
-                    add(simd, s0, v, [(contact[v], x)]);
-                    add(simd, s1, v, [(rim[v], x)]);
-                    add(simd, s2, v, [(wr[v], x), (wi[v], y)]);
-                    add(simd, s3, v, [(pr[v], x), (pi[v], y)]);
-                    add(simd, s4, v, [(rr[v], x), (ri[v], y)]);
-                    add(simd, s5, v, [(wr[v], p), (wi[v], q)]);
-                    add(simd, s6, v, [(pr[v], p), (pi[v], q)]);
-                    add(simd, s7, v, [(rr[v], p), (ri[v], q)]);
-                }
-            }
-        }
-    }
-}
-
-/// Adds products to register `v` of `sums`.
-#[inline(always)]
-fn add<S: Simd, const K: usize>(
-    simd: S,
-    sums: &mut [f64; LANES],
-    v: usize,
-    products: [(S::f64s, S::f64s); K],
-) {
-    let sum = &mut S::as_mut_simd_f64s(sums).0[v];
-    for (a, b) in products {
-        *sum = simd.mul_add_f64s(a, b, *sum);
     }
 }

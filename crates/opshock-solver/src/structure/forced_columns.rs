@@ -50,14 +50,8 @@ pub(super) struct ForcedColumns {
     instants: Vec<Instant>,
 }
 
-/// Rate of work per unit load, and of loss.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Rates {
-    /// Σ gain × velocity, kg m/s.
-    pub power: f64,
-    /// W.
-    pub loss: f64,
-}
+/// Most instants of a quadrature.
+const MOST_INSTANTS: usize = 8;
 
 impl ForcedColumns {
     /// `modes` with their `points` over `step_s`, for a pulse of rate `sigma_per_s`; `rule` is the
@@ -151,30 +145,23 @@ impl ForcedColumns {
         });
     }
 
-    /// Instants of the quadrature: (time since the start of the step, weight), s, and the wave's factor.
-    pub fn instants(&self) -> impl Iterator<Item = (f64, f64, Complex<f64>)> + '_ {
-        self.instants.iter().map(|i| (i.tau_s, i.weight_s, i.turn))
-    }
-
-    /// Rates at quadrature instant `i` under `amplitude` times `phase`, from the state at the start of the
-    /// step.
-    pub fn rates(
-        &self,
-        i: usize,
-        (amplitude, phase): (f64, &Phase),
-        x: &[f64],
-        v: &[f64],
-    ) -> Rates {
-        let [power, loss] = widest(RatesWithin {
+    /// Work of the load `amplitude` times `phase` over a step, and loss meanwhile, from the state at its start, J.
+    pub fn exchange(&self, amplitude: f64, phase: &Phase, x: &[f64], v: &[f64]) -> [f64; 2] {
+        let mut weights = [[0.0; 2]; MOST_INSTANTS];
+        for (weights, instant) in weights.iter_mut().zip(&self.instants) {
+            let force = amplitude * phase.turned(instant.tau_s, instant.turn).value();
+            *weights = [instant.weight_s * force, instant.weight_s];
+        }
+        widest(ExchangeWithin {
             eights: &self.eights,
-            within: &self.instants[i].within,
+            instants: &self.instants,
+            weights,
             amplitude,
             parts: phase.parts(),
             x,
             v,
         })
-        .map(total);
-        Rates { power, loss }
+        .map(total)
     }
 }
 
@@ -337,36 +324,43 @@ impl Kernel for Drive<'_> {
     }
 }
 
-struct RatesWithin<'a> {
+struct ExchangeWithin<'a> {
     eights: &'a [Eight],
-    within: &'a [Within],
+    instants: &'a [Instant],
+    /// Of power per unit load and of loss, at every instant.
+    weights: [[f64; 2]; MOST_INSTANTS],
     amplitude: f64,
     parts: [f64; 4],
     x: &'a [f64],
     v: &'a [f64],
 }
 
-impl Kernel for RatesWithin<'_> {
-    /// Power and loss.
+impl Kernel for ExchangeWithin<'_> {
+    /// Work and loss.
     type Output = [[f64; SUMS]; 2];
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let (mut power, mut loss) = ([0.0; SUMS], [0.0; SUMS]);
+        let (mut work, mut loss) = ([0.0; SUMS], [0.0; SUMS]);
         let states = with_states(self.eights, self.x, self.v);
-        for ((eight, x, v), within) in states.zip(self.within) {
-            let by = respond(&within.forced, &self.parts);
-            let mut rate = [0.0; SUMS];
-            for k in 0..SUMS {
-                let free = v[k] + within.from_x[k].mul_add(x[k], within.from_v[k] * v[k]);
-                rate[k] = (self.amplitude * eight.gain[k]).mul_add(by[k], free);
+        for (i, (eight, x, v)) in states.enumerate() {
+            let (mut power, mut taken) = ([0.0; SUMS], [0.0; SUMS]);
+            for (instant, [by_power, by_loss]) in self.instants.iter().zip(self.weights) {
+                let within = &instant.within[i];
+                let by = respond(&within.forced, &self.parts);
+                for k in 0..SUMS {
+                    let free = v[k] + within.from_x[k].mul_add(x[k], within.from_v[k] * v[k]);
+                    let rate = (self.amplitude * eight.gain[k]).mul_add(by[k], free);
+                    power[k] = by_power.mul_add(rate, power[k]);
+                    taken[k] = (by_loss * rate).mul_add(rate, taken[k]);
+                }
             }
             for k in 0..SUMS {
-                power[k] = eight.gain[k].mul_add(rate[k], power[k]);
-                loss[k] = (eight.damping[k] * rate[k]).mul_add(rate[k], loss[k]);
+                work[k] = eight.gain[k].mul_add(power[k], work[k]);
+                loss[k] = eight.damping[k].mul_add(taken[k], loss[k]);
             }
         }
-        [power, loss]
+        [work, loss]
     }
 }
 

@@ -15,8 +15,9 @@ use super::span::Span;
 use super::stretches::{Piece, Stretches};
 use crate::modal::bank::padded;
 use crate::modal::oscillator::GAUSS_8;
-use crate::modal::{Flow, ForcedResponse, Oscillator};
+use crate::modal::{Flow, ForcedResponse, Oscillator, Phase};
 use crate::shock::{BaseMotion, Stretch};
+use nalgebra::Complex;
 
 /// Oscillators driven by the shock, modal mass 1 kg each.
 #[derive(Clone, Debug, Default)]
@@ -128,9 +129,10 @@ pub(super) struct FreeMotion {
     /// Hub and base at every node.
     pub bodies: Vec<BodySample>,
     pub pulse: Stretches,
+    /// Rate and phase of the pulse at the nodes before its end whose step lies inside one stretch.
+    phases: Vec<Option<(Complex<f64>, Phase)>>,
     pub pulse_end_s: f64,
 }
-
 
 /// Gauss rule on (0, 1) for the work and loss within a step, exact to degree 9.
 const GAUSS_5: [(f64, f64); 5] = [
@@ -193,7 +195,13 @@ impl FreeMotion {
             base,
             bodies: Vec::new(),
             pulse: Stretches(stretches),
+            phases: Vec::new(),
         };
+        let driven = (0..n_steps).map(|k| k as f64 * step_s);
+        let driven = driven.take_while(|&start_s| start_s < free.pulse_end_s);
+        free.phases = driven
+            .map(|start_s| free.pulse.whole_step(start_s, step_s))
+            .collect();
         let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
         let mut supports = [LongSum::default(); 2];
@@ -283,6 +291,13 @@ impl FreeMotion {
         }
     }
 
+    /// Rate and phase of the pulse in the step from node `k`, where it lies inside one stretch; the node at the
+    /// end of the grid has one too.
+    fn phase(&self, k: usize) -> Option<(Complex<f64>, Phase)> {
+        let whole = || self.pulse.whole_step(k as f64 * self.step_s, self.step_s);
+        self.phases.get(k).copied().unwrap_or_else(whole)
+    }
+
     /// Carries the unit response from node `k` to the next.
     pub fn step(&self, state: &mut ForcedState, k: usize) {
         let start_s = k as f64 * self.step_s;
@@ -291,10 +306,10 @@ impl FreeMotion {
             if let Some(rotor) = &self.rotor {
                 rotor.step(None, &mut state.rotor, &mut state.scratch);
             }
-        } else if let Some((_, phase)) = self.pulse.whole_step(start_s, self.step_s) {
-            self.columns.drive(&phase, &mut state.x, &mut state.v);
+        } else if let Some((_, phase)) = &self.phase(k) {
+            self.columns.drive(phase, &mut state.x, &mut state.v);
             if let Some(rotor) = &self.rotor {
-                rotor.step(Some(&phase), &mut state.rotor, &mut state.scratch);
+                rotor.step(Some(phase), &mut state.rotor, &mut state.scratch);
             }
         } else {
             self.advance(state, start_s, self.step_s, 1.0);
@@ -316,19 +331,16 @@ impl FreeMotion {
             }
             return total;
         }
-        let (sigma_per_s, phase) = match self.pulse.whole_step(start_s, self.step_s) {
-            Some((stretch, phase)) => (stretch.sigma_per_s, phase),
+        let (sigma_per_s, phase) = match self.phase(k) {
+            Some(driven) => driven,
             None => return self.exchange_within(state, start_s, self.step_s, amplitude),
         };
-        let mut total = Exchange::default();
-        for (i, (tau_s, weight_s, turn)) in self.columns.instants().enumerate() {
-            let force = amplitude * phase.turned(tau_s, turn).value();
-            let rates = self
-                .columns
-                .rates(i, (amplitude, &phase), &state.x, &state.v);
-            total.work += weight_s * force * rates.power;
-            total.loss += weight_s * rates.loss;
-        }
+        let [work, loss] = self.columns.exchange(amplitude, &phase, &state.x, &state.v);
+        let mut total = Exchange {
+            work,
+            loss,
+            ..Exchange::default()
+        };
         if let Some(rotor) = &self.rotor {
             let forcing = (sigma_per_s, &phase);
             let ForcedState {

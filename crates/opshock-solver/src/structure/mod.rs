@@ -24,6 +24,7 @@ mod shared;
 mod span;
 mod stretches;
 mod stride;
+mod watch;
 
 pub use history::StructuralHistory;
 pub use model::{

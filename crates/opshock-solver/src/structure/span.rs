@@ -98,7 +98,12 @@ mod tests {
         let (omega, h) = (3.0, 0.8 / 3.0);
         for k in 0..40 {
             let phase = 0.17 * f64::from(k);
-            let at = |t: f64| [(omega * t + phase).cos(), -omega * (omega * t + phase).sin()];
+            let at = |t: f64| {
+                [
+                    (omega * t + phase).cos(),
+                    -omega * (omega * t + phase).sin(),
+                ]
+            };
             let range = Range::of_motion([at(0.0), at(h)], h, 0.8_f64.powi(4) / 384.0);
             for j in 0..=50 {
                 let [x, _] = at(h * f64::from(j) / 50.0);

@@ -44,15 +44,15 @@ impl Stretches {
         sum
     }
 
-    /// Stretch and phase when the step from `start_s` lies inside one stretch.
-    pub fn whole_step(&self, start_s: f64, step_s: f64) -> Option<(&Stretch, Phase)> {
+    /// Rate and phase when the step from `start_s` lies inside one stretch.
+    pub fn whole_step(&self, start_s: f64, step_s: f64) -> Option<(Complex<f64>, Phase)> {
         let i = self.0.partition_point(|s| s.end_s <= start_s);
         let stretch = self.0.get(i)?;
         (start_s + step_s <= stretch.end_s).then(|| {
             let phase = stretch
                 .phase
                 .later(stretch.sigma_per_s, start_s - stretch.start_s);
-            (stretch, phase)
+            (stretch.sigma_per_s, phase)
         })
     }
 

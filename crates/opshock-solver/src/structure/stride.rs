@@ -1,8 +1,10 @@
 //! One whole step of what contact drives, in one pass over the modes: loss, flow and what is read at its end.
 //!
 //! What a gap will be a step on is a sum over the state now, so that impulses can be aimed before anything is
-//! carried: the state is read once a step, with the impulses of its start in it.
+//! carried: the state is read once a step, with the impulses of its start in it, and changed in its place, since
+//! all that a step reads of 246 modes just fits beside it into 48 kB of cache.
 
+use super::contact_system::ContactSystem;
 use super::driven::Driven;
 use crate::complementarity::Gap;
 use crate::lanes::{self, Simd, WithSimd, abreast};
@@ -24,8 +26,6 @@ pub(super) struct Outlook {
 pub(super) struct Sight {
     /// Contact point.
     pub contact: Gap,
-    /// The same a step on, if nothing happens.
-    pub contact_ahead: Gap,
     /// Rim and slider, m.
     pub rim_m: f64,
     pub slider_m: f64,
@@ -70,30 +70,36 @@ fn columns(state: &ModalState) -> [&[f64]; 4] {
 }
 
 impl Driven {
-    /// Carries the first `n_modes` of `now` over a step into `ahead`: the loss of those without forcing, and what is
-    /// seen at its end.
-    pub fn stride(&self, n_modes: usize, now: &ModalState, ahead: &mut ModalState) -> (f64, Sight) {
+    /// Carries the first `n_modes` of `state` over a step: the loss of those without forcing, what is seen at its
+    /// end, and the contact point another step on, if nothing happens.
+    pub fn stride(&self, n_modes: usize, state: &mut ModalState) -> (f64, Sight, Gap) {
         let mut sums = [[0.0; LANES]; SUMS];
         lanes::widest(Stride {
             driven: self,
             n: n_modes / LANES,
-            now,
-            ahead,
+            state,
             sums: &mut sums,
         });
-        let [loss, value, rate, rim, slider_re, slider_im, next, next_rate] =
-            sums.map(lanes::total);
+        let [
+            loss,
+            value,
+            rate,
+            rim,
+            slider_re,
+            slider_im,
+            next,
+            next_rate,
+        ] = sums.map(lanes::total);
         let gap = |value_m: f64, rate_m_per_s: f64| Gap {
             value_m,
             rate_m_per_s,
         };
         let sight = Sight {
             contact: gap(value, rate),
-            contact_ahead: gap(next, next_rate),
             rim_m: rim,
             slider_m: slider_re + slider_im,
         };
-        (loss, sight)
+        (loss, sight, gap(next, next_rate))
     }
 
     /// The contact point of arm `side` in `state`, by contact.
@@ -120,14 +126,43 @@ impl Driven {
     }
 }
 
+impl ContactSystem<'_> {
+    /// Commits a whole step in one pass.
+    pub(super) fn stride(&mut self) {
+        let (driven, n) = (self.driven, self.run.n_moving);
+        self.book_exchange();
+        let run = &mut self.run;
+        let (loss, sight, contact_ahead) = driven.stride(n, &mut run.state.now);
+        run.ledger.damping.add(loss);
+        run.shared.free.step(&mut run.state.unit_now, run.k);
+        run.is_totalled = false;
+        run.seen = Some(sight);
+        self.offset_s += self.reach_s;
+        let (now, k) = (&self.run.state.now, self.run.k);
+        let sample = &self.run.shared.free.samples[k + 1];
+        let arm = |side| driven.arm_now(side, now);
+        self.gaps = self.gaps_between(sight.contact, sample, arm);
+        self.is_settled = true;
+        self.contact_ahead = Some(contact_ahead);
+    }
+
+    /// Books what forced modes and the shock exchange from now to the instant ahead.
+    fn book_exchange(&mut self) {
+        self.run.total_forced(self.driven);
+        let (free, run) = (&self.run.shared.free, &mut self.run);
+        let exchange = free.exchange(&mut run.state.total_forced, run.k, run.amplitude);
+        run.ledger.work.add(exchange.work);
+        run.ledger.damping.add(exchange.loss);
+    }
+}
+
 /// Loss, contact point and its rate, rim, both parts of the slider, contact point and rate a step on.
 const SUMS: usize = 8;
 
 struct Stride<'a> {
     driven: &'a Driven,
     n: usize,
-    now: &'a ModalState,
-    ahead: &'a mut ModalState,
+    state: &'a mut ModalState,
     sums: &'a mut [[f64; LANES]; SUMS],
 }
 
@@ -151,8 +186,7 @@ impl Stride<'_> {
         let n = self.n;
         let read = |column| &chunks(column)[..n];
         let driven = self.driven;
-        let now = columns(self.now).map(|column| read(column));
-        let loss = driven.step_loss.columns().map(|column| read(column));
+        let loss = driven.step_loss.columns().map(read);
         let rows = [
             &driven.contact,
             &driven.rim,
@@ -160,25 +194,24 @@ impl Stride<'_> {
             &driven.slider[0].im,
         ];
         let rows = rows.map(|row| read(row));
-        let value = driven.outlook.value.each_ref().map(|row| read(row));
-        let rate = driven.outlook.rate.each_ref().map(|row| read(row));
         let ModalState {
             q_re,
             q_im,
             r_re,
             r_im,
-        } = self.ahead;
-        let [out_q_re, out_q_im, out_r_re, out_r_im] =
+        } = self.state;
+        let [q_re, q_im, r_re, r_im] =
             [q_re, q_im, r_re, r_im].map(|column| &mut column.as_chunks_mut::<LANES>().0[..n]);
-        let mut sums = [[simd.splat_f64s(0.0); V]; SUMS];
+        let mut sums = [[simd.splat_f64s(0.0); SUMS]; V];
         let fused = |a, b, c| simd.mul_add_f64s(a, b, c);
         let times = |a, b| simd.mul_f64s(a, b);
+        let less = |a, b, c| simd.negate_mul_add_f64s(a, b, c);
         let minus = |a| simd.neg_f64s(a);
         for i in 0..n {
             let ChunkFlow(flow) = driven.step_flow.of_chunk(i);
-            for v in 0..V {
+            for (v, sums) in sums.iter_mut().enumerate() {
                 let load = |x: &[f64; LANES]| S::as_simd_f64s(x).0[v];
-                let [qr, qi, rr, ri] = now.map(|column| load(&column[i]));
+                let [qr, qi, rr, ri] = [&q_re[i], &q_im[i], &r_re[i], &r_im[i]].map(load);
                 let [qq, vv, re, im] = loss.map(|column| load(&column[i]));
                 // As the sums over many steps take them (`super::energy`).
                 let squares = fused(
@@ -192,16 +225,14 @@ impl Stride<'_> {
                     times(im, fused(qr, ri, minus(times(qi, rr)))),
                 );
                 let taken = simd.add_f64s(squares, products);
-                sums[0][v] = simd.add_f64s(sums[0][v], taken);
+                sums[0] = simd.add_f64s(sums[0], taken);
 
                 // The roundings of the flow over a chunk (`crate::modal::bank`).
                 let [ar, ai, br, bi, cr, ci, dr, di] = flow.map(load);
-                let (minus_qi, at) = (minus(qi), simd);
-                let real = |a, b, c, d| {
-                    fused(a, qr, fused(b, minus_qi, fused(c, rr, minus(times(d, ri)))))
-                };
-                let imaginary =
-                    |a, b, c, d| fused(a, qi, fused(b, qr, fused(c, ri, times(d, rr))));
+                let at = simd;
+                let real =
+                    |a, b, c, d| fused(a, qr, less(b, qi, fused(c, rr, minus(times(d, ri)))));
+                let imaginary = |a, b, c, d| fused(a, qi, fused(b, qr, fused(c, ri, times(d, rr))));
                 let to = [
                     at.add_f64s(qr, real(ar, ai, br, bi)),
                     at.add_f64s(qi, imaginary(ar, ai, br, bi)),
@@ -209,26 +240,27 @@ impl Stride<'_> {
                     at.add_f64s(ri, imaginary(cr, ci, dr, di)),
                 ];
                 let [contact, rim, re, im] = rows.map(|row| load(&row[i]));
-                let mut add = |k: usize, a, b| sums[k][v] = fused(a, b, sums[k][v]);
+                let mut add = |k: usize, a, b| sums[k] = fused(a, b, sums[k]);
                 add(1, contact, to[0]);
                 add(2, contact, to[2]);
                 add(3, rim, to[0]);
                 add(4, re, to[0]);
                 add(5, im, to[1]);
-                for k in 0..4 {
-                    add(6, load(&value[k][i]), to[k]);
-                    add(7, load(&rate[k][i]), to[k]);
-                }
+                let [x, y, p, q] = to;
+                let next =
+                    |a, b, c, d, from| less(d, q, fused(c, p, less(b, y, fused(a, x, from))));
+                add(6, contact, next(ar, ai, br, bi, x));
+                add(7, contact, next(cr, ci, dr, di, p));
                 let store = |out: &mut [f64; LANES], x| S::as_mut_simd_f64s(out).0[v] = x;
-                store(&mut out_q_re[i], to[0]);
-                store(&mut out_q_im[i], to[1]);
-                store(&mut out_r_re[i], to[2]);
-                store(&mut out_r_im[i], to[3]);
+                store(&mut q_re[i], x);
+                store(&mut q_im[i], y);
+                store(&mut r_re[i], p);
+                store(&mut r_im[i], q);
             }
         }
-        for (out, sums) in self.sums.iter_mut().zip(sums) {
-            for (out, sum) in S::as_mut_simd_f64s(out).0.iter_mut().zip(sums) {
-                *out = sum;
+        for (k, out) in self.sums.iter_mut().enumerate() {
+            for (out, sums) in S::as_mut_simd_f64s(out).0.iter_mut().zip(&sums) {
+                *out = sums[k];
             }
         }
     }
