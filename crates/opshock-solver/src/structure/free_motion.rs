@@ -100,6 +100,35 @@ pub(super) struct ForcedState {
     pub scratch: RotorScratch,
 }
 
+/// States of the forced modes at some nodes, one behind the other.
+#[derive(Clone, Debug, Default)]
+struct Checkpoints {
+    /// x, then v.
+    states: Vec<f64>,
+    /// Of a disk on a hub or on a base that vibrates.
+    rotors: Vec<RotorState>,
+}
+
+impl Checkpoints {
+    fn push(&mut self, state: &ForcedState) {
+        self.states.extend_from_slice(&state.x);
+        self.states.extend_from_slice(&state.v);
+        if !state.rotor.parts.is_empty() {
+            self.rotors.push(state.rotor.clone());
+        }
+    }
+
+    fn copy_to(&self, i: usize, state: &mut ForcedState) {
+        let n = state.x.len();
+        let (x, v) = self.states[2 * i * n..][..2 * n].split_at(n);
+        state.x.copy_from_slice(x);
+        state.v.copy_from_slice(v);
+        if let Some(rotor) = self.rotors.get(i) {
+            state.rotor.copy_from(rotor);
+        }
+    }
+}
+
 /// Work of the shock and loss by damping over a time, J.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Exchange {
@@ -116,7 +145,7 @@ pub(super) struct FreeMotion {
     /// Largest energy of disk and arms, J per (m/s²)².
     pub peak_energy: f64,
     /// Modal states every [`FLIGHT_NODES`] nodes: a run that wakes redoes at most so many steps.
-    checkpoints: Vec<ForcedState>,
+    checkpoints: Checkpoints,
     /// What happens between one of these and the next.
     pub spans: Vec<Span>,
     pub modes: ForcedModes,
@@ -186,7 +215,7 @@ impl FreeMotion {
             step_s,
             samples: Vec::with_capacity(n_steps + 1),
             peak_energy: 0.0,
-            checkpoints: Vec::with_capacity(n_steps / FLIGHT_NODES + 1),
+            checkpoints: Checkpoints::default(),
             spans: Vec::new(),
             pulse_end_s: stretches[stretches.len() - 1].end_s,
             columns: ForcedColumns::new(&modes, shapes.by_mode(), sigma, step_s, rule),
@@ -203,12 +232,16 @@ impl FreeMotion {
             .map(|start_s| free.pulse.whole_step(start_s, step_s))
             .collect();
         let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
+        let n_kept = n_steps / FLIGHT_NODES + 1;
+        free.checkpoints.states.reserve(2 * n_kept * state.x.len());
+        free.spans.reserve(n_kept);
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
         let mut supports = [LongSum::default(); 2];
         for k in 0..=n_steps {
             if k % FLIGHT_NODES == 0 {
-                free.checkpoints.push(state.clone());
+                free.checkpoints.push(&state);
             }
+            free.close_span(FLIGHT_NODES + 1);
             let mut sample = free.sample(&state);
             if free.rotor.is_none() && k as f64 * step_s >= free.pulse_end_s {
                 // Nothing but the columns moves, and nothing drives them.
@@ -242,11 +275,16 @@ impl FreeMotion {
         }
         let energies = free.samples.iter().map(|sample| sample.energy);
         free.peak_energy = energies.fold(0.0, f64::max);
-        let last_of = |first: usize| (first + FLIGHT_NODES).min(n_steps);
-        let firsts = (0..n_steps).step_by(FLIGHT_NODES);
-        let nodes = firsts.map(|first| &free.samples[first..=last_of(first)]);
-        free.spans = nodes.map(|nodes| Span::new(nodes, step_s)).collect();
+        free.close_span(2);
         free
+    }
+
+    /// The span of the samples from the end of the last one on, once there are `n_wanted` of them.
+    fn close_span(&mut self, n_wanted: usize) {
+        let samples = &self.samples[self.spans.len() * FLIGHT_NODES..];
+        if samples.len() >= n_wanted {
+            self.spans.push(Span::new(samples, self.step_s));
+        }
     }
 
     /// Unit response of the points for `state`.
@@ -285,7 +323,7 @@ impl FreeMotion {
     /// Unit response of the modes at node `k`: the bits behind the samples.
     pub fn state_at_node(&self, k: usize, state: &mut ForcedState) {
         let first = k / FLIGHT_NODES;
-        state.copy_from(&self.checkpoints[first]);
+        self.checkpoints.copy_to(first, state);
         for j in first * FLIGHT_NODES..k {
             self.step(state, j);
         }

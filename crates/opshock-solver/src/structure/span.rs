@@ -69,20 +69,22 @@ impl Span {
             gaps: [Range::EMPTY; 2],
             points: [Range::EMPTY; 3],
         };
-        let fastest: [f64; 2] = std::array::from_fn(|side| {
-            let rates = nodes.iter().map(|s| unit_gap(side, s).rate_m_per_s.abs());
-            rates.fold(0.0, f64::max)
-        });
+        let mut fastest = [0.0_f64; 2];
         for sample in nodes {
             for (side, range) in span.gaps.iter_mut().enumerate() {
-                // No cubic leaves its ends by more than a quarter of a step at the larger of their rates.
-                let value = unit_gap(side, sample).value_m;
-                *range = range.with(value, 0.25 * step_s * fastest[side]);
+                let gap = unit_gap(side, sample);
+                *range = range.with(gap.value_m, 0.0);
+                fastest[side] = fastest[side].max(gap.rate_m_per_s.abs());
             }
             let points = [sample.contact.value, sample.rim, sample.slider.value];
             for (range, value) in span.points.iter_mut().zip(points) {
                 *range = range.with(value, 0.0);
             }
+        }
+        for (range, rate_m_per_s) in span.gaps.iter_mut().zip(fastest) {
+            // No cubic leaves its ends by more than a quarter of a step at the larger of their rates.
+            let more = 0.25 * step_s * rate_m_per_s;
+            (range.low, range.high) = (range.low - more, range.high + more);
         }
         span
     }
