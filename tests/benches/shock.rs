@@ -58,7 +58,16 @@ fn shock(c: &mut Criterion) {
         b.iter(|| black_box(simulate(&none, &REQUEST, &mut workspace)));
     });
     group.bench_function("steady_flight", |b| {
+        let mut alone = scene.clone();
+        alone.film_resolution.reference_cells = 0;
+        b.iter(|| black_box(Bearing::build(&alone, None)));
+    });
+    group.bench_function("steady_flight_and_reference", |b| {
         b.iter(|| black_box(Bearing::build(&scene, None)));
+    });
+    group.bench_function("steady_flight_known_reference", |b| {
+        let known = Bearing::build(&scene, None).expect("it flies");
+        b.iter(|| black_box(Bearing::build(&scene, Some(&known))));
     });
     group.bench_function("build_structure", |b| {
         b.iter(|| {

@@ -44,7 +44,7 @@ pub fn formal_order(ladder: &str) -> Option<f64> {
 /// Quantity of a shock on which a ladder's observed order is read.
 pub fn order_quantity(ladder: &str) -> &'static str {
     match ladder {
-        "film_cells" => "flying_height",
+        "film_cells" | "film_cells_corrected" => "flying_height",
         "search_tolerance_pct" => "critical_shock",
         "disk_cut_khz" | "disk_harmonics" | "structure_step_us" | "ramp_modes" => "contact_impulse",
         _ => "min_clearance",
@@ -53,7 +53,8 @@ pub fn order_quantity(ladder: &str) -> &'static str {
 
 /// Every knob's ladder for a scene, each with its reference ten times finer; then joint rungs.
 ///
-/// All ladders but that of the film and the joint ones stand on a film of a quarter of the cells:
+/// `film_cells` is the grid as it is, `film_cells_corrected` the same with what it leaves out put back, which has no
+/// order. All ladders but those of the film and the joint ones stand on a film of a quarter of the cells:
 /// what the other knobs change hardly depends on it, and the reference of each ladder has it too.
 pub fn ladders(scene: &Scene) -> Vec<Setting> {
     let small =
@@ -170,11 +171,31 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
     for (factor, is_reference) in rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0) {
         let mut at = scene.clone();
         at.film_resolution.cells = count(scene.film_resolution.cells, factor);
+        at.film_resolution.reference_cells = 0;
         let value = at.film_resolution.cells.to_string();
         all.push(setting("film_cells", value, factor, is_reference, at));
     }
+    if scene.film_resolution.reference_cells > 0 {
+        all.extend(corrected(scene));
+    }
     all.extend(joint(scene));
     all
+}
+
+/// Cells of a film whose grid is corrected. The ladder's reference is corrected by one of four times the cells, so that
+/// it does not share its error.
+fn corrected(scene: &Scene) -> Vec<Setting> {
+    let rungs = rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0).into_iter();
+    let at = |(factor, is_reference)| {
+        let mut at = scene.clone();
+        at.film_resolution.cells = count(scene.film_resolution.cells, factor);
+        if is_reference {
+            at.film_resolution.reference_cells *= 4;
+        }
+        let value = at.film_resolution.cells.to_string();
+        setting("film_cells_corrected", value, factor, is_reference, at)
+    };
+    rungs.map(at).collect()
 }
 
 /// The named rungs, one coarser and one between, against a scene finer than all of them.

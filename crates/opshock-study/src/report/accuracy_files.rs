@@ -207,7 +207,7 @@ pub fn markdown(accuracy: &Accuracy) -> String {
         text,
         "\nErrors are against the ladder's reference; in the reference's own row they say how \
          uncertain it is (the finest rung's error, fallen at the formal order). All ladders but \
-         `film_cells` and `joint` stand on a quarter of the film's cells. Bold: on the front of \
+         `film_cells`, the grid as it is, `film_cells_corrected` and `joint` stand on a quarter of the film's cells. Bold: on the front of \
          the joint settings. Orders are in the knob's own number (cells, modes, 1/step, 1/tolerance). \
          Times are of this machine.\n\n{}, study {}\n",
         accuracy.program, accuracy.digest
