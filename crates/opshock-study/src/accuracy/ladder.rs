@@ -185,7 +185,7 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
 /// Cells of a film whose grid is corrected. The ladder's reference is corrected by one of four times the cells, so that
 /// it does not share its error.
 fn corrected(scene: &Scene) -> Vec<Setting> {
-    let rungs = rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0).into_iter();
+    let rungs = rungs([0.125, 0.25, 0.5, 1.0, 2.0], 10.0);
     let at = |(factor, is_reference)| {
         let mut at = scene.clone();
         at.film_resolution.cells = count(scene.film_resolution.cells, factor);
