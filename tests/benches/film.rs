@@ -15,6 +15,7 @@ use faer::{Mat, Par};
 use opshock_klu::{Columns, Klu};
 use opshock_solver::air_bearing::steady::fly;
 use opshock_solver::air_bearing::{Attitude, Film, FilmLinearisation, FilmScratch};
+use opshock_solver::lanes::{Simd, WithSimd, widest};
 use opshock_solver::linalg::banded::BandedLu;
 use opshock_solver::scene::Scene;
 use opshock_tests::scenes;
@@ -229,5 +230,59 @@ fn against_size(_: &mut Criterion) {
     println!("exponents from {n0} to {n1} cells: residual, factor, solve, faer: {exponents:.2?}");
 }
 
-criterion_group!(benches, kernels, against_size);
+/// Registers with numbers that do not wait for one another.
+const IN_FLIGHT: usize = 12;
+
+/// Rounds of a throughput.
+const ROUNDS: usize = 4000;
+
+/// Products and sums, fused, or divisions, as many as the processor can do at most.
+struct Throughput {
+    divides: bool,
+}
+
+impl WithSimd for Throughput {
+    /// A result, that it is computed, and the numbers in a register.
+    type Output = (f64, usize);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let by = simd.splat_f64s(black_box(1.0 + 1e-9));
+        let more = simd.splat_f64s(black_box(1e-9));
+        let mut x = [simd.splat_f64s(1.0); IN_FLIGHT];
+        if self.divides {
+            for _ in 0..ROUNDS {
+                for x in &mut x {
+                    *x = simd.div_f64s(by, *x);
+                }
+            }
+        } else {
+            for _ in 0..ROUNDS {
+                for x in &mut x {
+                    *x = simd.mul_add_e_f64s(*x, by, more);
+                }
+            }
+        }
+        let sum = x.iter().map(|x| simd.reduce_sum_f64s(*x)).sum();
+        (sum, S::F64_LANES)
+    }
+}
+
+/// What this machine can do of eight numbers at once: the bound of the balance, which works on as many faces.
+fn bound(_: &mut Criterion) {
+    let of_eight_ns = |divides: bool| {
+        let (_, lanes) = widest(Throughput { divides });
+        let seconds = median_of(51, || {
+            black_box(widest(Throughput { divides }));
+        });
+        1e9 * seconds / (ROUNDS * IN_FLIGHT * lanes) as f64 * 8.0
+    };
+    println!(
+        "eight products and sums {:.4} ns, eight divisions {:.3} ns",
+        of_eight_ns(false),
+        of_eight_ns(true)
+    );
+}
+
+criterion_group!(benches, kernels, bound, against_size);
 criterion_main!(benches);
