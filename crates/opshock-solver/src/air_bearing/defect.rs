@@ -43,8 +43,6 @@ pub struct ReferenceForces {
     attitudes: Vec<Attitude>,
     /// [F_z, M_pitch, M_roll] of the air, N and N m.
     forces: Vec<[f64; 3]>,
-    /// Cells of the reference grid.
-    pub n_cells: usize,
 }
 
 impl ReferenceForces {
@@ -72,7 +70,6 @@ impl ReferenceForces {
             range,
             attitudes,
             forces,
-            n_cells: film.n_cells(),
         })
     }
 

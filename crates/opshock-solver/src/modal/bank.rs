@@ -23,6 +23,13 @@ pub struct ModalState {
     pub r_im: Vec<f64>,
 }
 
+impl ModalState {
+    /// q_re, q_im, r_re and r_im.
+    pub fn columns(&self) -> [&[f64]; 4] {
+        [&self.q_re, &self.q_im, &self.r_re, &self.r_im]
+    }
+}
+
 /// Real and imaginary weights that read one point's displacement out of the amplitudes (and its
 /// velocity out of the velocities): Σ re·q_re + im·q_im.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -199,15 +199,10 @@ impl Kernel for Loss<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let ModalState {
-            q_re,
-            q_im,
-            r_re,
-            r_im,
-        } = self.state;
+        let columns = self.state.columns();
         for i in 0..self.n {
             let of = constants(self.flows, i);
-            let at = [q_re, q_im, r_re, r_im].map(|column| chunks(column)[i]);
+            let at = columns.map(|column| chunks(column)[i]);
             let mut chunk = [0.0; LANES];
             for (x, weight) in GAUSS_8 {
                 let flow = flow_over(of, x * self.h_s);

@@ -85,6 +85,14 @@ impl Scene {
         Ok(self.with_surface_forces(film))
     }
 
+    /// The same scene on a film of about so many cells.
+    #[must_use]
+    pub fn with_film_cells(&self, cells: usize) -> Scene {
+        let mut scene = self.clone();
+        scene.film_resolution.cells = cells;
+        scene
+    }
+
     /// The same film on given grid lines, along x and along y.
     ///
     /// # Errors
@@ -100,6 +108,20 @@ impl Scene {
             lines_m,
         )?;
         Ok(self.with_surface_forces(film))
+    }
+
+    /// `film`, a film of this scene, with every cell cut in two along both directions.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::on_grid`].
+    pub fn film_cut_in_two(&self, film: &Film) -> Result<Film, FilmError> {
+        let halved = |lines_m: &[f64]| -> Vec<f64> {
+            let between = lines_m.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+            between.chain(lines_m.last().copied()).collect()
+        };
+        let [x, y] = film.lines_m().map(halved);
+        self.film_on([&x, &y])
     }
 
     fn with_surface_forces(&self, film: Film) -> Film {

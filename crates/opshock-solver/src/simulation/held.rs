@@ -15,7 +15,7 @@
 //! ([`crate::air_bearing::ReferenceForces`]) it is one of twice the reference's cells, so that what is left of
 //! the error is told by a grid that had no part in the correction.
 
-use super::model::{Bearing, BuildError, halved};
+use super::model::{Bearing, BuildError};
 use crate::air_bearing::steady::{fixed_attitude, fly_near};
 use crate::air_bearing::{Attitude, Film};
 use crate::scene::Scene;
@@ -63,23 +63,16 @@ pub fn held_clearance(
             n_iterations: flight.n_iterations,
         })
     };
-    let with_cells = |cells: usize| {
-        let mut scene = scene.clone();
-        scene.film_resolution.cells = cells;
-        scene
-    };
-    let cut = |film: &Film| {
-        let [x, y] = film.lines_m().map(halved);
-        on(&scene.film_on([&x, &y])?)
-    };
+    let cut = |film: &Film| on(&scene.film_cut_in_two(film)?);
     let (held, coarse_m) = match (other, &bearing.reference) {
         (Other::Cells(cells), _) => {
-            let other = Bearing::build(&with_cells(cells), Some(bearing))?;
+            let other = Bearing::build(&scene.with_film_cells(cells), Some(bearing))?;
             return on(&other.film);
         }
         (Other::Continued, None) => (cut(film)?, film.min_clearance(lowest).value_m),
         (Other::Continued, Some(_)) => {
-            let apart = with_cells(2 * scene.film_resolution.reference_cells).film()?;
+            let cells = 2 * scene.film_resolution.reference_cells;
+            let apart = scene.with_film_cells(cells).film()?;
             (cut(&apart)?, on(&apart)?.min_clearance_m)
         }
     };

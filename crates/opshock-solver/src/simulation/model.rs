@@ -283,19 +283,12 @@ fn slider_place(scene: &Scene) -> SliderPlace {
 
 /// Forces by which every grid of the film of `scene` is corrected.
 fn reference_forces(scene: &Scene) -> Result<ReferenceForces, BuildError> {
-    let mut coarse = scene.clone();
-    coarse.film_resolution.cells = scene.film_resolution.reference_cells;
-    let film = coarse.film()?;
-    let [x, y] = film.lines_m().map(halved);
-    let finer = scene.film_on([&x, &y])?;
+    let film = scene
+        .with_film_cells(scene.film_resolution.reference_cells)
+        .film()?;
+    let finer = scene.film_cut_in_two(&film)?;
     let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
     Ok(ReferenceForces::sample(&film, &finer, &flight)?)
-}
-
-/// These lines with one more in the middle between any two.
-pub(super) fn halved(lines_m: &[f64]) -> Vec<f64> {
-    let between = lines_m.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
-    between.chain(lines_m.last().copied()).collect()
 }
 
 /// Film and steady flight of `scene`: a donor's when they are the same.

@@ -122,12 +122,7 @@ impl Kernel for EnergySums<'_> {
 
     #[inline(always)]
     fn call(self) -> [[f64; LANES]; 4] {
-        let ModalState {
-            q_re,
-            q_im,
-            r_re,
-            r_im,
-        } = self.state;
+        let [q_re, q_im, r_re, r_im] = self.state.columns();
         // All of one length, so that nothing is left to check in the loop.
         let n = chunks(&self.weights.turn).len();
         let read = |column| &chunks(column)[..n];

@@ -54,7 +54,7 @@ impl Outlook {
 
     /// The contact point a step after `state`.
     pub fn of(&self, n_modes: usize, state: &ModalState) -> Gap {
-        let columns = columns(state).map(|column| &column[..n_modes]);
+        let columns = state.columns().map(|column| &column[..n_modes]);
         let value = std::array::from_fn(|k| [&*self.value[k], columns[k]]);
         let rate = std::array::from_fn(|k| [&*self.rate[k], columns[k]]);
         let sum = |pairs: [[&[f64]; 2]; 4]| -> f64 { abreast(pairs).into_iter().sum() };
@@ -63,10 +63,6 @@ impl Outlook {
             rate_m_per_s: sum(rate),
         }
     }
-}
-
-fn columns(state: &ModalState) -> [&[f64]; 4] {
-    [&state.q_re, &state.q_im, &state.r_re, &state.r_im]
 }
 
 impl Driven {

@@ -111,13 +111,7 @@ impl Watch<'_> {
             contact, rim, &w.re, &w.im, &pitch.re, &pitch.im, &roll.re, &roll.im,
         ];
         let rows = rows.map(|row| read(row));
-        let ModalState {
-            q_re,
-            q_im,
-            r_re,
-            r_im,
-        } = self.state;
-        let state = [q_re, q_im, r_re, r_im].map(|column| read(column));
+        let state = self.state.columns().map(read);
         for i in 0..n {
             let load = |x: &[f64; LANES]| -> [S::f64s; V] {
                 let parts = S::as_simd_f64s(x).0;

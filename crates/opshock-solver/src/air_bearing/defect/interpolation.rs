@@ -30,7 +30,7 @@ pub(super) struct Interpolation {
 }
 
 impl Interpolation {
-    /// Through `values` at `places`, of which no four lie in a plane with all others.
+    /// Through `values` at `places`, which do not all lie in one plane.
     pub(super) fn through(places: Vec<[f64; 3]>, values: &[[f64; 3]]) -> Self {
         let n = places.len();
         let at: Vec<[f64; 3]> = places.iter().map(stretched).collect();
