@@ -46,6 +46,12 @@ impl Estimate {
         below.max(above)
     }
 
+    /// Half of what it adds to a bar.
+    pub(super) fn half_length(self) -> f64 {
+        let [below, above] = self.errors();
+        0.5 * (below + above)
+    }
+
     /// The change that was seen may lie either way.
     #[must_use]
     pub(super) fn either_way(self) -> Estimate {

@@ -23,10 +23,9 @@ pub(super) struct Reference {
     event_s: f64,
     /// The highest survivor of the search and one below it.
     at: [Survivor; 2],
-    /// Loss of clearance per relative growth of the amplitude, m: of the scene and of the proxy.
-    slope_m: [f64; 2],
-    /// That of the scene next to the highest survivor, m.
-    last_slope_m: f64,
+    /// Loss of clearance per relative growth of the amplitude, m: between them, or next to the highest where
+    /// that is less.
+    slope_m: f64,
 }
 
 fn is_same_event(a_s: f64, b_s: f64) -> bool {
@@ -40,8 +39,6 @@ struct Survivor {
     index: i32,
     /// Its clearance, m.
     own_m: f64,
-    /// That on the proxy, m.
-    proxy_m: f64,
 }
 
 /// Clearance of a survivor at the event.
@@ -86,28 +83,22 @@ impl Reference {
         // A step of the search away at least, where rounding and steps of the head do not tell.
         let next = below().filter(|known| known.index <= at.index - SUBNODES);
         let next = next.max_by_key(|known| known.index).unwrap_or(lower);
-        let share = |known: &Known| walk.share(at.index - known.index);
-        let last_slope_m = (next.h_min_m - at.h_min_m) / share(next);
-        let span = share(lower);
-        let mut survivors = [at, *lower].map(|known| Survivor {
+        let slope_m = |below: &Known| {
+            // The slope falls towards the touch: the flatter one makes the most of a clearance.
+            (below.h_min_m - at.h_min_m) / walk.share(at.index - below.index)
+        };
+        let slope_m = slope_m(lower).min(slope_m(next));
+        if clearance(walk.see(walk.proxy(), at.index)?, at.t_min_s).is_none() {
+            return Ok(None);
+        }
+        let survivor = |known: &Known| Survivor {
             index: known.index,
             own_m: known.h_min_m,
-            proxy_m: f64::NAN,
-        });
-        for survivor in survivors.iter_mut().rev() {
-            match clearance(walk.see(walk.proxy(), survivor.index)?, at.t_min_s) {
-                Some(h_m) => survivor.proxy_m = h_m,
-                None => return Ok(None),
-            }
-        }
-        let [upper, lower] = survivors;
-        let falls = [lower.own_m - upper.own_m, lower.proxy_m - upper.proxy_m];
-        let slope_m = falls.map(|fall| fall / span);
-        Ok((slope_m[1] > 0.0).then_some(Reference {
+        };
+        Ok((slope_m > 0.0).then_some(Reference {
             event_s: at.t_min_s,
-            at: survivors,
+            at: [survivor(&at), survivor(lower)],
             slope_m,
-            last_slope_m,
         }))
     }
 
@@ -116,7 +107,8 @@ impl Reference {
         Ok(clearance(walk.see(levels, index)?, self.event_s))
     }
 
-    /// Error of the film's grid from half and a quarter of the cells, and where that is not little from films
+    /// Error of the film's grid from films held still, if what they say of a quarter of the cells leaves room for
+    /// the other parts, with the bracket halved once; else from half and a quarter of the cells, and where that is not little from films
     /// held still or from twice as many cells: at the survivor, or below it where another grid fails there.
     pub(super) fn film(
         &self,
@@ -124,11 +116,19 @@ impl Reference {
         limits: Limits,
     ) -> Result<Option<Estimate>, Ask> {
         const FILM: [Knob; 1] = [Knob::FilmGrid];
-        // The flatter of the two slopes: the same error of clearance is more amplitude.
-        let slope_m = self.slope_m[0].min(self.slope_m[1]);
+        let slope_m = self.slope_m;
         let mut coarse_only = None;
+        // A run of the scene itself halves the bracket.
+        let room = limits.room + 0.25 * walk.share(walk.input.failure - walk.input.survivor);
         for at in self.at {
-            let both = (at.proxy_m - at.own_m) / slope_m;
+            let Some(quarter_m) = self.see(walk, walk.proxy(), at.index)? else {
+                continue;
+            };
+            let by_quarter = self.held(walk, at, (2, quarter_m))?;
+            if let Some(held) = by_quarter.filter(|held| held.half_length() <= room) {
+                return Ok(Some(held));
+            }
+            let both = (quarter_m - at.own_m) / slope_m;
             let half = judge::coarser(Levels::NONE, &FILM);
             let Some(half_m) = self.see(walk, half, at.index)? else {
                 continue;
@@ -141,7 +141,7 @@ impl Reference {
             if estimate.error() <= limits.little {
                 return Ok(Some(estimate));
             }
-            let held = self.held(walk, at, half_m)?;
+            let held = self.held(walk, at, (1, half_m))?;
             if let Some(held) = held.filter(|held| held.error() <= estimate.error()) {
                 return Ok(Some(held));
             }
@@ -158,59 +158,63 @@ impl Reference {
         Ok(coarse_only)
     }
 
-    /// Error of the film's grid from films held still: what they say of half the cells at `at`, where those
-    /// left `half_m`, tells how far what they say of the highest survivor is to be trusted.
+    /// Error of the film's grid from films held still: what they say of the cells halved so often at `at`, where
+    /// those left `coarse_m`, tells how far what they say of the highest survivor is to be trusted.
     fn held(
         &self,
         walk: &mut Walk<'_>,
         at: Survivor,
-        half_m: f64,
+        (halvings, coarse_m): (i8, f64),
     ) -> Result<Option<Estimate>, Ask> {
         if !walk.input.holds_films {
             return Ok(None);
         }
         let on = |steps: i8| Levels::NONE.turned(Knob::HeldFilm, steps);
-        let Some(expected_m) = self.see(walk, on(-1), at.index)? else {
+        let Some(expected_m) = self.see(walk, on(-halvings), at.index)? else {
             return Ok(None);
         };
         let [upper, _] = self.at;
         let Some(continued_m) = self.see(walk, on(1), upper.index)? else {
             return Ok(None);
         };
-        // The slope falls towards the touch: the last one makes the most of a clearance.
-        let slope_m = self.last_slope_m.min(self.slope_m[0]);
-        let fine = (upper.own_m - continued_m) / slope_m;
-        let missed = (half_m - expected_m) / slope_m;
+        let fine = (upper.own_m - continued_m) / self.slope_m;
+        let missed = (coarse_m - expected_m) / self.slope_m;
         let is_near = fine.abs().max(missed.abs()) <= REACH;
-        Ok(is_near.then(|| judge::held(fine, missed)))
+        // Films with errors e and r e differ by (r - 1) e.
+        let rise = Knob::FilmGrid.formal_ratio().powi(i32::from(halvings));
+        Ok(is_near.then(|| judge::held(fine, missed / (rise - 1.0))))
     }
 
     /// Error of other knobs turned together by one step on the proxy, and by one step finer where
-    /// that is not little: at the survivor, or below it where turned scenes fail there.
+    /// that is neither little nor within the room: at the survivor, or below it where turned scenes fail there.
     pub(super) fn knobs(
         &self,
         walk: &mut Walk<'_>,
         knobs: &[Knob],
         limits: Limits,
     ) -> Result<Option<Estimate>, Ask> {
+        let (proxy, slope_m) = (walk.proxy(), self.slope_m);
         let mut coarse_only = None;
         for at in self.at {
-            let coarse = judge::coarser(walk.proxy(), knobs);
+            let coarse = judge::coarser(proxy, knobs);
             let Some(coarse_m) = self.see(walk, coarse, at.index)? else {
                 continue;
             };
-            let near = (coarse_m - at.proxy_m) / self.slope_m[1];
+            let Some(proxy_m) = self.see(walk, proxy, at.index)? else {
+                continue;
+            };
+            let near = (coarse_m - proxy_m) / slope_m;
             if near.abs() > REACH {
                 continue;
             }
             let estimate = judge::one_step(knobs, near);
-            if estimate.error() <= limits.little || !walk.has_finer(knobs) {
+            if estimate.error() <= limits.little.max(limits.room) || !walk.has_finer(knobs) {
                 return Ok(Some(estimate));
             }
-            let finer = judge::finer(walk.proxy(), knobs);
+            let finer = judge::finer(proxy, knobs);
             let fine = self
                 .see(walk, finer, at.index)?
-                .map(|finer_m| (at.proxy_m - finer_m) / self.slope_m[1])
+                .map(|finer_m| (proxy_m - finer_m) / slope_m)
                 .filter(|fine| fine.abs() <= REACH);
             if let Some(fine) = fine {
                 return Ok(Some(judge::with_finer(knobs, near, fine)));

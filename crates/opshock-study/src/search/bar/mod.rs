@@ -76,6 +76,8 @@ const GROUPS: [Group; 3] = [
 
 /// Part of what a bar holds already to which brackets of further parts are narrowed.
 const GRAIN: f64 = 1.0 / 16.0;
+/// The same where the bar exceeds what was asked whatever they say.
+const COARSE_GRAIN: f64 = 1.0 / 8.0;
 
 /// Narrowest bracket of turned knobs, nodes.
 const FINEST: i32 = 2;
@@ -271,7 +273,12 @@ impl<'a> Walk<'a> {
 
     /// Ratio of amplitudes `nodes` apart, minus one.
     fn share(&self, nodes: i32) -> f64 {
-        (f64::from(nodes) / f64::from(self.input.lattice.nodes_per_octave)).exp2() - 1.0
+        self.share_of(f64::from(nodes))
+    }
+
+    /// The same of a distance between nodes.
+    fn share_of(&self, nodes: f64) -> f64 {
+        (nodes / f64::from(self.input.lattice.nodes_per_octave)).exp2() - 1.0
     }
 }
 
@@ -334,7 +341,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
             let mut film = Bar::default();
             if input.knobs.contains(&Knob::FilmGrid) {
                 let by_margin = match &margin {
-                    Some(reference) => reference.film(walk, Limits::of(walk, &sum))?,
+                    Some(reference) => reference.film(walk, Limits::of(walk, &sum, 0.0))?,
                     None => None,
                 };
                 let found = match by_margin {
@@ -343,7 +350,7 @@ fn pieces(walk: &mut Walk<'_>, kept: [Option<Bar>; 1 + GROUPS.len()]) -> Result<
                         ..Default::default()
                     },
                     None => {
-                        let limits = Limits::of(walk, &sum);
+                        let limits = Limits::of(walk, &sum, 0.0);
                         verdicts::film(walk, limits)?
                     }
                 };
@@ -399,6 +406,12 @@ fn narrow_film(
     let accuracy = walk.input.accuracy;
     let others: f64 = groups.iter().map(Bar::half_length).sum();
     if others + least_by_half(walk, both) > accuracy {
+        return Ok(film);
+    }
+    // One run of the scene itself may do what takes one of each.
+    let (low, high) = bracket(walk);
+    let halved = 0.5 * walk.share((high - low) / 2);
+    if high - low > FINEST && others + film.half_length() + halved <= accuracy {
         return Ok(film);
     }
     loop {
@@ -467,13 +480,15 @@ struct Limits {
 }
 
 impl Limits {
-    /// For a bar that holds `sum` already.
-    fn of(walk: &Walk<'_>, sum: &Bar) -> Limits {
+    /// For a bar that holds `sum` already, of which `spare` can be halved away.
+    fn of(walk: &Walk<'_>, sum: &Bar, spare: f64) -> Limits {
         let (half, accuracy) = (sum.half_length(), walk.input.accuracy);
+        let room = accuracy - half + spare;
+        let grain = if room > 0.0 { GRAIN } else { COARSE_GRAIN };
         Limits {
-            grain: walk.nodes(GRAIN * 2.0 * half).max(FINEST),
+            grain: walk.nodes(grain * 2.0 * half).max(FINEST),
             little: judge::NEGLIGIBLE * accuracy.max(half),
-            room: accuracy - half,
+            room,
         }
     }
 
@@ -494,8 +509,7 @@ impl Group {
         proxy: &mut Option<verdicts::Proxy>,
         (sum, spare): (&Bar, f64),
     ) -> Result<Bar, Ask> {
-        let mut limits = Limits::of(walk, sum);
-        limits.room += spare;
+        let limits = Limits::of(walk, sum, spare);
         let mut turned = |walk: &mut Walk<'_>, knobs: &[Knob]| {
             let by_margin = match margin {
                 Some(reference) => reference.knobs(walk, knobs, limits)?,

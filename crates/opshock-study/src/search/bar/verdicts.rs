@@ -283,7 +283,7 @@ pub(super) fn film(walk: &mut Walk<'_>, limits: Limits) -> Result<Film, Ask> {
         && let Some(both) = by_half(walk, own, OF_FILM.nodes)?
     {
         let width = Width {
-            farthest: 2.0 * NEAR,
+            farthest: NEAR,
             ..OF_FILM
         };
         let near = locate(walk, halved(2), own, width)?
@@ -388,7 +388,7 @@ fn with_eighth(
     let slack = half(near.bracket) + half(far) + 0.5 * error.abs();
     let is_formal =
         expected >= f64::from(own.low) - slack && expected <= f64::from(own.high) + slack;
-    let share = walk.share(error.abs().max(0.5).ceil() as i32);
+    let share = walk.share_of(error.abs().max(0.5));
     let estimate = match is_formal {
         true => Estimate::unseen(share, judge::NARROW),
         false => Estimate::unseen(coarse.share.max(share), judge::WIDE),
