@@ -68,18 +68,19 @@ impl Flying {
 
     /// The matrix of a stage as a general sparse one.
     fn sparse(&self) -> SparseColMat<usize, f64> {
-        let (matrix, n) = (&self.lin.by_psi, self.film.n_cells());
-        let band = matrix.band();
+        let n = self.film.n_cells();
         let mut entries = Vec::new();
-        for i in 0..n {
-            for j in i.saturating_sub(band.below)..=(i + band.above).min(n - 1) {
-                let mass = if i == j {
+        for (offset, diagonal) in self.lin.by_psi.iter() {
+            for (i, value) in diagonal.iter().enumerate() {
+                let mass = if offset == 0 {
                     self.film.capacity()[i] / D_S
                 } else {
                     0.0
                 };
-                let value = matrix.get(i, j) + mass;
-                if value != 0.0 {
+                let value = value + mass;
+                if let Some(j) = i.checked_add_signed(offset).filter(|j| *j < n)
+                    && value != 0.0
+                {
                     entries.push(Triplet::new(i, j, value));
                 }
             }
@@ -268,7 +269,8 @@ impl WithSimd for Throughput {
     }
 }
 
-/// What this machine can do of eight numbers at once: the bound of the balance, which works on as many faces.
+/// What this machine can do of eight numbers at once: the bound of balance and linearisation, which work on as many
+/// faces.
 fn bound(_: &mut Criterion) {
     let of_eight_ns = |divides: bool| {
         let (_, lanes) = widest(Throughput { divides });

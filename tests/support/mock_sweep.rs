@@ -1,5 +1,6 @@
 //! Studies whose answers are known without physics, and simulators that misbehave on purpose.
 
+use std::io::Write as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -98,10 +99,13 @@ pub enum Poison {
     NeverConverges,
 }
 
+/// A run of this length no test waits for.
+const OUTLASTING: Duration = Duration::from_secs(60);
+
 /// A law of failure with first touches, costs and poison.
 pub struct MockSimulator<'a> {
     input: &'a SweepInput,
-    /// Time each run takes.
+    /// Time each run takes. One that outlasts any test prints `begun` first.
     pub sleep: Duration,
     /// Whether histories can be recorded.
     pub records: bool,
@@ -171,6 +175,10 @@ impl Simulator for MockSimulator<'_> {
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
         self.calls.fetch_add(1, Ordering::SeqCst);
         let beside_at_start = self.running.fetch_add(1, Ordering::SeqCst) > 0;
+        if self.sleep >= OUTLASTING {
+            // A reader that went away must not end a run.
+            let _ = writeln!(std::io::stdout(), "begun");
+        }
         std::thread::sleep(self.sleep * u32::from(probe.window_factor));
         let beside_at_end = self.running.fetch_sub(1, Ordering::SeqCst) > 1;
         if beside_at_start || beside_at_end {

@@ -3,7 +3,7 @@
 //! `sweep-mock FOLDER THREADS SLEEP_MS [CHECKPOINT_MS] [refined]`
 //!
 //! Prints `ready`, and a line for every simulation once it is told as done: from then on it must
-//! never be lost. `refined` sweeps a study that adds widths, round by round.
+//! never be lost; and `begun` for one that outlasts any test. `refined` sweeps a study that adds widths, round by round.
 
 use std::io::Write as _;
 use std::process::ExitCode;

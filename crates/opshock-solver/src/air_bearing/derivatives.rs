@@ -9,21 +9,25 @@ use super::flux::HalfPartials;
 use super::heights::{inverses, inverses_of_both};
 use super::state::SideBlock;
 
-/// x and y of a block of faces and of the cells on either side, from the slider's centre.
+/// Derivatives by attitude of the heights of a block of faces and of the cells on either side.
 pub(super) struct Arms {
-    pub(super) face: [Block; 2],
-    pub(super) up: [Block; 2],
-    pub(super) down: [Block; 2],
+    pub(super) face: [Block; 3],
+    pub(super) up: [Block; 3],
+    pub(super) down: [Block; 3],
 }
 
-/// Derivatives of the height at (x, y) by attitude.
+/// Derivatives by (h_c, pitch, roll) of the heights at (x, y) from the slider's centre.
 #[inline(always)]
-pub(super) fn height_by_attitude([x, y]: &[Block; 2], k: usize) -> [f64; 3] {
-    [1.0, -x[k], y[k]]
+pub(super) fn height_by_attitude([x, y]: [&Block; 2]) -> [Block; 3] {
+    let mut by_pitch = [0.0; BLOCK];
+    for k in 0..BLOCK {
+        by_pitch[k] = -x[k];
+    }
+    [[1.0; BLOCK], by_pitch, *y]
 }
 
-/// Fluxes and loads of a block with their derivatives: by ψ of the up cell, of the cell behind it
-/// and of the down cell, and by attitude.
+/// Fluxes and loads of a block with their derivatives: by ψ of the up cell, of the down cell
+/// and of the cell behind the up cell, and by attitude.
 pub(super) struct FaceDerivatives {
     pub(super) flux: Block,
     pub(super) flux_by_psi: [Block; 3],
@@ -35,7 +39,7 @@ pub(super) struct FaceDerivatives {
 
 impl FaceDerivatives {
     #[inline(always)]
-    fn zero() -> Self {
+    pub(super) fn zero() -> Self {
         Self {
             flux: [0.0; BLOCK],
             flux_by_psi: [[0.0; BLOCK]; 3],
@@ -49,23 +53,19 @@ impl FaceDerivatives {
     /// Sets face k from its sides.
     #[inline(always)]
     fn set(&mut self, k: usize, [up, down]: [&SideDerivatives; 2], load_by_p: f64, arms: &Arms) {
-        let face = height_by_attitude(&arms.face, k);
-        let centres = [
-            height_by_attitude(&arms.up, k),
-            height_by_attitude(&arms.down, k),
-        ];
         let (up_flux, up_load) = up.reaching(load_by_p);
         let (down_flux, down_load) = down.reaching(load_by_p);
         self.flux_by_psi[0][k] = up_flux[0];
-        self.flux_by_psi[1][k] = up_flux[1];
-        self.flux_by_psi[2][k] = down_flux[0];
+        self.flux_by_psi[1][k] = down_flux[0];
+        self.flux_by_psi[2][k] = up_flux[1];
         self.load_by_psi[0][k] = up_load[0];
-        self.load_by_psi[1][k] = up_load[1];
-        self.load_by_psi[2][k] = down_load[0];
+        self.load_by_psi[1][k] = down_load[0];
+        self.load_by_psi[2][k] = up_load[1];
         let height = [up.slopes, down.slopes];
         for q in 0..3 {
-            let at = [height[0][0] * centres[0][q], height[1][0] * centres[1][q]];
-            let at_face = [height[0][1] * face[q], height[1][1] * face[q]];
+            let face = arms.face[q][k];
+            let at = [height[0][0] * arms.up[q][k], height[1][0] * arms.down[q][k]];
+            let at_face = [height[0][1] * face, height[1][1] * face];
             self.flux_by_attitude[q][k] = (up_flux[2] * at[0] + up_flux[3] * at_face[0])
                 + (down_flux[2] * at[1] + down_flux[3] * at_face[1]);
             self.load_by_attitude[q][k] = (up_load[2] * at[0] + up_load[3] * at_face[0])
@@ -129,13 +129,13 @@ fn join(
 
 #[inline(always)]
 pub(super) fn windy<const STEEP: bool>(
+    all: &mut FaceDerivatives,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
     [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
     length: &Block,
     arms: &Arms,
-) -> FaceDerivatives {
-    let mut all = FaceDerivatives::zero();
+) {
     for k in 0..BLOCK {
         let [u, d] = inverses_of_both([up.h(k), down.h(k)], [h_up[k], h_down[k]]);
         let (u, d) = (up.half(k, h_up[k], u), down.half(k, h_down[k], d));
@@ -145,7 +145,7 @@ pub(super) fn windy<const STEEP: bool>(
         let p = (a.alpha + b.alpha) / total;
         all.flux[k] = length[k] * (a.alpha - a.beta * p);
         join(
-            &mut all,
+            all,
             k,
             [
                 (
@@ -168,18 +168,17 @@ pub(super) fn windy<const STEEP: bool>(
             arms,
         );
     }
-    all
 }
 
 #[inline(always)]
 pub(super) fn still(
+    all: &mut FaceDerivatives,
     up: &SideBlock<'_>,
     down: &SideBlock<'_>,
     [[h_up, slope_up], [h_down, slope_down]]: &[[Block; 2]; 2],
     length: &Block,
     arms: &Arms,
-) -> FaceDerivatives {
-    let mut all = FaceDerivatives::zero();
+) {
     for k in 0..BLOCK {
         let (u, d) = (up.bare_half(k, h_up[k]), down.bare_half(k, h_down[k]));
         let ((alpha_up, beta_up), (alpha_down, beta_down)) = (u.still(), d.still());
@@ -187,7 +186,7 @@ pub(super) fn still(
         let p = (alpha_up + alpha_down) / total;
         all.flux[k] = length[k] * (alpha_up - beta_up * p);
         join(
-            &mut all,
+            all,
             k,
             [
                 (
@@ -210,19 +209,18 @@ pub(super) fn still(
             arms,
         );
     }
-    all
 }
 
 /// Faces on the slider's edge; only the up side counts.
 #[inline(always)]
 pub(super) fn edge(
+    all: &mut FaceDerivatives,
     film: &Film,
     side: &SideBlock<'_>,
     base: &Block,
     length: &Block,
     arms: &Arms,
-) -> FaceDerivatives {
-    let mut all = FaceDerivatives::zero();
+) {
     let p = film.ambient_pa;
     for k in 0..BLOCK {
         let (h_face, slope) = film.floored(base[k] + side.recess[k]);
@@ -261,5 +259,4 @@ pub(super) fn edge(
         };
         all.set(k, [&own, &nothing], 0.0, arms);
     }
-    all
 }

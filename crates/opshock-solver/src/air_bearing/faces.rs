@@ -130,9 +130,10 @@ impl Columns {
     pub(super) fn new(mesh: &Mesh) -> Self {
         let n_cells = mesh.cells.len();
         let [_, ny] = mesh.counts();
-        let front = ny.max(2);
+        // As far as a face's cells lie from it, to either side.
+        let front = 2 * ny;
         let blocks = n_cells.next_multiple_of(BLOCK);
-        let padded = front + blocks + 2 * front + BLOCK;
+        let padded = front + blocks + front + BLOCK;
         let mut columns = Self {
             n_cells,
             front,

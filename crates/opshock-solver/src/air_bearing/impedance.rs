@@ -11,7 +11,8 @@
 
 use super::Attitude;
 use super::film::Film;
-use crate::linalg::banded::{Band, BandMatrix, BandedError, BandedLu};
+use crate::linalg::banded::{BandedError, BandedLu};
+use crate::linalg::diagonals::Diagonals;
 use nalgebra::{Complex, Matrix3, Vector3};
 use thiserror::Error;
 
@@ -52,12 +53,12 @@ pub struct AirBearingMode {
 /// Film linearised about a state.
 pub struct SmallMotion<'a> {
     film: &'a Film,
-    by_psi: BandMatrix,
+    by_psi: Diagonals,
     by_attitude: [Vec<f64>; 3],
     force_by_psi: [Vec<f64>; 3],
     force_by_attitude: [[f64; 3]; 3],
     /// A + s M with real and imaginary part of every cell side by side.
-    matrix: BandMatrix,
+    matrix: Diagonals,
     lu: BandedLu,
     /// Real and imaginary part of every cell side by side, column by column.
     columns: [Vec<f64>; 3],
@@ -74,15 +75,13 @@ impl<'a> SmallMotion<'a> {
         let mut linearisation = film.linearisation();
         film.linearise(psi, attitude, &mut linearisation, &mut film.scratch());
         let n = film.n_cells();
-        let Band { below, above } = linearisation.by_psi.band();
-        let band = Band {
-            below: 2 * below + 1,
-            above: 2 * above + 1,
-        };
+        let offsets = linearisation.by_psi.offsets().iter();
+        let pairs = offsets.map(|offset| 2 * offset).chain([-1, 0, 1]);
+        let matrix = Diagonals::zeros(2 * n, pairs.collect());
         Self {
             film,
-            matrix: BandMatrix::zeros(2 * n, band),
-            lu: BandedLu::new(2 * n, band),
+            lu: BandedLu::new(2 * n, matrix.band()),
+            matrix,
             columns: [0; 3].map(|_| vec![0.0; 2 * n]),
             zero: vec![0.0; 2 * n],
             by_psi: linearisation.by_psi,
@@ -98,17 +97,14 @@ impl<'a> SmallMotion<'a> {
     ///
     /// [`ImpedanceError::Singular`] when s meets a decay rate of the film itself.
     pub fn at(&mut self, s: Complex<f64>) -> Result<Matrix3<Complex<f64>>, ImpedanceError> {
-        let n = self.film.n_cells();
-        let Band { below, above } = self.by_psi.band();
         self.matrix.clear();
-        for (i, capacity) in self.film.capacity().iter().enumerate() {
-            for j in i.saturating_sub(below)..=(i + above).min(n - 1) {
-                let value = self.by_psi.get(i, j);
-                if value != 0.0 {
-                    self.matrix.add(2 * i, 2 * j, value);
-                    self.matrix.add(2 * i + 1, 2 * j + 1, value);
-                }
+        for (offset, of_cells) in self.by_psi.iter() {
+            let pairs = self.matrix.column_mut(2 * offset).expect("made for it");
+            for (pair, value) in pairs.chunks_exact_mut(2).zip(of_cells) {
+                pair.fill(*value);
             }
+        }
+        for (i, capacity) in self.film.capacity().iter().enumerate() {
             self.matrix.add(2 * i, 2 * i, s.re * capacity);
             self.matrix.add(2 * i + 1, 2 * i + 1, s.re * capacity);
             self.matrix.add(2 * i, 2 * i + 1, -s.im * capacity);

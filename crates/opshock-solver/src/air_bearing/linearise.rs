@@ -1,8 +1,8 @@
 //! Derivatives of the flux balance and of the force by ψ and attitude.
 //!
-//! What a face gives is written in columns, face by face, as the balance does with fluxes; rows of the
-//! matrix are gathered from them afterwards: the cells of face k and of the row it leaves and enters
-//! lie at fixed distances from k.
+//! What a face gives is written in columns, face by face, as the balance does with fluxes; diagonals of
+//! the matrix and derivatives of the force are gathered from them afterwards: the cells of face k and of the
+//! row it leaves and enters lie at fixed distances from k.
 
 #![expect(
     clippy::needless_range_loop,
@@ -11,12 +11,12 @@
 
 use super::Attitude;
 use super::balance::{Moments, any_steep, net};
-use super::derivatives::{Arms, edge, height_by_attitude, still, windy};
-use super::faces::{BLOCK, Columns, Interior, block};
+use super::derivatives::{Arms, FaceDerivatives, edge, height_by_attitude, still, windy};
+use super::faces::{BLOCK, Block, Columns, Interior, block};
 use super::film::Film;
 use super::state::{FilmScratch, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
-use crate::linalg::banded::{Band, BandMatrix};
+use crate::linalg::diagonals::Diagonals;
 
 /// Residual and derivatives of the flux balance at one state.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct FilmLinearisation {
     /// R, as from [`Film::flux_residual_and_force`]; length n_cells.
     pub residual: Vec<f64>,
     /// dR/dψ.
-    pub by_psi: BandMatrix,
+    pub by_psi: Diagonals,
     /// dR/d(h_c, pitch, roll); each of length n_cells.
     pub by_attitude: [Vec<f64>; 3],
     /// [F_z, M_pitch, M_roll], as from [`Film::force`].
@@ -34,16 +34,15 @@ pub struct FilmLinearisation {
     /// Derivatives of each force by (h_c, pitch, roll) at constant ψ: `[force][q]`.
     pub force_by_attitude: [[f64; 3]; 3],
     by_face: [ByFace; 2],
-    /// `force_by_psi`, padded like states.
-    force_columns: [Vec<f64>; 3],
 }
 
-/// Derivatives of the fluxes through the faces of one direction, padded like states.
+/// Derivatives of the fluxes through the faces of one direction and of the loads at them, padded like
+/// states: by ψ of the up cell, of the down cell and of the cell behind the up cell, and by attitude.
 #[derive(Clone, Debug)]
 struct ByFace {
-    /// By ψ of the up cell, of the cell behind it and of the down cell.
-    psi: [Vec<f64>; 3],
-    attitude: [Vec<f64>; 3],
+    flux_by_psi: [Vec<f64>; 3],
+    flux_by_attitude: [Vec<f64>; 3],
+    load_by_psi: [Vec<f64>; 3],
 }
 
 /// Sums over faces and cells.
@@ -58,18 +57,24 @@ impl Film {
     pub fn linearisation(&self) -> FilmLinearisation {
         let n = self.n_cells();
         let columns = || [0, 1, 2].map(|_| vec![0.0; self.columns.padded]);
+        let front = self.columns.front;
+        let offsets = self
+            .columns
+            .interior
+            .iter()
+            .flat_map(|faces| faces.offsets(front));
         FilmLinearisation {
             residual: vec![0.0; n],
-            by_psi: BandMatrix::zeros(n, self.mesh.band()),
+            by_psi: Diagonals::zeros(n, offsets.flatten().collect()),
             by_attitude: [0, 1, 2].map(|_| vec![0.0; n]),
             force: [0.0; 3],
             force_by_psi: [0, 1, 2].map(|_| vec![0.0; n]),
             force_by_attitude: [[0.0; 3]; 3],
             by_face: [0, 1].map(|_| ByFace {
-                psi: columns(),
-                attitude: columns(),
+                flux_by_psi: columns(),
+                flux_by_attitude: columns(),
+                load_by_psi: columns(),
             }),
-            force_columns: columns(),
         }
     }
 
@@ -86,7 +91,6 @@ impl Film {
         scratch: &mut FilmScratch,
     ) {
         assert_eq!(out.residual.len(), self.n_cells());
-        assert_eq!(out.by_psi.band(), self.mesh.band());
         let totals = widest(Linearise {
             film: self,
             psi,
@@ -132,46 +136,36 @@ impl Kernel for Linearise<'_> {
         let columns = &film.columns;
         let mut totals = Totals::default();
         scratch.fill(film, psi, attitude);
-        centres(film, scratch, out, &mut totals);
+        centres(film, scratch, &mut totals);
         for d in 0..2 {
             between_cells(film, attitude, d, scratch, out, &mut totals);
         }
-        gather(columns, scratch, out);
+        gather_rows(columns, scratch, out);
+        gather_gradients(columns, scratch, out);
         on_edges(film, attitude, scratch, out, &mut totals);
-        for f in 0..3 {
-            let column = &out.force_columns[f][columns.front..columns.front + columns.n_cells];
-            out.force_by_psi[f].copy_from_slice(column);
-        }
         totals
     }
 }
 
 /// Pressures at the centres, each over its whole cell.
 #[inline(always)]
-fn centres(film: &Film, state: &FilmScratch, out: &mut FilmLinearisation, totals: &mut Totals) {
+fn centres(film: &Film, state: &FilmScratch, totals: &mut Totals) {
     let columns = &film.columns;
-    for column in &mut out.force_columns {
-        column.fill(0.0);
-    }
     for first in (0..columns.area.len()).step_by(BLOCK) {
         let at = columns.front + first;
         let (psi, inverse_h) = (block(&state.psi, at), block(&state.inverse_h, at));
         let (h_slope, area) = (block(&state.h_slope, at), block(&columns.area, first));
-        let places = [&columns.places.x, &columns.places.y].map(|column| *block(column, first));
+        let places = &columns.places;
+        let arms = height_by_attitude([block(&places.x, first), block(&places.y, first)]);
         let mut load = [0.0; BLOCK];
-        let mut by_attitude = [[0.0; BLOCK]; 3];
+        let mut per_height = [0.0; BLOCK];
         for k in 0..BLOCK {
-            load[k] = (psi[k] * inverse_h[k] - film.ambient_pa) * area[k];
             let per_psi = area[k] * inverse_h[k];
-            let per_height = -psi[k] * per_psi * h_slope[k] * inverse_h[k];
-            let arms = height_by_attitude(&places, k);
-            for q in 0..3 {
-                out.force_columns[q][at + k] = per_psi * arms[q];
-                by_attitude[q][k] = per_height * arms[q];
-            }
+            load[k] = (psi[k] * inverse_h[k] - film.ambient_pa) * area[k];
+            per_height[k] = -psi[k] * per_psi * h_slope[k] * inverse_h[k];
         }
-        totals.moments.add(&load, &columns.places, first);
-        totals.add_by_attitude(&by_attitude, &places);
+        totals.moments.add(&load, places, first);
+        totals.add_by_height(&per_height, &arms);
     }
 }
 
@@ -187,6 +181,7 @@ fn between_cells(
     let columns = &film.columns;
     let (faces, front) = (&columns.interior[d], columns.front);
     let mut through = std::mem::take(&mut state.flux[d]);
+    let mut all = FaceDerivatives::zero();
     for first in (0..faces.length.len()).step_by(BLOCK) {
         let [up, down] = faces.sides(state, first);
         let base = faces.places.heights(first, attitude);
@@ -195,104 +190,149 @@ fn between_cells(
             film.floored_block(&base, down.recess),
         ];
         let length = block(&faces.length, first);
+        let centre = |cell: usize| {
+            let [x, y] = [&columns.centre_x, &columns.centre_y].map(|c| block(c, cell + first));
+            height_by_attitude([x, y])
+        };
         let arms = Arms {
-            face: [&faces.places.x, &faces.places.y].map(|c| *block(c, first)),
-            up: [&columns.centre_x, &columns.centre_y].map(|c| *block(c, faces.up + first)),
-            down: [&columns.centre_x, &columns.centre_y].map(|c| *block(c, faces.down + first)),
+            face: height_by_attitude([
+                block(&faces.places.x, first),
+                block(&faces.places.y, first),
+            ]),
+            up: centre(faces.up),
+            down: centre(faces.down),
         };
-        let all = if faces.wind == 0.0 {
-            still(&up, &down, &faces_at, length, &arms)
+        if faces.wind == 0.0 {
+            still(&mut all, &up, &down, &faces_at, length, &arms)
         } else if any_steep(&up, &down, &[faces_at[0][0], faces_at[1][0]], length) {
-            windy::<true>(&up, &down, &faces_at, length, &arms)
+            windy::<true>(&mut all, &up, &down, &faces_at, length, &arms)
         } else {
-            windy::<false>(&up, &down, &faces_at, length, &arms)
-        };
+            windy::<false>(&mut all, &up, &down, &faces_at, length, &arms)
+        }
         *block_mut(&mut through, front + first) = all.flux;
+        let by_face = &mut out.by_face[d];
         for s in 0..3 {
-            *block_mut(&mut out.by_face[d].psi[s], front + first) = all.flux_by_psi[s];
-            *block_mut(&mut out.by_face[d].attitude[s], front + first) = all.flux_by_attitude[s];
+            *block_mut(&mut by_face.flux_by_psi[s], front + first) = all.flux_by_psi[s];
+            *block_mut(&mut by_face.flux_by_attitude[s], front + first) = all.flux_by_attitude[s];
+            *block_mut(&mut by_face.load_by_psi[s], front + first) = all.load_by_psi[s];
         }
         totals.moments.add(&all.load, &faces.places, first);
         totals.add_by_attitude(&all.load_by_attitude, &arms.face);
-        let cells = [faces.up, faces.behind, faces.down];
-        for s in 0..3 {
-            for f in 0..3 {
-                let column = block_mut(&mut out.force_columns[f], cells[s] + first);
-                for k in 0..BLOCK {
-                    column[k] += height_by_attitude(&arms.face, k)[f] * all.load_by_psi[s][k];
-                }
-            }
-        }
     }
     state.flux[d] = through;
 }
 
 impl Totals {
-    /// Adds loads by attitude, which act at `places`.
+    /// Adds loads by attitude, which act where a height changes by `arms`.
     #[inline(always)]
-    pub(super) fn add_by_attitude(
-        &mut self,
-        by_attitude: &[[f64; BLOCK]; 3],
-        places: &[[f64; BLOCK]; 2],
-    ) {
+    pub(super) fn add_by_attitude(&mut self, by_attitude: &[Block; 3], arms: &[Block; 3]) {
         for f in 0..3 {
             for q in 0..3 {
-                let mut sums = self.force_by_attitude[f][q];
-                for first in (0..BLOCK).step_by(SUMS) {
-                    for k in 0..SUMS {
-                        let arm = height_by_attitude(places, first + k)[f];
-                        sums[k] += arm * by_attitude[q][first + k];
-                    }
-                }
-                self.force_by_attitude[f][q] = sums;
+                let sums = &mut self.force_by_attitude[f][q];
+                add_products(sums, &arms[f], &by_attitude[q]);
+            }
+        }
+    }
+
+    /// Adds loads by the height where they act, which changes by `arms`.
+    #[inline(always)]
+    pub(super) fn add_by_height(&mut self, by_height: &Block, arms: &[Block; 3]) {
+        let mut by_attitude = [[0.0; BLOCK]; 3];
+        for q in 0..3 {
+            for k in 0..BLOCK {
+                by_attitude[q][k] = by_height[k] * arms[q][k];
+            }
+        }
+        self.add_by_attitude(&by_attitude, arms);
+    }
+}
+
+/// Adds the products of a block to sums.
+#[inline(always)]
+fn add_products(sums: &mut [f64; SUMS], a: &Block, b: &Block) {
+    let mut local = *sums;
+    for (a, b) in a.as_chunks::<SUMS>().0.iter().zip(b.as_chunks::<SUMS>().0) {
+        for k in 0..SUMS {
+            local[k] += a[k] * b[k];
+        }
+    }
+    *sums = local;
+}
+
+/// Rows from the faces between cells.
+#[inline(always)]
+fn gather_rows(columns: &Columns, state: &FilmScratch, out: &mut FilmLinearisation) {
+    let [x, y] = &state.flux;
+    net([x, y], columns, &mut out.residual);
+    for q in 0..3 {
+        let [x, y] = [0, 1].map(|d: usize| out.by_face[d].flux_by_attitude[q].as_slice());
+        net([x, y], columns, &mut out.by_attitude[q]);
+    }
+    out.by_psi.clear();
+    let front = columns.front;
+    for (faces, by_face) in columns.interior.iter().zip(&out.by_face) {
+        for (offsets, column) in faces.offsets(front).zip(&by_face.flux_by_psi) {
+            let [leaving, entering] = offsets;
+            let diagonal = out.by_psi.column_mut(leaving).expect("made for it");
+            for (entry, flux) in diagonal.iter_mut().zip(&column[front..]) {
+                *entry += flux;
+            }
+            let diagonal = out.by_psi.column_mut(entering).expect("made for it");
+            for (entry, flux) in diagonal.iter_mut().zip(&column[front - faces.stride..]) {
+                *entry -= flux;
             }
         }
     }
 }
 
-/// Rows from the faces between cells.
+/// Gradients of the force from the centres' pressures, each over its whole cell, and from the faces
+/// between cells.
 #[inline(always)]
-fn gather(columns: &Columns, state: &FilmScratch, out: &mut FilmLinearisation) {
-    let [x, y] = &state.flux;
-    net([x, y], columns, &mut out.residual);
-    for q in 0..3 {
-        let [x, y] = [0, 1].map(|d: usize| out.by_face[d].attitude[q].as_slice());
-        net([x, y], columns, &mut out.by_attitude[q]);
+fn gather_gradients(columns: &Columns, state: &FilmScratch, out: &mut FilmLinearisation) {
+    let (n, front) = (columns.n_cells, columns.front);
+    let [force, pitch, roll] = out.force_by_psi.each_mut().map(|g| &mut g[..n]);
+    let inverse_h = &state.inverse_h[front..front + n];
+    let places = &columns.places;
+    let (area, x, y) = (&columns.area[..n], &places.x[..n], &places.y[..n]);
+    for k in 0..n {
+        let load = area[k] * inverse_h[k];
+        force[k] = load;
+        pitch[k] = -x[k] * load;
+        roll[k] = y[k] * load;
     }
-    let band = out.by_psi.band();
-    let places = columns
-        .interior
-        .each_ref()
-        .map(|f| f.in_row(columns.front, band));
-    for (i, row) in out.by_psi.rows_mut().enumerate() {
-        let at = columns.front + i;
-        for places in places.as_flattened() {
-            for place in places {
-                row[*place] = 0.0;
-            }
-        }
-        for d in 0..2 {
-            let before = at - columns.interior[d].stride;
-            for s in 0..3 {
-                let column = &out.by_face[d].psi[s];
-                row[places[d][0][s]] += column[at];
-                row[places[d][1][s]] -= column[before];
+    for (faces, by_face) in columns.interior.iter().zip(&out.by_face) {
+        for (cell, load) in faces.cells().zip(&by_face.load_by_psi) {
+            // Faces whose cell is one of the film's; of others nothing depends on ψ.
+            let (first, to) = (front.saturating_sub(cell), cell.saturating_sub(front));
+            let m = n.saturating_sub(first.max(to));
+            let load = &load[front + first..][..m];
+            let (x, y) = (&faces.places.x[first..][..m], &faces.places.y[first..][..m]);
+            let (force, pitch) = (&mut force[to..][..m], &mut pitch[to..][..m]);
+            let roll = &mut roll[to..][..m];
+            for k in 0..m {
+                force[k] += load[k];
+                pitch[k] -= x[k] * load[k];
+                roll[k] += y[k] * load[k];
             }
         }
     }
 }
 
 impl Interior {
-    /// Where the up cell, the cell behind it and the down cell of face i, and those of the face
-    /// before cell i, stand in row i of a matrix. Outside its band nothing but zeros is added,
-    /// which may go anywhere.
-    fn in_row(&self, front: usize, band: Band) -> [[usize; 3]; 2] {
-        [0, self.stride].map(|before| {
-            [self.up, self.behind, self.down].map(|cell| {
-                let place = (cell + band.below).checked_sub(front + before);
-                let is_inside = |at: &usize| *at <= band.below + band.above;
-                place.filter(is_inside).unwrap_or(band.below)
-            })
+    /// Number of face 0's up cell, down cell and, with wind, cell behind the up cell, as those are counted.
+    #[inline(always)]
+    fn cells(&self) -> impl Iterator<Item = usize> {
+        let used = if self.wind == 0.0 { 2 } else { 3 };
+        [self.up, self.down, self.behind].into_iter().take(used)
+    }
+
+    /// How far these stand from the diagonal of a matrix in the row of the cell that face 0 leaves, and in
+    /// that of the cell it enters.
+    fn offsets(&self, front: usize) -> impl Iterator<Item = [isize; 2]> {
+        let stride = self.stride.cast_signed();
+        self.cells().map(move |cell| {
+            let leaving = cell.cast_signed() - front.cast_signed();
+            [leaving, leaving - stride]
         })
     }
 }
@@ -307,6 +347,7 @@ fn on_edges(
 ) {
     let columns = &film.columns;
     let front = columns.front;
+    let mut all = FaceDerivatives::zero();
     for faces in &columns.edges {
         for first in (0..faces.length.len()).step_by(BLOCK) {
             let cells = &faces.cells[first..first + BLOCK];
@@ -315,38 +356,41 @@ fn on_edges(
             let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
             let length = block(&faces.length, first);
-            let centre = [&columns.centre_x, &columns.centre_y].map(|column| {
+            let [x, y] = [&columns.centre_x, &columns.centre_y].map(|column| {
                 let mut out = [0.0; BLOCK];
                 for (out, cell) in out.iter_mut().zip(cells) {
                     *out = column[front + cell];
                 }
                 out
             });
+            let centre = height_by_attitude([&x, &y]);
+            let places = &faces.places;
             let arms = Arms {
-                face: [&faces.places.x, &faces.places.y].map(|c| *block(c, first)),
+                face: height_by_attitude([block(&places.x, first), block(&places.y, first)]),
                 up: centre,
                 down: centre,
             };
-            let all = edge(film, &side, &base, length, &arms);
+            edge(&mut all, film, &side, &base, length, &arms);
             totals.moments.add(&all.load, &faces.places, first);
             totals.add_by_attitude(&all.load_by_attitude, &arms.face);
             for k in 0..BLOCK {
                 if length[k] == 0.0 {
                     continue;
                 }
-                let (row, has_behind) = (cells[k], side.reach[k] > 0.0);
+                let row = cells[k];
                 out.residual[row] += all.flux[k];
-                let face = height_by_attitude(&arms.face, k);
-                for (s, cell) in [row, behind[k]].into_iter().enumerate() {
-                    if s == 0 || has_behind {
-                        out.by_psi.add(row, cell, all.flux_by_psi[s][k]);
-                        for f in 0..3 {
-                            out.force_columns[f][front + cell] += face[f] * all.load_by_psi[s][k];
-                        }
-                    }
-                }
                 for q in 0..3 {
                     out.by_attitude[q][row] += all.flux_by_attitude[q][k];
+                }
+                let mut add = |cell: usize, s: usize| {
+                    out.by_psi.add(row, cell, all.flux_by_psi[s][k]);
+                    for f in 0..3 {
+                        out.force_by_psi[f][cell] += arms.face[f][k] * all.load_by_psi[s][k];
+                    }
+                };
+                add(row, 0);
+                if side.reach[k] > 0.0 {
+                    add(behind[k], 2);
                 }
             }
         }

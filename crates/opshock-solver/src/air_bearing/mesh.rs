@@ -7,7 +7,6 @@
 use super::Attitude;
 use super::corner::{Widths, conductance_factors};
 use crate::grid::Lines;
-use crate::linalg::banded::Band;
 use crate::slider::surface::Surface;
 
 /// Recesses closer than this belong to one smooth stretch of film.
@@ -95,8 +94,6 @@ pub(super) struct EdgeFace {
 pub(super) struct Mesh {
     /// Grid lines along x and along y.
     pub(super) lines: [Lines; 2],
-    /// 6 μ U along x.
-    wind_x: f64,
     pub(super) cells: Vec<Cell>,
     /// Faces across x, then faces across y, each in the order of the cells in front of them.
     pub(super) faces: Vec<Face>,
@@ -113,7 +110,6 @@ impl Mesh {
             edge_faces: Vec::with_capacity(4 * lines[0].n_cells().max(lines[1].n_cells())),
             cells,
             lines,
-            wind_x: wind[0],
         };
         let [nx, ny] = mesh.counts();
         for line in 0..=nx {
@@ -143,16 +139,6 @@ impl Mesh {
     pub(super) fn place_of(&self, c: usize) -> [usize; 2] {
         let ny = self.lines[1].n_cells();
         [c / ny, c % ny]
-    }
-
-    /// Band of a matrix over the cells.
-    pub(super) fn band(&self) -> Band {
-        let ny = self.lines[1].n_cells();
-        let reach = |upstream: bool| if upstream { 2 * ny } else { ny };
-        Band {
-            below: reach(self.wind_x >= 0.0),
-            above: reach(self.wind_x < 0.0),
-        }
     }
 
     /// Adds the face on line `line` of direction `d` between lines `across` and `across` + 1 of the

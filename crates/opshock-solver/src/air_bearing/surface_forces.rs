@@ -248,20 +248,15 @@ impl Kernel for Linearised<'_> {
         let mut totals = Totals::default();
         for first in self.0.blocks() {
             let (h, floor_slope, area) = self.0.block(first);
-            let arms = [&places.x, &places.y].map(|column| *block(column, first));
-            let mut load = [0.0; BLOCK];
-            let mut by_attitude = [[0.0; BLOCK]; 3];
+            let arms = height_by_attitude([block(&places.x, first), block(&places.y, first)]);
+            let (mut load, mut per_height) = ([0.0; BLOCK], [0.0; BLOCK]);
             for k in 0..BLOCK {
                 let (pressure, slope) = forces.pressure(h[k]);
                 load[k] = area[k] * pressure;
-                let per_height = area[k] * slope * floor_slope[k];
-                let arms = height_by_attitude(&arms, k);
-                for q in 0..3 {
-                    by_attitude[q][k] = per_height * arms[q];
-                }
+                per_height[k] = area[k] * slope * floor_slope[k];
             }
             totals.moments.add(&load, places, first);
-            totals.add_by_attitude(&by_attitude, &arms);
+            totals.add_by_height(&per_height, &arms);
         }
         SurfaceLoad {
             force: totals.moments.total(),

@@ -1,4 +1,4 @@
-//! Banded matrices and their LU factorisation on a fixed pattern.
+//! LU factorisation of banded matrices on a fixed pattern.
 //!
 //! ```text
 //! A = L U,   a_ij = 0 for i − j > below and for j − i > above
@@ -15,12 +15,16 @@
 //! Four pivots are eliminated together from four rows below: numbers of those rows are read and written once
 //! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
 
+use super::diagonals::Diagonals;
 use super::triangles::{Entry, Triangles};
 use crate::lanes::{Simd, WithSimd, widest};
 use thiserror::Error;
 
 /// Pivots eliminated together.
 const BLOCK: usize = 4;
+
+/// Rows a matrix is copied into at a time.
+const ROWS_LOADED: usize = 16;
 
 /// Largest multiplier a factorisation without row exchanges may produce. Errors of a solution
 /// grow with it; at this value about ten of sixteen digits remain.
@@ -75,108 +79,9 @@ impl Band {
     pub(super) fn width(self) -> usize {
         self.below + 1 + self.above
     }
-
-    fn holds(self, i: usize, j: usize) -> bool {
-        i <= j + self.below && j <= i + self.above
-    }
-
-    /// Columns of row `i` of `n`, first and last.
-    fn columns(self, i: usize, n: usize) -> std::ops::RangeInclusive<usize> {
-        i.saturating_sub(self.below)..=(i + self.above).min(n - 1)
-    }
 }
 
-/// Square banded matrix, rows stored one after the other.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BandMatrix {
-    n: usize,
-    band: Band,
-    entries: Vec<f64>,
-}
-
-impl BandMatrix {
-    /// Zero matrix of `n` rows with entries in `band`.
-    pub fn zeros(n: usize, band: Band) -> Self {
-        Self {
-            n,
-            band,
-            entries: vec![0.0; n * band.width()],
-        }
-    }
-
-    /// Number of rows.
-    pub fn n(&self) -> usize {
-        self.n
-    }
-
-    /// Entries on either side of the diagonal.
-    pub fn band(&self) -> Band {
-        self.band
-    }
-
-    /// Sets every entry to zero.
-    pub fn clear(&mut self) {
-        self.entries.fill(0.0);
-    }
-
-    /// Rows one after the other: entry (i, j) stands at place j + below − i of row i. Places outside
-    /// the matrix must stay zero.
-    pub fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, f64> {
-        self.entries.chunks_exact_mut(self.band.width())
-    }
-
-    /// Entry (i, j); zero outside the band.
-    pub fn get(&self, i: usize, j: usize) -> f64 {
-        if self.band.holds(i, j) {
-            self.entries[self.index(i, j)]
-        } else {
-            0.0
-        }
-    }
-
-    /// Adds `value` to entry (i, j).
-    ///
-    /// # Panics
-    ///
-    /// When (i, j) lies outside the matrix; entries outside the band must not be given.
-    #[inline]
-    pub fn add(&mut self, i: usize, j: usize, value: f64) {
-        let index = self.index(i, j);
-        self.entries[index] += value;
-    }
-
-    /// Aᵀ.
-    pub fn transposed(&self) -> Self {
-        let mut out = Self::zeros(self.n, self.band.reversed());
-        for i in 0..self.n {
-            for j in self.band.columns(i, self.n) {
-                let index = out.index(j, i);
-                out.entries[index] = self.entries[self.index(i, j)];
-            }
-        }
-        out
-    }
-
-    /// out = A x.
-    pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
-        assert_eq!(x.len(), self.n);
-        assert_eq!(out.len(), self.n);
-        for (i, out_i) in out.iter_mut().enumerate() {
-            let columns = self.band.columns(i, self.n);
-            let row =
-                &self.entries[self.index(i, *columns.start())..=self.index(i, *columns.end())];
-            *out_i = row.iter().zip(&x[columns]).map(|(a, x)| a * x).sum();
-        }
-    }
-
-    #[inline]
-    fn index(&self, i: usize, j: usize) -> usize {
-        debug_assert!(self.band.holds(i, j));
-        i * self.band.width() + (j + self.band.below - i)
-    }
-}
-
-/// LU factors of a [`BandMatrix`] plus a diagonal, in storage allocated once. They are found and kept as
+/// LU factors of a matrix of few diagonals plus one more, in storage allocated once. They are found and kept as
 /// `E`: with `f32` a solution is right to some 1e-6 of its largest number (more where multipliers are large),
 /// for half the memory and half the time.
 #[derive(Clone, Debug)]
@@ -232,17 +137,17 @@ impl<E: Entry> BandedLu<E> {
     /// When sizes differ from those given to [`BandedLu::new`].
     pub fn factor(
         &mut self,
-        matrix: &BandMatrix,
+        matrix: &Diagonals,
         scale: f64,
         diagonal: &[f64],
     ) -> Result<(), BandedError> {
-        assert_eq!(matrix.n, self.n);
+        assert_eq!(matrix.n(), self.n);
         let band = if self.is_reversed {
             self.band.reversed()
         } else {
             self.band
         };
-        assert_eq!(matrix.band, band);
+        assert_eq!(matrix.band(), band);
         assert_eq!(diagonal.len(), self.n);
         widest(Factor {
             lu: self,
@@ -256,7 +161,7 @@ impl<E: Entry> BandedLu<E> {
     fn factor_here<S: Simd>(
         &mut self,
         simd: S,
-        matrix: &BandMatrix,
+        matrix: &Diagonals,
         scale: f64,
         diagonal: &[f64],
     ) -> Result<(), BandedError> {
@@ -291,30 +196,35 @@ impl<E: Entry> BandedLu<E> {
         self.triangles.solve(rhs, self.is_reversed);
     }
 
-    /// Copies the matrix into the padded rows.
+    /// Copies the matrix into the padded rows, a few rows at a time that stay in the nearest memory.
     #[inline(always)]
-    fn load(&mut self, matrix: &BandMatrix, scale: f64, diagonal: &[f64]) {
-        let width = self.band.width();
-        let centre = self.centre();
-        for (i, row) in self.rows.chunks_exact_mut(self.stride).enumerate() {
-            row.fill(E::ZERO);
-            if i < self.n {
-                let at = if self.is_reversed { self.n - 1 - i } else { i };
-                let own = &mut row[BLOCK - 1..BLOCK - 1 + width];
-                let from = &matrix.entries[at * width..(at + 1) * width];
-                if self.is_reversed {
-                    for (own, from) in own.iter_mut().zip(from.iter().rev()) {
-                        *own = E::nearest(*from);
-                    }
+    fn load(&mut self, matrix: &Diagonals, scale: f64, diagonal: &[f64]) {
+        let (n, stride, centre, is_reversed) =
+            (self.n, self.stride, self.centre(), self.is_reversed);
+        let turned = |i: usize| if is_reversed { n - 1 - i } else { i };
+        for (some, rows) in self.rows.chunks_mut(ROWS_LOADED * stride).enumerate() {
+            rows.fill(E::ZERO);
+            let first = some * ROWS_LOADED;
+            let behind = (first + ROWS_LOADED).min(n);
+            for (offset, column) in matrix.iter() {
+                let inside = matrix.rows(offset);
+                let (from, to, offset) = if is_reversed {
+                    (n - inside.end, n - inside.start, -offset)
                 } else {
-                    for (own, from) in own.iter_mut().zip(from) {
-                        *own = E::nearest(*from);
-                    }
+                    (inside.start, inside.end, offset)
+                };
+                let place = centre.strict_add_signed(offset);
+                for i in first.max(from)..behind.min(to) {
+                    rows[(i - first) * stride + place] = E::nearest(column[turned(i)]);
                 }
-                let on_diagonal = from[matrix.band.below];
-                row[centre] = E::nearest(on_diagonal + scale * diagonal[at]);
-            } else {
-                row[centre] = E::ONE;
+            }
+            for i in first..behind {
+                let on_diagonal = matrix.get(turned(i), turned(i));
+                let value = on_diagonal + scale * diagonal[turned(i)];
+                rows[(i - first) * stride + centre] = E::nearest(value);
+            }
+            for padding in rows.chunks_exact_mut(stride).skip(behind - first) {
+                padding[centre] = E::ONE;
             }
         }
     }
@@ -371,27 +281,22 @@ impl<E: Entry> BandedLu<E> {
             }),
             inverse: std::array::from_fn(|p| self.inverse_pivots[first + p]),
         };
-        let mut largest = E::ZERO;
+        let mut largest = [E::ZERO; BLOCK];
         let below = &mut below[..(last + 1 - first - BLOCK) * stride];
-        let mut fours = below.chunks_exact_mut(BLOCK * stride);
         let mut i = first + BLOCK;
+        let mut fours = below.chunks_exact_mut(BLOCK * stride);
         for four in &mut fours {
-            let mut rows = four.chunks_exact_mut(stride);
-            let targets: [&mut [E]; BLOCK] = std::array::from_fn(|r| {
-                let row = rows.next().expect("so many rows");
-                let start = offset - (i + r);
-                &mut row[start..start + width]
-            });
-            largest = larger(largest, pivots.eliminate(simd, targets));
+            pivots.eliminate::<S, BLOCK>(simd, four, offset - i, &mut largest);
             i += BLOCK;
         }
-        for row in fours.into_remainder().chunks_exact_mut(stride) {
-            let start = offset - i;
-            let target = [&mut row[start..start + width]];
-            largest = larger(largest, pivots.eliminate(simd, target));
-            i += 1;
+        let rest = fours.into_remainder();
+        match rest.len() / stride {
+            3 => pivots.eliminate::<S, 3>(simd, rest, offset - i, &mut largest),
+            2 => pivots.eliminate::<S, 2>(simd, rest, offset - i, &mut largest),
+            1 => pivots.eliminate::<S, 1>(simd, rest, offset - i, &mut largest),
+            _ => {}
         }
-        largest
+        largest.into_iter().fold(E::ZERO, larger)
     }
 }
 
@@ -409,11 +314,23 @@ struct Pivots<'a, E> {
 }
 
 impl<E: Entry> Pivots<'_, E> {
-    /// Eliminates the block's columns from `targets`, rows from the same column on; largest multiplier.
+    /// Eliminates the block's columns from `R` rows, one after the other; in the first of them they begin at
+    /// `at`, in each of the others one place earlier. `largest` multipliers are kept by column.
     #[inline(always)]
-    fn eliminate<S: Simd, const R: usize>(&self, simd: S, mut targets: [&mut [E]; R]) -> E {
+    fn eliminate<S: Simd, const R: usize>(
+        &self,
+        simd: S,
+        rows: &mut [E],
+        at: usize,
+        largest: &mut [E; BLOCK],
+    ) {
+        let (width, stride) = (self.rows[0].len(), rows.len() / R);
+        let mut rows = rows.chunks_exact_mut(stride);
+        let mut targets: [&mut [E]; R] = std::array::from_fn(|r| {
+            let row = rows.next().expect("so many rows");
+            &mut row[at - r..at - r + width]
+        });
         let [p0, p1, p2, _] = self.rows;
-        let mut largest = E::ZERO;
         let mut factors = [[E::ZERO.splat(simd); BLOCK]; R];
         for (target, factors) in targets.iter_mut().zip(&mut factors) {
             let l0 = target[0] * self.inverse[0];
@@ -421,10 +338,11 @@ impl<E: Entry> Pivots<'_, E> {
             let l2 = l1.mul_add(-p1[2], l0.mul_add(-p0[2], target[2])) * self.inverse[2];
             let l3 = l1.mul_add(-p1[3], l0.mul_add(-p0[3], target[3]));
             let l3 = l2.mul_add(-p2[3], l3) * self.inverse[3];
-            for (k, l) in [l0, l1, l2, l3].into_iter().enumerate() {
-                largest = larger(largest, l);
-                target[k] = l;
-                factors[k] = (-l).splat(simd);
+            let l = [l0, l1, l2, l3];
+            target[..BLOCK].copy_from_slice(&l);
+            for k in 0..BLOCK {
+                largest[k] = larger(largest[k], l[k]);
+                factors[k] = (-l[k]).splat(simd);
             }
         }
         let [u0, u1, u2, u3] = [0, 1, 2, 3].map(|p: usize| E::cut::<S>(&self.rows[p][BLOCK..]));
@@ -441,14 +359,13 @@ impl<E: Entry> Pivots<'_, E> {
                 tail[j] = t;
             }
         }
-        largest
     }
 }
 
 /// [`BandedLu::factor`] as a kernel.
 struct Factor<'a, E> {
     lu: &'a mut BandedLu<E>,
-    matrix: &'a BandMatrix,
+    matrix: &'a Diagonals,
     scale: f64,
     diagonal: &'a [f64],
 }
@@ -468,8 +385,9 @@ mod tests {
     use super::*;
 
     /// Column-dominant band with entries from a fixed recurrence.
-    fn sample(n: usize, band: Band) -> BandMatrix {
-        let mut matrix = BandMatrix::zeros(n, band);
+    fn sample(n: usize, band: Band) -> Diagonals {
+        let offsets = -(band.below as isize)..=band.above as isize;
+        let mut matrix = Diagonals::zeros(n, offsets.collect());
         let mut state: u64 = 1;
         for j in 0..n {
             let mut column = 0.0;
@@ -527,7 +445,7 @@ mod tests {
 
     #[test]
     fn zero_pivot_and_growth_are_refused() {
-        let mut matrix = BandMatrix::zeros(2, Band::even(1));
+        let mut matrix = Diagonals::zeros(2, vec![-1, 0, 1]);
         matrix.add(0, 1, 1.0);
         matrix.add(1, 0, 1.0);
         let mut lu = BandedLu::<f64>::new(2, Band::even(1));

@@ -3,6 +3,7 @@
 pub mod band;
 pub mod banded;
 pub mod dense;
+pub mod diagonals;
 pub mod general;
 pub mod lowest;
 pub mod pivoted;

@@ -20,6 +20,9 @@ use crate::lanes::{Simd, WithSimd, widest};
 /// Rows solved together.
 const ROWS: usize = 16;
 
+/// Columns beside a block's own that are found together: one alone waits for its sums.
+const ABREAST: usize = 4;
+
 /// Sums a block's columns are spread over.
 const SUMS: usize = 4;
 
@@ -181,8 +184,8 @@ pub(super) struct Triangles<E> {
     lower: Vec<Column<E>>,
     /// Per block of rows: U_II⁻¹, then −U_II⁻¹ times the columns behind it.
     upper: Vec<Column<E>>,
-    /// Columns of one block before and behind.
-    outside: [Vec<Column<E>>; 2],
+    /// Rows of one block before its own columns and behind them, in whole groups of [`ABREAST`] columns.
+    outside: [Vec<E>; 2],
     /// The solution as it comes, in whole blocks.
     x: Vec<E>,
 }
@@ -196,7 +199,8 @@ impl<E: Entry> Triangles<E> {
             band,
             lower: vec![[E::ZERO; ROWS]; blocks * (band.below + ROWS)],
             upper: vec![[E::ZERO; ROWS]; blocks * (band.above + ROWS)],
-            outside: [band.below, band.above].map(|columns| vec![[E::ZERO; ROWS]; columns]),
+            outside: [band.below, band.above]
+                .map(|columns| vec![E::ZERO; ROWS * columns.next_multiple_of(ABREAST)]),
             x: vec![E::ZERO; blocks * ROWS],
         }
     }
@@ -213,6 +217,7 @@ impl<E: Entry> Triangles<E> {
         let n = self.n;
         let Band { below, above } = self.band;
         let [before, behind] = &mut self.outside;
+        let strides = [below, above].map(|columns| columns.next_multiple_of(ABREAST));
         for (block, (lower, upper)) in self
             .lower
             .chunks_exact_mut(below + ROWS)
@@ -222,18 +227,19 @@ impl<E: Entry> Triangles<E> {
             let first = block * ROWS;
             let (lower_outside, lower_own) = lower.split_at_mut(below);
             let (upper_own, upper_outside) = upper.split_at_mut(ROWS);
-            before.fill([E::ZERO; ROWS]);
-            behind.fill([E::ZERO; ROWS]);
             let mut unit = [[E::ZERO; ROWS]; ROWS];
             let mut full = [[E::ZERO; ROWS]; ROWS];
             let mut inverse = [E::ONE; ROWS];
-            for r in 0..ROWS.min(n - first) {
+            // What the band leaves out of these rows is zero since they were made.
+            let n_rows = ROWS.min(n - first);
+            before[n_rows * strides[0]..].fill(E::ZERO);
+            behind[n_rows * strides[1]..].fill(E::ZERO);
+            for r in 0..n_rows {
                 // Entry k is column first + r − below + k.
                 let entries = row(first + r);
                 let n_before = below.saturating_sub(r);
-                for (column, value) in before[r.min(below)..].iter_mut().zip(&entries[..n_before]) {
-                    column[r] = *value;
-                }
+                let at = r * strides[0] + below - n_before;
+                copy(&entries[..n_before], &mut before[at..]);
                 for c in r.saturating_sub(below)..r {
                     unit[r][c] = entries[c + below - r];
                 }
@@ -242,30 +248,15 @@ impl<E: Entry> Triangles<E> {
                 }
                 // Columns first + ROWS ... first + r + above.
                 let own_end = (ROWS + below - r).min(self.band.width());
-                for (column, value) in behind.iter_mut().zip(&entries[own_end..]) {
-                    column[r] = *value;
-                }
+                copy(&entries[own_end..], &mut behind[r * strides[1]..]);
                 inverse[r] = inverse_pivots[first + r];
             }
-            for (inverse, outside, own, out) in [
-                (
-                    inverse_of_unit_lower(simd, &unit),
-                    &*before,
-                    lower_own,
-                    lower_outside,
-                ),
-                (
-                    inverse_of_upper(simd, &full, &inverse),
-                    &*behind,
-                    upper_own,
-                    upper_outside,
-                ),
-            ] {
-                for (out, column) in out.iter_mut().zip(outside) {
-                    *out = less_product(simd, &inverse, column);
-                }
-                own.copy_from_slice(&inverse);
-            }
+            let unit = inverse_of_unit_lower(simd, &unit);
+            less_products(simd, &unit, before, lower_outside);
+            lower_own.copy_from_slice(&unit);
+            let full = inverse_of_upper(simd, &full, &inverse);
+            less_products(simd, &full, behind, upper_outside);
+            upper_own.copy_from_slice(&full);
         }
     }
 
@@ -352,18 +343,51 @@ fn identity<E: Entry>() -> [Column<E>; ROWS] {
     out
 }
 
-/// − Σ `columns` times the numbers of `x`.
+/// `from` to the start of `to`.
 #[inline(always)]
-fn less_product<E: Entry, S: Simd>(
+fn copy<E: Entry>(from: &[E], to: &mut [E]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// For every column j of `rows`, which stand one after the other: − Σ `columns` times the numbers of j.
+#[inline(always)]
+fn less_products<E: Entry, S: Simd>(
     simd: S,
     columns: &[Column<E>; ROWS],
-    x: &Column<E>,
-) -> Column<E> {
-    let mut out = [E::ZERO; ROWS];
-    for (column, x) in columns.iter().zip(x) {
-        subtract(simd, &mut out, *x, column);
+    rows: &[E],
+    out: &mut [Column<E>],
+) {
+    let n = out.len();
+    let (groups, rest) = out.as_chunks_mut::<ABREAST>();
+    for (k, out) in groups.iter_mut().enumerate() {
+        *out = less_products_abreast(simd, columns, rows, k * ABREAST);
     }
-    out
+    if !rest.is_empty() {
+        let last = less_products_abreast(simd, columns, rows, n - rest.len());
+        for (out, column) in rest.iter_mut().zip(last) {
+            *out = column;
+        }
+    }
+}
+
+/// [`less_products`] of the columns from `first`.
+#[inline(always)]
+fn less_products_abreast<E: Entry, S: Simd>(
+    simd: S,
+    columns: &[Column<E>; ROWS],
+    rows: &[E],
+    first: usize,
+) -> [Column<E>; ABREAST] {
+    let mut sums = [[E::ZERO; ROWS]; ABREAST];
+    for (column, row) in columns.iter().zip(rows.chunks_exact(rows.len() / ROWS)) {
+        let factors = &row[first..first + ABREAST];
+        for (sum, factor) in sums.iter_mut().zip(factors) {
+            subtract(simd, sum, *factor, column);
+        }
+    }
+    sums
 }
 
 /// `row` − `factor` `source`.

@@ -6,10 +6,10 @@ use super::{Study, StudyError};
 const BASE_BYTES: f64 = 60e6;
 
 /// Bytes of the film's matrices and banded factors for n cells, at their peak while the steady flight
-/// is found. Measured peaks at 5145, 20 370 and 50 464 cells, less the 16 MB of a process with 16
-/// cells: 87, 653 and 2482 MB, which are 236, 225 and 219 bytes times n^1.5, as of bands √n wide.
+/// is found. Measured peaks at 5145, 20 370 and 50 464 cells, less the 17 MB of a process with 16
+/// cells: 56, 427 and 1531 MB, which are 153, 147 and 135 bytes times n^1.5, as of bands √n wide.
 pub fn film_bytes(cells: f64) -> f64 {
-    224.0 * cells.powf(1.5)
+    150.0 * cells.powf(1.5)
 }
 
 /// Bytes that one worker needs for the finest film of a study: that of its points, or the one that corrects their
