@@ -12,7 +12,7 @@
 //!   which the lowest failure touches, δA = δh / |dh/dA|, a run per group;
 //! * *verdicts* (`verdicts`): where survival ends abruptly (a dimple opens, the slider is thrown),
 //!   the critical amplitude of each turned scene itself, bracketed to an eighth of the tolerance
-//!   or to a 16th of what is in the bar already.
+//!   or to a 16th of what is in the bar already, an eighth where that exceeds what was asked.
 //!
 //! An estimate that shows the knob's formal order is multiplied by 1.25, any other by 3 (Roache
 //! 1994, J. Fluids Eng. 116, 405); the change seen by turning finer is certain and on the side to which it led,
@@ -20,7 +20,7 @@
 //! another. An error of e above is the ratio 1 + e, and so is one below.
 //!
 //! Where the margin tells the answer, the film's grid is judged by films held still at the lowest attitude
-//! ([`Knob::HeldFilm`]), provided that they say of half the cells what half the cells answered.
+//! ([`Knob::HeldFilm`]), as far as they say of a quarter of the cells, or of half, what those answered.
 //!
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.

@@ -555,6 +555,41 @@ fn a_climbed_scene_without_verdict_is_tried_again_down_the_ladder() {
     );
 }
 
+/// Brackets of further parts are a 16th of the bar's length, an eighth where it exceeds 10 % whatever they say.
+#[test]
+fn parts_of_a_bar_that_exceeds_in_any_case_are_bracketed_half_as_closely() {
+    let (mut input, _) = Law::formal([0.0; 6], None).input(3);
+    input.accuracy = 0.1;
+    let (lookup, mut log) = (|_: Ask| None, Vec::new());
+    let walk = Walk::new(&input, &lookup, &mut log);
+    let grain = |half: f64, spare: f64| {
+        let part = Part {
+            name: "search",
+            low: half,
+            high: half,
+            factor: 1.0,
+        };
+        let sum = Bar {
+            parts: vec![part],
+            ..Bar::default()
+        };
+        walk.share(Limits::of(&walk, &sum, spare).grain) / (2.0 * half)
+    };
+    let step = walk.share(1);
+    for (half, spare, expected) in [
+        (0.05, 0.0, 1.0 / 16.0),
+        (0.2, 0.0, 1.0 / 8.0),
+        (0.2, 0.15, 1.0 / 16.0),
+    ] {
+        let found = grain(half, spare);
+        let slack = step / (2.0 * half);
+        assert!(
+            found <= expected * 1.01 && found > expected - 1.01 * slack,
+            "{found}, not {expected}"
+        );
+    }
+}
+
 #[test]
 fn a_bracket_is_halved_where_that_alone_meets_what_was_asked() {
     // 0.5 % of the bracket and 0.53 % of the film exceed 1 %; half of the former does not.
