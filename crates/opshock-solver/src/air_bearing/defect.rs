@@ -43,6 +43,9 @@ pub struct ReferenceForces {
     attitudes: Vec<Attitude>,
     /// [F_z, M_pitch, M_roll] of the air, N and N m.
     forces: Vec<[f64; 3]>,
+    /// The same on the reference grid, and that grid's lines, m.
+    on_grid: Vec<[f64; 3]>,
+    lines_m: [Vec<f64>; 2],
 }
 
 impl ReferenceForces {
@@ -61,15 +64,17 @@ impl ReferenceForces {
             let rough = coarse.force(attitude, |_| film.ambient(attitude))?;
             let psi = &coarse.psi;
             let close = fine.force(attitude, |finer| carried(film, psi, finer, attitude))?;
-            Ok(std::array::from_fn(|f| {
-                close[f] + (close[f] - rough[f]) / 3.0
-            }))
+            let whole = std::array::from_fn(|f| close[f] + (close[f] - rough[f]) / 3.0);
+            Ok((whole, rough))
         });
-        let forces = forces.collect::<Result<_, SteadyError>>()?;
+        let forces = forces.collect::<Result<Vec<_>, SteadyError>>()?;
+        let (forces, on_grid) = forces.into_iter().unzip();
         Ok(Self {
             range,
             attitudes,
             forces,
+            on_grid,
+            lines_m: film.lines_m().map(<[f64]>::to_vec),
         })
     }
 
@@ -79,16 +84,20 @@ impl ReferenceForces {
     ///
     /// [`SteadyError`] when it does not settle under a slider held still.
     pub(super) fn defect_of(&self, film: &Film) -> Result<Defect, SteadyError> {
-        let mut held = Held::new(film);
-        let missing = self
-            .attitudes
+        let own = if film.lines_m() == self.lines_m.each_ref().map(Vec::as_slice) {
+            self.on_grid.clone()
+        } else {
+            let mut held = Held::new(film);
+            let attitudes = self.attitudes.iter();
+            let own = attitudes.map(|attitude| held.force(attitude, |film| film.ambient(attitude)));
+            own.collect::<Result<_, SteadyError>>()?
+        };
+        let missing: Vec<[f64; 3]> = self
+            .forces
             .iter()
-            .zip(&self.forces)
-            .map(|(attitude, whole)| {
-                let own = held.force(attitude, |film| film.ambient(attitude))?;
-                Ok(std::array::from_fn(|f| whole[f] - own[f]))
-            });
-        let missing = missing.collect::<Result<Vec<_>, SteadyError>>()?;
+            .zip(&own)
+            .map(|(whole, own)| std::array::from_fn(|f| whole[f] - own[f]))
+            .collect();
         let variables = |attitude| self.range.variables(attitude).map(|x| x.0);
         let places = self.attitudes.iter().map(variables).collect();
         Ok(Defect {
@@ -127,9 +136,10 @@ impl Defect {
     }
 }
 
-/// Films of one grid under sliders held still, one attitude after the other.
+/// Films of one grid under sliders held still, one attitude after the other. Residuals say where they settle, so that
+/// factors may be single.
 struct Held<'a> {
-    newton: Newton<'a>,
+    newton: Newton<'a, f32>,
     /// The last attitude and its film.
     last: Option<Attitude>,
     psi: Vec<f64>,

@@ -133,7 +133,7 @@ pub(super) fn refined(
     cells: usize,
 ) -> Option<([Lines; 2], Held)> {
     let attitude = film.usual_attitude();
-    let mut newton = Newton::new(&film);
+    let mut newton = Newton::<f64>::new(&film);
     newton.hold(&mut psi, &attitude, 40, ESTIMATED).ok()?;
     newton.factor(&psi, &attitude).ok()?;
     let mut adjoint = newton.clearance_goal(&attitude)?;

@@ -15,7 +15,7 @@ use super::film::Film;
 use super::steady::SteadyError;
 use super::{FilmLinearisation, FilmScratch};
 use crate::lanes::product;
-use crate::linalg::banded::{BandedError, BandedLu};
+use crate::linalg::banded::{BandedError, BandedLu, Entry};
 use nalgebra::{Matrix3, Vector3};
 
 /// Relative step at which Newton's quadratic convergence leaves only rounding.
@@ -24,8 +24,8 @@ pub(super) const CONVERGED: f64 = 1e-9;
 pub(super) const NEAR: f64 = 1e-2;
 /// Most Newton iterations of one attempt.
 pub(super) const MOST_ITERATIONS: usize = 60;
-/// Relative step at which the force under a slider held still is known to rounding of single precision.
-const HELD: f64 = 1e-7;
+/// Relative step at which ψ under a slider held still is known to a third of it, by [`CONTRACTION`].
+const HELD: f64 = 1e-6;
 /// Contraction of the iteration with kept factors above which they are renewed.
 const CONTRACTION: f64 = 0.3;
 /// Relative step after which kept factors are from elsewhere.
@@ -37,12 +37,12 @@ const MOST_DRIFT_STEPS: usize = 200;
 /// Share of a cell's ψ a step must leave.
 const PSI_KEPT: f64 = 0.2;
 
-/// Scratch of the Newton iterations.
-pub(super) struct Newton<'a> {
+/// Scratch of the Newton iterations, with factors kept as `E`.
+pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) film: &'a Film,
     scratch: FilmScratch,
     pub(super) linearisation: FilmLinearisation,
-    pub(super) lu: BandedLu,
+    pub(super) lu: BandedLu<E>,
     /// A⁻¹ [C, R], column by column.
     pub(super) columns: [Vec<f64>; 4],
     zero: Vec<f64>,
@@ -51,14 +51,14 @@ pub(super) struct Newton<'a> {
     has_factors: bool,
 }
 
-impl<'a> Newton<'a> {
+impl<'a, E: Entry> Newton<'a, E> {
     pub(super) fn new(film: &'a Film) -> Self {
         let n = film.n_cells();
         let linearisation = film.linearisation();
         Self {
             film,
             scratch: film.scratch(),
-            lu: BandedLu::<f64>::new(n, linearisation.by_psi.band()),
+            lu: BandedLu::new(n, linearisation.by_psi.band()),
             linearisation,
             columns: [0; 4].map(|_| vec![0.0; n]),
             zero: vec![0.0; n],
@@ -182,7 +182,11 @@ impl<'a> Newton<'a> {
             let mut step = 0.0_f64;
             for (psi, delta) in psi.iter_mut().zip(&delta) {
                 let new = (*psi - delta).max(PSI_KEPT * *psi);
-                step = step.max((new - *psi).abs() / *psi);
+                let change = (new - *psi).abs();
+                // A division each takes longer than all else here.
+                if change > step * *psi {
+                    step = change / *psi;
+                }
                 *psi = new;
             }
             self.has_factors = step < CONTRACTION * before && step < FARTHEST;

@@ -105,7 +105,7 @@ pub struct Equilibrium {
 ///
 /// [`SteadyError`] when Newton's method from the ambient state does not converge.
 pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, SteadyError> {
-    let mut newton = Newton::new(film);
+    let mut newton = Newton::<f64>::new(film);
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
     let (n_iterations, step) = newton.hold(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
@@ -244,7 +244,7 @@ pub fn lower_equilibria(
     flight: &Flight,
 ) -> Result<Vec<Equilibrium>, SteadyError> {
     let mut search = Search {
-        newton: Newton::new(film),
+        newton: Newton::<f64>::new(film),
         load: Vector3::from(load),
         found: vec![Found::of(flight)],
         last: flight.attitude,
@@ -321,7 +321,7 @@ impl Found {
 impl<'a> Search<'a> {
     fn new(film: &'a Film, load: Vector3<f64>, last: Attitude) -> Self {
         Self {
-            newton: Newton::new(film),
+            newton: Newton::<f64>::new(film),
             load,
             found: Vec::new(),
             last,

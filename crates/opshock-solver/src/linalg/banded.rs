@@ -16,7 +16,8 @@
 //! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
 
 use super::diagonals::Diagonals;
-use super::triangles::{Entry, Triangles};
+pub use super::triangles::Entry;
+use super::triangles::Triangles;
 use crate::lanes::{Simd, WithSimd, widest};
 use thiserror::Error;
 
