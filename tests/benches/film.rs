@@ -269,8 +269,27 @@ impl WithSimd for Throughput {
     }
 }
 
+/// Numbers read once, one after the other: what a solution does with its factors.
+struct Reading<'a>(&'a [f64]);
+
+impl WithSimd for Reading<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let (registers, _) = S::as_simd_f64s(self.0);
+        let mut sums = [simd.splat_f64s(0.0); IN_FLIGHT];
+        for some in registers.chunks_exact(IN_FLIGHT) {
+            for (sum, x) in sums.iter_mut().zip(some) {
+                *sum = simd.add_f64s(*sum, *x);
+            }
+        }
+        sums.iter().map(|sum| simd.reduce_sum_f64s(*sum)).sum()
+    }
+}
+
 /// What this machine can do of eight numbers at once: the bound of balance and linearisation, which work on as many
-/// faces.
+/// faces. And what reading as many bytes as the factors of the default grid have takes: the bound of a solution.
 fn bound(_: &mut Criterion) {
     let of_eight_ns = |divides: bool| {
         let (_, lanes) = widest(Throughput { divides });
@@ -284,6 +303,21 @@ fn bound(_: &mut Criterion) {
         of_eight_ns(false),
         of_eight_ns(true)
     );
+    // Rows of 46 and 23 numbers beside two triangles of sixteen rows, 1012 times.
+    let numbers = 1012 * (46 + 23 + 2 * 16);
+    for (of, factors) in [
+        ("single", vec![1.0; numbers / 2]),
+        ("double", vec![1.0; numbers]),
+    ] {
+        let read_s = median_of(51, || {
+            black_box(widest(Reading(black_box(&factors))));
+        });
+        println!(
+            "{:.2} MB of {of} factors read in {:.2} us",
+            8e-6 * factors.len() as f64,
+            1e6 * read_s
+        );
+    }
 }
 
 criterion_group!(benches, kernels, bound, against_size);
