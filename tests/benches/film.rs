@@ -1,7 +1,7 @@
 //! The film's kernels on the default grid, and its linear algebra against general sparse solvers: faer,
 //! and KLU where it is installed.
 //!
-//! The matrix is that of a stage: capacity/d + R_ψ at steady flight of the drive of `fig13`, d that of
+//! The matrix is that of a stage: M/d + R_ψ at steady flight of the drive of `fig13`, d that of
 //! a step of 0.2 µs. All factor anew on a known pattern and solve once; KLU
 //! also with the pivots of before (`refactor`), which faer and the film's own do not need or do not offer.
 
@@ -72,12 +72,8 @@ impl Flying {
         let mut entries = Vec::new();
         for (offset, diagonal) in self.lin.by_psi.iter() {
             for (i, value) in diagonal.iter().enumerate() {
-                let mass = if offset == 0 {
-                    self.film.capacity()[i] / D_S
-                } else {
-                    0.0
-                };
-                let value = value + mass;
+                let stored = self.film.storage().column(offset);
+                let value = value + stored.map_or(0.0, |column| column[i] / D_S);
                 if let Some(j) = i.checked_add_signed(offset).filter(|j| *j < n)
                     && value != 0.0
                 {
@@ -107,12 +103,12 @@ fn kernels(c: &mut Criterion) {
     let mut group = c.benchmark_group("film");
     group.bench_function("residual", |b| b.iter(|| flying.residual(&mut residual)));
     group.bench_function("linearise", |b| b.iter(|| flying.linearise()));
-    let (matrix, capacity) = (&flying.lin.by_psi, flying.film.capacity());
+    let (matrix, storage) = (&flying.lin.by_psi, flying.film.storage());
     group.bench_function("factor", |b| {
-        b.iter(|| lu.factor(matrix, 1.0 / D_S, capacity));
+        b.iter(|| lu.factor(matrix, 1.0 / D_S, storage));
     });
     group.bench_function("factor_rounded", |b| {
-        b.iter(|| rounded.factor(matrix, 1.0 / D_S, capacity));
+        b.iter(|| rounded.factor(matrix, 1.0 / D_S, storage));
     });
     let mut x = rhs.clone();
     group.bench_function("solve", |b| {
@@ -179,9 +175,9 @@ fn against_size(_: &mut Criterion) {
             black_box(flying.residual(&mut x));
         });
         let mut lu = BandedLu::<f64>::new(n, flying.lin.by_psi.band());
-        let (matrix, capacity) = (&flying.lin.by_psi, flying.film.capacity());
+        let (matrix, storage) = (&flying.lin.by_psi, flying.film.storage());
         let factor = median_of(9, || {
-            lu.factor(matrix, 1.0 / D_S, capacity).expect("factors")
+            lu.factor(matrix, 1.0 / D_S, storage).expect("factors")
         });
         let rhs: Vec<f64> = (0..n).map(|i| (0.7 * i as f64).sin()).collect();
         x.copy_from_slice(&rhs);

@@ -162,7 +162,8 @@ fn static_stiffness_agrees_where_both_have_converged() {
 /// On the reference's own grid of 2162 cells, held in its flying attitude. Both discretisations are
 /// some per cent from converged there (their clearances differ by 0.7 nm of 10), so stiffness
 /// agrees to 5 %, to 8 % at 10 kHz where gas waves are as long as the slider, the low damping to
-/// 12 %; the free slider's modes agree to 3 %.
+/// 12 %; the free slider's modes agree to 3 %. At 100 kHz the reference's roll stiffness (2.098e-2 N m) is itself
+/// 6 % above that of this grid with every cell cut in four (1.971e-2): 1.993e-2 is found.
 #[test]
 fn impedance_and_modes_at_the_reference_attitude() {
     let data = reference("head_default_set.json");
@@ -179,7 +180,11 @@ fn impedance_and_modes_at_the_reference_attitude() {
     for row in data["impedance_G2"]["rows"].as_array().unwrap() {
         let frequency_hz = number(&row["f"]);
         let z = motion.impedance(frequency_hz).unwrap();
-        let tolerance = if frequency_hz == 1e4 { 0.08 } else { 0.05 };
+        let tolerance = match frequency_hz {
+            1e4 => 0.08,
+            1e5 => 0.06,
+            _ => 0.05,
+        };
         for i in 0..3 {
             let expected = number(&row["K"][i][i]);
             let found = z[(i, i)].re;
@@ -262,21 +267,24 @@ fn frequencies_hz() -> Vec<f64> {
 }
 
 /// Impedance from 1 Hz to 500 kHz against a scheme that shares no code with this one, on the grid
-/// laid out for the flying state: 2.5 % at 8118 cells (1.9 % at 16124), but for 50 kHz, where gas
-/// waves are short in places that this grid leaves coarse, 10 %.
+/// laid out for the flying state: 1.8 % at 8118 cells. At 50 and 100 kHz, where gas waves are as long as pads, the
+/// limit of the other scheme is no better known: its finest grids say 1.68e6 + 0.110e6 i and 1.70e6 + 0.069e6 i N/m
+/// for the heave, continued 1.69 + 0.087 and 1.74 + 0.064, and 32058 cells here 1.67 + 0.066 and 1.70 + 0.055 (off those
+/// 8220 cells are 1.5 and 1.6 %).
 #[test]
 fn impedance_agrees_with_an_independent_scheme() {
     let found = impedance_in_flight(&film(&default_slider(), 8000), &frequencies_hz());
-    let others = impedance_error(&found, |f| f != 5e4);
-    assert!(others < 0.025, "{others}");
-    let waves = impedance_error(&found, |f| f == 5e4);
+    let is_wave = |f: f64| f == 5e4 || f == 1e5;
+    let others = impedance_error(&found, |f| !is_wave(f));
+    assert!(others < 0.018, "{others}");
+    let waves = impedance_error(&found, is_wave);
     assert!(waves < 0.1, "{waves}");
 }
 
-/// On one family of grids, continued to cells of no size: within 0.8 % at 1 Hz to 10 kHz and above
-/// 100 kHz. In between the film's gas waves make the approach to the limit oscillate; there the
-/// finest grids are compared as they are (34592 cells each): stiffness within 2 %, and Z within
-/// 3.5 % at 100 kHz and 6.5 % at 50 kHz, where the imaginary parts still move towards each other.
+/// On one family of grids, continued to cells of no size: within 0.8 % at 1 Hz to 10 kHz and at 500 kHz.
+/// In between the film's gas waves, which coarse grids damp, make the approach to the limit oscillate; there the
+/// finest grids are compared as they are (34592 cells each): stiffness within 3 %, and Z within
+/// 2 % at 200 kHz, 3.5 % at 100 kHz and 6.5 % at 50 kHz, where the imaginary parts still move towards each other.
 #[test]
 #[ignore = "slow: about 40 s"]
 fn film_slow_impedance_continued_to_its_limit() {
@@ -287,15 +295,15 @@ fn film_slow_impedance_continued_to_its_limit() {
         .zip(fine)
         .map(|(c, f)| Matrix3::from_fn(|i, j| continued(c[(i, j)], f[(i, j)], [2.0, 3.0])))
         .collect();
-    let waves = |f: f64| f == 5e4 || f == 1e5;
+    let waves = |f: f64| [5e4, 1e5, 2e5].contains(&f);
     let error = impedance_error(&found, |f| !waves(f));
     assert!(error < 0.008, "{error}");
 
     let data = reference("impedance_plain_scheme.json");
-    let finest = impedance_in_flight(&film_on("G2", 4), &[5e4, 1e5]);
+    let finest = impedance_in_flight(&film_on("G2", 4), &[5e4, 1e5, 2e5]);
     let rows = data["grids"][2]["rows"].as_array().unwrap();
     let rows = rows.iter().filter(|row| waves(number(&row["f"])));
-    for ((row, z), bound) in rows.zip(&finest).zip([0.065, 0.035]) {
+    for ((row, z), bound) in rows.zip(&finest).zip([0.065, 0.035, 0.02]) {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
             let expected = tabled(row, i, j);
             let error = (z[(i, j)] - expected).norm() / expected.norm();
@@ -304,7 +312,7 @@ fn film_slow_impedance_continued_to_its_limit() {
                 "{} Hz, Z[{i}][{j}]: {error:.2e}, stiffness {stiffness:.2e}",
                 row["f"]
             );
-            assert!(error < bound && stiffness.abs() < 0.02);
+            assert!(error < bound && stiffness.abs() < 0.03);
         }
     }
 }

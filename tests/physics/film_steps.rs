@@ -104,11 +104,14 @@ fn hard_c7_suction_keeps_pressure_positive_and_mass_closed() {
         let old = psi.clone();
         for _ in 0..12 {
             film.linearise(&psi, &attitude, &mut lin, &mut scratch);
-            lu.factor(&lin.by_psi, 1.0 / step_s, film.capacity())
+            lu.factor(&lin.by_psi, 1.0 / step_s, film.storage())
                 .unwrap();
-            let mut delta: Vec<f64> = (0..n)
-                .map(|k| lin.residual[k] + film.capacity()[k] * (psi[k] - old[k]) / step_s)
-                .collect();
+            let change: Vec<f64> = (0..n).map(|k| (psi[k] - old[k]) / step_s).collect();
+            let mut delta = vec![0.0; n];
+            film.storage().multiply(&change, &mut delta);
+            for (delta, residual) in delta.iter_mut().zip(&lin.residual) {
+                *delta += residual;
+            }
             lu.solve(&mut delta);
             for (p, d) in psi.iter_mut().zip(&delta) {
                 *p = (*p - d).max(0.2 * *p);

@@ -16,6 +16,7 @@ mod film_plane;
 mod film_squeeze;
 mod film_squeezed_slider;
 mod film_steps;
+mod film_waves;
 mod free_motion;
 mod head_coupling;
 mod head_rest;

@@ -1,7 +1,7 @@
 //! The discrete film: gas, geometry and grid of one slider, built once.
 //!
 //! ```text
-//! 12 μ A dψ/dt + R(ψ, attitude) = 0,   R = sum of outward face fluxes
+//! M dψ/dt + R(ψ, attitude) = 0,   R = sum of outward face fluxes
 //! ```
 //!
 //! ψ = p h is the mass in a cell's column over R T, so the balance is conservative and squeeze
@@ -17,12 +17,15 @@ use super::heights::inverses;
 use super::layout;
 use super::mesh::{Cell, Mesh, Side};
 use super::steady::{SteadyError, usual_attitude};
+use super::storage::storage;
 use super::surface_forces::Interaction;
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
 use crate::gas::GasParameters;
 use crate::grid::Lines;
 use crate::lanes::{Kernel, widest};
+use crate::linalg::banded::BandedLu;
+use crate::linalg::diagonals::Diagonals;
 use crate::slider::SliderParameters;
 use crate::slider::clearance::{Clearance, ClearanceMap};
 use crate::slider::surface::Surface;
@@ -61,6 +64,7 @@ pub struct Film {
     pub(super) mesh: Mesh,
     pub(super) columns: Columns,
     capacity: Vec<f64>,
+    storage: Diagonals,
     pub(super) flow: FlowFactor,
     floor: Floor,
     pub(super) ambient_pa: f64,
@@ -175,6 +179,7 @@ impl Film {
         let mut film = Self {
             columns: Columns::new(&mesh),
             capacity: mesh.cells.iter().map(|c| per_area * c.area).collect(),
+            storage: Diagonals::zeros(0, Vec::new()),
             mesh,
             flow,
             floor: Floor { h0: floor_m },
@@ -186,6 +191,7 @@ impl Film {
             defect: None,
         };
         film.usual_psi = film.ambient(&usual);
+        film.storage = storage(&film, &film.capacity, &film.usual_psi, per_area);
         Ok(film)
     }
 
@@ -216,7 +222,25 @@ impl Film {
         self.mesh.index(i, j)
     }
 
-    /// 12 μ A of every cell, Pa s m2; what multiplies dψ/dt.
+    /// M, Pa s m2: what multiplies dψ/dt ([`mod@super::storage`]). Its columns add up to the [`Film::capacity`].
+    pub fn storage(&self) -> &Diagonals {
+        &self.storage
+    }
+
+    /// Turns M dψ/dt into dψ/dt in place.
+    ///
+    /// # Panics
+    ///
+    /// When `stored` has not n_cells entries.
+    pub fn spread_by_storage(&self, stored: &mut [f64]) {
+        let (storage, n) = (&self.storage, self.n_cells());
+        let mut lu = BandedLu::<f64>::new(n, storage.band());
+        lu.factor(storage, 0.0, &Diagonals::zeros(n, Vec::new()))
+            .expect("columns with more on the diagonal than beside it");
+        lu.solve(stored);
+    }
+
+    /// 12 μ A of every cell, Pa s m2: ψ times it is the gas that the cell holds.
     pub fn capacity(&self) -> &[f64] {
         &self.capacity
     }

@@ -4,7 +4,7 @@
 //! (A + s M) ψ̂ = −C q̂,   F̂ = F_ψ ψ̂ + F_q q̂ = −Z(s) q̂,   Z(s) = F_ψ (A + s M)⁻¹ C − F_q
 //! ```
 //!
-//! A = dR/dψ, C = dR/dq and the capacities M come from the linearisation the steady solution uses.
+//! A = dR/dψ, C = dR/dq and the storage M come from the linearisation the steady solution uses.
 //! At s = iω, Re Z is the stiffness and Im Z/ω the damping. A slider of inertia J free on its film
 //! moves as exp(s t) where det(Z(s) + s² J) = 0; Z varies slowly with s, so each root follows from
 //! a few eigenvalue problems of size three.
@@ -62,7 +62,7 @@ pub struct SmallMotion<'a> {
     lu: BandedLu,
     /// Real and imaginary part of every cell side by side, column by column.
     columns: [Vec<f64>; 3],
-    zero: Vec<f64>,
+    zero: Diagonals,
 }
 
 impl<'a> SmallMotion<'a> {
@@ -76,14 +76,17 @@ impl<'a> SmallMotion<'a> {
         film.linearise(psi, attitude, &mut linearisation, &mut film.scratch());
         let n = film.n_cells();
         let offsets = linearisation.by_psi.offsets().iter();
-        let pairs = offsets.map(|offset| 2 * offset).chain([-1, 0, 1]);
+        let pairs = offsets.map(|offset| 2 * offset);
+        let stored = film.storage().offsets().iter();
+        let pairs =
+            pairs.chain(stored.flat_map(|offset| [2 * offset - 1, 2 * offset, 2 * offset + 1]));
         let matrix = Diagonals::zeros(2 * n, pairs.collect());
         Self {
             film,
             lu: BandedLu::new(2 * n, matrix.band()),
             matrix,
             columns: [0; 3].map(|_| vec![0.0; 2 * n]),
-            zero: vec![0.0; 2 * n],
+            zero: Diagonals::zeros(2 * n, Vec::new()),
             by_psi: linearisation.by_psi,
             by_attitude: linearisation.by_attitude,
             force_by_psi: linearisation.force_by_psi,
@@ -104,11 +107,15 @@ impl<'a> SmallMotion<'a> {
                 pair.fill(*value);
             }
         }
-        for (i, capacity) in self.film.capacity().iter().enumerate() {
-            self.matrix.add(2 * i, 2 * i, s.re * capacity);
-            self.matrix.add(2 * i + 1, 2 * i + 1, s.re * capacity);
-            self.matrix.add(2 * i, 2 * i + 1, -s.im * capacity);
-            self.matrix.add(2 * i + 1, 2 * i, s.im * capacity);
+        for (offset, of_cells) in self.film.storage().iter() {
+            // Imaginary part of the next cell's pair in rows of real parts and the other way round.
+            for (beside, row, part) in [(0, 0, s.re), (0, 1, s.re), (1, 0, -s.im), (-1, 1, s.im)] {
+                let pairs = self.matrix.column_mut(2 * offset + beside);
+                let pairs = pairs.expect("made for it").chunks_exact_mut(2);
+                for (pair, value) in pairs.zip(of_cells) {
+                    pair[row] += part * value;
+                }
+            }
         }
         self.lu.factor(&self.matrix, 0.0, &self.zero)?;
         for (column, by) in self.columns.iter_mut().zip(&self.by_attitude) {

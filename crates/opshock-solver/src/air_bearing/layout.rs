@@ -31,6 +31,7 @@ use super::flux::HalfCell;
 use super::newton::Newton;
 use crate::grid::Lines;
 use crate::linalg::banded::BandedLu;
+use crate::linalg::diagonals::Diagonals;
 use crate::slider::surface::Surface;
 
 /// Times the layout is improved.
@@ -140,7 +141,8 @@ pub(super) fn refined(
     let transposed = newton.linearisation.by_psi.transposed();
     let n = film.n_cells();
     let mut lu = BandedLu::<f64>::new(n, transposed.band());
-    lu.factor(&transposed, 0.0, &vec![0.0; n]).ok()?;
+    lu.factor(&transposed, 0.0, &Diagonals::zeros(n, Vec::new()))
+        .ok()?;
     lu.solve(&mut adjoint);
 
     let errors = strip_errors(&film, &psi, &attitude, &adjoint);

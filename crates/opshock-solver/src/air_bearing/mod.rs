@@ -17,6 +17,7 @@ mod mesh;
 mod newton;
 mod state;
 pub mod steady;
+mod storage;
 mod surface_forces;
 mod thickness;
 

@@ -16,6 +16,7 @@ use super::steady::SteadyError;
 use super::{FilmLinearisation, FilmScratch};
 use crate::lanes::product;
 use crate::linalg::banded::{BandedError, BandedLu, Entry};
+use crate::linalg::diagonals::Diagonals;
 use nalgebra::{Matrix3, Vector3};
 
 /// Relative step at which Newton's quadratic convergence leaves only rounding.
@@ -45,7 +46,7 @@ pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) lu: BandedLu<E>,
     /// A⁻¹ [C, R], column by column.
     pub(super) columns: [Vec<f64>; 4],
-    zero: Vec<f64>,
+    zero: Diagonals,
     pub(super) n_factored: usize,
     /// Whether `lu` holds factors from near the state.
     has_factors: bool,
@@ -61,7 +62,7 @@ impl<'a, E: Entry> Newton<'a, E> {
             lu: BandedLu::new(n, linearisation.by_psi.band()),
             linearisation,
             columns: [0; 4].map(|_| vec![0.0; n]),
-            zero: vec![0.0; n],
+            zero: Diagonals::zeros(n, Vec::new()),
             n_factored: 0,
             has_factors: false,
         }
@@ -112,12 +113,12 @@ impl<'a, E: Entry> Newton<'a, E> {
         )
     }
 
-    /// −F_ψ A⁻¹ M A⁻¹ C with the capacities M, from the columns [`Newton::schur`] left behind.
+    /// −F_ψ A⁻¹ M A⁻¹ C with the storage M, from the columns [`Newton::schur`] left behind.
     pub(super) fn damping(&mut self) -> Matrix3<f64> {
+        let mut stored = vec![0.0; self.film.n_cells()];
         for column in &mut self.columns[..3] {
-            for (v, capacity) in column.iter_mut().zip(self.film.capacity()) {
-                *v *= capacity;
-            }
+            self.film.storage().multiply(column, &mut stored);
+            column.copy_from_slice(&stored);
             self.lu.solve(column);
         }
         let gradients = &self.linearisation.force_by_psi;

@@ -2,10 +2,11 @@
 //! known, and the size of an error.
 //!
 //! ```text
-//! r_f = c (ψ − ψ_known)/d + R,    δψ = −A⁻¹ r_f − Z δq
+//! r_f = M (ψ − ψ_known)/d + R,    δψ = −A⁻¹ r_f − Z δq
 //! ```
 
 use crate::lanes::{Kernel, SUMS, total, widest};
+use crate::linalg::diagonals::Diagonals;
 
 /// Turns `residual`, which holds A⁻¹ r_f, into δψ in place. Returns Σ (δψ/ψ)² and the largest share
 /// of its gas that a cell would lose; both are NaN-proof in that a NaN in ψ or δψ shows in the sum.
@@ -32,22 +33,22 @@ pub(super) fn correct_film(
     )
 }
 
-/// `residual` += `capacity` (`psi` − `known`) `per_d`.
+/// `residual` += `storage` (`psi` − `known`) `per_d`.
 ///
 /// # Panics
 ///
 /// When slices differ in length.
 pub(super) fn add_storage(
     residual: &mut [f64],
-    capacity: &[f64],
+    storage: &Diagonals,
     [psi, known]: [&[f64]; 2],
     per_d: f64,
 ) {
     let n = residual.len();
-    assert!(capacity.len() == n && psi.len() == n && known.len() == n);
+    assert!(storage.n() == n && psi.len() == n && known.len() == n);
     widest(AddStorage {
         residual,
-        capacity,
+        storage,
         psi,
         known,
         per_d,
@@ -67,7 +68,7 @@ pub(super) fn relative_size(e: &[f64], psi: &[f64]) -> f64 {
 
 struct AddStorage<'a> {
     residual: &'a mut [f64],
-    capacity: &'a [f64],
+    storage: &'a Diagonals,
     psi: &'a [f64],
     known: &'a [f64],
     per_d: f64,
@@ -78,9 +79,20 @@ impl Kernel for AddStorage<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let of = self.capacity.iter().zip(self.psi).zip(self.known);
-        for (r, ((c, psi), known)) in self.residual.iter_mut().zip(of) {
-            *r = (c * (psi - known)).mul_add(self.per_d, *r);
+        for (offset, column) in self.storage.iter() {
+            let rows = self.storage.rows(offset);
+            let Some(first) = rows.start.checked_add_signed(offset) else {
+                continue;
+            };
+            let m = rows.len();
+            let (column, residual) = (
+                &column[rows.start..][..m],
+                &mut self.residual[rows.start..][..m],
+            );
+            let (psi, known) = (&self.psi[first..][..m], &self.known[first..][..m]);
+            for k in 0..m {
+                residual[k] = (column[k] * (psi[k] - known[k])).mul_add(self.per_d, residual[k]);
+            }
         }
     }
 }

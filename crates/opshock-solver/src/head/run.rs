@@ -230,13 +230,11 @@ impl<'a> Run<'a> {
         model
             .film
             .flux_residual(psi, attitude, &mut w.scratch.residual, &mut w.scratch.film);
-        for ((rate, r), c) in w.rate[..n_cells]
-            .iter_mut()
-            .zip(&w.scratch.residual)
-            .zip(model.film.capacity())
-        {
-            *rate = -r / c;
+        let rate = &mut w.rate[..n_cells];
+        for (rate, r) in rate.iter_mut().zip(&w.scratch.residual) {
+            *rate = -r;
         }
+        model.film.spread_by_storage(rate);
         let film = model.film.force(psi, attitude, &mut w.scratch.film);
         let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
         let (x, v) = w.y[n_cells..].split_at(n);

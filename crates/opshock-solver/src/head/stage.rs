@@ -211,7 +211,7 @@ impl Stages<'_> {
             .factor(
                 &s.linearisation.by_psi,
                 1.0 / d_s,
-                self.model.film.capacity(),
+                self.model.film.storage(),
             )
             .is_err()
         {
@@ -265,7 +265,7 @@ impl Stages<'_> {
         let force = film.flux_residual_and_force(psi, attitude, &mut s.residual, &mut s.film);
         s.counters.residuals += 1;
         let states = [psi, psi_known];
-        add_storage(&mut s.residual, film.capacity(), states, 1.0 / instant.d_s);
+        add_storage(&mut s.residual, film.storage(), states, 1.0 / instant.d_s);
         std::array::from_fn(|f| force[f] - self.model.steady_force[f])
     }
 
@@ -500,9 +500,9 @@ impl StageSystem for Stages<'_> {
         let (e_x, e_v) = rest.split_at_mut(n);
         let s = &mut *self.scratch;
         let per_d = 1.0 / d_s;
-        let capacity = self.model.film.capacity();
-        for ((r, e), c) in s.residual.iter_mut().zip(&*e_psi).zip(capacity) {
-            *r = c * e * per_d;
+        self.model.film.storage().multiply(e_psi, &mut s.residual);
+        for r in &mut s.residual {
+            *r *= per_d;
         }
         let force = s.solve_film();
         let closed = s.last_closed;

@@ -126,7 +126,7 @@ impl<E: Entry> BandedLu<E> {
         self.n
     }
 
-    /// Factors `matrix` + `scale` diag(`diagonal`).
+    /// Factors `matrix` + `scale` `more`, which has no diagonals that `matrix` has not.
     ///
     /// # Errors
     ///
@@ -140,7 +140,7 @@ impl<E: Entry> BandedLu<E> {
         &mut self,
         matrix: &Diagonals,
         scale: f64,
-        diagonal: &[f64],
+        more: &Diagonals,
     ) -> Result<(), BandedError> {
         assert_eq!(matrix.n(), self.n);
         let band = if self.is_reversed {
@@ -149,12 +149,14 @@ impl<E: Entry> BandedLu<E> {
             self.band
         };
         assert_eq!(matrix.band(), band);
-        assert_eq!(diagonal.len(), self.n);
+        assert_eq!(more.n(), self.n);
+        let is_known = |offset| matrix.column(offset).is_some();
+        assert!(more.offsets().iter().all(|offset| is_known(*offset)));
         widest(Factor {
             lu: self,
             matrix,
             scale,
-            diagonal,
+            more,
         })
     }
 
@@ -164,9 +166,9 @@ impl<E: Entry> BandedLu<E> {
         simd: S,
         matrix: &Diagonals,
         scale: f64,
-        diagonal: &[f64],
+        more: &Diagonals,
     ) -> Result<(), BandedError> {
-        self.load(matrix, scale, diagonal);
+        self.load(matrix, scale, more);
         let reach = self.band.below + BLOCK - 1;
         let mut largest = E::ZERO;
         for first in (0..self.n_padded).step_by(BLOCK) {
@@ -199,7 +201,7 @@ impl<E: Entry> BandedLu<E> {
 
     /// Copies the matrix into the padded rows, a few rows at a time that stay in the nearest memory.
     #[inline(always)]
-    fn load(&mut self, matrix: &Diagonals, scale: f64, diagonal: &[f64]) {
+    fn load(&mut self, matrix: &Diagonals, scale: f64, more: &Diagonals) {
         let (n, stride, centre, is_reversed) =
             (self.n, self.stride, self.centre(), self.is_reversed);
         let turned = |i: usize| if is_reversed { n - 1 - i } else { i };
@@ -208,6 +210,7 @@ impl<E: Entry> BandedLu<E> {
             let first = some * ROWS_LOADED;
             let behind = (first + ROWS_LOADED).min(n);
             for (offset, column) in matrix.iter() {
+                let more = more.column(offset);
                 let inside = matrix.rows(offset);
                 let (from, to, offset) = if is_reversed {
                     (n - inside.end, n - inside.start, -offset)
@@ -215,14 +218,20 @@ impl<E: Entry> BandedLu<E> {
                     (inside.start, inside.end, offset)
                 };
                 let place = centre.strict_add_signed(offset);
-                for i in first.max(from)..behind.min(to) {
-                    rows[(i - first) * stride + place] = E::nearest(column[turned(i)]);
+                let loaded = first.max(from)..behind.min(to);
+                match more {
+                    None => {
+                        for i in loaded {
+                            rows[(i - first) * stride + place] = E::nearest(column[turned(i)]);
+                        }
+                    }
+                    Some(more) => {
+                        for i in loaded {
+                            let value = scale.mul_add(more[turned(i)], column[turned(i)]);
+                            rows[(i - first) * stride + place] = E::nearest(value);
+                        }
+                    }
                 }
-            }
-            for i in first..behind {
-                let on_diagonal = matrix.get(turned(i), turned(i));
-                let value = on_diagonal + scale * diagonal[turned(i)];
-                rows[(i - first) * stride + centre] = E::nearest(value);
             }
             for padding in rows.chunks_exact_mut(stride).skip(behind - first) {
                 padding[centre] = E::ONE;
@@ -368,7 +377,7 @@ struct Factor<'a, E> {
     lu: &'a mut BandedLu<E>,
     matrix: &'a Diagonals,
     scale: f64,
-    diagonal: &'a [f64],
+    more: &'a Diagonals,
 }
 
 impl<E: Entry> WithSimd for Factor<'_, E> {
@@ -377,7 +386,7 @@ impl<E: Entry> WithSimd for Factor<'_, E> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         self.lu
-            .factor_here(simd, self.matrix, self.scale, self.diagonal)
+            .factor_here(simd, self.matrix, self.scale, self.more)
     }
 }
 
@@ -426,14 +435,21 @@ mod tests {
             let band = Band { below, above };
             let matrix = sample(n, band);
             let exact: Vec<f64> = (0..n).map(|i| (i as f64 * 0.7).sin() + 0.2).collect();
-            let diagonal: Vec<f64> = (0..n).map(|i| 1.0 + i as f64).collect();
-            let mut rhs = vec![0.0; n];
-            matrix.multiply(&exact, &mut rhs);
+            let mut more = Diagonals::zeros(n, vec![0, -(below.min(1) as isize)]);
             for i in 0..n {
-                rhs[i] += 0.01 * diagonal[i] * exact[i];
+                more.add(i, i, 1.0 + i as f64);
+                if below > 0 && i > 0 {
+                    more.add(i, i - 1, 0.3);
+                }
+            }
+            let (mut rhs, mut added) = (vec![0.0; n], vec![0.0; n]);
+            matrix.multiply(&exact, &mut rhs);
+            more.multiply(&exact, &mut added);
+            for i in 0..n {
+                rhs[i] += 0.01 * added[i];
             }
             let mut lu = BandedLu::<f64>::new(n, band);
-            lu.factor(&matrix, 0.01, &diagonal).unwrap();
+            lu.factor(&matrix, 0.01, &more).unwrap();
             lu.solve(&mut rhs);
             for i in 0..n {
                 assert!(
@@ -450,13 +466,14 @@ mod tests {
         matrix.add(0, 1, 1.0);
         matrix.add(1, 0, 1.0);
         let mut lu = BandedLu::<f64>::new(2, Band::even(1));
+        let nothing = Diagonals::zeros(2, Vec::new());
         assert_eq!(
-            lu.factor(&matrix, 0.0, &[0.0; 2]),
+            lu.factor(&matrix, 0.0, &nothing),
             Err(BandedError::Pivot { row: 0, value: 0.0 })
         );
         matrix.add(0, 0, 1e-9);
         assert!(matches!(
-            lu.factor(&matrix, 0.0, &[0.0; 2]),
+            lu.factor(&matrix, 0.0, &nothing),
             Err(BandedError::Growth { .. })
         ));
     }

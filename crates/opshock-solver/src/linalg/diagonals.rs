@@ -94,7 +94,7 @@ impl Diagonals {
     }
 
     /// Rows whose entry at `offset` lies inside the matrix.
-    pub(super) fn rows(&self, offset: isize) -> std::ops::Range<usize> {
+    pub fn rows(&self, offset: isize) -> std::ops::Range<usize> {
         let n = self.n;
         let first = (-offset).max(0).unsigned_abs().min(n);
         let behind = n.saturating_sub(offset.max(0).unsigned_abs());
