@@ -327,7 +327,7 @@ static TABLE: &[Key] = &[
     Key::or("search.certify", Word(&["staggered", "off", "full"]), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
     Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156"),
     Key::or("search.error_bars", Flag, "true", "Adds to each critical shock what the resolution contributes to its error."),
-    Key::or("search.climbs", Integer(0, 100), "2", "Times that a point whose error bar exceeds the accuracy is answered anew on finer knobs."),
+    Key::or("search.climbs", Integer(0, 100), "3", "Times that a point whose error bar exceeds the accuracy is answered anew on finer knobs."),
     Key::optional("search.refine.tolerance_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until straight lines between the answers of a ramp model are this good.").usual(1.0, 50.0).code("E156"),
     Key::optional("search.refine.crossing_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until those between which two ramp models change places are this close.").usual(1.0, 50.0).code("E156"),
     Key::optional("search.refine.closest_pct", Number(above(0.0, 100.0)), "2", "2.0", "No widths are added closer than this.").usual(0.5, 50.0).code("E156"),

@@ -16,7 +16,7 @@ use crate::search::outcome::Flag;
 use crate::search::probe::Retry;
 
 /// Most steps by which a knob is turned finer than the study has it.
-pub const FLOOR: i8 = 2;
+pub const FLOOR: i8 = 3;
 /// Parts above this share of what was asked are turned finer: there are three sources.
 const COUNTS: f64 = 1.0 / 3.0;
 /// Width to which a climbed answer is bracketed, nodes: a quarter of the search's tolerance.
@@ -152,12 +152,14 @@ fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
     let mut turned = Vec::new();
     for (half, knobs) in parts.into_iter().take(counts.max(1)) {
         for knob in knobs {
-            let called = if half > most * knob.formal_ratio() {
+            let level = at.base.of(knob);
+            // Far up a step is dear, and may do what its order does not say.
+            let called = if level == 0 && half > most * knob.formal_ratio() {
                 2
             } else {
                 1
             };
-            let steps = called.min(floor(at, knob) - at.base.of(knob));
+            let steps = called.min(floor(at, knob) - level);
             if steps > 0 {
                 turned.push((knob, steps));
             }

@@ -16,6 +16,10 @@ const EVENT_S: f64 = 1.0e-4;
 /// Largest distance of the two amplitudes behind a slope, as a share; a difference of clearance
 /// worth more is not read by it.
 const REACH: f64 = 0.12;
+/// How far below the highest survivor its slope is asked for, a share.
+const BELOW: f64 = 0.01;
+/// Clearance of the highest survivor over that of the next one met, above which nothing is asked there.
+const LATE: f64 = 0.2;
 
 /// What differences are read against.
 pub(super) struct Reference {
@@ -30,6 +34,30 @@ pub(super) struct Reference {
 
 fn is_same_event(a_s: f64, b_s: f64) -> bool {
     (a_s - b_s).abs() <= EVENT_S
+}
+
+/// A survivor [`BELOW`] `at`, asked for where `at` shows the same event and those that the search met further below
+/// another: a touch that grows late. Not where `at` itself is hardly closer than they are, since there
+/// survival ends abruptly.
+fn just_below(walk: &mut Walk<'_>, at: &Known) -> Result<Option<Known>, Ask> {
+    let input = walk.input;
+    let others = input
+        .survivors
+        .iter()
+        .filter(|known| known.index < at.index);
+    let nearest = others.max_by_key(|known| known.index);
+    if nearest.is_none_or(|nearest| at.h_min_m > LATE * nearest.h_min_m) {
+        return Ok(None);
+    }
+    let index = at.index - input.lattice.nodes_within(BELOW).max(SUBNODES);
+    let seen = walk.see(Levels::NONE, index)?;
+    Ok(clearance(seen, at.t_min_s)
+        .filter(|&h_min_m| h_min_m > at.h_min_m)
+        .map(|h_min_m| Known {
+            index,
+            h_min_m,
+            t_min_s: at.t_min_s,
+        }))
 }
 
 /// A survivor at the event.
@@ -77,6 +105,11 @@ impl Reference {
                     && is_same_event(known.t_min_s, at.t_min_s)
             })
         };
+        let asked = match below().next() {
+            Some(_) => None,
+            None => just_below(walk, &at)?,
+        };
+        let below = || below().chain(asked.iter());
         let Some(lower) = below().min_by_key(|known| known.index) else {
             return Ok(None);
         };
