@@ -27,8 +27,8 @@ RUNGS_SUBSET := --set 'ramp.models=["none"]' --set 'pulse.widths_ms=[1.0]' --set
 
 .PHONY: accuracy-rungs
 accuracy-rungs: build ## time against the largest bar of each named accuracy on Fig. 13, in results/accuracy/rungs.md (needs python3; goes on where it stopped)
-	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 5%,5%+2,1%,1%+2
-	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 0.1%,0.1%+2 -- $(RUNGS_SUBSET)
+	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 5%,5%+3,1%,1%+3
+	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 0.1%,0.1%+3 -- $(RUNGS_SUBSET)
 
 figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
 	$(OPSHOCK) figures studies/paper-cases/study.toml --out results/paper
