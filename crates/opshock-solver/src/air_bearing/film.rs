@@ -222,7 +222,7 @@ impl Film {
         self.mesh.index(i, j)
     }
 
-    /// M, Pa s m2: what multiplies dψ/dt ([`mod@super::storage`]). Its columns add up to the [`Film::capacity`].
+    /// M, Pa s m2: what multiplies dψ/dt (`air_bearing/storage.rs` derives it). Its columns add up to the [`Film::capacity`].
     pub fn storage(&self) -> &Diagonals {
         &self.storage
     }
