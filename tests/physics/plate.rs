@@ -5,7 +5,9 @@ use opshock_solver::disk::{
 };
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::ramp::{RampModel, RampParameters};
+use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::structure::modes;
+use opshock_tests::scenes::scene;
 use opshock_tests::structures::{drive_disk, reference_disk, s1};
 use opshock_tests::{number, reference};
 use std::f64::consts::TAU;
@@ -237,5 +239,37 @@ fn the_drive_disk_has_its_documented_frequencies() {
     ] {
         let found = lambda_squared(&basis, n, circles) / TAU;
         assert!((found - hz).abs() < 0.51, "({circles},{n}): {found}");
+    }
+}
+
+/// Four steps finer than the finest named accuracy a disk would have 448 elements, more than it may. Bending waves
+/// far above the first modes have wave numbers pi / (outer - inner) apart, whatever holds the edges.
+#[test]
+fn the_finest_disk_a_climb_asks_for_is_built_and_carries_waves_to_its_cut() {
+    let named = scene("fig13", "rigid", 3.0, &[("solver.accuracy", "0.1%")]);
+    let mut finest = named.at_levels(Levels::NONE.turned(Knob::DiskModes, 4));
+    finest.disk_resolution.n_harmonics = 1;
+    let disk = DiskParameters {
+        spin_rad_per_s: 0.0,
+        ..finest.disk
+    };
+    let resolution = &finest.disk_resolution;
+    let basis = DiskBasis::build(&disk, resolution, &[], None, Harmonics::All).unwrap();
+    let flexural = disk.youngs_modulus_pa * disk.thickness_m.powi(2)
+        / (12.0 * (1.0 - disk.poisson.powi(2)) * disk.density_kg_per_m3);
+    let waves: Vec<f64> = basis
+        .modes
+        .iter()
+        .filter(|mode| mode.nodal_diameters == 1 && mode.nodal_circles.is_some())
+        .map(|mode| mode.omega_rad_per_s.sqrt() / flexural.powf(0.25))
+        .collect();
+    let apart = std::f64::consts::PI / (disk.outer_radius_m - disk.inner_radius_m);
+    assert!(
+        *waves.last().unwrap() + 1.01 * apart
+            > (TAU * named.disk_resolution.cut_hz * 16.0).sqrt() / flexural.powf(0.25)
+    );
+    for pair in waves[waves.len() / 2..].windows(2) {
+        let found = (pair[1] - pair[0]) / apart;
+        assert!((found - 1.0).abs() < 1e-3, "{found}");
     }
 }

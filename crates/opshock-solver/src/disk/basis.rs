@@ -15,6 +15,10 @@ use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
 use crate::linalg::dense::dot;
 use crate::linalg::{DenseError, lowest};
 
+/// Most radial elements of a disk: 18 a bending wave of an aluminium platter at 7.7 MHz, where a wave is hardly longer
+/// than the disk is thick. With more, rounding in the stiffness (its condition grows with the fourth power) gains on
+/// what they resolve.
+pub const MOST_ELEMENTS: usize = 400;
 /// Fewest modes kept for n = 0.
 pub const MIN_SYMMETRIC_MODES: usize = 8;
 /// Modes of n = 0 are kept up to this multiple of the cut.
@@ -366,7 +370,7 @@ fn validate(disk: &DiskParameters, resolution: &DiskResolution) -> Result<(), Di
         (
             "n_elements",
             resolution.n_elements as f64,
-            (4..=400).contains(&resolution.n_elements),
+            (4..=MOST_ELEMENTS).contains(&resolution.n_elements),
             "4 to 400",
         ),
     ];

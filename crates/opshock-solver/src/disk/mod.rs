@@ -7,7 +7,7 @@ pub mod hub;
 pub mod membrane;
 pub mod run_out;
 
-pub use basis::{DiskBasis, DiskError, DiskMode, DiskModes, Harmonics};
+pub use basis::{DiskBasis, DiskError, DiskMode, DiskModes, Harmonics, MOST_ELEMENTS};
 pub use hub::HubParameters;
 pub use membrane::MembraneStress;
 pub use run_out::{SurfaceMotion, Track, Wave};

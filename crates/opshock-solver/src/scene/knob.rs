@@ -23,6 +23,7 @@
 //! every cell cut in two, continued to infinitely many; a step coarser, one of half the cells.
 
 use super::Scene;
+use crate::disk::MOST_ELEMENTS;
 use crate::ramp::RampModel;
 use crate::suspension::ReducedSuspension;
 
@@ -181,7 +182,10 @@ impl Scene {
         // Frequencies of a plate grow with the square of its wave numbers.
         let waves = disk.sqrt();
         scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
-        scene.disk_resolution.n_elements = scaled(self.disk_resolution.n_elements, waves, 2);
+        // Beyond what a disk may have none is added; one that has too many by itself stays so, and is told.
+        let elements = self.disk_resolution.n_elements;
+        let most = elements.max(MOST_ELEMENTS);
+        scene.disk_resolution.n_elements = scaled(elements, waves, 2).min(most);
         if levels.of(Knob::SuspensionModes) != 0 {
             let modes = power(2.0, Knob::SuspensionModes);
             let wanted = scaled(self.head_resolution.suspension_modes, modes, 1);
