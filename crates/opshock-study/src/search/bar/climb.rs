@@ -123,7 +123,8 @@ fn floor(at: &BarInput, knob: Knob) -> i8 {
 }
 
 /// Knobs to turn, with the steps that their parts call for: those whose part counts, the largest
-/// where none does. A knob on the floor stays, so that nothing may be left.
+/// where none does. A knob on the floor stays. Where nothing is left of them, the largest of the others that
+/// the bar would meet what was asked without; so that nothing may be left.
 fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
     let most = COUNTS * at.accuracy;
     let is_last_mesh = at.base.of(Knob::RampMesh) >= floor(at, Knob::RampMesh);
@@ -148,10 +149,8 @@ fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
         .filter(|(_, knobs)| !knobs.is_empty())
         .collect();
     parts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let counts = parts.iter().filter(|(half, _)| *half > most).count();
-    let mut turned = Vec::new();
-    for (half, knobs) in parts.into_iter().take(counts.max(1)) {
-        for knob in knobs {
+    let steps = |half: f64, knobs: &[Knob]| -> Vec<(Knob, i8)> {
+        let of = |&knob: &Knob| {
             let level = at.base.of(knob);
             // Far up a step is dear, and may do what its order does not say.
             let called = if level == 0 && half > most * knob.formal_ratio() {
@@ -159,13 +158,26 @@ fn turned(at: &BarInput, bar: &Bar) -> Vec<(Knob, i8)> {
             } else {
                 1
             };
-            let steps = called.min(floor(at, knob) - level);
-            if steps > 0 {
-                turned.push((knob, steps));
-            }
-        }
+            (knob, called.min(floor(at, knob) - level))
+        };
+        knobs.iter().map(of).filter(|(_, by)| *by > 0).collect()
+    };
+    let counts = parts.iter().filter(|(half, _)| *half > most).count().max(1);
+    let counts = counts.min(parts.len());
+    let (counting, others) = parts.split_at(counts);
+    let turned: Vec<_> = counting
+        .iter()
+        .flat_map(|(half, knobs)| steps(*half, knobs))
+        .collect();
+    if !turned.is_empty() {
+        return turned;
     }
-    turned
+    let excess = bar.half_length() - at.accuracy;
+    let bought = others.iter().filter(|(half, _)| *half > excess);
+    bought
+        .map(|(half, knobs)| steps(*half, knobs))
+        .find(|turned| !turned.is_empty())
+        .unwrap_or_default()
 }
 
 /// The answer of a scene turned finer, beginning at the one before. `None` without verdicts.

@@ -402,6 +402,25 @@ fn a_slope_is_asked_for_where_a_touch_grows_late() {
     }
 }
 
+/// With 6.5 % off at the study's own rung the film on its floor, eight times finer, is the only part above a third
+/// of one per cent; what the bar exceeds by, the head can give. With 9 % it cannot, and is left.
+#[test]
+fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
+    let climbed = |film, climbs| {
+        let law = Law::formal([film, 0.0, 0.0, 0.0, 0.004, 0.0], Some(1e-7));
+        let (answer, ..) = law.climbed(climbs);
+        let at = [Knob::FilmGrid, Knob::DiskModes, Knob::HeadTolerance];
+        let flags = [Flag::BarExceeds, Flag::BarFloor];
+        (
+            at.map(|knob| answer.levels.of(knob)),
+            flags.map(|flag| answer.bar.flags.contains(&flag)),
+        )
+    };
+    assert_eq!(climbed(0.065, 2), ([FLOOR, 0, 1], [true, true]));
+    assert_eq!(climbed(0.065, 3), ([FLOOR, 0, 2], [false, false]));
+    assert_eq!(climbed(0.09, 3), ([FLOOR, 0, 1], [true, true]));
+}
+
 #[test]
 fn a_floor_is_said_and_no_climb_is_made_unasked() {
     let law = Law::formal([0.2, 0.0, 0.0, 0.0, 0.0, 0.0], None);
