@@ -411,7 +411,7 @@ fn narrow_film(
     // One run of the scene itself may do what takes one of each.
     let (low, high) = bracket(walk);
     let halved = 0.5 * walk.share((high - low) / 2);
-    if high - low > FINEST && others + film.half_length() + halved <= accuracy {
+    if high - low > 1 && others + film.half_length() + halved <= accuracy {
         return Ok(film);
     }
     loop {
@@ -431,18 +431,19 @@ fn narrow_film(
     }
 }
 
-/// Halves the bracket of the scene itself, where that alone meets what was asked and until it does.
+/// Halves the bracket of the scene itself, to a node if need be, where that alone meets what was asked and until
+/// it does.
 fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
     let accuracy = walk.input.accuracy;
     let others: f64 = pieces.iter().map(Bar::half_length).sum();
-    if others + 0.5 * walk.share(FINEST) > accuracy {
+    if others + 0.5 * walk.share(1) > accuracy {
         return Ok(());
     }
     loop {
         let (low, high) = bracket(walk);
         let from = verdicts::Bracket { low, high };
         let nodes = high - low;
-        if nodes <= FINEST || others + 0.5 * walk.share(nodes) <= accuracy {
+        if nodes <= 1 || others + 0.5 * walk.share(nodes) <= accuracy {
             return Ok(());
         }
         if verdicts::narrowed(walk, Levels::NONE, from, nodes / 2)?.is_none() {

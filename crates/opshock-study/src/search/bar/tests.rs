@@ -421,6 +421,26 @@ fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
     assert_eq!(climbed(0.09, 3), ([FLOOR, 0, 1], [true, true]));
 }
 
+/// The other parts leave between half a node and a whole one for the scene's own bracket: it is narrowed to one.
+#[test]
+fn the_scene_is_bracketed_to_a_node_where_that_meets_what_was_asked() {
+    let node = 0.01 / f64::from(SUBNODES);
+    let mut to_a_node = 0;
+    for film in 0..60 {
+        let law = Law::formal(
+            [0.0105 + 2e-5 * f64::from(film), 0.0, 0.0, 0.0, 0.0, 0.0],
+            Some(1e-7),
+        );
+        let (bar, ..) = law.bar();
+        let search = part(&bar, "search");
+        let others = bar.half_length() - 0.5 * (search.low + search.high);
+        let exceeds = bar.flags.contains(&Flag::BarExceeds);
+        assert_eq!(exceeds, others + 0.495 * node > 0.01, "{others} {bar:?}");
+        to_a_node += usize::from(search.high < 1.1 * node);
+    }
+    assert!(to_a_node > 1, "{to_a_node}");
+}
+
 #[test]
 fn a_floor_is_said_and_no_climb_is_made_unasked() {
     let law = Law::formal([0.2, 0.0, 0.0, 0.0, 0.0, 0.0], None);
