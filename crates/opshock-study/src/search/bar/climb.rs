@@ -2,9 +2,10 @@
 //! and the answer is bracketed anew.
 //!
 //! A climb keeps what it did not touch: only the parts of turned knobs are looked at again, around
-//! the new answer. It ends when the bar meets what was asked, when the last climb allowed is made,
-//! or at the floor: every knob whose part counts is [`FLOOR`] steps above the study. The mesh of a
-//! ramp is turned finer as long as one of half those elements again can be made to tell its error;
+//! the new answer, and those that count though their knobs are on the floor, since they were not looked at closely
+//! where others had left no room. It ends when the bar meets what was asked, when the last climb allowed is made,
+//! or at the floor: every knob whose part counts is [`FLOOR`] steps above the study, the film's [`FILM_FLOOR`]. The
+//! mesh of a ramp is turned finer only as long as one of half those elements again can be made to tell its error;
 //! where it is too coarse beyond that, other knobs are not turned in vain.
 
 use opshock_solver::scene::knob::{Knob, Levels};
@@ -17,6 +18,9 @@ use crate::search::probe::Retry;
 
 /// Most steps by which a knob is turned finer than the study has it.
 pub const FLOOR: i8 = 3;
+/// The same of the film's grid. Films that are squeezed thin come into order late, and only where three of them,
+/// the coarsest of a quarter of the cells, agree is their error known.
+const FILM_FLOOR: i8 = FLOOR + 1;
 /// Parts above this share of what was asked are turned finer: there are three sources.
 const COUNTS: f64 = 1.0 / 3.0;
 /// Width to which a climbed answer is bracketed, nodes: a quarter of the search's tolerance.
@@ -91,7 +95,7 @@ fn climbed(
             return Ok(Answer::of(&at, floored(bar)));
         };
         at = next;
-        kept = still(&pieces, &turned);
+        kept = still(&at, &pieces, &turned);
     }
     unreachable!("the last round returns")
 }
@@ -118,6 +122,7 @@ fn floored(mut bar: Bar) -> Bar {
 fn floor(at: &BarInput, knob: Knob) -> i8 {
     match knob {
         Knob::RampMesh => FLOOR.min(at.mesh_halvings - 1),
+        Knob::FilmGrid => FILM_FLOOR,
         _ => FLOOR,
     }
 }
@@ -223,14 +228,20 @@ fn bracketed(
     Ok(Some(at))
 }
 
-/// Pieces of knobs that were not turned.
-fn still(pieces: &Pieces, turned: &[(Knob, i8)]) -> [Option<Bar>; 1 + GROUPS.len()] {
+/// Pieces of knobs that were not turned, but those that count and can only be looked at closer.
+fn still(at: &BarInput, pieces: &Pieces, turned: &[(Knob, i8)]) -> [Option<Bar>; 1 + GROUPS.len()] {
     let is_turned = |knobs: &[Knob]| turned.iter().any(|(knob, _)| knobs.contains(knob));
+    let is_on_floor = |knobs: &[Knob]| {
+        let mut own = knobs.iter().filter(|knob| at.knobs.contains(knob));
+        own.all(|&knob| at.base.of(knob) >= floor(at, knob))
+    };
     std::array::from_fn(|place| {
         let knobs = match place {
             0 => &[Knob::FilmGrid][..],
             _ => GROUPS[place - 1].knobs,
         };
-        (!is_turned(knobs)).then(|| pieces[place].clone())
+        let counts = pieces[place].half_length() > COUNTS * at.accuracy;
+        let again = is_turned(knobs) || counts && is_on_floor(knobs);
+        (!again).then(|| pieces[place].clone())
     })
 }

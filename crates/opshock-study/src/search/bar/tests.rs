@@ -402,12 +402,12 @@ fn a_slope_is_asked_for_where_a_touch_grows_late() {
     }
 }
 
-/// With 6.5 % off at the study's own rung the film on its floor, eight times finer, is the only part above a third
-/// of one per cent; what the bar exceeds by, the head can give. With 9 % it cannot, and is left.
+/// With 10 % off at the study's own rung the film on its floor, sixteen times finer, is the only part above a third
+/// of one per cent; what the bar exceeds by, the head can give. With 18 % it cannot, and is left.
 #[test]
 fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
     let climbed = |film, climbs| {
-        let law = Law::formal([film, 0.0, 0.0, 0.0, 0.004, 0.0], Some(1e-7));
+        let law = Law::formal([film, 0.0, 0.0, 0.0, 0.003, 0.0], Some(1e-7));
         let (answer, ..) = law.climbed(climbs);
         let at = [Knob::FilmGrid, Knob::DiskModes, Knob::HeadTolerance];
         let flags = [Flag::BarExceeds, Flag::BarFloor];
@@ -416,9 +416,28 @@ fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
             flags.map(|flag| answer.bar.flags.contains(&flag)),
         )
     };
-    assert_eq!(climbed(0.065, 2), ([FLOOR, 0, 1], [true, true]));
-    assert_eq!(climbed(0.065, 3), ([FLOOR, 0, 2], [false, false]));
-    assert_eq!(climbed(0.09, 3), ([FLOOR, 0, 1], [true, true]));
+    assert_eq!(climbed(0.1, 3), ([FLOOR + 1, 0, 1], [true, true]));
+    assert_eq!(climbed(0.1, 4), ([FLOOR + 1, 0, 2], [false, false]));
+    assert_eq!(climbed(0.18, 4), ([FLOOR + 1, 0, 1], [true, true]));
+}
+
+/// While the film's part exceeds what was asked, the head's is read from one step coarser, which leaves three times its
+/// error. The film's last climb makes room for a finer step that tells it.
+#[test]
+fn what_counts_on_the_floor_is_looked_at_again_when_there_is_room() {
+    let law = Law::formal([0.08, 0.0, 0.0, 0.0, 0.096, 0.0], None);
+    let [two, three] = [2, 3].map(|climbs| law.climbed(climbs).0);
+    let at = [Knob::FilmGrid, Knob::HeadTolerance];
+    assert_eq!(at.map(|knob| two.levels.of(knob)), [FLOOR, FLOOR]);
+    assert_eq!(at.map(|knob| three.levels.of(knob)), [FLOOR + 1, FLOOR]);
+    let error = 0.096 / 64.0;
+    let [wide, narrow] = [&two, &three].map(|answer| part(&answer.bar, "head"));
+    assert_eq!([wide.factor, narrow.factor], [3.0, 1.25]);
+    assert!(
+        wide.high > 2.5 * error && narrow.low < 1.5 * error,
+        "{narrow:?}"
+    );
+    assert!(narrow.low > error, "{narrow:?}");
 }
 
 /// The other parts leave between half a node and a whole one for the scene's own bracket: it is narrowed to one.
