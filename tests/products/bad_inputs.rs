@@ -254,14 +254,17 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
     assert_eq!(fault.hint, "-j 5 fits");
     let folder = tempfile::tempdir().unwrap();
     let path = study("fig13").canonicalize().unwrap();
-    let sweep = |gigabytes: &str| {
+    let sweep = |gigabytes: &str, climbs: &str| {
         let file = path.to_str().unwrap();
         let size = "solver.film_cells=10000";
+        let climbs = format!("search.climbs={climbs}");
         let asked = [
             "sweep",
             file,
             "--set",
             size,
+            "--set",
+            &climbs,
             "-j",
             "3",
             "--memory-gb",
@@ -270,12 +273,13 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
         ];
         Done::of(folder.path(), &asked)
     };
-    for gigabytes in ["0.6", "0.01"] {
-        let refused = sweep(gigabytes);
+    // One climb may make it 40 000 cells, which are 1.3 GB a worker.
+    for (gigabytes, climbs) in [("0.6", "0"), ("0.01", "0"), ("3.7", "1")] {
+        let refused = sweep(gigabytes, climbs);
         assert_eq!(refused.code, 3, "{}", refused.stderr);
         assert_eq!(refused.errors()[0]["code"], "E186");
     }
-    assert_eq!(sweep("none").code, 2);
+    assert_eq!(sweep("none", "0").code, 2);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 

@@ -299,8 +299,10 @@ fn held_films_answer_alike_with_and_without_the_shock_before() {
         is_fine: true,
         ..Probe::at(0)
     };
+    // As the search asks for it, on its own lattice.
     let plain = Probe {
         levels: Levels::NONE,
+        is_fine: false,
         ..held
     };
     let at = |amplitude_g: f64| -m_per_s2_from_g(amplitude_g);

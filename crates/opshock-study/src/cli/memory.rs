@@ -1,10 +1,12 @@
 //! Whether a sweep fits into the memory of this machine.
 
 use super::failure::Failure;
+use crate::search::bar::most_film_steps;
 use crate::study::memory::{check_memory, worker_bytes};
 use crate::study::{Study, StudyErrors};
 
-/// Refuses a sweep whose workers need more than `limit_gb`, or than the machine has to give.
+/// Refuses a sweep whose workers need more than `limit_gb`, or than the machine has to give, the finest films that
+/// their points may climb to included.
 ///
 /// # Errors
 /// E186. Where nothing is known of the machine's memory nothing is refused.
@@ -12,7 +14,10 @@ pub fn check(study: &Study, workers: usize, limit_gb: Option<f64>) -> Result<(),
     let Some(available) = limit_gb.map(|gb| gb * 1e9).or_else(available_bytes) else {
         return Ok(());
     };
-    check_memory(workers, worker_bytes(study), available)
+    let search = &study.search;
+    let climbs = if search.error_bars { search.climbs } else { 0 };
+    let film_steps = most_film_steps(climbs).unsigned_abs().into();
+    check_memory(workers, worker_bytes(study, film_steps), available)
         .map_err(|fault| Failure::Study(StudyErrors::new(vec![*fault])))
 }
 

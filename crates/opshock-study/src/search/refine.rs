@@ -254,7 +254,7 @@ fn bends(refine: &Refine, curves: &[Curve<'_>]) -> Vec<Halving> {
         for (place, pair) in curve.nodes.windows(2).enumerate() {
             if let Some(error) = curve.error(place)
                 && error > tolerance
-                && let Some(pulse_ms) = middle_ms(refine, pair[0].pulse_ms, pair[1].pulse_ms)
+                && let Some(pulse_ms) = middle_ms(refine, [&pair[0], &pair[1]], &[curve])
             {
                 halvings.push(Halving {
                     excess: error / tolerance,
@@ -278,7 +278,7 @@ fn unordered(refine: &Refine, curves: &[Curve<'_>]) -> Vec<Halving> {
             let (low, high) = (low.0.0, high.0.0);
             let excess = (high.x - low.x) / crossing.ln_1p();
             if excess > 1.0
-                && let Some(pulse_ms) = middle_ms(refine, low.pulse_ms, high.pulse_ms)
+                && let Some(pulse_ms) = middle_ms(refine, [&low, &high], &[&curves[a], &curves[b]])
             {
                 halvings.push(Halving {
                     excess,
@@ -321,11 +321,16 @@ fn opposite(a: &Curve<'_>, b: &Curve<'_>) -> Vec<(Both, Both)> {
     found
 }
 
-/// The geometric middle of two widths to four digits, if it keeps its distance from both.
-fn middle_ms(refine: &Refine, low_ms: f64, high_ms: f64) -> Option<f64> {
-    let middle: f64 = format!("{:.3e}", (low_ms * high_ms).sqrt()).parse().ok()?;
-    let apart = |a: f64, b: f64| b / a >= 1.0 + refine.closest;
-    (apart(low_ms, middle) && apart(middle, high_ms)).then_some(middle)
+/// The geometric middle of two widths to four digits, if it keeps its distance from every width of these curves.
+fn middle_ms(refine: &Refine, [low, high]: [&Node; 2], curves: &[&Curve<'_>]) -> Option<f64> {
+    let middle_ms = (low.pulse_ms * high.pulse_ms).sqrt();
+    let middle_ms: f64 = format!("{middle_ms:.3e}").parse().ok()?;
+    let is_apart = |node: &Node| {
+        let ratio = node.pulse_ms / middle_ms;
+        ratio.max(1.0 / ratio) >= 1.0 + refine.closest
+    };
+    let mut widths = curves.iter().flat_map(|curve| &curve.nodes);
+    widths.all(is_apart).then_some(middle_ms)
 }
 
 #[cfg(test)]
@@ -486,6 +491,23 @@ mod tests {
             let n = points.iter().filter(|p| p.at.pulse_ms == width).count();
             assert_eq!(n, 3, "{width} ms");
         }
+    }
+
+    /// Two curves meet at 0.705 ms, which orders nothing, and are the other way round at both sides: the middle of
+    /// these, 0.7071 ms, lies 0.3 % from it.
+    #[test]
+    fn no_width_is_added_beside_one_at_which_curves_are_equal() {
+        let widths = [0.5, 0.705, 1.0];
+        let mut points = answers(RampClass::Rigid, &widths, |w| 300.0 + 100.0 * (w - 0.705));
+        points.extend(answers(RampClass::Deformable, &widths, |_| 300.0));
+        let refine = |closest| Refine {
+            tolerance: None,
+            crossing: Some(0.05),
+            closest,
+            ..REFINE
+        };
+        let with = |closest| refined(&refine(closest), points.clone(), |_| 300.0).len();
+        assert_eq!([0.01, 0.001].map(with), [6, 8]);
     }
 
     #[test]

@@ -12,12 +12,12 @@ pub fn film_bytes(cells: f64) -> f64 {
     150.0 * cells.powf(1.5)
 }
 
-/// Bytes that one worker needs for the finest film of a study: that of its points, or the one that corrects their
-/// grids, which has every cell of the reference cut in four.
-pub fn worker_bytes(study: &Study) -> f64 {
+/// Bytes that one worker needs for the finest film of a study: that of its points with their cells doubled `film_steps`
+/// times, or the one that corrects their grids, which has every cell of the reference cut in four.
+pub fn worker_bytes(study: &Study, film_steps: u32) -> f64 {
     let cells = study.points.iter().map(|point| {
         let film = &point.scene.film_resolution;
-        film.cells.max(4 * film.reference_cells)
+        (film.cells << film_steps).max(4 * film.reference_cells)
     });
     BASE_BYTES + film_bytes(cells.max().unwrap_or(0) as f64)
 }

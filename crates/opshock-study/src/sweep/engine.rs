@@ -123,10 +123,12 @@ pub fn sweep(
     let own = options.shard.map(|shard| shard.folder(whole));
     let folder = own.as_deref().unwrap_or(whole);
     let (mut store, mut loaded) = Store::open(folder, &input.texts, &session)?;
-    let mut others = HashMap::new();
+    let mut others = Loaded::default();
     for other in &options.reuse {
-        others.extend(store::load(other)?.0.runs);
+        let runs = store::load(other)?.0.runs.into_values();
+        others.add(runs.map(Record::Run).collect());
     }
+    let mut others = others.runs;
     if options.retry_undecided {
         forget_undecided(&mut others);
         forget_undecided(&mut loaded.runs);
@@ -589,7 +591,7 @@ impl<'a> Run<'a> {
             let amplitude_g = amplitude / STANDARD_GRAVITY_M_PER_S2;
             for &place in places.get(&record.key.point).into_iter().flatten() {
                 let row = &results.summary.points[place];
-                if is_below_answer(row, amplitude_g) {
+                if is_below_answer(row, self.ledger.failure_g(place), amplitude_g) {
                     messages.push(format!(
                         "{} {} ms {}: a run outside the search fails at {amplitude_g:.4} G, below \
                          the answer; a smaller max_gap_pct or certify = \"full\" would find it",
@@ -614,13 +616,12 @@ impl<'a> Run<'a> {
     }
 }
 
-fn is_below_answer(row: &PointSummary, amplitude_g: f64) -> bool {
-    if row.status == Status::Open {
-        return false;
-    }
-    match (row.a_fail_g, row.a_crit_g) {
-        (Some(a_fail_g), _) => amplitude_g < a_fail_g * (1.0 - 1e-9),
-        (None, Some(_)) => true,
-        (None, None) => false,
+/// An amplitude lies below the lowest failure that the search found on the study's own knobs, which a climbed answer
+/// says nothing about; below the end of the range where it found none.
+fn is_below_answer(row: &PointSummary, failure_g: Option<f64>, amplitude_g: f64) -> bool {
+    match (row.status, failure_g) {
+        (Status::Open, _) => false,
+        (_, Some(failure_g)) => amplitude_g < failure_g * (1.0 - 1e-9),
+        (_, None) => row.a_crit_g.is_some(),
     }
 }

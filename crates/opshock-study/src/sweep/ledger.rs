@@ -553,6 +553,12 @@ impl<'a> Ledger<'a> {
         )
     }
 
+    /// Lowest failure that the search of a point found, on the study's own knobs, G.
+    pub(super) fn failure_g(&self, point: usize) -> Option<f64> {
+        let failure = self.campaign.findings(point).failure?;
+        Some(self.input.settings.lattice.amplitude_g(failure))
+    }
+
     /// Answer of a point with its bar, once it is finished, and the runs it took.
     fn finished_bar(&self, point: usize) -> Option<(&bar::Answer, u64)> {
         match &self.bars[point] {

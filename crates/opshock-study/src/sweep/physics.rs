@@ -64,6 +64,28 @@ const MOST_LOWEST: usize = 4096;
 /// Memory of the ends that are kept, bytes: some hundred on 1000 cells. A search asks for one of its last survivors.
 const MOST_END_BYTES: usize = 4 << 20;
 
+/// What tells one shock of a study from another, whatever lattice its amplitude was a node of.
+#[derive(Clone, Copy, PartialEq)]
+struct Shake {
+    point: usize,
+    levels: Levels,
+    window_factor: u8,
+    retry: Retry,
+    amplitude_bits: u64,
+}
+
+impl Shake {
+    fn of(point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Shake {
+        Shake {
+            point,
+            levels: probe.levels,
+            window_factor: probe.window_factor,
+            retry: probe.retry,
+            amplitude_bits: amplitude_m_per_s2.to_bits(),
+        }
+    }
+}
+
 /// Runs the physics for the points of a study.
 pub struct Physics {
     slots: Vec<Slot>,
@@ -79,8 +101,8 @@ pub struct Physics {
     /// Structures built so far.
     structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
-    /// Where recent survivors came closest to the disk, by point, run and bits of the amplitude.
-    lowest: Mutex<Latest<(usize, Probe, u64), Lowest>>,
+    /// Where recent survivors came closest to the disk.
+    lowest: Mutex<Latest<Shake, Lowest>>,
     /// Where recent survivors ended, by point and bits of the signed amplitude, for the doubled window to go on from.
     ends: Mutex<Latest<(usize, u64), HeadState>>,
 }
@@ -306,7 +328,7 @@ impl Simulator for Physics {
             Err(error) => return not_built(&error),
             Ok(model) => model,
         };
-        let key = (point, own, amplitude_m_per_s2.to_bits());
+        let key = Shake::of(point, own, amplitude_m_per_s2);
         let shake = || {
             let request = Request {
                 amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,

@@ -26,6 +26,15 @@ const COUNTS: f64 = 1.0 / 3.0;
 /// Width to which a climbed answer is bracketed, nodes: a quarter of the search's tolerance.
 const WIDTH: i32 = SUBNODES / 4;
 
+/// Most steps by which so many climbs turn the film's grid finer: two with the first, then one.
+pub fn most_film_steps(climbs: u8) -> i8 {
+    match i8::try_from(climbs) {
+        Ok(0) => 0,
+        Ok(climbs) => climbs.saturating_add(1).min(FILM_FLOOR),
+        Err(_) => FILM_FLOOR,
+    }
+}
+
 /// A critical shock with its bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {

@@ -52,6 +52,15 @@ impl Estimate {
         0.5 * (below + above)
     }
 
+    /// A finer scene was asked and gave no answer: whatever order coarser ones show counts for nothing.
+    #[must_use]
+    pub(super) fn unconfirmed(self) -> Estimate {
+        Estimate {
+            factor: WIDE,
+            ..self
+        }
+    }
+
     /// The change that was seen may lie either way.
     #[must_use]
     pub(super) fn either_way(self) -> Estimate {

@@ -7,7 +7,7 @@
 use opshock_solver::scene::knob::{Knob, Levels};
 
 use super::judge::{self, Estimate};
-use super::verdicts::DEEP;
+use super::verdicts::{self, DEEP};
 use super::{Ask, Known, Limits, SUBNODES, Seen, Walk};
 use crate::search::evidence::NodeVerdict;
 
@@ -36,9 +36,9 @@ fn is_same_event(a_s: f64, b_s: f64) -> bool {
     (a_s - b_s).abs() <= EVENT_S
 }
 
-/// A survivor [`BELOW`] `at`, asked for where `at` shows the same event and those that the search met further below
-/// another: a touch that grows late. Not where `at` itself is hardly closer than they are, since there
-/// survival ends abruptly.
+/// A survivor [`BELOW`] `at`, asked for where none that was met lies far enough below for a slope: of a climbed scene
+/// only the nodes about its answer are known, and where a touch grows late those below came close at
+/// another instant. Not where `at` itself is hardly closer than these are, since there survival ends abruptly.
 fn just_below(walk: &mut Walk<'_>, at: &Known) -> Result<Option<Known>, Ask> {
     let input = walk.input;
     let others = input
@@ -46,7 +46,10 @@ fn just_below(walk: &mut Walk<'_>, at: &Known) -> Result<Option<Known>, Ask> {
         .iter()
         .filter(|known| known.index < at.index);
     let nearest = others.max_by_key(|known| known.index);
-    if nearest.is_none_or(|nearest| at.h_min_m > LATE * nearest.h_min_m) {
+    let ends_abruptly = |nearest: &Known| {
+        nearest.index <= at.index - SUBNODES && at.h_min_m > LATE * nearest.h_min_m
+    };
+    if nearest.is_none_or(ends_abruptly) {
         return Ok(None);
     }
     let index = at.index - input.lattice.nodes_within(BELOW).max(SUBNODES);
@@ -105,6 +108,8 @@ impl Reference {
                     && is_same_event(known.t_min_s, at.t_min_s)
             })
         };
+        // A step of the search away at least, where rounding and steps of the head do not tell.
+        let below = || below().filter(|known| known.index <= at.index - SUBNODES);
         let asked = match below().next() {
             Some(_) => None,
             None => just_below(walk, &at)?,
@@ -113,9 +118,7 @@ impl Reference {
         let Some(lower) = below().min_by_key(|known| known.index) else {
             return Ok(None);
         };
-        // A step of the search away at least, where rounding and steps of the head do not tell.
-        let next = below().filter(|known| known.index <= at.index - SUBNODES);
-        let next = next.max_by_key(|known| known.index).unwrap_or(lower);
+        let next = below().max_by_key(|known| known.index).unwrap_or(lower);
         let slope_m = |below: &Known| {
             // The slope falls towards the touch: the flatter one makes the most of a clearance.
             (below.h_min_m - at.h_min_m) / walk.share(at.index - below.index)
@@ -142,7 +145,8 @@ impl Reference {
 
     /// Error of the film's grid from films held still, if what they say of a quarter of the cells leaves room for
     /// the other parts, with the bracket halved once; else from half and a quarter of the cells, and where that is not little from films
-    /// held still or from twice as many cells: at the survivor, or below it where another grid fails there.
+    /// held still or from twice as many cells: at the survivor, or below it where another grid fails there. Where twice
+    /// the cells fail at both, their own answer is bracketed.
     pub(super) fn film(
         &self,
         walk: &mut Walk<'_>,
@@ -171,7 +175,9 @@ impl Reference {
                 continue;
             }
             let estimate = judge::two_coarser(&FILM, near, both - near);
-            if estimate.error() <= limits.little {
+            // Corrected films may agree in what their common reference errs by, which held ones tell.
+            let is_little = |error: &Estimate| error.error() <= limits.little;
+            if is_little(&estimate) && by_quarter.as_ref().is_none_or(is_little) {
                 return Ok(Some(estimate));
             }
             let held = self.held(walk, at, (1, half_m))?;
@@ -186,9 +192,15 @@ impl Reference {
             if let Some(fine) = fine {
                 return Ok(Some(judge::with_finer(&FILM, near, fine)));
             }
-            coarse_only = coarse_only.or(Some(estimate));
+            coarse_only = coarse_only.or(Some((near, estimate)));
         }
-        Ok(coarse_only)
+        match coarse_only {
+            Some((near, estimate)) => match verdicts::double(walk)? {
+                Some(fine) => Ok(Some(judge::with_finer(&FILM, near, fine))),
+                None => Ok(Some(estimate.unconfirmed())),
+            },
+            None => Ok(None),
+        }
     }
 
     /// Error of the film's grid from films held still: what they say of the cells halved so often at `at`, where
@@ -241,8 +253,10 @@ impl Reference {
                 continue;
             }
             let estimate = judge::one_step(knobs, near);
-            if estimate.error() <= limits.little.max(limits.room) || !walk.has_finer(knobs) {
-                return Ok(Some(estimate));
+            let is_enough = estimate.error() <= limits.little.max(limits.room);
+            // What a finer run had to tell at the first survivor it has to tell at the second.
+            if coarse_only.is_none() && is_enough || !walk.has_finer(knobs) {
+                return Ok(coarse_only.or(Some(estimate)));
             }
             let finer = judge::finer(proxy, knobs);
             let fine = self

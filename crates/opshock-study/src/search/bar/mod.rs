@@ -36,7 +36,7 @@ use std::collections::BTreeSet;
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
-pub use self::climb::{Answer, FLOOR, answer};
+pub use self::climb::{Answer, FLOOR, answer, most_film_steps};
 use self::judge::Estimate;
 use super::evidence::NodeVerdict;
 use super::lattice::Lattice;
@@ -461,7 +461,19 @@ fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Bar {
     if !walk.input.knobs.is_empty() && bar.half_length() > walk.input.accuracy {
         bar.flags.insert(Flag::BarExceeds);
     }
+    if fails_below(walk) {
+        bar.flags.insert(Flag::NonMonotone);
+    }
     bar
+}
+
+/// The scene itself failed, where a slope was asked for, below the answer that was found.
+fn fails_below(walk: &Walk<'_>) -> bool {
+    let input = walk.input;
+    walk.log
+        .iter()
+        .filter(|ask| ask.levels == input.base && ask.index < input.survivor)
+        .any(|&ask| (walk.lookup)(ask).is_some_and(|seen| seen.verdict == NodeVerdict::Fails))
 }
 
 fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {

@@ -331,6 +331,14 @@ fn quarter(walk: &mut Walk<'_>, own: Bracket) -> Result<Option<(i8, Proxy)>, Ask
     Ok(None)
 }
 
+/// How far above the scene's answer that of twice the cells lies, the brackets of both included, a share. `None`
+/// without verdicts or too far away.
+pub(super) fn double(walk: &mut Walk<'_>) -> Result<Option<f64>, Ask> {
+    let own = own(walk);
+    let fine = locate(walk, halved(-1), own, OF_FILM)?;
+    Ok(fine.map(|fine| distance(walk, own, fine).copysign(shift(walk, fine, own))))
+}
+
 /// From the answers on half and on twice the cells. A film of few cells may fly elsewhere than finer ones
 /// do, and coarser ones with it, or they do not fly at all: only a finer one tells. The other knobs
 /// are turned on half the cells, on the scene itself where those have no answer.
@@ -369,6 +377,7 @@ fn by_double(walk: &mut Walk<'_>, own: Bracket) -> Result<Film, Ask> {
 ///
 /// With errors e, ρ²e and ρ³e on all, a quarter and an eighth of the cells, the two answers differ
 /// by ρ²(ρ - 1) e, and that on all cells follows: it must lie in the bracket that was found there.
+/// What the brackets of the two do not resolve is not told.
 fn with_eighth(
     walk: &mut Walk<'_>,
     own: Bracket,
@@ -388,7 +397,9 @@ fn with_eighth(
     let slack = half(near.bracket) + half(far) + 0.5 * error.abs();
     let is_formal =
         expected >= f64::from(own.low) - slack && expected <= f64::from(own.high) + slack;
-    let share = walk.share_of(error.abs().max(0.5));
+    // Either answer may lie anywhere in its bracket.
+    let resolved = (half(near.bracket) + half(far)) / (rise * (formal - 1.0));
+    let share = walk.share_of(error.abs().max(resolved));
     let estimate = match is_formal {
         true => Estimate::unseen(share, judge::NARROW),
         false => Estimate::unseen(coarse.share.max(share), judge::WIDE),
