@@ -80,6 +80,7 @@ fn sitting(files: &SimFiles, all: &[Record], life: &mut Life, seeded: &mut Seede
     let records = content.map_or(Vec::new(), |content| content.records);
     let header = JournalHeader {
         study: "mock".into(),
+        ..JournalHeader::default()
     };
     let session = Record::Session(format!("{{\"sitting\":{}}}", life.sittings));
     let with_session = [records.as_slice(), &[session]].concat();

@@ -72,6 +72,7 @@ fn whole_journal(folder: &Path, seed: u64) -> (Vec<u8>, Vec<Record>) {
     let path = folder.join(format!("journal-{seed}"));
     let header = JournalHeader {
         study: "fuzz".into(),
+        ..JournalHeader::default()
     };
     JournalWriter::create(&path, &header, &records).expect("written");
     (std::fs::read(&path).expect("read"), records)

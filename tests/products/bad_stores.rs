@@ -27,7 +27,10 @@ fn sweep(folder: &Path, store: &str, more: &[&str]) -> Done {
 fn said(done: &Done) -> String {
     let mut text = String::new();
     let is_said = |line: &&str| line.starts_with("error: ") || line.starts_with("  ");
-    for line in done.stderr.lines().filter(is_said) {
+    let studies = study("fig13").canonicalize().unwrap();
+    let studies = studies.ancestors().nth(2).unwrap().display().to_string();
+    let stderr = done.stderr.replace(&studies, "STUDIES");
+    for line in stderr.lines().filter(is_said) {
         let line = match line.split_once("in use by process ") {
             Some((before, _)) => format!("{before}in use by process N on HOST since TIME"),
             None => line.to_owned(),

@@ -128,7 +128,7 @@ fn what_cannot_be_compared_is_refused_with_its_code() {
         assert_eq!(done.code, code, "{arguments:?}: {}", done.stderr);
         assert!(done.stdout.is_empty() && !done.stderr.is_empty());
     }
-    // A study file stands for its store, even if that was swept from something else.
+    // A study file stands for its own results alone.
     let done = Done::of(
         folder.path(),
         &[
@@ -140,9 +140,6 @@ fn what_cannot_be_compared_is_refused_with_its_code() {
             "--json",
         ],
     );
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(
-        done.stderr
-            .contains("not the study its store was swept from")
-    );
+    assert_eq!(done.code, 6, "{}", done.stderr);
+    assert!(done.stderr.contains("E188") && done.stdout.is_empty());
 }

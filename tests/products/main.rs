@@ -34,6 +34,7 @@ mod search_critical_shock;
 mod search_tables;
 mod slurm;
 mod store_damage;
+mod store_identity;
 mod store_kill;
 mod study_reading;
 mod study_shipped;

@@ -213,7 +213,8 @@ fn a_newer_store_and_another_study_are_refused_by_name() {
     let (folder, input, ..) = swept();
     let mut other = input.clone();
     other.texts.name = "another".into();
-    assert_eq!(code(run(&other, folder.path())), "E180");
+    other.texts.digest = "4567".into();
+    assert_eq!(code(run(&other, folder.path())), "E188");
 
     let file = hdf5::File::open_rw(folder.path().join("results.h5")).expect("opens");
     file.attr("format_version")

@@ -126,11 +126,12 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
 
     // The same store with the smallest clearance of one surviving run a bit larger.
     let (loaded, _) = load(&folder.path().join("clean")).expect("loads");
-    let texts = |name: &str| std::fs::read_to_string(folder.path().join("clean").join(name));
+    let owner = loaded.owner.expect("the study");
     let texts = StudyTexts {
-        name: report("clean").json()["study"].as_str().unwrap().to_owned(),
-        given: texts("study.toml").unwrap(),
-        resolved: texts("study.resolved.toml").unwrap(),
+        name: owner.name,
+        digest: owner.digest,
+        resolved: owner.resolved.unwrap(),
+        ..StudyTexts::default()
     };
     let mut runs: Vec<_> = loaded.runs.into_values().collect();
     runs.sort_by_key(|run| run.key);

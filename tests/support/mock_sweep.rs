@@ -48,10 +48,11 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
     SweepInput {
         texts: StudyTexts {
             name: "mock".into(),
+            digest: "0123".into(),
+            file: None,
             given: "name = \"mock\"\n".into(),
             resolved: "name = \"mock\"\n".into(),
         },
-        digest: "0123".into(),
         plan: "{}".into(),
         axes: Vec::new(),
         points,

@@ -4,11 +4,10 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
-use super::{stored, study_file};
+use super::stored;
 use crate::report::comparison::{Side, compare};
-use crate::study::Study;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Print what differs between two sweeps: critical shocks, whether that is beyond their errors,
 /// settings, points
@@ -36,8 +35,8 @@ pub fn run(
             ..Fault::new("usage", "--store cannot be the store of both study files")
         }]));
     }
-    let stored_a = read(a, global, console)?;
-    let stored_b = read(b, global, console)?;
+    let stored_a = stored::read(&stored::source(a, global)?, console)?;
+    let stored_b = stored::read(&stored::source(b, global)?, console)?;
     let (name_a, name_b) = (a.display().to_string(), b.display().to_string());
     let a = Side {
         source: &name_a,
@@ -56,20 +55,4 @@ pub fn run(
         console.result(&comparison.text(a, b))?;
     }
     Ok(Exit::Complete)
-}
-
-/// A store; of a study file, which must be valid, the store that was swept from it.
-fn read(path: &Path, global: &GlobalArgs, console: &Console) -> Result<stored::Stored, Failure> {
-    let study = match path.is_file() {
-        true => Some(Study::from_path(path, &study_file::sets(global)?)?),
-        false => None,
-    };
-    let stored = stored::read(&stored::folder(path, global)?, console)?;
-    if study.is_some_and(|study| study.digest_hex() != stored.summary.digest) {
-        console.tell(&format!(
-            "warning: {} is not the study its store was swept from; the store is compared",
-            path.display()
-        ));
-    }
-    Ok(stored)
 }

@@ -80,9 +80,8 @@ pub fn run(
         )?);
     }
     // What a sweep of this study saved, once it has been made.
-    let folder = stored::folder_of_study(&arguments.study, global);
-    let swept = stored::read(&folder, console).ok();
-    let swept = swept.filter(|stored| stored.summary.digest == study.digest_hex());
+    let source = stored::source(&arguments.study, global)?;
+    let swept = stored::read(&source, console).ok();
     let saved = swept.map_or(Vec::new(), |stored| stored.savings);
     if console.json {
         let mut told = as_json(&study, &plan, amplitude_g, &all);
@@ -91,7 +90,7 @@ pub fn run(
     } else {
         let mut text = as_text(&study, &plan, amplitude_g, &all);
         if !saved.is_empty() {
-            let _ = writeln!(text, "\nsaved in the sweep in {}", folder.display());
+            let _ = writeln!(text, "\nsaved in the sweep in {}", source.folder.display());
         }
         for line in savings::lines(&saved) {
             let _ = writeln!(text, "  {line}");

@@ -76,8 +76,8 @@ pub fn run(
             )
         }]));
     }
-    let folder = stored::folder(&arguments.source, global)?;
-    let results = stored::results(&folder, console)?;
+    let source = stored::source(&arguments.source, global)?;
+    let results = stored::results(&source, console)?;
     let as_json = match arguments.format {
         Some(format) => format == ExportFormat::Json,
         None => console.json,

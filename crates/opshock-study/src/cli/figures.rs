@@ -120,7 +120,7 @@ pub(super) fn critical_shocks(
     };
     let name = path.display().to_string();
     let summary = if path.is_dir() {
-        stored::read(&path, console)?.summary
+        stored::read(&stored::Source::of_folder(&path), console)?.summary
     } else {
         read_table(&path).map_err(|error| {
             let mut message = error.to_string();

@@ -8,8 +8,8 @@ use super::report::exit_of;
 use super::stored;
 use crate::report::table;
 use crate::store::folder::session;
-use crate::store::{StoreError, StudyTexts};
-use crate::study::{Study, difference};
+use crate::store::{self, Owner, StoreError, StudyTexts};
+use crate::study::Study;
 use crate::sweep::refine::refined;
 use crate::sweep::{MergeEnd, SweepInput, merge, shard};
 use anyhow::Context as _;
@@ -29,39 +29,40 @@ pub struct MergeArgs {
 
 /// Runs the command.
 pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
-    let folder = if arguments.from.is_empty() || arguments.store.is_file() {
-        stored::folder(&arguments.store, global)?
+    let target = if arguments.from.is_empty() || arguments.store.is_file() {
+        stored::source(&arguments.store, global)?
     } else {
-        arguments.store.clone()
+        stored::Source::of_folder(&arguments.store)
     };
+    let folder = &target.folder;
     let from = if arguments.from.is_empty() {
-        shard::stores(&folder).with_context(|| format!("cannot read {}", folder.display()))?
+        shard::stores(folder).with_context(|| format!("cannot read {}", folder.display()))?
     } else {
         arguments.from.clone()
     };
     let Some(first) = from.first() else {
-        return Err(StoreError::Empty { path: folder }.into());
+        return Err(StoreError::Empty {
+            path: folder.clone(),
+        }
+        .into());
     };
-    let texts = texts(first)?;
+    let texts = texts(first, &target)?;
     for other in &from[1..] {
         same_study(first, &texts, other)?;
     }
     let study = Study::from_text(&texts.resolved, &[])?;
     let no_range = "the study has no amplitudes to search";
     let mut input = SweepInput::of(&study).context(no_range)?;
-    input.texts = StudyTexts {
-        name: study.name.clone(),
-        ..texts
-    };
-    let mut end = merge(&input, &folder, &from, &session(1))?;
+    input.texts = texts;
+    let mut end = merge(&input, folder, &from, &session(1))?;
     if study.search.refine.is_some() && matches!(end, MergeEnd::Merged(_)) {
         // The answers say which widths were added; with these the table is whole.
-        let refined = refined(&study, &stored::finished(&folder)?);
+        let refined = refined(&study, &stored::finished(folder)?);
         let whole = SweepInput {
             texts: input.texts.clone(),
             ..SweepInput::of(&refined.context(no_range)?).context(no_range)?
         };
-        let again = merge(&whole, &folder, &from, &session(1))?;
+        let again = merge(&whole, folder, &from, &session(1))?;
         if let (MergeEnd::Merged(first), MergeEnd::Merged(again)) = (&mut end, again) {
             first.results = again.results;
         }
@@ -96,27 +97,38 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
     }
 }
 
-/// The study kept in a store.
-fn texts(store: &Path) -> Result<StudyTexts, Failure> {
-    let read = |name: &str| {
-        let path = store.join(name);
-        std::fs::read_to_string(&path).map_err(|source| StoreError::Unreadable { path, source })
-    };
+/// The study kept in the first of the stores, which has to be the one that `target` asks for.
+fn texts(store: &Path, target: &stored::Source) -> Result<StudyTexts, Failure> {
+    let owner = owner(store)?;
+    target.check(&owner)?;
+    // The file as given is for people: a store may have lost it.
+    let given = std::fs::read_to_string(store.join("study.toml")).unwrap_or_default();
+    let file = owner.file.map(|file| store.join(file));
     Ok(StudyTexts {
-        name: String::new(),
-        given: read("study.toml")?,
-        resolved: read("study.resolved.toml")?,
+        name: owner.name,
+        digest: owner.digest,
+        file: file.and_then(|file| std::fs::canonicalize(file).ok()),
+        given,
+        resolved: owner.resolved.unwrap_or_default(),
     })
+}
+
+/// The study that a store belongs to.
+fn owner(store: &Path) -> Result<Owner, Failure> {
+    let (loaded, _) = store::load(store)?;
+    let empty = || StoreError::Empty {
+        path: store.to_owned(),
+    };
+    Ok(loaded.owner.ok_or_else(empty)?)
 }
 
 /// Refuses stores whose studies differ.
 fn same_study(first: &Path, texts: &StudyTexts, other: &Path) -> Result<(), Failure> {
-    let resolved = self::texts(other)?.resolved;
-    if resolved == texts.resolved {
+    let owner = owner(other)?;
+    if owner.digest == texts.digest {
         return Ok(());
     }
-    let flat = |text: &str| difference::flat(text).unwrap_or_default();
-    let differ = difference::differing(&flat(&texts.resolved), &flat(&resolved));
+    let differ = owner.changed(&texts.resolved).unwrap_or_default();
     let differ: Vec<String> = differ.iter().map(ToString::to_string).collect();
     Err(Failure::Usage(vec![Fault {
         key: Some("FROM".into()),

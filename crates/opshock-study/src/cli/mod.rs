@@ -89,7 +89,7 @@ struct GlobalArgs {
         allow_hyphen_values = true
     )]
     set: Vec<String>,
-    /// Folder of the store [default: STUDYFOLDER.opshock]
+    /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
     #[arg(long, global = true, value_name = "DIR")]
     store: Option<PathBuf>,
     /// How progress is shown

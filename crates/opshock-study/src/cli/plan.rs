@@ -6,7 +6,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::{slurm, stored, study_file};
 use crate::study::Study;
-use crate::study::difference::{self, SettingDifference};
+use crate::study::difference::SettingDifference;
 use crate::sweep::forecast::{Forecast, Spread, forecast};
 use crate::sweep::refine::refined;
 use crate::sweep::{Physics, SweepInput};
@@ -14,7 +14,7 @@ use anyhow::Context as _;
 use clap::Args;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Tell what a sweep is going to cost: simulations, core-hours, time, disk
 #[derive(Args, Debug)]
@@ -35,6 +35,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
     study_file::refuse_unaccepted(&study, global)?;
     let folder = stored::folder_of_study(&arguments.study, global);
     let loaded = stored::finished(&folder)?;
+    let owner = loaded.owner.clone();
     let no_range = "the study has no amplitudes to search";
     let study = refined(&study, &loaded).context(no_range)?;
     let added = study.points.iter().filter(|point| point.round > 0).count();
@@ -43,6 +44,9 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
         .refine
         .map_or(0, |refine| refine.most_points.saturating_sub(added));
     let input = SweepInput::of(&study).context(no_range)?;
+    if let Some(owner) = &owner {
+        owner.admit(&folder, &input.texts)?;
+    }
     let threads = if arguments.slurm {
         global.jobs.map_or(1, usize::from)
     } else {
@@ -66,7 +70,9 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
         console.result(&slurm::script(&job, global).context("cannot write the script")?)?;
     } else {
         let told = Told {
-            changed: changed(&folder, &input.texts.resolved),
+            changed: owner
+                .and_then(|owner| owner.changed(&input.texts.resolved))
+                .unwrap_or_default(),
             forecast,
         };
         if console.json {
@@ -84,15 +90,6 @@ struct Told {
     #[serde(flatten)]
     forecast: Forecast,
     changed: Vec<SettingDifference>,
-}
-
-/// Settings changed since the store was used last.
-fn changed(folder: &Path, resolved: &str) -> Vec<SettingDifference> {
-    let before = std::fs::read_to_string(folder.join("study.resolved.toml")).unwrap_or_default();
-    match (difference::flat(&before), difference::flat(resolved)) {
-        (Some(before), Some(now)) if !before.is_empty() => difference::differing(&before, &now),
-        _ => Vec::new(),
-    }
 }
 
 /// Time steps of a history of the longest point.

@@ -86,8 +86,9 @@ pub fn run(
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let folder = stored::folder(&arguments.source, global)?;
-    let stored = stored::read(&folder, console)?;
+    let source = stored::source(&arguments.source, global)?;
+    let stored = stored::read(&source, console)?;
+    let folder = source.folder;
     let program = provenance::program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
     let film = stored

@@ -34,9 +34,9 @@ pub fn run(
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let folder = stored::folder(&arguments.source, global)?;
+    let source = stored::source(&arguments.source, global)?;
     loop {
-        let summary = stored::read(&folder, console)?.summary;
+        let summary = stored::read(&source, console)?.summary;
         match arguments.watch {
             None if console.json => console.result_json(&summary)?,
             None => console.result(&table::terminal(&summary))?,

@@ -3,40 +3,73 @@
 use super::GlobalArgs;
 use super::console::Console;
 use super::failure::{Failure, Fault};
+use super::study_file;
 use crate::report::{RunDot, Saving, ShockFilm, savings};
 use crate::store::folder::session;
 use crate::store::history::read_hdf5;
-use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
+use crate::store::{self, Audit, Loaded, Owner, Results, StoreError, Summary};
 use crate::study::Study;
 use crate::sweep::refine::refined;
 use crate::sweep::{SweepInput, replay};
+use anyhow::Context as _;
 use std::path::{Path, PathBuf};
 
-/// Folder of the store of the study at `path`: `--store`, else `STUDYFOLDER.opshock` in the
-/// working directory.
+/// Folder of the store of the study file at `path`: `--store`, else the file's name with `.opshock` in
+/// place of `.toml`, beside it. No other file has the same.
 pub fn folder_of_study(path: &Path, global: &GlobalArgs) -> PathBuf {
     if let Some(folder) = &global.store {
         return folder.clone();
     }
-    let folder = std::path::absolute(path).ok();
-    let name = folder
-        .as_deref()
-        .and_then(Path::parent)
-        .and_then(Path::file_name)
-        .map_or_else(|| "study".into(), std::ffi::OsStr::to_os_string);
-    PathBuf::from(name).with_added_extension("opshock")
+    match path.extension() {
+        Some(ending) if ending == "toml" => path.with_extension("opshock"),
+        _ => path.with_added_extension("opshock"),
+    }
 }
 
-/// Folder of the store that `path`, a store or a study file, stands for.
+/// A store that a command reads.
+pub struct Source {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The study whose results it has to hold; `None` where the store itself was named.
+    study: Option<Study>,
+}
+
+impl Source {
+    /// The store in a folder, of whatever study.
+    pub fn of_folder(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            study: None,
+        }
+    }
+
+    /// Refuses a store that was made for other settings than the study named.
+    ///
+    /// # Errors
+    ///
+    /// E188.
+    pub fn check(&self, owner: &Owner) -> Result<(), Failure> {
+        if let Some(study) = &self.study {
+            let (digest, resolved) = (study.digest_hex(), study.resolved_toml());
+            owner.belongs(&self.folder, &study.path, &digest, &resolved)?;
+        }
+        Ok(())
+    }
+}
+
+/// The store that `path`, a store or a study file, stands for.
 ///
 /// # Errors
 ///
-/// A path that is neither.
-pub fn folder(path: &Path, global: &GlobalArgs) -> Result<PathBuf, Failure> {
+/// A path that is neither; a study that is not valid.
+pub fn source(path: &Path, global: &GlobalArgs) -> Result<Source, Failure> {
     if path.is_dir() {
-        Ok(path.to_owned())
+        Ok(Source::of_folder(path))
     } else if path.is_file() {
-        Ok(folder_of_study(path, global))
+        Ok(Source {
+            folder: folder_of_study(path, global),
+            study: Some(Study::from_path(path, &study_file::sets(global)?)?),
+        })
     } else {
         Err(Failure::Usage(vec![Fault {
             value: Some(path.display().to_string()),
@@ -67,9 +100,9 @@ pub struct Stored {
 ///
 /// # Errors
 ///
-/// A store that is empty, damaged or newer.
-pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
-    let results = results(folder, console)?;
+/// A store that is empty, damaged, newer or of another study.
+pub fn read(source: &Source, console: &Console) -> Result<Stored, Failure> {
+    let (results, resolved_study) = load(source, console)?;
     let runs: Vec<RunDot> = results
         .runs
         .iter()
@@ -84,11 +117,11 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
         .collect();
     Ok(Stored {
         savings: savings(&results),
-        audit: Audit::of_store(folder, &results.summary.digest),
+        audit: Audit::of_store(&source.folder, &results.summary.digest),
         summary: results.summary,
         plan: results.plan,
         runs,
-        resolved_study: resolved_study(folder),
+        resolved_study,
     })
 }
 
@@ -97,22 +130,41 @@ pub fn read(folder: &Path, console: &Console) -> Result<Stored, Failure> {
 /// # Errors
 ///
 /// As [`read`].
-pub fn results(folder: &Path, console: &Console) -> Result<Results, Failure> {
-    let (loaded, results) = store::load(folder)?;
+pub fn results(source: &Source, console: &Console) -> Result<Results, Failure> {
+    Ok(load(source, console)?.0)
+}
+
+/// Everything finished, and the study with every default.
+fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
+    let (mut loaded, results) = store::load(&source.folder)?;
     for (code, message) in &loaded.notes {
         console.tell(&format!("warning: {code}: {message}"));
     }
-    let checkpointed = results
-        .as_ref()
-        .map_or(0, |results| results.runs.len() + results.outside.len());
-    // Simulations finished after the last checkpoint count too: the searches are played again.
-    let newer = (loaded.runs.len() > checkpointed)
-        .then(|| replayed(&resolved_study(folder)?, loaded))
-        .flatten();
-    let empty = || StoreError::Empty {
-        path: folder.to_owned(),
-    };
-    Ok(newer.or(results).ok_or_else(empty)?)
+    let owner = loaded.owner.take().unwrap_or_default();
+    source.check(&owner)?;
+    // Simulations finished after the last checkpoint count too, and a study changed after it: the
+    // searches are played again.
+    let results = results.filter(|results| results.summary.digest == owner.digest);
+    let n_runs = loaded.runs.len();
+    let newer =
+        |results: &Results| n_runs.saturating_sub(results.runs.len() + results.outside.len());
+    if results.as_ref().is_some_and(|results| newer(results) == 0) {
+        return Ok((results.expect("was found"), owner.resolved));
+    }
+    let text = owner.resolved.as_deref().unwrap_or_default();
+    match (replayed(text, loaded), results) {
+        (Ok(replayed), _) => Ok((replayed, owner.resolved)),
+        // A study of another version of the program: what was saved last is still a table.
+        (Err(_), Some(results)) => {
+            console.tell(&format!(
+                "warning: {} simulations are newer than results.h5 and not shown: this program does \
+                 not read the study that the store keeps",
+                newer(&results)
+            ));
+            Ok((results, owner.resolved))
+        }
+        (Err(error), None) => Err(error),
+    }
 }
 
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,
@@ -158,13 +210,15 @@ pub fn finished(folder: &Path) -> Result<Loaded, Failure> {
     }
 }
 
-fn resolved_study(folder: &Path) -> Option<String> {
-    std::fs::read_to_string(folder.join("study.resolved.toml")).ok()
-}
-
-/// The table from finished simulations; `None` when this program does not read the study.
-fn replayed(resolved_study: &str, loaded: Loaded) -> Option<Results> {
-    let study = Study::from_text(resolved_study, &[]).ok()?;
-    let input = SweepInput::of(&refined(&study, &loaded).ok()?).ok()?;
-    Some(replay(&input, loaded, &session(1)))
+/// The table from finished simulations.
+///
+/// # Errors
+///
+/// This program does not read the study.
+fn replayed(resolved_study: &str, loaded: Loaded) -> Result<Results, Failure> {
+    let study = Study::from_text(resolved_study, &[])?;
+    let no_range = "the study has no amplitudes to search";
+    let refined = refined(&study, &loaded).context(no_range)?;
+    let input = SweepInput::of(&refined).context(no_range)?;
+    Ok(replay(&input, loaded, &session(1)))
 }

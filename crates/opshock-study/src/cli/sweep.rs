@@ -6,7 +6,8 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::report::{Told, exit_of};
-use super::{memory, stored, study_file, thresholds};
+use super::stored::{self, Source};
+use super::{memory, study_file, thresholds};
 use crate::report::table;
 use crate::search::Order;
 use crate::store::{Audit, Summary};
@@ -143,7 +144,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     let audited = match arguments.audit.filter(|_| end.ending == Ending::Complete) {
         Some(share) => {
             let full = Physics::in_full(&study);
-            let results = stored::results(&folder, console)?;
+            let results = stored::results(&Source::of_folder(&folder), console)?;
             let audit = audit(&input, &results, &full, share, global.threads());
             audit.keep(&folder)?;
             Some(audit)
@@ -152,7 +153,8 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     if console.json {
         let folder = own.as_ref().unwrap_or(&folder);
-        console.result_json(&Told::of(&stored::read(folder, console)?))?;
+        let source = Source::of_folder(folder);
+        console.result_json(&Told::of(&stored::read(&source, console)?))?;
     } else {
         console.result(&table::terminal(&summary))?;
     }

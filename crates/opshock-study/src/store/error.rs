@@ -7,16 +7,20 @@ use std::path::PathBuf;
 pub enum StoreError {
     /// The folder holds another study.
     #[error(
-        "{code}: {path} is the store of study \"{found}\", not of \"{wanted}\"; name another with --store",
+        "{code}: {path} holds results of another study ({found}) than {wanted}: {differ}; {hint}",
         code = self.code()
     )]
     OtherStudy {
         /// Folder.
         path: PathBuf,
-        /// Study in it.
+        /// Study in it: its file as seen from the folder, else its name.
         found: String,
         /// Study asked for.
         wanted: String,
+        /// Settings that differ.
+        differ: String,
+        /// What to do.
+        hint: &'static str,
     },
     /// Written by a newer program.
     #[error(
@@ -77,7 +81,7 @@ impl StoreError {
     /// Stable code of the message.
     pub fn code(&self) -> &'static str {
         match self {
-            StoreError::OtherStudy { .. } => "E180",
+            StoreError::OtherStudy { .. } => "E188",
             StoreError::Newer { .. } => "E181",
             StoreError::Damaged { .. } => "E182",
             StoreError::Unwritable { .. } | StoreError::Unreadable { .. } => "E183",

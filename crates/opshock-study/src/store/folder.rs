@@ -12,20 +12,26 @@ use super::error::StoreError;
 use super::journal::{self, JournalHeader, JournalWriter};
 use super::lock::StoreLock;
 use super::machine;
+use super::owner::Owner;
 use super::record::{PointDigest, Record, RunKey, RunRecord, StoredTouch};
 use super::results::{self, Results, Session};
 use crate::search::Verdict;
-use crate::study::difference;
 
 /// Name of the results file in a store.
 pub const RESULTS_FILE: &str = "results.h5";
 const JOURNAL_FILE: &str = "journal";
+/// Name of the study with every default in a store.
+pub(super) const RESOLVED_FILE: &str = "study.resolved.toml";
 
-/// Texts of the study that a store keeps.
+/// The study that a store is made for.
 #[derive(Clone, Debug, Default)]
 pub struct StudyTexts {
     /// Name of the study.
     pub name: String,
+    /// Digest of every setting.
+    pub digest: String,
+    /// Its file, absolute and without links; `None` for a study that comes from no file.
+    pub file: Option<PathBuf>,
     /// The file as given.
     pub given: String,
     /// With every default.
@@ -39,6 +45,8 @@ pub struct Loaded {
     pub runs: HashMap<RunKey, RunRecord>,
     /// First touches.
     pub touches: HashMap<PointDigest, StoredTouch>,
+    /// The study they were made for; `None` where nothing is stored.
+    pub owner: Option<Owner>,
     /// What a person should know about the state of the store: code and sentence.
     pub notes: Vec<(&'static str, String)>,
 }
@@ -82,7 +90,7 @@ impl Store {
     ///
     /// # Errors
     ///
-    /// E180 other study, E181 newer format, E182 damaged, E183 not writable, E184 in use.
+    /// E188 other study, E181 newer format, E182 damaged, E183 not writable, E184 in use.
     pub fn open(
         folder: &Path,
         study: &StudyTexts,
@@ -112,18 +120,11 @@ impl Store {
             }
             Err(error) => return Err(error),
         };
-        let names = content
-            .iter()
-            .filter_map(|content| content.header.as_ref().map(|header| &header.study))
-            .chain(stored.iter().map(|stored| &stored.summary.study));
-        for found in names {
-            if *found != study.name {
-                return Err(StoreError::OtherStudy {
-                    path: folder.to_owned(),
-                    found: found.clone(),
-                    wanted: study.name.clone(),
-                });
-            }
+        let found = content.as_ref().and_then(|found| found.header.as_ref());
+        let owner = Owner::of(folder, found, stored.as_ref());
+        if let Some(owner) = &owner {
+            owner.admit(folder, study)?;
+            loaded.notes.extend(changes(owner, &study.resolved));
         }
 
         let from_results = stored.as_ref().map_or(Vec::new(), Results::records);
@@ -146,6 +147,9 @@ impl Store {
         };
         let header = JournalHeader {
             study: study.name.clone(),
+            digest: study.digest.clone(),
+            file: study.file_from(folder),
+            resolved: study.resolved.clone(),
         };
         let session = serde_json::to_string(session).expect("a session serialises");
         let session = [Record::Session(session)];
@@ -153,9 +157,8 @@ impl Store {
         let journal = JournalWriter::create(&journal_path, &header, &all)?;
         loaded.add(records);
         loaded.add(from_results);
-        loaded.notes.extend(changes(folder, &study.resolved));
         keep_text(folder, "study.toml", &study.given).map_err(unwritable)?;
-        keep_text(folder, "study.resolved.toml", &study.resolved).map_err(unwritable)?;
+        keep_text(folder, RESOLVED_FILE, &study.resolved).map_err(unwritable)?;
         std::fs::create_dir_all(folder.join("histories")).map_err(unwritable)?;
         let store = Store {
             folder: folder.to_owned(),
@@ -213,6 +216,8 @@ pub fn load(folder: &Path) -> Result<(Loaded, Option<Results>), StoreError> {
             path: folder.to_owned(),
         });
     }
+    let header = content.as_ref().and_then(|found| found.header.as_ref());
+    loaded.owner = Owner::of(folder, header, stored.as_ref());
     if let Some(content) = content {
         loaded.add(content.records);
     }
@@ -233,9 +238,8 @@ fn told(damage: &journal::Damage, intact: bool) -> String {
 }
 
 /// What the study changed since the store was used last.
-fn changes(folder: &Path, resolved: &str) -> Option<(&'static str, String)> {
-    let before = std::fs::read_to_string(folder.join("study.resolved.toml")).ok()?;
-    let changed = difference::differing(&difference::flat(&before)?, &difference::flat(resolved)?);
+fn changes(owner: &Owner, resolved: &str) -> Option<(&'static str, String)> {
+    let changed = owner.changed(resolved)?;
     let told: Vec<String> = changed.iter().map(ToString::to_string).collect();
     (!told.is_empty()).then(|| {
         let message = format!(

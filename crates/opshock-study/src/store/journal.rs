@@ -33,11 +33,20 @@ const ASIDE: &str = ".aside-journal";
 /// A longer record is not one of ours.
 const LONGEST: usize = 1 << 24;
 
-/// What a journal says about itself.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+/// The study that a journal belongs to. What journals of earlier programs lack is empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct JournalHeader {
     /// Name of the study.
     pub study: String,
+    /// Digest of every setting.
+    #[serde(default)]
+    pub digest: String,
+    /// The study file, seen from the store's folder.
+    #[serde(default)]
+    pub file: Option<PathBuf>,
+    /// The study with every default.
+    #[serde(default)]
+    pub resolved: String,
 }
 
 /// Bytes that hold no whole record.

@@ -104,6 +104,8 @@ pub struct Study {
     pub overrides: Vec<Override>,
     /// The study file as named.
     pub path: PathBuf,
+    /// The same file, absolute and without links; `None` for a study that comes from no file.
+    pub file: Option<PathBuf>,
     /// Text of the study file.
     pub text: String,
     settings: Settings,
@@ -160,14 +162,15 @@ impl Study {
     pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
         let text = source::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self::read(
-            text,
-            Location {
-                file: path.to_path_buf(),
-                folder,
-            },
-            sets,
-        )
+        let location = Location {
+            file: path.to_path_buf(),
+            folder,
+        };
+        let study = Self::read(text, location, sets)?;
+        Ok(Self {
+            file: std::fs::canonicalize(path).ok(),
+            ..study
+        })
     }
 
     /// Reads a study from its text. File paths start from the working directory.
@@ -263,6 +266,7 @@ impl Study {
             remarks,
             overrides,
             path: location.file,
+            file: None,
             text: source.text.clone(),
             settings,
         })

@@ -35,7 +35,7 @@ pub fn audit(
     let again = |row: &&RunRow| compare(input, row, simulator);
     let differences: Vec<Vec<Difference>> = pool.install(|| rows.par_iter().map(again).collect());
     Audit {
-        study_digest: input.digest.clone(),
+        study_digest: input.texts.digest.clone(),
         program_version: provenance::VERSION.to_owned(),
         commit: provenance::COMMIT.to_owned(),
         share,

@@ -42,10 +42,11 @@ impl SweepInput {
         Ok(SweepInput {
             texts: StudyTexts {
                 name: study.name.clone(),
+                digest: study.digest_hex(),
+                file: study.file.clone(),
                 given: study.text.clone(),
                 resolved: study.resolved_toml(),
             },
-            digest: study.digest_hex(),
             plan: plan_json(study),
             axes: study.axes.iter().map(|axis| axis.column.clone()).collect(),
             points: study

@@ -140,7 +140,7 @@ pub(super) fn record(
     }
     let header = HistoryHeader {
         study: input.texts.name.clone(),
-        digest: input.digest.clone(),
+        digest: input.texts.digest.clone(),
         program_version: provenance::VERSION.to_owned(),
         commit: provenance::COMMIT.to_owned(),
         point: coordinates,

@@ -42,10 +42,8 @@ pub struct SweepPoint {
 /// A study as the sweep sees it.
 #[derive(Clone, Debug)]
 pub struct SweepInput {
-    /// Name and texts, kept in the store.
+    /// The study, kept in the store.
     pub texts: StudyTexts,
-    /// Digest of the study.
-    pub digest: String,
     /// Effects and rules of each ramp's scenes, as JSON; kept with the results.
     pub plan: String,
     /// Names of the further axes.

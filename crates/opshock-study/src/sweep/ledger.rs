@@ -614,7 +614,7 @@ impl<'a> Ledger<'a> {
         Results {
             summary: Summary {
                 study: self.input.texts.name.clone(),
-                digest: self.input.digest.clone(),
+                digest: self.input.texts.digest.clone(),
                 axes: self.input.axes.clone(),
                 points: rows,
                 totals,

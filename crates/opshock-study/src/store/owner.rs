@@ -1,0 +1,151 @@
+//! The study that a store belongs to, told by content.
+//!
+//! Results are shown for a study only where every setting is the one they were made with. A sweep may
+//! go on in the store of an earlier form of the same study file, for simulations are found by their own
+//! content; it never enters the store of another file. A name decides neither: two studies may share one.
+
+use std::path::{Path, PathBuf};
+
+use super::error::StoreError;
+use super::folder::StudyTexts;
+use super::journal::JournalHeader;
+use super::results::Results;
+use crate::study::difference::{self, SettingDifference};
+
+/// Settings that a message lists at most.
+const LISTED: usize = 6;
+
+/// What a store says about its study; empty where it does not say.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Owner {
+    /// Name.
+    pub name: String,
+    /// Digest of every setting.
+    pub digest: String,
+    /// The study file, seen from the store's folder.
+    pub file: Option<PathBuf>,
+    /// The study with every default.
+    pub resolved: Option<String>,
+}
+
+impl Owner {
+    /// Of the store in `folder` with these files; `None` when there is nothing in it. The journal
+    /// comes first: a sweep of a changed study writes it before new results.
+    pub(super) fn of(
+        folder: &Path,
+        journal: Option<&JournalHeader>,
+        results: Option<&Results>,
+    ) -> Option<Owner> {
+        let text = || std::fs::read_to_string(folder.join(super::folder::RESOLVED_FILE)).ok();
+        match (journal, results) {
+            (Some(header), _) if !header.digest.is_empty() => Some(Owner {
+                name: header.study.clone(),
+                digest: header.digest.clone(),
+                file: header.file.clone(),
+                resolved: Some(header.resolved.clone()),
+            }),
+            (_, Some(results)) => Some(Owner {
+                name: results.summary.study.clone(),
+                digest: results.summary.digest.clone(),
+                file: None,
+                resolved: text(),
+            }),
+            (Some(header), None) => Some(Owner {
+                name: header.study.clone(),
+                resolved: text(),
+                ..Owner::default()
+            }),
+            (None, None) => None,
+        }
+    }
+
+    /// Refuses a sweep of a study into the store in `folder`, unless it holds this study or an
+    /// earlier form of the same file.
+    ///
+    /// # Errors
+    ///
+    /// E188.
+    pub fn admit(&self, folder: &Path, study: &StudyTexts) -> Result<(), StoreError> {
+        let is_same_file = match (&self.file, study.file_from(folder)) {
+            (Some(found), Some(wanted)) => *found == wanted,
+            (None, None) => self.name == study.name,
+            _ => false,
+        };
+        if self.digest == study.digest || is_same_file {
+            return Ok(());
+        }
+        let file = study.file.as_deref().map(|path| path.display().to_string());
+        Err(self.refusal(
+            folder,
+            &file.unwrap_or_else(|| format!("\"{}\"", study.name)),
+            &study.resolved,
+            "name another store with --store, and this one with --reuse to take what stays valid",
+        ))
+    }
+
+    /// Refuses to show what is in `folder` for a study with other settings; `wanted` names its file.
+    ///
+    /// # Errors
+    ///
+    /// E188.
+    pub fn belongs(
+        &self,
+        folder: &Path,
+        wanted: &Path,
+        digest: &str,
+        resolved: &str,
+    ) -> Result<(), StoreError> {
+        if self.digest == digest {
+            return Ok(());
+        }
+        Err(self.refusal(
+            folder,
+            &wanted.display().to_string(),
+            resolved,
+            "sweep this study, give the --set of its sweep, or name the store itself",
+        ))
+    }
+
+    /// Settings of `resolved` that are others in the store; `None` where the store does not tell.
+    pub fn changed(&self, resolved: &str) -> Option<Vec<SettingDifference>> {
+        let before = difference::flat(self.resolved.as_deref()?)?;
+        Some(difference::differing(&before, &difference::flat(resolved)?))
+    }
+
+    fn refusal(
+        &self,
+        folder: &Path,
+        wanted: &str,
+        resolved: &str,
+        hint: &'static str,
+    ) -> StoreError {
+        let changed = self.changed(resolved).unwrap_or_default();
+        let mut differ: Vec<String> = changed.iter().map(ToString::to_string).collect();
+        if differ.len() > LISTED {
+            let more = differ.len() - LISTED;
+            differ.truncate(LISTED);
+            differ.push(format!("{more} more"));
+        }
+        StoreError::OtherStudy {
+            path: folder.to_owned(),
+            found: match &self.file {
+                Some(file) => file.display().to_string(),
+                None => format!("\"{}\"", self.name),
+            },
+            wanted: wanted.to_owned(),
+            differ: match differ.is_empty() {
+                true => "which settings differ is not known".to_owned(),
+                false => differ.join(", "),
+            },
+            hint,
+        }
+    }
+}
+
+impl StudyTexts {
+    /// The study file as seen from a store's folder, which exists.
+    pub(super) fn file_from(&self, folder: &Path) -> Option<PathBuf> {
+        let folder = std::fs::canonicalize(folder).ok()?;
+        pathdiff::diff_paths(self.file.as_ref()?, folder)
+    }
+}
