@@ -142,6 +142,20 @@ fn every_figure_is_written_the_same_twice_and_holds_the_histories() {
 }
 
 #[test]
+fn a_table_that_nobody_named_is_no_figure_of_this_drive() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("results/fig13/table.csv");
+    std::fs::create_dir_all(table.parent().unwrap()).unwrap();
+    std::fs::write(&table, TABLE).unwrap();
+    // The store is named, so that one beside the shipped study cannot matter.
+    let done = figures(folder.path(), &["--out", "a", "--store", "none.opshock"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stderr.contains("no figure 13: E187"), "{}", done.stderr);
+    assert!(!folder.path().join("a/fig13.csv").exists());
+    assert!(folder.path().join("a/fig12.csv").exists());
+}
+
+#[test]
 fn what_cannot_be_drawn_is_said_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);

@@ -4,7 +4,7 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
-use super::figures::{CRITICAL, critical_shocks};
+use super::figures::{critical_shocks, swept};
 use super::study_file;
 use crate::claims::{
     Case, Finding, Sensitivity, ShockError, Shocks, Task, Variant, coarse_sets, findings, merged,
@@ -31,7 +31,7 @@ pub struct ClaimsArgs {
     /// Folder of claims.md, claims.csv and claims.json, and of the sensitivity
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Critical shocks [default: --store, else results/fig13/table.csv, when it is there]
+    /// Critical shocks [default: the store of the study, when it has been swept]
     #[arg(long, value_name = "STORE|TABLE.csv")]
     critical: Option<PathBuf>,
     /// Move every parameter that the paper does not print, and keep the searches in a folder; run
@@ -57,13 +57,15 @@ pub fn run(
             ..Fault::new("usage", "--sensitivity needs a folder for its products")
         }]));
     }
-    let named = arguments.critical.as_ref().or(global.store.as_ref());
-    let critical = critical_shocks(named.map(PathBuf::as_path), console)?;
-    if critical.is_none() {
-        console.tell(&format!(
-            "section 4.3 is not asked: there is no {CRITICAL}; `make fig13` computes it, --critical names another"
-        ));
-    }
+    let critical = match &arguments.critical {
+        Some(named) => Some(critical_shocks(named, console)?),
+        None => swept(
+            &arguments.study,
+            global,
+            console,
+            "section 4.3 is not asked",
+        )?,
+    };
     let runner = Runner::new(global)?;
     let asked = with_sets(&study, &global.set, &[&shock_sets()])?;
     let (own, finer) = runner.with_finer_knobs(&asked)?;

@@ -12,7 +12,7 @@ use crate::report::paper::{
     plan_drawing, pulse_figure, read_table, rigid_ramp_drawing, short_shock_figures,
     write_paper_figures,
 };
-use crate::store::Summary;
+use crate::store::{StoreError, Summary};
 use crate::study::{Choice, Ramp, Sign, Study};
 use anyhow::Context as _;
 use clap::Args;
@@ -34,13 +34,10 @@ pub struct FiguresArgs {
     /// Shock of figures 10 to 12
     #[arg(long, value_name = "MS:G", value_parser = shock, default_value = "0.5:200")]
     short: Shock,
-    /// Critical shocks of figure 13; without it results/fig13/table.csv, when it is there
+    /// Critical shocks of figure 13 [default: the store of the study, when it has been swept]
     #[arg(long, value_name = "STORE|TABLE.csv")]
     critical: Option<PathBuf>,
 }
-
-/// Where `make fig13` leaves its table.
-pub(super) const CRITICAL: &str = "results/fig13/table.csv";
 
 /// Width and amplitude.
 #[derive(Clone, Copy, Debug)]
@@ -71,12 +68,10 @@ pub fn run(
     let study = study_file::read(&arguments.study, global, console)?;
     let program = provenance::program();
     // What cannot be read is said before anything is computed; nothing is written before all is.
-    let critical = critical_shocks(arguments.critical.as_deref(), console)?;
-    if critical.is_none() {
-        console.tell(&format!(
-            "no figure 13: there is no {CRITICAL}; `make fig13` computes it, --critical names another"
-        ));
-    }
+    let critical = match &arguments.critical {
+        Some(named) => Some(critical_shocks(named, console)?),
+        None => swept(&arguments.study, global, console, "no figure 13")?,
+    };
     let long = cases(&study, arguments.long, console)?;
     let short = cases(&study, arguments.short, console)?;
 
@@ -108,21 +103,39 @@ pub fn run(
     Ok(Exit::Complete)
 }
 
-/// The table of Fig. 13 and its name; `None` when none was named and there is none.
-pub(super) fn critical_shocks(
-    named: Option<&Path>,
+/// The critical shocks in the store of a study and the store's name; `None`, and `without` is told, where
+/// the study as it is has not been swept.
+pub(super) fn swept(
+    study: &Path,
+    global: &GlobalArgs,
     console: &Console,
+    without: &str,
 ) -> Result<Option<(Summary, String)>, Failure> {
-    let path = match named {
-        Some(path) => path.to_owned(),
-        None if Path::new(CRITICAL).is_file() => CRITICAL.into(),
-        None => return Ok(None),
-    };
+    let source = stored::source(study, global)?;
+    match stored::read(&source, console) {
+        Ok(stored) => Ok(Some((stored.summary, source.folder.display().to_string()))),
+        Err(Failure::Store(
+            error @ (StoreError::Empty { .. } | StoreError::OtherStudy { .. }),
+        )) => {
+            console.tell(&format!(
+                "{without}: {error}; --critical names a table or another store"
+            ));
+            Ok(None)
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// Critical shocks out of a store or a table, and its name.
+pub(super) fn critical_shocks(
+    path: &Path,
+    console: &Console,
+) -> Result<(Summary, String), Failure> {
     let name = path.display().to_string();
     let summary = if path.is_dir() {
-        stored::read(&stored::Source::of_folder(&path), console)?.summary
+        stored::read(&stored::Source::of_folder(path), console)?.summary
     } else {
-        read_table(&path).map_err(|error| {
+        read_table(path).map_err(|error| {
             let mut message = error.to_string();
             if let Some(reason) = std::error::Error::source(&error) {
                 message = format!("{message}: {reason}");
@@ -135,7 +148,7 @@ pub(super) fn critical_shocks(
             }])
         })?
     };
-    Ok(Some((summary, name)))
+    Ok((summary, name))
 }
 
 /// Runs a shock with every ramp model of the study, sign +.
