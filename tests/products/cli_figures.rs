@@ -150,7 +150,11 @@ fn a_table_that_nobody_named_is_no_figure_of_this_drive() {
     // The store is named, so that one beside the shipped study cannot matter.
     let done = figures(folder.path(), &["--out", "a", "--store", "none.opshock"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("no figure 13: E187"), "{}", done.stderr);
+    assert!(
+        done.stderr.contains("no figure 13: E187"),
+        "{}",
+        done.stderr
+    );
     assert!(!folder.path().join("a/fig13.csv").exists());
     assert!(folder.path().join("a/fig12.csv").exists());
 }

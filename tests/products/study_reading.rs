@@ -793,3 +793,30 @@ fn a_mode_of_the_base_without_damping_has_the_default() {
     let scene = &study.points[0].scene;
     assert_eq!(scene.base[0].damping_ratio, 0.02);
 }
+
+#[test]
+fn what_is_unset_is_as_if_the_file_did_not_have_it() {
+    let text = format!("{SHORT}\n[surface_forces]\nhamaker_j = 1.8e-19\n");
+    let unset = |keys: &[&str]| {
+        let sets: Vec<SetArg> = keys.iter().map(|key| SetArg::unset(key).unwrap()).collect();
+        Study::from_text(&text, &sets)
+    };
+    let plain = read(SHORT, &[]).unwrap();
+    assert_ne!(unset(&[]).unwrap().digest, plain.digest);
+    // A section, a key, and a key that is not there.
+    for keys in [
+        &["surface_forces"][..],
+        &["surface_forces.hamaker_j"],
+        &["surface_forces", "ramp.contact_stiffness_n_per_m"],
+    ] {
+        let study = unset(keys).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(study.digest, plain.digest, "{keys:?}");
+        assert_eq!(study.overrides.len(), 1);
+        assert_eq!(study.overrides[0].set_value, "");
+    }
+    let code = |keys: &[&str]| unset(keys).unwrap_err().errors[0].code;
+    assert_eq!(code(&["name"]), "E112");
+    assert_eq!(code(&["ramp.contact_stifness_n_per_m"]), "E110");
+    assert_eq!(code(&["disk.rpm", "disk.rpm.x"]), "E114");
+    assert!(SetArg::unset("disk rpm").is_err() && SetArg::unset("").is_err());
+}

@@ -3,7 +3,7 @@
 //! Lengths and loads of a suspension are known to a few per cent once one has the part; here the
 //! part itself is unknown, so the ranges are those among parts of 2.5-inch drives, not tolerances.
 
-use crate::study::{SetArg, SetSyntaxError, Study};
+use crate::study::Study;
 
 /// How far a parameter moves, downwards and upwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,15 +176,6 @@ fn number(table: &toml::Table, path: &str) -> Option<f64> {
 pub(super) fn resolved(study: &Study) -> toml::Table {
     // The study wrote the text itself.
     study.resolved_toml().parse().unwrap_or_default()
-}
-
-/// Arguments of `--set` from their texts.
-///
-/// # Errors
-///
-/// A text that is no `KEY=VALUE`.
-pub(super) fn set_args(texts: &[String]) -> Result<Vec<SetArg>, SetSyntaxError> {
-    texts.iter().map(|text| SetArg::parse(text)).collect()
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@
 
 use super::catalogue::{CLAIMS, Claim};
 use super::finding::{Finding, findings};
-use super::parameter::{parameters, resolved, set_args};
+use super::parameter::{parameters, resolved};
 use super::shocks::Shocks;
 use crate::store::summary::{PointSummary, Summary};
-use crate::study::{Ramp, SetSyntaxError, Study, StudyErrors};
+use crate::study::{Ramp, SetArg, Study, StudyErrors};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -81,24 +81,20 @@ impl Variant {
     }
 }
 
-/// A study read again with more settings.
+/// A study read again with the user's settings and, before these, more.
 ///
 /// # Errors
 ///
 /// A value at the end of a range that the study refuses.
-pub fn with_sets(study: &Study, user: &[String], sets: &[&[String]]) -> Result<Study, StudyErrors> {
-    let mut texts: Vec<String> = user.to_vec();
-    for set in sets {
-        for text in *set {
-            let key = text.split('=').next().unwrap_or_default().to_owned() + "=";
-            texts.retain(|known| !known.starts_with(&key));
-            texts.push(text.clone());
-        }
+pub fn with_sets(study: &Study, user: &[SetArg], sets: &[&[String]]) -> Result<Study, StudyErrors> {
+    let mut all = user.to_vec();
+    for text in sets.iter().copied().flatten() {
+        let set = SetArg::parse(text)
+            .unwrap_or_else(|error| unreachable!("{error}: written by this program"));
+        all.retain(|known| known.key != set.key);
+        all.push(set);
     }
-    let args = set_args(&texts).unwrap_or_else(|error: SetSyntaxError| {
-        unreachable!("{error}: written by this program or read before")
-    });
-    Study::from_path(&study.path, &args)
+    Study::from_path(&study.path, &all)
 }
 
 /// Ramps of `changed` that have a point whose scene is not that of `base`.

@@ -67,7 +67,7 @@ pub fn run(
         )?,
     };
     let runner = Runner::new(global)?;
-    let asked = with_sets(&study, &global.set, &[&shock_sets()])?;
+    let asked = with_sets(&study, &study_file::sets(global)?, &[&shock_sets()])?;
     let (own, finer) = runner.with_finer_knobs(&asked)?;
     let summary = critical.as_ref().map(|(summary, _)| summary);
     let found = findings(&own, summary);
@@ -192,7 +192,8 @@ impl Runner {
     ) -> Result<Option<Sensitivity>, Failure> {
         let stop = StopFlag::default();
         stop.listen().context("cannot listen to signals")?;
-        let read = |sets: &[&[String]]| with_sets(study, &global.set, sets);
+        let user = study_file::sets(global)?;
+        let read = |sets: &[&[String]]| with_sets(study, &user, sets);
         let coarse = read(&[&coarse_sets()])?;
         let base = match kept {
             None => None,

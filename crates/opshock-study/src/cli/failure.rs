@@ -141,9 +141,9 @@ impl From<StoreError> for Failure {
 impl From<SetSyntaxError> for Failure {
     fn from(error: SetSyntaxError) -> Self {
         Failure::Usage(vec![Fault {
-            key: Some("--set".into()),
+            key: Some(error.option.into()),
             value: Some(error.argument.clone()),
-            allowed: Some("section.key=VALUE".into()),
+            allowed: Some(error.form.into()),
             ..Fault::new("usage", error.to_string())
         }])
     }

@@ -114,9 +114,7 @@ pub(super) fn swept(
     let source = stored::source(study, global)?;
     match stored::read(&source, console) {
         Ok(stored) => Ok(Some((stored.summary, source.folder.display().to_string()))),
-        Err(Failure::Store(
-            error @ (StoreError::Empty { .. } | StoreError::OtherStudy { .. }),
-        )) => {
+        Err(Failure::Store(error @ (StoreError::Empty { .. } | StoreError::OtherStudy { .. }))) => {
             console.tell(&format!(
                 "{without}: {error}; --critical names a table or another store"
             ));

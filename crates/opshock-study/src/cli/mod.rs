@@ -89,6 +89,9 @@ struct GlobalArgs {
         allow_hyphen_values = true
     )]
     set: Vec<String>,
+    /// Take a key, a section or an entry of a list away from the study; may be repeated
+    #[arg(long, global = true, value_name = "KEY")]
+    unset: Vec<String>,
     /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
     #[arg(long, global = true, value_name = "DIR")]
     store: Option<PathBuf>,

@@ -8,17 +8,15 @@ use opshock_solver::head::HeadError;
 use opshock_solver::simulation::BuildError;
 use std::path::Path;
 
-/// The `--set` arguments.
+/// The `--set` and `--unset` arguments.
 ///
 /// # Errors
 ///
-/// The first that is not `KEY=VALUE`.
+/// The first that is not `KEY=VALUE`, or not a key.
 pub fn sets(global: &GlobalArgs) -> Result<Vec<SetArg>, SetSyntaxError> {
-    global
-        .set
-        .iter()
-        .map(|argument| SetArg::parse(argument))
-        .collect()
+    let set = global.set.iter().map(|argument| SetArg::parse(argument));
+    let unset = global.unset.iter().map(|key| SetArg::unset(key));
+    set.chain(unset).collect()
 }
 
 /// Reads a study with the `--set` arguments laid over it, and tells its warnings and notes.

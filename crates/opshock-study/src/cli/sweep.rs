@@ -225,11 +225,14 @@ fn resume(arguments: &SweepArgs, folder: &Path, global: &GlobalArgs) -> String {
     line
 }
 
-/// `--set` and `--accept` as they were given, each with a space before it.
+/// `--set`, `--unset` and `--accept` as they were given, each with a space before it.
 pub(super) fn settings(global: &GlobalArgs) -> String {
     let mut line = String::new();
     for set in &global.set {
         line.push_str(&format!(" --set {}", quoted(set)));
+    }
+    for key in &global.unset {
+        line.push_str(&format!(" --unset {}", quoted(key)));
     }
     if !global.accept.is_empty() {
         line.push_str(&format!(" --accept {}", global.accept.join(",")));

@@ -1,6 +1,7 @@
 //! The command line laid over a study file: its values win, and what they replace is recorded.
 
 use super::fault::StudyError;
+use super::keys;
 use super::set_arg::SetArg;
 use super::tree::{Node, Value};
 
@@ -11,11 +12,11 @@ pub struct Override {
     pub key: String,
     /// Value in the file, as written; empty when the file did not have the key.
     pub file_value: String,
-    /// Value that counts, as written on the command line.
+    /// Value that counts, as written on the command line; empty when the key was taken away.
     pub set_value: String,
 }
 
-/// Lays the `--set` arguments over a file's tree; they win. Returns what they replaced.
+/// Lays the `--set` and `--unset` arguments over a file's tree; they win. Returns what they replaced.
 ///
 /// # Errors
 /// E114 when the same key (or a key and its table) is set twice differently, E113 when a key's
@@ -36,15 +37,23 @@ pub fn lay_over(root: &mut Node, sets: &[SetArg], faults: &mut Vec<StudyError>) 
                     "E114",
                     &place,
                     &set.key,
-                    format!(
-                        "set twice: --set {}={} and --set {}={}",
-                        earlier.key, earlier.text, set.key, set.text
-                    ),
+                    format!("set twice: {earlier} and {set}"),
                 )
                 .value(&set.text)
                 .allowed("one value for a key")
                 .hint("leave one of the two out"),
             );
+            continue;
+        }
+        // A key that there is not is put in, to be reported like any other.
+        let is_known =
+            || keys::find(&set.key).is_some() || keys::is_table(&keys::pattern(&set.key));
+        if set.is_unset() && is_known() {
+            overrides.extend(remove(root, &set.key).map(|old| Override {
+                key: set.key.clone(),
+                file_value: old.place.text().to_string(),
+                set_value: String::new(),
+            }));
             continue;
         }
         let node = set.node(position);
@@ -94,6 +103,32 @@ fn collide(a: &str, b: &str) -> bool {
     inside(a, b) || inside(b, a)
 }
 
+/// Takes away what stands at a dotted path, if anything does.
+fn remove(root: &mut Node, path: &str) -> Option<Node> {
+    let steps: Vec<Step<'_>> = steps(path).collect();
+    let (last, way) = steps.split_last()?;
+    let mut here = root;
+    for step in way {
+        here = match (step, &mut here.value) {
+            (Step::Name(name), Value::Table(members)) => {
+                &mut members.iter_mut().find(|(member, _)| member == name)?.1
+            }
+            (Step::Position(position), Value::List(items)) => items.get_mut(*position)?,
+            _ => return None,
+        };
+    }
+    match (last, &mut here.value) {
+        (Step::Name(name), Value::Table(members)) => {
+            let at = members.iter().position(|(member, _)| member == name)?;
+            Some(members.remove(at).1)
+        }
+        (Step::Position(position), Value::List(items)) if *position < items.len() => {
+            Some(items.remove(*position))
+        }
+        _ => None,
+    }
+}
+
 /// Puts a node at a dotted path, making tables on the way; returns what stood there.
 fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<StudyError>> {
     let place = node.key_place.clone();
@@ -104,20 +139,7 @@ fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<S
         )
     };
     let mut here = root;
-    let mut steps = path
-        .split('.')
-        .flat_map(|segment| {
-            let (name, position) = match segment.split_once('[') {
-                None => (segment, None),
-                Some((name, rest)) => (
-                    name,
-                    rest.strip_suffix(']')
-                        .and_then(|digits| digits.parse().ok()),
-                ),
-            };
-            std::iter::once(Step::Name(name)).chain(position.map(Step::Position))
-        })
-        .peekable();
+    let mut steps = steps(path).peekable();
     while let Some(step) = steps.next() {
         let last = steps.peek().is_none();
         let kind = here.value.kind();
@@ -167,6 +189,21 @@ fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<S
         }
     }
     Ok(None)
+}
+
+/// The steps of a dotted path.
+fn steps(path: &str) -> impl Iterator<Item = Step<'_>> {
+    path.split('.').flat_map(|segment| {
+        let (name, position) = match segment.split_once('[') {
+            None => (segment, None),
+            Some((name, rest)) => (
+                name,
+                rest.strip_suffix(']')
+                    .and_then(|digits| digits.parse().ok()),
+            ),
+        };
+        std::iter::once(Step::Name(name)).chain(position.map(Step::Position))
+    })
 }
 
 enum Step<'a> {

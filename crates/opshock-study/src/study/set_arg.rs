@@ -1,16 +1,16 @@
-//! `--set section.key=VALUE`: one setting from the command line.
+//! `--set section.key=VALUE` and `--unset section.key`: one setting from the command line.
 
 use std::sync::Arc;
 
 use super::source::Source;
 use super::tree::{self, Node};
 
-/// One `--set` argument, its syntax checked.
+/// One `--set` or `--unset` argument, its syntax checked.
 #[derive(Clone, Debug)]
 pub struct SetArg {
     /// Dotted path of the key, list positions as `modes[0]`.
     pub key: String,
-    /// Value as written.
+    /// Value as written; empty where the key is taken away.
     pub text: String,
     /// The whole argument, for messages.
     pub(super) source: Arc<Source>,
@@ -18,11 +18,15 @@ pub struct SetArg {
     pub(super) value_at: usize,
 }
 
-/// A `--set` argument that is not `section.key=VALUE`: a mistake on the command line, not in a
+/// An argument that is not `section.key=VALUE`, or not a key: a mistake on the command line, not in a
 /// study.
 #[derive(Clone, Debug, thiserror::Error, PartialEq, Eq)]
-#[error("--set {argument:?}: {reason}; write --set section.key=VALUE, as in --set disk.rpm=7200")]
+#[error("{option} {argument:?}: {reason}; write {option} {form}")]
 pub struct SetSyntaxError {
+    /// `--set` or `--unset`.
+    pub option: &'static str,
+    /// How it is written.
+    pub form: &'static str,
     /// The argument.
     pub argument: String,
     /// What is wrong with it.
@@ -36,6 +40,8 @@ impl SetArg {
     /// When there is no `=`, no value, or the key is not a dotted name.
     pub fn parse(argument: &str) -> Result<Self, SetSyntaxError> {
         let fail = |reason: &str| SetSyntaxError {
+            option: "--set",
+            form: "section.key=VALUE, as in --set disk.rpm=7200",
             argument: argument.to_string(),
             reason: reason.to_string(),
         };
@@ -62,6 +68,33 @@ impl SetArg {
         })
     }
 
+    /// The key of `--unset KEY`: a key, a section or an entry of a list that the study is to lack.
+    ///
+    /// # Errors
+    /// When it is not a dotted name.
+    pub fn unset(argument: &str) -> Result<Self, SetSyntaxError> {
+        let key = argument.trim();
+        if !key.split('.').all(is_name) {
+            return Err(SetSyntaxError {
+                option: "--unset",
+                form: "section.key, as in --unset ramp.contact_stiffness_n_per_m",
+                argument: argument.to_string(),
+                reason: "the key is not a dotted name".to_string(),
+            });
+        }
+        Ok(Self {
+            key: key.to_string(),
+            text: String::new(),
+            source: Source::new("--unset", argument),
+            value_at: 0,
+        })
+    }
+
+    /// Whether the key is taken away.
+    pub fn is_unset(&self) -> bool {
+        self.text.is_empty()
+    }
+
     /// The value: TOML, and text when it is not.
     pub(super) fn node(&self, position: usize) -> Node {
         tree::value_or_text(&self.source, self.value_at, &self.text, position)
@@ -73,6 +106,16 @@ impl std::str::FromStr for SetArg {
 
     fn from_str(argument: &str) -> Result<Self, Self::Err> {
         Self::parse(argument)
+    }
+}
+
+impl std::fmt::Display for SetArg {
+    /// As on the command line.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.is_unset() {
+            true => write!(f, "--unset {}", self.key),
+            false => write!(f, "--set {}={}", self.key, self.text),
+        }
     }
 }
 
