@@ -94,6 +94,7 @@ fn small_study() -> Result<Study, Failure> {
         "pulse.window_ms=1.0",
         "search.tolerance_pct=20",
         "search.certify=off",
+        "search.error_bars=false",
         "solver.film_cells=300",
         "solver.disk_cut_khz=10",
         "output.keep_histories=none",
