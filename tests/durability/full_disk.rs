@@ -154,7 +154,7 @@ fn a_file_that_cannot_grow_is_told_and_never_half_there() {
             let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
             let mut shell = Command::new("sh");
             let output = reference.run(shell.args(["-c", &limited, OPSHOCK]), folder.path());
-            reference.judge(folder.path(), &output);
+            reference.judge(folder.path(), &output, true);
             refused += usize::from(!output.status.success());
             reference.finish(folder.path());
         }
