@@ -105,7 +105,7 @@ fn part(names: &[&str]) {
              nothing damaged, everything whole afterwards",
             making.name
         );
-        assert!(refused > 0 && full > 0);
+        assert!(refused > 0 && (full > 0 || reference.files.is_empty()));
     }
 }
 

@@ -183,8 +183,8 @@ fn the_program_refuses_or_mends_a_store_with_a_flipped_byte() {
             "byte {place}: {}",
             said(&refused)
         );
-        let told = format!("error: E182: s.opshock/histories/");
-        assert!(said(&refused).contains(&told), "{}", said(&refused));
+        let told = "error: E182: s.opshock/histories/";
+        assert!(said(&refused).contains(told), "{}", said(&refused));
         assert!(!folder.join("out").exists());
         sweep.finish(&folder);
     }

@@ -27,7 +27,7 @@ pub fn bytes(fill: impl FnOnce(&Group) -> Result<()>) -> Result<Vec<u8>> {
     let mut builder = FileBuilder::new();
     builder.with_fapl(|access| access.core_filebacked(false));
     let file = builder.create(name())?;
-    fill(&*file)?;
+    fill(&file)?;
     file.flush()?;
     let image = |bytes: *mut u8, length: usize| {
         // SAFETY: the file is open, and `bytes` is null or the start of `length` writable bytes.

@@ -15,7 +15,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::estimate;
 use super::guard;
-use super::histories;
+use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::ledger::{Job, Ledger, Told};
 use super::progress::{Event, Progress};
@@ -383,14 +383,18 @@ impl<'a> Run<'a> {
         // What there is to warn of; the reason where a run was left out.
         let recorded = pool.install(|| {
             use rayon::prelude::*;
-            let record = |one| {
+            let record = |one: &Wanted| {
+                let kept = one.is_kept(this.input, folder);
+                if kept == Ok(true) {
+                    return Ok(Ok(None));
+                }
                 if let Some(ending) = this.stopped() {
                     return Ok(Err(ending));
                 }
                 let began = Instant::now();
-                let warning = guard::record(this.input, simulator, one, folder)?;
+                let panicked = guard::record(this.input, simulator, one, folder)?;
                 busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);
-                Ok(Ok(warning))
+                Ok(Ok(panicked.or(kept.err())))
             };
             let recorded = wanted.par_iter().map(record);
             recorded.collect::<Result<Vec<_>, StoreError>>()
@@ -399,10 +403,11 @@ impl<'a> Run<'a> {
         let mut stopped = None;
         for one in recorded {
             match one {
-                Ok(warning) => {
-                    let code = "history";
-                    warning.map(|message| self.tell(Event::Warning { code, message }));
-                }
+                Ok(None) => {}
+                Ok(Some(message)) => self.tell(Event::Warning {
+                    code: "history",
+                    message,
+                }),
                 Err(ending) => stopped = Some(ending),
             }
         }

@@ -49,7 +49,7 @@ pub(super) fn onset(simulator: &dyn Simulator, point: usize) -> StoredTouch {
     }
 }
 
-/// Records a history. Returns what there is to warn of.
+/// Records a history; returns a sentence for a warning when that panics.
 ///
 /// # Errors
 ///
@@ -61,8 +61,10 @@ pub(super) fn record(
     folder: &Path,
 ) -> Result<Option<String>, StoreError> {
     let record = || histories::record(input, simulator, wanted, folder);
-    catch_unwind(AssertUnwindSafe(record))
-        .unwrap_or_else(|_| Ok(Some("a recording run panicked".into())))
+    match catch_unwind(AssertUnwindSafe(record)) {
+        Ok(recorded) => recorded.map(|()| None),
+        Err(_) => Ok(Some("a recording run panicked".into())),
+    }
 }
 
 /// A survivor without a finite clearance, or a failure without a finite time, decides nothing.

@@ -38,6 +38,21 @@ impl Wanted {
             plan: &input.plan,
         }
     }
+
+    /// Whether it is in the store in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// A sentence about a file that is damaged or cannot be read.
+    pub(super) fn is_kept(&self, input: &SweepInput, folder: &Path) -> Result<bool, String> {
+        match self.run(input).read(folder) {
+            Ok(kept) => Ok(kept.is_some()),
+            Err(StoreError::Damaged { path, what, .. }) => {
+                Err(format!("{}: {what}; recorded anew", path.display()))
+            }
+            Err(error) => Err(format!("{error}; recorded anew")),
+        }
+    }
 }
 
 /// Histories of final points.
@@ -85,8 +100,7 @@ fn probes(input: &SweepInput, ledger: &Ledger<'_>, point: usize) -> Vec<Probe> {
     }
 }
 
-/// Records a history into the store in `folder`, unless it is there. Returns a sentence about a
-/// file that was damaged.
+/// Records a history into the store in `folder`.
 ///
 /// # Errors
 ///
@@ -96,16 +110,8 @@ pub(super) fn record(
     simulator: &dyn Simulator,
     wanted: &Wanted,
     folder: &Path,
-) -> Result<Option<String>, StoreError> {
+) -> Result<(), StoreError> {
     let run = wanted.run(input);
-    let damage = match run.read(folder) {
-        Ok(Some(_)) => return Ok(None),
-        Ok(None) => None,
-        Err(StoreError::Damaged { path, what, .. }) => {
-            Some(format!("{}: {what}; recorded anew", path.display()))
-        }
-        Err(error) => Some(format!("{error}; recorded anew")),
-    };
     let Wanted {
         point,
         probe,
@@ -114,10 +120,10 @@ pub(super) fn record(
         ..
     } = wanted;
     let Some(outcome) = simulator.record(*point, *probe, *amplitude_m_per_s2) else {
-        return Ok(damage);
+        return Ok(());
     };
     let Some(history) = &outcome.history else {
-        return Ok(damage);
+        return Ok(());
     };
     use opshock_solver::simulation::Verdict;
     let (verdict, t_fail_s) = match &outcome.verdict {
@@ -151,6 +157,5 @@ pub(super) fn record(
             .collect(),
         run: run.content(),
     };
-    write_hdf5(&run.path(folder), history, &header)?;
-    Ok(damage)
+    write_hdf5(&run.path(folder), history, &header)
 }
