@@ -69,7 +69,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; what they print is kept in results/bench
 	scripts/bench
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp verify-faults ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -79,6 +79,11 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
+
+.PHONY: verify-faults
+verify-faults: ## writes that fail at every place, file systems that fill up (root, strace): PART=sweep, report, export or run
+	@scripts/bootstrap --verify
+	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 faults_slow_$(PART)
 
 verify-store: bootstrap ## 2000 kill -9 at random moments (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 store_slow

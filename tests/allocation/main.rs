@@ -1,6 +1,6 @@
 //! After settling, a simulation allocates nothing in its steps.
 //!
-//! The counting allocator is why this is a binary of its own and the one place with `unsafe`.
+//! The counting allocator, which needs `unsafe`, is why this is a binary of its own.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -1,16 +1,21 @@
 //! Flipped bytes at every offset of a journal, and of the results; results cut short everywhere.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 use opshock_study::search::RampClass;
-use opshock_study::store::{Record, StoreError, journal, load, results};
+use opshock_study::store::{Record, StoreError, history, journal, load, results};
 use opshock_study::sweep::{Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, study};
 
+use crate::made::{MAKING, OPSHOCK, Reference};
+
 fn run(input: &SweepInput, folder: &Path) -> Result<SweepEnd, StoreError> {
+    let mut simulator = MockSimulator::new(input);
+    simulator.records = true;
     sweep(
         input,
-        &MockSimulator::new(input),
+        &simulator,
         folder,
         &SweepOptions::with_threads(1),
         &Silent,
@@ -113,4 +118,99 @@ fn a_flipped_byte_in_the_results_never_gives_another_table() {
         }
     }
     assert!(refused >= 390, "{refused} refused, {unseen} taken");
+}
+
+/// The histories of a store.
+fn histories(store: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(store.join("histories")).expect("folder");
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("entry").path()).collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn every_byte_of_the_first_8_kb_is_sealed() {
+    let (folder, ..) = swept();
+    let name = Path::new("file.h5");
+    let path = &histories(folder.path())[0];
+    let mut bytes = std::fs::read(path).expect("history");
+    history::parse(name, &bytes).expect("sound");
+    for place in 0..8192 {
+        bytes[place] ^= 0xff;
+        let error = history::parse(name, &bytes).expect_err("is refused");
+        assert_eq!(error.code(), "E182", "byte {place}");
+        bytes[place] ^= 0xff;
+    }
+    let mut bytes = std::fs::read(folder.path().join("results.h5")).expect("results");
+    results::parse(name, &bytes).expect("sound");
+    for place in 0..8192 {
+        bytes[place] ^= 0xff;
+        let error = results::parse(name, &bytes).expect_err("is refused");
+        assert_eq!(error.code(), "E182", "byte {place}");
+        bytes[place] ^= 0xff;
+    }
+}
+
+#[test]
+fn the_program_refuses_or_mends_a_store_with_a_flipped_byte() {
+    let root = tempfile::tempdir().expect("folder");
+    let sweep = Reference::of(MAKING[0], root.path());
+    let folder = root.path().join("sweep");
+    let store = folder.join("s.opshock");
+    let history = &histories(&store)[0];
+    let report = || -> Output {
+        let words = ["report", "s.opshock", "--out", "out"];
+        let mut program = Command::new(OPSHOCK);
+        program
+            .args(words)
+            .current_dir(&folder)
+            .output()
+            .expect("starts")
+    };
+    let flip = |path: &Path, place: usize| {
+        let mut bytes = std::fs::read(path).expect("reads");
+        bytes[place] ^= 0xff;
+        std::fs::write(path, bytes).expect("writes");
+    };
+    let said = |output: &Output| String::from_utf8_lossy(&output.stderr).into_owned();
+    // The superblock, a symbol table, a heap, an attribute, values.
+    for place in [0, 24, 96, 680, 2048, 5000, 100_000] {
+        flip(history, place);
+        let refused = report();
+        assert_eq!(
+            refused.status.code(),
+            Some(6),
+            "byte {place}: {}",
+            said(&refused)
+        );
+        let told = "error: E182: s.opshock/histories/";
+        assert!(said(&refused).contains(told), "{}", said(&refused));
+        assert!(!folder.join("out").exists());
+        sweep.finish(&folder);
+    }
+    for place in [0, 24, 96, 680, 2048, 5000, 50_000] {
+        // With a sound journal the report is whole, its results too, and the next sweep mends.
+        flip(&store.join("results.h5"), place);
+        let told = report();
+        assert_eq!(told.status.code(), Some(0), "byte {place}: {}", said(&told));
+        assert!(
+            said(&told).contains("warning: results_damaged: E182: "),
+            "{}",
+            said(&told)
+        );
+        let copy = folder.join("out/results.h5");
+        results::parse(&copy, &std::fs::read(&copy).expect("reads")).expect("sound");
+        std::fs::remove_dir_all(folder.join("out")).expect("removes");
+        let journal = std::fs::read(store.join("journal")).expect("reads");
+        std::fs::remove_file(store.join("journal")).expect("removes");
+        let refused = report();
+        assert_eq!(
+            refused.status.code(),
+            Some(6),
+            "byte {place}: {}",
+            said(&refused)
+        );
+        std::fs::write(store.join("journal"), journal).expect("writes");
+        sweep.finish(&folder);
+    }
 }

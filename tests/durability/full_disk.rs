@@ -1,11 +1,14 @@
 //! Disks that are full, small or may not be written.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+
+use crate::made::{MAKING, OPSHOCK, Reference};
+use crate::mounted::Mounted;
 
 const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
 
@@ -16,38 +19,12 @@ fn finish(folder: &Path) -> SweepEnd {
     sweep(&input, &simulator, folder, &options, &Silent).expect("sweeps")
 }
 
-/// A mounted file system of its own, taken away in the end.
-struct Mounted(PathBuf);
-
-impl Mounted {
-    /// `None`, said aloud, where this user may not mount.
-    fn tmpfs(at: &Path, options: &str) -> Option<Mounted> {
-        std::fs::create_dir_all(at).expect("folder");
-        let mounted = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", options, "tmpfs"])
-            .arg(at)
-            .output();
-        if mounted.is_ok_and(|output| output.status.success()) {
-            return Some(Mounted(at.to_owned()));
-        }
-        println!("SKIPPED: this user may not mount a file system of {options}");
-        None
-    }
-
-    fn remount(&self, options: &str) {
-        let status = Command::new("mount")
-            .args(["-o", &format!("remount,{options}")])
-            .arg(&self.0)
-            .status()
-            .expect("mount");
-        assert!(status.success(), "remount {options}");
-    }
-}
-
-impl Drop for Mounted {
-    fn drop(&mut self) {
-        let _ = Command::new("umount").arg(&self.0).status();
-    }
+/// `None`, said aloud, where this user may not mount.
+fn tmpfs(at: &Path, options: &str) -> Option<Mounted> {
+    let mounted = Mounted::try_tmpfs(at, options);
+    mounted
+        .inspect_err(|why| println!("SKIPPED: {options}: {why}"))
+        .ok()
 }
 
 /// Sweeps in another process; exit code and what it said on standard error.
@@ -66,10 +43,10 @@ fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
     let root = tempfile::tempdir().expect("folder");
     let whole = finish(&root.path().join("whole"));
     let expected = dump(&root.path().join("whole/results.h5"), &["/machine"]);
-    let Some(disk) = Mounted::tmpfs(&root.path().join("small"), "size=64k") else {
+    let Some(disk) = tmpfs(&root.path().join("small"), "size=64k") else {
         return;
     };
-    let folder = disk.0.join("store");
+    let folder = disk.path().join("store");
     let (code, said) = mock(&folder);
     assert_eq!(code, Some(6), "{said}");
     assert!(said.starts_with("E183"), "{said}");
@@ -84,27 +61,27 @@ fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
 #[test]
 fn a_file_system_that_is_full_already_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = Mounted::tmpfs(&root.path().join("full"), "size=16k") else {
+    let Some(disk) = tmpfs(&root.path().join("full"), "size=16k") else {
         return;
     };
-    let ballast = disk.0.join("ballast");
+    let ballast = disk.path().join("ballast");
     let mut bytes = 16 << 10;
     while std::fs::write(&ballast, vec![1; bytes]).is_err() {
         bytes -= 1 << 10;
     }
-    let (code, said) = mock(&disk.0);
+    let (code, said) = mock(disk.path());
     assert_eq!(code, Some(6), "{said}");
     assert!(said.starts_with("E183"), "{said}");
-    assert!(!disk.0.join("journal").exists());
+    assert!(!disk.path().join("journal").exists());
 }
 
 #[test]
 fn a_read_only_file_system_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = Mounted::tmpfs(&root.path().join("readonly"), "size=4m") else {
+    let Some(disk) = tmpfs(&root.path().join("readonly"), "size=4m") else {
         return;
     };
-    let folder = disk.0.join("store");
+    let folder = disk.path().join("store");
     finish(&folder);
     let journal = std::fs::read(folder.join("journal")).expect("journal");
     disk.remount("ro");
@@ -162,4 +139,26 @@ fn a_folder_without_permission_is_told_before_computing() {
     assert_eq!(done.status.code(), Some(6), "{said}");
     assert!(said.starts_with("E183"), "{said}");
     assert_eq!(std::fs::read_dir(&folder).expect("reads").count(), 0);
+}
+
+/// Files longer than a limit cannot be written, for every kind of product: below what the smallest
+/// needs, and below what only the longer ones need.
+#[test]
+fn a_file_that_cannot_grow_is_told_and_never_half_there() {
+    let root = tempfile::tempdir().expect("folder");
+    for making in MAKING {
+        let reference = Reference::of(making, root.path());
+        let mut refused = 0;
+        for blocks in [0, 64, 400] {
+            let folder = tempfile::tempdir_in(root.path()).expect("folder");
+            let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
+            let mut shell = Command::new("sh");
+            let output = reference.run(shell.args(["-c", &limited, OPSHOCK]), folder.path());
+            reference.judge(folder.path(), &output, true);
+            refused += usize::from(!output.status.success());
+            reference.finish(folder.path());
+        }
+        let is_file_made = !reference.files.is_empty();
+        assert!(refused >= 2 || !is_file_made, "{}: {refused}", making.name);
+    }
 }

@@ -1,8 +1,12 @@
 //! What a store keeps when everything around it fails.
 
+mod faults;
 mod flipped;
 mod full_disk;
+mod histories;
 mod kills;
+mod made;
+mod mounted;
 mod power_loss;
 mod signals;
 mod sim_files;

@@ -2,8 +2,9 @@
 
 use opshock_study::accuracy::{Accuracy, Measured, PointLadders, RungRow};
 use opshock_study::report::html::html;
-use opshock_study::report::{ReportSource, RunDot, critical_shock_figure, table, write_report};
+use opshock_study::report::{ReportSource, RunDot, critical_shock_figure, report_files, table};
 use opshock_study::search::Sign;
+use opshock_study::store::aside::write_all;
 use opshock_study::store::summary::{
     AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals,
 };
@@ -274,7 +275,8 @@ fn a_report_is_the_same_bytes_twice() {
     let source = ReportSource::of_table(&summary, &runs, PROGRAM);
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let names = folders.each_ref().map(|folder| {
-        let written = write_report(&folder.path().join("new/folder"), &source).unwrap();
+        let made = report_files(&source).unwrap();
+        let written = write_all(&folder.path().join("new/folder"), made).unwrap();
         written
             .iter()
             .map(|path| std::fs::read(path).unwrap())
@@ -299,7 +301,6 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
     empty.points.clear();
     for summary in [open, empty] {
         let source = ReportSource::of_table(&summary, &[], "");
-        let folder = tempfile::tempdir().unwrap();
-        assert_eq!(write_report(folder.path(), &source).unwrap().len(), 5);
+        assert_eq!(report_files(&source).unwrap().len(), 5);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use opshock_study::search::{Flag, RampClass, Status};
 use opshock_study::store::summary::PointSummary;
-use opshock_study::store::{Record, RunRecord, Store, folder::session, hdf5_file, journal};
+use opshock_study::store::{Record, RunRecord, Store, folder::session, journal};
 use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
 
@@ -194,7 +194,7 @@ fn the_histories_of_the_bracket_are_kept_once() {
         .iter()
         .find(|name| name.starts_with(&format!("none_0.5ms_plus_{failure:.3}g_")))
         .expect("the failure of the first point");
-    let file = hdf5_file::open(&folder.path().join("histories").join(name)).expect("HDF5");
+    let file = hdf5::File::open(folder.path().join("histories").join(name)).expect("HDF5");
     let t_fail_s: f64 = file
         .attr("t_fail_s")
         .expect("attribute")

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{Container, Group};
-use opshock_study::store::hdf5_file;
+use hdf5::{Container, File, Group};
 
 /// Lines of every attribute and dataset outside the groups named in `without`.
 pub fn dump(path: &Path, without: &[&str]) -> Vec<String> {
-    let file = hdf5_file::open(path).expect("HDF5");
+    let file = File::open(path).expect("HDF5");
     let mut lines = Vec::new();
     walk(&file.as_group().expect("root"), without, &mut lines);
     lines

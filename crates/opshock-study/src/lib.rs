@@ -3,7 +3,6 @@
 //! A *study* turns axes into points; a point is a search over shock amplitude; each probe is one
 //! simulation with a verdict. Points run in parallel, one writer saves them, the report reads
 //! only what was saved.
-#![forbid(unsafe_code)]
 
 pub mod accuracy;
 pub mod claims;

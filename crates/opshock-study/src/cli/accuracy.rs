@@ -9,11 +9,10 @@ use crate::accuracy::{Accuracy, BRACKET, Bench, Measured, PointLadders, Setting,
 use crate::identity;
 use crate::provenance::{self, PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::report::write_accuracy;
+use crate::store::{StoreError, aside};
 use crate::study::{Choice, Point, Ramp, Sign, Study};
-use anyhow::Context as _;
 use clap::Args;
 use std::collections::HashMap;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Measure what accuracy costs: ladders on every knob against finer references
@@ -58,10 +57,14 @@ fn place(text: &str) -> Result<Place, String> {
 const PROBE: f64 = 0.9;
 
 /// What was measured before, by content of the setting.
-struct Memory {
-    path: PathBuf,
+struct Memory<'a> {
+    folder: &'a Path,
+    /// A line per measurement.
+    text: String,
     known: HashMap<String, Measured>,
 }
+
+const MEASURED: &str = "measured.jsonl";
 
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Line {
@@ -69,31 +72,30 @@ struct Line {
     measured: Measured,
 }
 
-impl Memory {
-    /// Reads what this program has measured into `folder`; a line cut short by a kill is left out.
-    fn open(folder: &Path) -> anyhow::Result<Memory> {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make {}", folder.display()))?;
-        let path = folder.join("measured.jsonl");
-        let text = std::fs::read_to_string(&path).unwrap_or_default();
-        let lines = text
-            .lines()
-            .filter_map(|line| serde_json::from_str::<Line>(line).ok());
-        let known = lines.map(|line| (line.key, line.measured)).collect();
-        Ok(Memory { path, known })
+impl Memory<'_> {
+    /// Reads what this program has measured into `folder`; a line that it did not write is left out.
+    fn open(folder: &Path) -> Memory<'_> {
+        let mut memory = Memory {
+            folder,
+            text: String::new(),
+            known: HashMap::new(),
+        };
+        let text = std::fs::read_to_string(folder.join(MEASURED)).unwrap_or_default();
+        for line in text.lines() {
+            if let Ok(Line { key, measured }) = serde_json::from_str(line) {
+                memory.text += &format!("{line}\n");
+                memory.known.insert(key, measured);
+            }
+        }
+        memory
     }
 
-    fn keep(&mut self, key: String, measured: Measured) -> anyhow::Result<()> {
+    fn keep(&mut self, key: String, measured: Measured) -> Result<(), StoreError> {
         let line = Line { key, measured };
-        let text = serde_json::to_string(&line)? + "\n";
-        let mut file = std::fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(&self.path)
-            .with_context(|| format!("cannot write {}", self.path.display()))?;
-        file.write_all(text.as_bytes())?;
-        file.sync_data()?;
+        let text = serde_json::to_string(&line).expect("a measurement serialises");
+        self.text += &format!("{text}\n");
         self.known.insert(line.key, line.measured);
+        aside::write_all(self.folder, [(MEASURED, &self.text)])?;
         Ok(())
     }
 }
@@ -107,7 +109,7 @@ pub fn run(
     let study = study_file::read(&arguments.study, global, console)?;
     study_file::refuse_unaccepted(&study, global)?;
     let points = points(&study, &arguments.at)?;
-    let mut memory = Memory::open(&arguments.out)?;
+    let mut memory = Memory::open(&arguments.out);
     let mut measured = Vec::new();
     for point in &points {
         measured.push(ladders_of(
@@ -124,7 +126,7 @@ pub fn run(
         program: provenance::program(),
         points: measured,
     };
-    let written = write_accuracy(&arguments.out, &accuracy).context("cannot write the products")?;
+    let written = write_accuracy(&arguments.out, &accuracy)?;
     if console.json {
         console.result_json(&accuracy)?;
     } else {
@@ -167,7 +169,7 @@ fn ladders_of(
     study: &Study,
     point: &Point,
     repeats: u16,
-    memory: &mut Memory,
+    memory: &mut Memory<'_>,
     console: &Console,
 ) -> Result<PointLadders, Failure> {
     let sign = point.factor();

@@ -90,7 +90,7 @@ pub fn run(
                 console.tell("saved; run again to go on");
                 return Ok(Exit::Budget);
             };
-            written.extend(write_sensitivity(out, &all).context("cannot write the sensitivity")?);
+            written.extend(write_sensitivity(out, &all)?);
             Some(all)
         }
         (_, Some(out)) => known_sensitivity(out, &study, console),
@@ -105,7 +105,7 @@ pub fn run(
         claims: rows(found, &finer, sensitivity.as_ref()),
     };
     if let Some(out) = &arguments.out {
-        written.extend(write_claims(out, &table).context("cannot write the claims")?);
+        written.extend(write_claims(out, &table)?);
     }
     for path in written {
         console.tell(&format!("wrote {}", path.display()));
@@ -263,10 +263,6 @@ impl Runner {
         let mut store = folder.as_os_str().to_owned();
         store.push(".opshock");
         let store = PathBuf::from(store);
-        if let Some(parent) = store.parent() {
-            std::fs::create_dir_all(parent)
-                .with_context(|| format!("cannot make {}", parent.display()))?;
-        }
         let input = SweepInput::of(study).context("the study has no amplitudes to search")?;
         let options = SweepOptions {
             stop: stop.clone(),

@@ -118,7 +118,10 @@ fn swept(study: &Study, folder: &Path, threads: usize) -> Result<Swept, Failure>
     let folder = tempfile::Builder::new()
         .prefix(".opshock-doctor-")
         .tempdir_in(folder)
-        .with_context(|| format!("cannot write in {}", folder.display()))?;
+        .map_err(|source| StoreError::Unwritable {
+            path: folder.to_owned(),
+            source,
+        })?;
     let input = SweepInput::of(study).context("the study has no amplitudes to search")?;
     let options = SweepOptions::with_threads(threads);
     let end = sweep(

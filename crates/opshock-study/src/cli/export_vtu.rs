@@ -57,7 +57,7 @@ pub(super) fn run(
             times_s.len()
         ));
     }
-    let written = write_vtk(out, &series).context("cannot write the series")?;
+    let written = write_vtk(out, &series)?;
     let collections: Vec<String> = written
         .iter()
         .filter(|path| path.extension().is_some_and(|ending| ending == "pvd"))

@@ -2,6 +2,7 @@
 
 use super::console::{stderr_colour, stderr_width};
 use super::exit::Exit;
+use crate::report::ReportError;
 use crate::store::StoreError;
 use crate::study::{SetSyntaxError, StudyErrors};
 use serde::Serialize;
@@ -135,6 +136,15 @@ impl From<StudyErrors> for Failure {
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
         Failure::Store(error)
+    }
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Write(error) => Failure::Store(error),
+            ReportError::Chart(_) => Failure::Internal(error.into()),
+        }
     }
 }
 

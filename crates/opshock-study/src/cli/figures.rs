@@ -14,7 +14,6 @@ use crate::report::paper::{
 };
 use crate::store::{StoreError, Summary};
 use crate::study::{Choice, Ramp, Sign, Study};
-use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::Verdict;
@@ -89,8 +88,7 @@ pub fn run(
         study.path.display(),
         study.digest_hex()
     );
-    let written = write_paper_figures(&arguments.out, &figures, &provenance)
-        .context("cannot write the figures")?;
+    let written = write_paper_figures(&arguments.out, &figures, &provenance)?;
     let files: Vec<String> = written
         .iter()
         .map(|path| path.display().to_string())

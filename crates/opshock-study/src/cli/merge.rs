@@ -65,6 +65,7 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
         let again = merge(&whole, folder, &from, &session(1))?;
         if let (MergeEnd::Merged(first), MergeEnd::Merged(again)) = (&mut end, again) {
             first.results = again.results;
+            first.left = again.left;
         }
     }
     match end {
@@ -85,6 +86,9 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
                      other last digits; those of the first store are kept",
                     merged.rounding
                 ));
+            }
+            for damage in &merged.left {
+                console.tell(&format!("warning: history: {damage}"));
             }
             let summary = &merged.results.summary;
             if console.json {

@@ -40,6 +40,7 @@ pub use exit::Exit;
 
 use crate::provenance;
 use crate::sweep::ProgressKind;
+use anyhow::Context as _;
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use console::Console;
 use failure::{Failure, Fault};
@@ -170,7 +171,14 @@ pub fn main() -> ExitCode {
         .any(|argument| argument == "--json");
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return misunderstood(&error, json).into(),
+        Err(error) => {
+            let console = Console { json, quiet: false };
+            let exit = misunderstood(&error, &console).unwrap_or_else(|failure| {
+                console.fail(&failure);
+                failure.exit()
+            });
+            return exit.into();
+        }
     };
     let console = Console {
         json: cli.global.json,
@@ -211,15 +219,16 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
 }
 
 /// Help and version are results; the rest is a mistake on the command line.
-fn misunderstood(error: &clap::Error, json: bool) -> Exit {
-    if !error.use_stderr() || !json {
-        // Fails only when nobody reads.
+fn misunderstood(error: &clap::Error, console: &Console) -> Result<Exit, Failure> {
+    if !error.use_stderr() {
+        error.print().context("cannot write to standard output")?;
+        console.result("")?;
+        return Ok(Exit::Complete);
+    }
+    if !console.json {
+        // Nobody to tell is no reason to end otherwise.
         let _ = error.print();
-        return if error.use_stderr() {
-            Exit::Usage
-        } else {
-            Exit::Complete
-        };
+        return Ok(Exit::Usage);
     }
     let message = error.render().to_string();
     let message = message.lines().next().unwrap_or_default();
@@ -229,8 +238,7 @@ fn misunderstood(error: &clap::Error, json: bool) -> Exit {
         allowed: context(error, clap::error::ContextKind::ValidValue),
         ..Fault::new("usage", message.trim_start_matches("error: "))
     };
-    Console { json, quiet: false }.fail(&Failure::Usage(vec![fault]));
-    Exit::Usage
+    Err(Failure::Usage(vec![fault]))
 }
 
 fn context(error: &clap::Error, kind: clap::error::ContextKind) -> Option<String> {

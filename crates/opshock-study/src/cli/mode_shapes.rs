@@ -66,7 +66,7 @@ pub(super) fn write(
                 .collect(),
         },
     };
-    Ok(write_mode_shapes(folder, &shapes).context("cannot write the shapes")?)
+    Ok(write_mode_shapes(folder, &shapes)?)
 }
 
 fn disk(scene: &Scene) -> Result<DiskShapes, Failure> {

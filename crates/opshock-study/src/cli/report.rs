@@ -8,9 +8,10 @@ use super::stored::{self, Stored};
 use crate::accuracy::Accuracy;
 use crate::provenance;
 use crate::report::{
-    CrossingRow, ReportSource, Saving, savings, table, terminal_plot, write_report,
+    CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
 };
-use crate::store::{Audit, Status, Summary};
+use crate::store::folder::RESULTS_FILE;
+use crate::store::{Audit, Status, Summary, aside, results};
 use crate::study::Study;
 use crate::sweep::refine;
 use anyhow::Context as _;
@@ -87,15 +88,16 @@ pub fn run(
     console: &Console,
 ) -> Result<Exit, Failure> {
     let source = stored::source(&arguments.source, global)?;
-    let stored = stored::read(&source, console)?;
+    let (results, study) = stored::load(&source, console)?;
+    let stored = Stored::of(&source.folder, &results, study);
     let folder = source.folder;
     let program = provenance::program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
-    let film = stored
-        .resolved_study
-        .as_deref()
-        .filter(|_| arguments.out.is_some())
-        .and_then(|study| stored::film(&folder, study));
+    let shown = stored.resolved_study.as_deref();
+    let film = match shown.filter(|_| arguments.out.is_some()) {
+        Some(study) => stored::film(&folder, &results, study)?,
+        None => None,
+    };
     let crossings = crossings(&stored);
     let source = ReportSource {
         summary: &stored.summary,
@@ -110,12 +112,11 @@ pub fn run(
         film: film.as_ref(),
     };
     if let Some(out) = &arguments.out {
-        let mut written = write_report(out, &source).context("cannot write the report")?;
-        let copy = out.join("results.h5");
-        std::fs::copy(folder.join("results.h5"), &copy)
-            .with_context(|| format!("cannot write {}", copy.display()))?;
-        written.push(copy);
-        for path in written {
+        let mut files = report_files(&source).context("cannot draw the report")?;
+        // What the table shows, whatever became of the store's own file.
+        let bytes = results::bytes(&out.join(RESULTS_FILE), &results)?;
+        files.push((RESULTS_FILE, bytes));
+        for path in aside::write_all(out, files)? {
             console.tell(&format!("wrote {}", path.display()));
         }
     }

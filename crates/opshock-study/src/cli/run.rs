@@ -10,7 +10,6 @@ use crate::provenance;
 use crate::report::{RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures};
 use crate::store::history::{HistoryHeader, fields_path, write_csv, write_hdf5};
 use crate::study::{Shot, Study};
-use anyhow::Context as _;
 use clap::Args;
 use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
@@ -72,7 +71,7 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
         }
         if let Some(folder) = &arguments.plots {
             let figures = run_figures(history, &caption(&study, &shot, &outcome));
-            let written = write_figures(folder, &figures).context("cannot write the plots")?;
+            let written = write_figures(folder, &figures)?;
             console.tell(&format!(
                 "wrote {} files into {}",
                 written.len(),
@@ -152,11 +151,11 @@ fn write_history(
     shot: &Shot,
     outcome: &Outcome,
 ) -> Result<(), Failure> {
-    let written = match format {
-        HistoryFormat::Csv => write_csv(path, history, study.start_s),
-        HistoryFormat::Hdf5 => write_hdf5(path, history, &header(study, shot, outcome)),
-    };
-    Ok(written.context("cannot write the history")?)
+    match format {
+        HistoryFormat::Csv => write_csv(path, history, study.start_s)?,
+        HistoryFormat::Hdf5 => write_hdf5(path, history, &header(study, shot, outcome))?,
+    }
+    Ok(())
 }
 
 fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
@@ -187,6 +186,7 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
             .iter()
             .map(|effect| (*effect).to_owned())
             .collect(),
+        run: String::new(),
     }
 }
 

@@ -6,7 +6,6 @@ use super::failure::{Failure, Fault};
 use super::study_file;
 use crate::report::{RunDot, Saving, ShockFilm, savings};
 use crate::store::folder::session;
-use crate::store::history::read_hdf5;
 use crate::store::{self, Audit, Loaded, Owner, Results, StoreError, Summary};
 use crate::study::Study;
 use crate::sweep::refine::refined;
@@ -102,27 +101,33 @@ pub struct Stored {
 ///
 /// A store that is empty, damaged, newer or of another study.
 pub fn read(source: &Source, console: &Console) -> Result<Stored, Failure> {
-    let (results, resolved_study) = load(source, console)?;
-    let runs: Vec<RunDot> = results
-        .runs
-        .iter()
-        // With turned knobs the same amplitude may end otherwise: not an outcome of the study.
-        .filter(|row| row.levels.is_none())
-        .map(|row| RunDot {
-            point: row.point,
-            amplitude_g: row.amplitude_g,
-            verdict: row.result().verdict.as_str().to_owned(),
-            h_min_m: row.result().h_min_m,
-        })
-        .collect();
-    Ok(Stored {
-        savings: savings(&results),
-        audit: Audit::of_store(&source.folder, &results.summary.digest),
-        summary: results.summary,
-        plan: results.plan,
-        runs,
-        resolved_study,
-    })
+    let (results, study) = load(source, console)?;
+    Ok(Stored::of(&source.folder, &results, study))
+}
+
+impl Stored {
+    /// What `results` of the store in `folder` say of its study, and what lies beside them.
+    pub fn of(folder: &Path, results: &Results, resolved_study: Option<String>) -> Self {
+        let runs = results
+            .runs
+            .iter()
+            // With turned knobs the same amplitude may end otherwise: not an outcome of the study.
+            .filter(|row| row.levels.is_none())
+            .map(|row| RunDot {
+                point: row.point,
+                amplitude_g: row.amplitude_g,
+                verdict: row.result().verdict.as_str().to_owned(),
+                h_min_m: row.result().h_min_m,
+            });
+        Self {
+            savings: savings(results),
+            audit: Audit::of_store(folder, &results.summary.digest),
+            summary: results.summary.clone(),
+            plan: results.plan.clone(),
+            runs: runs.collect(),
+            resolved_study,
+        }
+    }
 }
 
 /// As [`read`], in full.
@@ -134,8 +139,12 @@ pub fn results(source: &Source, console: &Console) -> Result<Results, Failure> {
     Ok(load(source, console)?.0)
 }
 
-/// Everything finished, and the study with every default.
-fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
+/// As [`results`], and the study with every default.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
     let (mut loaded, results) = store::load(&source.folder)?;
     for (code, message) in &loaded.notes {
         console.tell(&format!("warning: {code}: {message}"));
@@ -169,32 +178,31 @@ fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>),
 
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,
 /// else the first that can be shown.
-pub fn film(folder: &Path, resolved_study: &str) -> Option<ShockFilm> {
-    let entries = std::fs::read_dir(folder.join("histories")).ok()?;
-    let mut paths: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|ending| ending == "h5"))
-        .collect();
-    paths.sort();
-    let is_deformable = |path: &&PathBuf| {
-        path.file_name()
-            .is_some_and(|name| name.to_string_lossy().starts_with("deformable"))
-    };
-    let first = paths.iter().filter(is_deformable);
+///
+/// # Errors
+///
+/// E182: a history is damaged; E183: one cannot be read.
+pub fn film(
+    folder: &Path,
+    results: &Results,
+    resolved_study: &str,
+) -> Result<Option<ShockFilm>, StoreError> {
+    let mut kept: Vec<_> = results.kept_runs().collect();
+    kept.sort_by_cached_key(|run| (run.ramp != "deformable", run.path(folder)));
     let mut shown = None;
-    for path in first.chain(paths.iter()) {
-        let Ok(history) = read_hdf5(path) else {
+    for run in kept {
+        let Some(history) = run.read(folder)? else {
             continue;
         };
         let Some(film) = ShockFilm::of(&history, resolved_study) else {
             continue;
         };
         if history.verdict == "fails" {
-            return Some(film);
+            return Ok(Some(film));
         }
         shown.get_or_insert(film);
     }
-    shown
+    Ok(shown)
 }
 
 /// What is finished in a store; nothing for one that is empty or missing.

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
-use super::files::{ReportError, json, write_all};
+use super::files::{ReportError, json};
 use super::table::csv_line;
 use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
+use crate::store::aside::write_all;
 
 /// Writes `accuracy.md`, `accuracy.csv`, `accuracy.json` and, per point, `accuracy-N.svg` and
 /// `.png` into `folder`; returns the written files.
@@ -18,7 +19,7 @@ pub fn write_accuracy(folder: &Path, accuracy: &Accuracy) -> Result<Vec<PathBuf>
     let mut files: Vec<(String, Vec<u8>)> = vec![
         ("accuracy.md".into(), markdown(accuracy).into_bytes()),
         ("accuracy.csv".into(), csv(accuracy).into_bytes()),
-        ("accuracy.json".into(), json(folder, accuracy)?),
+        ("accuracy.json".into(), json(accuracy)),
     ];
     for (number, point) in accuracy.points.iter().enumerate() {
         let figure = figure(point, &accuracy.program);

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour};
-use super::files::{ReportError, json, write_all};
+use super::files::{ReportError, json};
 use super::table::csv_line;
 use crate::claims::{Answer, ClaimRow, Found, Rests, Row, Sensitivity};
+use crate::store::aside::write_all;
 use serde::Serialize;
 
 /// The table with where it comes from.
@@ -252,7 +253,7 @@ pub fn write_claims(folder: &Path, table: &ClaimTable) -> Result<Vec<PathBuf>, R
     let files = [
         ("claims.md", table.markdown().into_bytes()),
         ("claims.csv", table.csv().into_bytes()),
-        ("claims.json", json(folder, table)?),
+        ("claims.json", json(table)),
     ];
     Ok(write_all(folder, files)?)
 }
@@ -268,7 +269,7 @@ pub fn write_sensitivity(folder: &Path, all: &Sensitivity) -> Result<Vec<PathBuf
     let files = [
         ("sensitivity.md", sensitivity_markdown(all).into_bytes()),
         ("sensitivity.csv", sensitivity_csv(all).into_bytes()),
-        ("sensitivity.json", json(folder, all)?),
+        ("sensitivity.json", json(all)),
         ("sensitivity.svg", figure.svg().into_bytes()),
         ("sensitivity.png", figure.png()?),
     ];

@@ -2,39 +2,27 @@
 
 use super::html::{ReportSource, html};
 use super::{chart::ChartError, critical_shock::critical_shock_figure, table};
-use std::path::{Path, PathBuf};
-
-/// The operating system refused to write a file.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}")]
-pub struct WriteError {
-    /// File or folder.
-    path: String,
-    /// Reason.
-    #[source]
-    source: std::io::Error,
-}
+use crate::store::StoreError;
 
 /// A file of a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The operating system refused.
     #[error(transparent)]
-    Write(#[from] WriteError),
-    /// The figure could not be encoded.
-    #[error("cannot draw the critical-shock figure")]
+    Write(#[from] StoreError),
+    /// A figure could not be encoded.
+    #[error("cannot draw a figure")]
     Chart(#[from] ChartError),
 }
 
-/// Writes `table.md`, `table.csv`, `fig13.svg`, `fig13.png` and `report.html` into `folder`, which
-/// is made when it is missing; existing ones are overwritten. Returns the written files.
+/// `table.md`, `table.csv`, `fig13.svg`, `fig13.png` and `report.html`: names and bytes.
 ///
 /// # Errors
 ///
-/// [`ReportError`] at the first file that cannot be made.
-pub fn write_report(folder: &Path, source: &ReportSource<'_>) -> Result<Vec<PathBuf>, ReportError> {
+/// A figure that cannot be encoded.
+pub fn report_files(source: &ReportSource<'_>) -> Result<Vec<(&'static str, Vec<u8>)>, ChartError> {
     let figure = critical_shock_figure(source.summary, source.program);
-    let files = [
+    Ok(vec![
         (
             "table.md",
             table::markdown(source.summary, &source.provenance()).into_bytes(),
@@ -43,45 +31,11 @@ pub fn write_report(folder: &Path, source: &ReportSource<'_>) -> Result<Vec<Path
         ("fig13.svg", figure.svg().into_bytes()),
         ("fig13.png", figure.png()?),
         ("report.html", html(source).into_bytes()),
-    ];
-    Ok(write_all(folder, files)?)
+    ])
 }
 
-/// Writes files by name into `folder`, which is made when it is missing. Returns the written files.
-///
-/// # Errors
-///
-/// At the first one that cannot be written.
-pub(super) fn write_all(
-    folder: &Path,
-    files: impl IntoIterator<Item = (impl AsRef<Path>, Vec<u8>)>,
-) -> Result<Vec<PathBuf>, WriteError> {
-    let refused = |path: &Path, source| WriteError {
-        path: path.display().to_string(),
-        source,
-    };
-    std::fs::create_dir_all(folder).map_err(|source| refused(folder, source))?;
-    files
-        .into_iter()
-        .map(|(name, bytes)| {
-            let path = folder.join(name);
-            match std::fs::write(&path, bytes) {
-                Ok(()) => Ok(path),
-                Err(source) => Err(refused(&path, source)),
-            }
-        })
-        .collect()
-}
-
-/// A value as the bytes of a JSON file that belongs into `folder`.
-///
-/// # Errors
-///
-/// When it cannot be written as JSON.
-pub(super) fn json(folder: &Path, value: &impl serde::Serialize) -> Result<Vec<u8>, WriteError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| WriteError {
-        path: folder.display().to_string(),
-        source: error.into(),
-    })?;
-    Ok((text + "\n").into_bytes())
+/// A value as the bytes of a JSON file.
+pub(super) fn json(value: &impl serde::Serialize) -> Vec<u8> {
+    let text = serde_json::to_string_pretty(value).expect("a report serialises");
+    (text + "\n").into_bytes()
 }

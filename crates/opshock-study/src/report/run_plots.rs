@@ -1,7 +1,8 @@
 //! Pictures of one simulation against time.
 
-use super::chart::{Axis, ChartError, Dash, Figure, Panel, Rule, Series, colour};
-use super::files::{WriteError, write_all};
+use super::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
+use super::files::ReportError;
+use crate::store::aside::write_all;
 use crate::store::history::{Column, head_columns, root_columns, structure_columns};
 use opshock_solver::simulation::History;
 use std::path::{Path, PathBuf};
@@ -350,56 +351,32 @@ pub(super) fn find<'a>(columns: &'a [Column], name: &str) -> &'a Column {
         .expect("the pictures name columns of the history")
 }
 
-/// A picture could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum PlotError {
-    /// The operating system refused.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// The picture could not be encoded.
-    #[error("cannot draw {path}")]
-    Chart {
-        /// File.
-        path: String,
-        /// Reason.
-        #[source]
-        source: ChartError,
-    },
-}
-
 /// Writes `NAME.svg`, `NAME.png` and `NAME.csv` of every figure into `folder`, which is made when
 /// it is missing. Returns the written files.
 ///
 /// # Errors
 ///
-/// [`PlotError`] at the first file that cannot be written.
-pub fn write_figures(folder: &Path, figures: &[NamedFigure]) -> Result<Vec<PathBuf>, PlotError> {
-    let mut written = Vec::new();
+/// [`ReportError`] at the first file that cannot be made.
+pub fn write_figures(folder: &Path, figures: &[NamedFigure]) -> Result<Vec<PathBuf>, ReportError> {
+    let mut files = Vec::new();
     for named in figures {
-        let table = csv(&named.table);
-        written.extend(write_picture(folder, named.name, &named.figure, &table)?);
+        files.extend(picture(named.name, &named.figure, csv(&named.table))?);
     }
-    Ok(written)
+    Ok(write_all(folder, files)?)
 }
 
-/// Writes `NAME.png`, `NAME.svg` and `NAME.csv`.
-pub(super) fn write_picture(
-    folder: &Path,
+/// `NAME.png`, `NAME.svg` and `NAME.csv`: names and bytes.
+pub(super) fn picture(
     name: &str,
     figure: &Figure,
-    table: &str,
-) -> Result<Vec<PathBuf>, PlotError> {
+    table: String,
+) -> Result<[(String, Vec<u8>); 3], ReportError> {
     let name = |ending: &str| format!("{name}.{ending}");
-    let png = figure.png().map_err(|source| PlotError::Chart {
-        path: folder.join(name("png")).display().to_string(),
-        source,
-    })?;
-    let files = [
-        (name("png"), png),
+    Ok([
+        (name("png"), figure.png()?),
         (name("svg"), figure.svg().into_bytes()),
-        (name("csv"), table.as_bytes().to_vec()),
-    ];
-    Ok(write_all(folder, files)?)
+        (name("csv"), table.into_bytes()),
+    ])
 }
 
 fn csv(table: &[Column]) -> String {

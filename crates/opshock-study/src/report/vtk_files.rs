@@ -11,8 +11,9 @@
 //! are seconds on the study's axis. The arms' boxes have the place and clearance of the scene; their
 //! width and length are drawn, not simulated.
 
-use super::files::{WriteError, write_all};
 use super::vtu::{Cell, Grid, polar_grid};
+use crate::store::StoreError;
+use crate::store::aside::write_all;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -83,8 +84,8 @@ const ARM_THICK_M: f64 = 0.5e-3;
 ///
 /// # Errors
 ///
-/// [`WriteError`] at the first file that cannot be written.
-pub fn write_vtk(folder: &Path, series: &VtkSeries) -> Result<Vec<PathBuf>, WriteError> {
+/// E183 at the first file that cannot be written.
+pub fn write_vtk(folder: &Path, series: &VtkSeries) -> Result<Vec<PathBuf>, StoreError> {
     let disk = &series.disk;
     let frames = disk.deflection_m.iter().enumerate();
     let disk_files = frames.map(|(frame, w)| (name("disk", frame), disk_piece(disk, w)));
@@ -109,7 +110,7 @@ pub fn write_vtk(folder: &Path, series: &VtkSeries) -> Result<Vec<PathBuf>, Writ
         .chain(disk_files)
         .chain(ramp_files)
         .chain(film_files);
-    write_all(folder, all.map(|(name, text)| (name, text.into_bytes())))
+    write_all(folder, all)
 }
 
 fn name(part: &str, frame: usize) -> String {

@@ -1,40 +1,92 @@
-//! Files replaced whole: written aside, synced, renamed, and the folder synced.
+//! Files replaced whole: written aside, synced, renamed, and the folder synced. Every file that the
+//! program makes gets its name here, but for the journal, which makes its own the same way.
 
 use std::fs::File;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use super::error::StoreError;
+
+/// Names that files aside may begin with, those of earlier versions included.
+const PREFIXES: [&str; 3] = [PREFIX, ".probe-", ".opshock-"];
+const PREFIX: &str = ".aside-";
 
 /// Replaces `path` by `bytes`.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut aside = file(path)?;
-    aside.write_all(bytes)?;
-    persist(aside, path)
+///
+/// # Errors
+///
+/// E183: the disk refused; a former file is then whole and in place, or this one is.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let replace = || {
+        aside(path, bytes)?.persist(path)?;
+        sync_folder(folder_of(path))
+    };
+    replace().map_err(|source| unwritable(path, source))
 }
 
-/// Copies a file to `path`, which gets all of it or nothing.
-pub fn keep_copy(from: &Path, path: &Path) -> std::io::Result<()> {
-    let mut aside = file(path)?;
-    std::io::copy(&mut File::open(from)?, &mut aside)?;
-    persist(aside, path)
+/// Writes files by name into `folder`, which is made when it is missing. Returns the written files.
+///
+/// All are on the disk before the first gets its name: a disk that is full leaves the former ones.
+///
+/// # Errors
+///
+/// E183 at the first one that cannot be written.
+pub fn write_all(
+    folder: &Path,
+    files: impl IntoIterator<Item = (impl AsRef<Path>, impl AsRef<[u8]>)>,
+) -> Result<Vec<PathBuf>, StoreError> {
+    std::fs::create_dir_all(folder).map_err(|source| unwritable(folder, source))?;
+    let mut made = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        let file = aside(&path, bytes.as_ref()).map_err(|source| unwritable(&path, source))?;
+        made.push((file, path));
+    }
+    let named = made.into_iter().map(|(file, path)| {
+        let renamed = file.persist(&path);
+        renamed.map_err(|error| unwritable(&path, error.error))?;
+        Ok(path)
+    });
+    let written = named.collect::<Result<_, _>>()?;
+    sync_folder(folder).map_err(|source| unwritable(folder, source))?;
+    Ok(written)
 }
 
-/// A file beside `path`, with the permissions that any new file has.
-pub(super) fn file(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+/// A synced file beside `path`, with the permissions that any new file has; it removes itself when
+/// it gets no name.
+fn aside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::TempPath> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".aside-");
+    builder.prefix(PREFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder_of(path))
+    let mut file = builder.tempfile_in(folder_of(path))?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file.into_temp_path())
 }
 
-/// Syncs a finished file and renames it over `path`.
-pub(super) fn persist(aside: tempfile::NamedTempFile, path: &Path) -> std::io::Result<()> {
-    aside.as_file().sync_all()?;
-    aside.persist(path).map_err(|error| error.error)?;
-    sync_folder(folder_of(path))
+/// Removes what killed processes left aside in a folder. Only called under its store's lock.
+pub(super) fn clear(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn unwritable(path: &Path, source: std::io::Error) -> StoreError {
+    StoreError::Unwritable {
+        path: path.to_owned(),
+        source,
+    }
 }
 
 /// Makes a rename or a new file durable.

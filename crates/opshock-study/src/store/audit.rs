@@ -63,12 +63,7 @@ impl Audit {
     /// E183: the folder cannot be written.
     pub fn keep(&self, folder: &Path) -> Result<(), StoreError> {
         let text = serde_json::to_string_pretty(self).expect("an audit serialises") + "\n";
-        aside::replace(&folder.join(AUDIT_FILE), text.as_bytes()).map_err(|source| {
-            StoreError::Unwritable {
-                path: folder.to_owned(),
-                source,
-            }
-        })
+        aside::write(&folder.join(AUDIT_FILE), text.as_bytes())
     }
 
     /// The audit kept in `folder`, when it was one of the study with this digest.

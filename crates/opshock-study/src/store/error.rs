@@ -1,6 +1,6 @@
 //! What can be wrong with a store.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A store that cannot be used. Every one ends the program with exit code 6.
 #[derive(Debug, thiserror::Error)]
@@ -87,6 +87,14 @@ impl StoreError {
             StoreError::Unwritable { .. } | StoreError::Unreadable { .. } => "E183",
             StoreError::Locked { .. } => "E184",
             StoreError::Empty { .. } => "E187",
+        }
+    }
+
+    /// A file that HDF5 could not make in memory.
+    pub(super) fn not_made(path: &Path, error: &hdf5::Error) -> StoreError {
+        StoreError::Unwritable {
+            path: path.to_owned(),
+            source: std::io::Error::other(error.to_string()),
         }
     }
 

@@ -5,6 +5,8 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
+use super::error::StoreError;
+
 /// A file system as a journal sees it.
 pub trait Files: Debug + Send + Sync {
     /// The file open for writing.
@@ -37,6 +39,22 @@ pub trait Files: Debug + Send + Sync {
     ///
     /// The disk refused; which of them are durable is not known.
     fn sync_folder(&self, folder: &Path) -> std::io::Result<()>;
+}
+
+/// Everything in a file; `None` when it is missing.
+///
+/// # Errors
+///
+/// E183: it cannot be read.
+pub(super) fn read(files: &impl Files, path: &Path) -> Result<Option<Vec<u8>>, StoreError> {
+    match files.read(path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(StoreError::Unreadable {
+            path: path.to_owned(),
+            source,
+        }),
+    }
 }
 
 /// A file that grows at its end.

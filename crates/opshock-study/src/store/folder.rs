@@ -19,6 +19,8 @@ use crate::search::Verdict;
 
 /// Name of the results file in a store.
 pub const RESULTS_FILE: &str = "results.h5";
+/// Folder of the kept histories in a store.
+pub const HISTORIES: &str = "histories";
 const JOURNAL_FILE: &str = "journal";
 /// Name of the study with every default in a store.
 pub(super) const RESOLVED_FILE: &str = "study.resolved.toml";
@@ -103,7 +105,8 @@ impl Store {
         std::fs::create_dir_all(folder).map_err(unwritable)?;
         probe(folder).map_err(unwritable)?;
         let lock = StoreLock::take(folder)?;
-        clear_aside(folder);
+        aside::clear(folder);
+        aside::clear(&folder.join(HISTORIES));
 
         let journal_path = folder.join(JOURNAL_FILE);
         let content = journal::read(&journal_path)?;
@@ -139,7 +142,8 @@ impl Store {
                 let mut records = content.records;
                 if !intact {
                     let kept = folder.join("journal.damaged");
-                    std::fs::copy(&journal_path, kept).map_err(unwritable)?;
+                    let bytes = std::fs::read(&journal_path).map_err(unwritable)?;
+                    aside::write(&kept, &bytes)?;
                     records.extend(from_results.iter().cloned());
                 }
                 records
@@ -157,9 +161,9 @@ impl Store {
         let journal = JournalWriter::create(&journal_path, &header, &all)?;
         loaded.add(records);
         loaded.add(from_results);
-        keep_text(folder, "study.toml", &study.given).map_err(unwritable)?;
-        keep_text(folder, RESOLVED_FILE, &study.resolved).map_err(unwritable)?;
-        std::fs::create_dir_all(folder.join("histories")).map_err(unwritable)?;
+        keep_text(folder, "study.toml", &study.given)?;
+        keep_text(folder, RESOLVED_FILE, &study.resolved)?;
+        std::fs::create_dir_all(folder.join(HISTORIES)).map_err(unwritable)?;
         let store = Store {
             folder: folder.to_owned(),
             journal,
@@ -260,28 +264,11 @@ fn probe(folder: &Path) -> std::io::Result<()> {
     file.as_file().sync_all()
 }
 
-/// Removes what a killed process left aside. Only called under the lock.
-fn clear_aside(folder: &Path) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if [".aside-", ".probe-"]
-            .iter()
-            .any(|prefix| name.starts_with(prefix))
-        {
-            let _ = std::fs::remove_file(entry.path());
-        }
-    }
-}
-
-fn keep_text(folder: &Path, name: &str, text: &str) -> std::io::Result<()> {
+fn keep_text(folder: &Path, name: &str, text: &str) -> Result<(), StoreError> {
     let path = folder.join(name);
     match std::fs::read_to_string(&path) {
         Ok(same) if same == text => Ok(()),
-        _ => aside::replace(&path, text.as_bytes()),
+        _ => aside::write(&path, text.as_bytes()),
     }
 }
 

@@ -18,7 +18,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
-use super::files::{Files, OpenFile, RealFiles};
+use super::files::{self, Files, OpenFile, RealFiles};
 use super::record::Record;
 
 /// Number of the journal's format; raised when an older reader would go wrong.
@@ -88,14 +88,9 @@ pub fn read(path: &Path) -> Result<Option<JournalContent>, StoreError> {
 ///
 /// As [`read`].
 pub fn read_in(files: &impl Files, path: &Path) -> Result<Option<JournalContent>, StoreError> {
-    match files.read(path) {
-        Ok(bytes) => parse(path, &bytes).map(Some),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(source) => Err(StoreError::Unreadable {
-            path: path.to_owned(),
-            source,
-        }),
-    }
+    files::read(files, path)?
+        .map(|bytes| parse(path, &bytes))
+        .transpose()
 }
 
 /// Reads the bytes of a journal; `path` is only named in the error. A damaged header costs no

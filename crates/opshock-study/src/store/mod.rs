@@ -5,7 +5,7 @@
 //! time, and enough to resume from when the journal is gone. Simulations are found by content, so
 //! a changed study finds what is still valid.
 
-mod aside;
+pub mod aside;
 pub mod audit;
 pub mod error;
 pub mod files;
@@ -18,9 +18,9 @@ pub mod machine;
 mod owner;
 pub mod record;
 pub mod results;
+mod seal;
 pub mod summary;
 
-pub(crate) use aside::keep_copy;
 pub use audit::{Audit, Difference};
 pub use error::StoreError;
 pub use folder::{Loaded, Store, StudyTexts, load};

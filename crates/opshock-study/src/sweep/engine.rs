@@ -15,7 +15,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::estimate;
 use super::guard;
-use super::histories;
+use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::ledger::{Job, Ledger, Told};
 use super::progress::{Event, Progress};
@@ -149,7 +149,7 @@ pub fn sweep(
         }
         let end = run.drive(simulator, folder);
         match writer.join() {
-            Ok(written) => written.map(|()| end),
+            Ok(written) => written.and(end),
             Err(panic) => std::panic::resume_unwind(panic),
         }
     })
@@ -321,7 +321,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn drive(mut self, simulator: &dyn Simulator, folder: &Path) -> SweepEnd {
+    fn drive(mut self, simulator: &dyn Simulator, folder: &Path) -> Result<SweepEnd, StoreError> {
         for (code, message) in std::mem::take(&mut self.notes) {
             self.tell(Event::Warning { code, message });
         }
@@ -337,7 +337,7 @@ impl<'a> Run<'a> {
             // Answers are safe before the histories are recorded.
             let results = self.ledger.results(&self.session);
             self.send(Message::Checkpoint(Box::new(results)));
-            if let Some(stopped) = self.record_histories(simulator, &pool, folder) {
+            if let Some(stopped) = self.record_histories(simulator, &pool, folder)? {
                 ending = stopped;
             }
         }
@@ -363,43 +363,55 @@ impl<'a> Run<'a> {
             wall_s,
             core_use: end.core_use,
         });
-        end
+        Ok(end)
     }
 
     /// Runs what is kept once more, recording; says why if it did not get to the end.
+    ///
+    /// # Errors
+    ///
+    /// E183: a history cannot be written.
     fn record_histories(
         &mut self,
         simulator: &dyn Simulator,
         pool: &rayon::ThreadPool,
         folder: &Path,
-    ) -> Option<Ending> {
-        let wanted = histories::wanted(self.input, &self.ledger, folder);
-        let (to_here, trouble) = crossbeam_channel::unbounded();
+    ) -> Result<Option<Ending>, StoreError> {
+        let wanted = histories::wanted(self.input, &self.ledger);
         let busy_ms = AtomicU64::new(0);
-        let input = self.input;
         let this = &*self;
-        pool.install(|| {
+        // What there is to warn of; the reason where a run was left out.
+        let recorded = pool.install(|| {
             use rayon::prelude::*;
-            wanted.par_iter().for_each(|one| {
-                if this.stopped().is_some() {
-                    return;
+            let record = |one: &Wanted| {
+                let kept = one.is_kept(this.input, folder);
+                if kept == Ok(true) {
+                    return Ok(Ok(None));
+                }
+                if let Some(ending) = this.stopped() {
+                    return Ok(Err(ending));
                 }
                 let began = Instant::now();
-                if let Err(message) = guard::record(input, simulator, one) {
-                    let _ = to_here.send(message);
-                }
+                let panicked = guard::record(this.input, simulator, one, folder)?;
                 busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);
-            });
-        });
+                Ok(Ok(panicked.or(kept.err())))
+            };
+            let recorded = wanted.par_iter().map(record);
+            recorded.collect::<Result<Vec<_>, StoreError>>()
+        })?;
         self.busy_s += busy_ms.into_inner() as f64 * 1e-3;
-        for message in trouble.try_iter() {
-            self.tell(Event::Warning {
-                code: "history",
-                message,
-            });
+        let mut stopped = None;
+        for one in recorded {
+            match one {
+                Ok(None) => {}
+                Ok(Some(message)) => self.tell(Event::Warning {
+                    code: "history",
+                    message,
+                }),
+                Err(ending) => stopped = Some(ending),
+            }
         }
-        self.stopped()
-            .filter(|_| !histories::wanted(self.input, &self.ledger, folder).is_empty())
+        Ok(stopped)
     }
 
     fn hand_out(&mut self, simulator: &dyn Simulator, pool: &rayon::ThreadPool) -> Ending {

@@ -82,7 +82,11 @@ fn plan_json(study: &Study) -> String {
         scenes.entry(point.ramp.as_str()).or_insert(told);
     }
     let outputs: Vec<&str> = plan.outputs.iter().map(|output| output.as_str()).collect();
-    json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes}).to_string()
+    let mut told = json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes});
+    if !plan.field_times_s.is_empty() {
+        told["field_times_s"] = json!(plan.field_times_s);
+    }
+    told.to_string()
 }
 
 fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {

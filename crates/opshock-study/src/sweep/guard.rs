@@ -2,12 +2,13 @@
 //! undecided run of its own probe.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 
 use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::simulator::{Onset, Simulator};
 use crate::search::{Probe, ProbeResult, RunCost, UndecidedCause, Verdict};
-use crate::store::StoredTouch;
+use crate::store::{StoreError, StoredTouch};
 
 /// Simulates a probe.
 pub(super) fn simulate(
@@ -48,20 +49,22 @@ pub(super) fn onset(simulator: &dyn Simulator, point: usize) -> StoredTouch {
     }
 }
 
-/// Records a history.
+/// Records a history; returns a sentence for a warning when that panics.
 ///
 /// # Errors
 ///
-/// A sentence for a warning.
+/// E183: the file cannot be written.
 pub(super) fn record(
     input: &SweepInput,
     simulator: &dyn Simulator,
     wanted: &Wanted,
-) -> Result<(), String> {
-    catch_unwind(AssertUnwindSafe(|| {
-        histories::record(input, simulator, wanted)
-    }))
-    .unwrap_or_else(|_| Err("a recording run panicked".into()))
+    folder: &Path,
+) -> Result<Option<String>, StoreError> {
+    let record = || histories::record(input, simulator, wanted, folder);
+    match catch_unwind(AssertUnwindSafe(record)) {
+        Ok(recorded) => recorded.map(|()| None),
+        Err(_) => Ok(Some("a recording run panicked".into())),
+    }
 }
 
 /// A survivor without a finite clearance, or a failure without a finite time, decides nothing.

@@ -1,18 +1,18 @@
-//! Histories kept beside the results: `histories/RAMP_WIDTHms_SIGN_AMPLITUDEg_DIGEST.h5`.
+//! Histories kept beside the results, a file a run ([`KeptRun`]).
 //!
 //! Simulations of the search record nothing. When every point has its answer, those whose
-//! histories are kept run once more with recording; the answer is the same to the bit. The name
-//! carries the amplitude and the content of the point, so a file that is there is the right one.
+//! histories are kept run once more with recording; the answer is the same to the bit. A file that
+//! is there counts when it is whole and says that it is of this run.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::input::SweepInput;
 use super::ledger::Ledger;
 use super::simulator::Simulator;
 use crate::provenance;
-use crate::search::{Probe, Retry};
-use crate::store::RunKey;
-use crate::store::history::{HistoryHeader, write_hdf5};
+use crate::search::Probe;
+use crate::store::history::{HistoryHeader, KeptRun, write_hdf5};
+use crate::store::{RunKey, StoreError};
 use crate::study::KeepHistories;
 
 /// A history to record.
@@ -20,30 +20,53 @@ use crate::study::KeepHistories;
 pub(super) struct Wanted {
     point: usize,
     probe: Probe,
+    key: RunKey,
     amplitude_m_per_s2: f64,
     amplitude_g: f64,
-    path: PathBuf,
 }
 
-/// Histories of final points that are not in `folder` yet.
-pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>, folder: &Path) -> Vec<Wanted> {
+impl Wanted {
+    fn run<'a>(&self, input: &'a SweepInput) -> KeptRun<'a> {
+        let at = &input.points[self.point].coordinates;
+        KeptRun {
+            ramp: &at.ramp,
+            pulse_ms: at.pulse_ms,
+            sign: at.sign,
+            amplitude_g: self.amplitude_g,
+            key: self.key,
+            start_s: input.start_s,
+            plan: &input.plan,
+        }
+    }
+
+    /// Whether it is in the store in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// A sentence about a file that is damaged or cannot be read.
+    pub(super) fn is_kept(&self, input: &SweepInput, folder: &Path) -> Result<bool, String> {
+        match self.run(input).read(folder) {
+            Ok(kept) => Ok(kept.is_some()),
+            Err(StoreError::Damaged { path, what, .. }) => {
+                Err(format!("{}: {what}; recorded anew", path.display()))
+            }
+            Err(error) => Err(format!("{error}; recorded anew")),
+        }
+    }
+}
+
+/// Histories of final points.
+pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>) -> Vec<Wanted> {
     let mut wanted = Vec::new();
     for point in (0..input.points.len()).filter(|&point| ledger.wants(point)) {
         for probe in probes(input, ledger, point) {
-            let key = ledger.key(point, probe);
-            let amplitude_g = input.settings.lattice.amplitude_g(probe.index);
-            let path = folder
-                .join("histories")
-                .join(name(input, point, amplitude_g, &key));
-            if !path.exists() {
-                wanted.push(Wanted {
-                    point,
-                    probe,
-                    amplitude_m_per_s2: ledger.amplitude_m_per_s2(point, probe),
-                    amplitude_g,
-                    path,
-                });
-            }
+            wanted.push(Wanted {
+                point,
+                probe,
+                key: ledger.key(point, probe),
+                amplitude_m_per_s2: ledger.amplitude_m_per_s2(point, probe),
+                amplitude_g: input.settings.lattice.amplitude_g(probe.index),
+            });
         }
     }
     wanted
@@ -77,45 +100,24 @@ fn probes(input: &SweepInput, ledger: &Ledger<'_>, point: usize) -> Vec<Probe> {
     }
 }
 
-fn name(input: &SweepInput, point: usize, amplitude_g: f64, key: &RunKey) -> String {
-    let at = &input.points[point].coordinates;
-    let mut labels = String::new();
-    if key.window_factor != 1 {
-        labels += "_window";
-    }
-    if let Some(retry) = Retry::from_level(key.retry).filter(|&retry| retry != Retry::None) {
-        labels += "_";
-        labels += &retry.label().replace('/', "_");
-    }
-    format!(
-        "{}_{}ms_{}_{amplitude_g:.3}g{labels}_{}.h5",
-        at.ramp,
-        at.pulse_ms,
-        if at.sign.factor() > 0.0 {
-            "plus"
-        } else {
-            "minus"
-        },
-        &key.point.hex()[..12]
-    )
-}
-
-/// Records one history.
+/// Records a history into the store in `folder`.
 ///
 /// # Errors
 ///
-/// A sentence for a warning: the file cannot be written.
+/// E183: the file cannot be written.
 pub(super) fn record(
     input: &SweepInput,
     simulator: &dyn Simulator,
     wanted: &Wanted,
-) -> Result<(), String> {
+    folder: &Path,
+) -> Result<(), StoreError> {
+    let run = wanted.run(input);
     let Wanted {
         point,
         probe,
         amplitude_m_per_s2,
         amplitude_g,
-        path,
+        ..
     } = wanted;
     let Some(outcome) = simulator.record(*point, *probe, *amplitude_m_per_s2) else {
         return Ok(());
@@ -153,6 +155,7 @@ pub(super) fn record(
             .iter()
             .map(|&name| name.to_owned())
             .collect(),
+        run: run.content(),
     };
-    write_hdf5(path, history, &header).map_err(|error| error.to_string())
+    write_hdf5(&run.path(folder), history, &header)
 }

@@ -11,7 +11,7 @@ use crate::store::{
 };
 
 /// What was united.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Merged {
     /// Table and simulations.
     pub results: Results,
@@ -20,6 +20,8 @@ pub struct Merged {
     /// Simulations whose numbers differ between two stores while their verdicts agree: machines
     /// with other instructions. The first store's are kept.
     pub rounding: u64,
+    /// Histories that were not taken because they are damaged.
+    pub left: Vec<StoreError>,
 }
 
 /// Two stores that cannot be united.
@@ -47,7 +49,7 @@ impl std::fmt::Display for Disagreement {
 }
 
 /// Outcome of [`merge`].
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub enum MergeEnd {
     /// United.
     Merged(Box<Merged>),
@@ -90,15 +92,14 @@ pub fn merge(
         store.append(&new)?;
         loaded.add(new);
     }
-    for path in from {
-        take_histories(path, folder)?;
-    }
     let results = replay(input, loaded, session);
+    let left = take_histories(&results, from, folder)?;
     store.checkpoint(&results)?;
     Ok(MergeEnd::Merged(Box::new(Merged {
         results,
         taken,
         rounding,
+        left,
     })))
 }
 
@@ -155,20 +156,26 @@ fn compare(sources: &[(PathBuf, Loaded)]) -> (Vec<Disagreement>, u64) {
     (found.into_iter().map(|(_, at)| at).collect(), rounding)
 }
 
-/// Copies recorded histories that are not there yet; their names carry their content.
-fn take_histories(from: &Path, to: &Path) -> Result<(), StoreError> {
-    let unwritable = |path: &Path| {
-        let path = path.to_owned();
-        move |source| StoreError::Unwritable { path, source }
-    };
-    let Ok(entries) = std::fs::read_dir(from.join("histories")) else {
-        return Ok(());
-    };
-    for entry in entries.flatten() {
-        let target = to.join("histories").join(entry.file_name());
-        if !target.exists() {
-            crate::store::keep_copy(&entry.path(), &target).map_err(unwritable(&target))?;
+/// Takes recorded histories that `to` does not have; returns what is wrong with those that were
+/// left where they are.
+fn take_histories(
+    results: &Results,
+    from: &[PathBuf],
+    to: &Path,
+) -> Result<Vec<StoreError>, StoreError> {
+    let mut left = Vec::new();
+    for run in results.kept_runs() {
+        if matches!(run.read(to), Ok(Some(_))) {
+            continue;
+        }
+        for store in from {
+            match run.copy(store, to) {
+                Ok(false) => {}
+                Ok(true) => break,
+                Err(error @ StoreError::Unwritable { .. }) => return Err(error),
+                Err(error) => left.push(error),
+            }
         }
     }
-    Ok(())
+    Ok(left)
 }

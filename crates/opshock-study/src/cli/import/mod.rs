@@ -9,8 +9,8 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use crate::store::aside;
 use crate::study::{StudyError, StudyErrors};
-use anyhow::Context as _;
 use clap::{Args, Subcommand};
 use opshock_import::Faults;
 use std::path::{Path, PathBuf};
@@ -62,12 +62,14 @@ pub(super) fn write_new(folder: &Path, files: &[(&str, &str)]) -> Result<Vec<Pat
         };
         return Err(Failure::Usage(vec![fault]));
     }
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    for (path, (_, text)) in paths.iter().zip(files) {
-        std::fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))?;
+    let written = aside::write_all(folder, files.iter().copied());
+    if written.is_err() {
+        // None was there: what got its name goes, so that the same command may be given again.
+        for path in &paths {
+            let _ = std::fs::remove_file(path);
+        }
     }
-    Ok(paths)
+    Ok(written?)
 }
 
 /// Paths as text.

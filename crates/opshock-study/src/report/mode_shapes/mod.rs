@@ -15,8 +15,9 @@
 mod drawings;
 mod grids;
 
-use super::files::write_all;
-use super::run_plots::{PlotError, write_picture};
+use super::files::ReportError;
+use super::run_plots::picture;
+use crate::store::aside::write_all;
 use nalgebra::Complex;
 use opshock_solid::ramp::{RampMesh, RampShape};
 use opshock_solver::suspension::SuspensionShapes;
@@ -126,16 +127,14 @@ pub struct ModeShapes {
 ///
 /// # Errors
 ///
-/// [`PlotError`] at the first file that cannot be written.
-pub fn write_mode_shapes(folder: &Path, shapes: &ModeShapes) -> Result<Vec<PathBuf>, PlotError> {
-    let grids = grids::all(shapes);
-    let grids = grids
-        .into_iter()
-        .map(|(name, text)| (name, text.into_bytes()));
-    let mut written = write_all(folder, grids)?;
+/// [`ReportError`] at the first file that cannot be made.
+pub fn write_mode_shapes(folder: &Path, shapes: &ModeShapes) -> Result<Vec<PathBuf>, ReportError> {
+    let grids = grids::all(shapes).into_iter();
+    let mut files: Vec<_> = grids
+        .map(|(name, text)| (name.to_string(), text.into_bytes()))
+        .collect();
     for drawing in drawings::all(shapes) {
-        let files = write_picture(folder, drawing.name, &drawing.figure, &drawing.table)?;
-        written.extend(files);
+        files.extend(picture(drawing.name, &drawing.figure, drawing.table)?);
     }
-    Ok(written)
+    Ok(write_all(folder, files)?)
 }

@@ -15,9 +15,10 @@ pub use curves::{PaperCase, long_shock_figures, pulse_figure, short_shock_figure
 pub use drawings::{deformable_ramp_drawing, plan_drawing, rigid_ramp_drawing};
 
 use super::chart::Figure;
-use super::files::write_all;
-use super::run_plots::{PlotError, write_picture};
+use super::files::ReportError;
+use super::run_plots::picture;
 use super::{critical_shock::critical_shock_figure, table};
+use crate::store::aside::write_all;
 use crate::store::summary::Summary;
 use std::path::{Path, PathBuf};
 
@@ -56,24 +57,18 @@ pub fn critical_figure(summary: &Summary, source: &str) -> PaperFigure {
 ///
 /// # Errors
 ///
-/// [`PlotError`] at the first file that cannot be written.
+/// [`ReportError`] at the first file that cannot be made.
 pub fn write_paper_figures(
     folder: &Path,
     figures: &[PaperFigure],
     provenance: &str,
-) -> Result<Vec<PathBuf>, PlotError> {
-    let mut written = Vec::new();
+) -> Result<Vec<PathBuf>, ReportError> {
+    let mut files = Vec::new();
     for figure in figures {
-        written.extend(write_picture(
-            folder,
-            &figure.stem(),
-            &figure.figure,
-            &figure.csv,
-        )?);
+        files.extend(picture(&figure.stem(), &figure.figure, figure.csv.clone())?);
     }
-    let list = list(figures, provenance).into_bytes();
-    written.extend(write_all(folder, [("figures.md", list)])?);
-    Ok(written)
+    files.push(("figures.md".into(), list(figures, provenance).into_bytes()));
+    Ok(write_all(folder, files)?)
 }
 
 fn list(figures: &[PaperFigure], provenance: &str) -> String {

@@ -1,8 +1,8 @@
 //! History as one CSV table.
 
-use super::{HistoryFileError, root_columns};
+use super::root_columns;
+use crate::store::{StoreError, aside};
 use opshock_solver::simulation::{History, PressureFields};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Table of pressure fields beside a CSV history: `run.csv` has `run-fields.csv`.
@@ -18,8 +18,8 @@ pub fn fields_path(path: &Path) -> PathBuf {
 ///
 /// # Errors
 ///
-/// [`HistoryFileError::Io`]; an existing file is then left as it was.
-pub fn write_csv(path: &Path, history: &History, start_s: f64) -> Result<(), HistoryFileError> {
+/// E183; an existing file is then left as it was.
+pub fn write_csv(path: &Path, history: &History, start_s: f64) -> Result<(), StoreError> {
     let columns = root_columns(history, start_s);
     let rows = columns[0].values.len();
     let mut text = String::with_capacity(rows * columns.len() * 20);
@@ -38,18 +38,14 @@ pub fn write_csv(path: &Path, history: &History, start_s: f64) -> Result<(), His
         }
         text.push('\n');
     }
-    put(path, &text)?;
+    aside::write(path, text.as_bytes())?;
     match &history.fields {
-        Some(fields) => put(&fields_path(path), &fields_table(fields, start_s)),
+        Some(fields) => {
+            let table = fields_table(fields, start_s);
+            aside::write(&fields_path(path), table.as_bytes())
+        }
         None => Ok(()),
     }
-}
-
-fn put(path: &Path, text: &str) -> Result<(), HistoryFileError> {
-    replace(path, text.as_bytes()).map_err(|source| HistoryFileError::Io {
-        path: path.display().to_string(),
-        source,
-    })
 }
 
 /// A line per time and cell, x running fastest.
@@ -69,12 +65,4 @@ fn fields_table(fields: &PressureFields, start_s: f64) -> String {
         }
     }
     text
-}
-
-/// Writes aside in the same folder, then renames: a reader never sees half a file.
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut aside = super::aside(path)?;
-    aside.write_all(bytes)?;
-    aside.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }

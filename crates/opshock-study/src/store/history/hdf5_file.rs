@@ -1,61 +1,52 @@
 //! History as HDF5.
 
-use super::{
-    Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryFileError, HistoryHeader, head_columns,
-    root_columns,
-};
-use crate::store::hdf5_file::create;
+use super::{Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryHeader, head_columns, root_columns};
+use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use crate::store::{StoreError, aside, hdf5_file, seal};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, Location};
 use opshock_solver::simulation::{History, PressureFields};
 use std::path::Path;
 
 /// Writes a history in the layout of the [module](super). Root attributes: `format`
-/// (`opshock history`), `format_version`, `program_version`, `commit`, `study`, `study_digest`,
-/// `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none), `effects`, and one
+/// (`opshock history`), `format_version`, `program_version`, `commit`, `physics_structure`,
+/// `physics_head`, `study`, `study_digest`, `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none), `effects`, and one
 /// attribute `point_KEY` per coordinate of the simulated point. Every dataset has `units`,
 /// `description` and `time`, the path of the dataset it is given on.
 ///
 /// # Errors
 ///
-/// [`HistoryFileError`]; an existing file is then left as it was.
+/// E183; an existing file is then left as it was.
 pub fn write_hdf5(
     path: &Path,
     history: &History,
     header: &HistoryHeader,
-) -> Result<(), HistoryFileError> {
-    let io = |source| HistoryFileError::Io {
-        path: path.display().to_string(),
-        source,
-    };
-    let aside = super::aside(path).map_err(io)?;
-    fill(aside.path(), history, header).map_err(|source| HistoryFileError::Hdf5 {
-        path: path.display().to_string(),
-        source,
-    })?;
-    aside.persist(path).map_err(|error| io(error.error))?;
-    Ok(())
+) -> Result<(), StoreError> {
+    let bytes = hdf5_file::bytes(|root| fill(root, history, header))
+        .map_err(|error| StoreError::not_made(path, &error))?;
+    aside::write(path, &seal::seal(bytes))
 }
 
-fn fill(path: &Path, history: &History, header: &HistoryHeader) -> hdf5::Result<()> {
-    let file = create(path)?;
-    let root = file.as_group()?;
-    text(&root, "format", "opshock history")?;
-    number(&root, "format_version", HISTORY_FORMAT)?;
-    text(&root, "program_version", &header.program_version)?;
-    text(&root, "commit", &header.commit)?;
-    text(&root, "study", &header.study)?;
-    text(&root, "study_digest", &header.digest)?;
+fn fill(root: &Group, history: &History, header: &HistoryHeader) -> hdf5::Result<()> {
+    text(root, "format", "opshock history")?;
+    number(root, "format_version", HISTORY_FORMAT)?;
+    text(root, "program_version", &header.program_version)?;
+    text(root, "commit", &header.commit)?;
+    number(root, "physics_structure", PHYSICS_STRUCTURE)?;
+    number(root, "physics_head", PHYSICS_HEAD)?;
+    text(root, "study", &header.study)?;
+    text(root, "study_digest", &header.digest)?;
+    text(root, "run_blake3", &header.run)?;
     for (key, value) in &header.point {
-        text(&root, &format!("point_{key}"), value)?;
+        text(root, &format!("point_{key}"), value)?;
     }
-    number(&root, "amplitude_g", header.amplitude_g)?;
-    number(&root, "start_s", header.start_s)?;
-    text(&root, "verdict", &header.verdict)?;
-    number(&root, "t_fail_s", header.t_fail_s.unwrap_or(f64::NAN))?;
-    text(&root, "effects", &header.effects.join(" "))?;
+    number(root, "amplitude_g", header.amplitude_g)?;
+    number(root, "start_s", header.start_s)?;
+    text(root, "verdict", &header.verdict)?;
+    number(root, "t_fail_s", header.t_fail_s.unwrap_or(f64::NAN))?;
+    text(root, "effects", &header.effects.join(" "))?;
 
-    datasets(&root, &root_columns(history, header.start_s), "/time_s")?;
+    datasets(root, &root_columns(history, header.start_s), "/time_s")?;
     if !history.head.time_s.is_empty() {
         let head = root.create_group("head")?;
         text(&head, "description", "head at its own accepted steps")?;
@@ -68,7 +59,7 @@ fn fill(path: &Path, history: &History, header: &HistoryHeader) -> hdf5::Result<
     if let Some(fields) = &history.fields {
         write_fields(&root.create_group("fields")?, fields, header.start_s)?;
     }
-    file.close()
+    Ok(())
 }
 
 fn write_fields(group: &Group, fields: &PressureFields, start_s: f64) -> hdf5::Result<()> {

@@ -12,16 +12,19 @@
 //! So any two root columns can be drawn against each other at once, and nothing computed is lost.
 //! Extremes of the head belong to `/head`, interpolation may cut them off.
 //! Times are on the study's axis: the pulse starts at [`HistoryHeader::start_s`].
+//! An HDF5 file ends with a [seal](super::seal).
 
 mod csv_file;
 mod hdf5_file;
+mod kept;
 mod stored;
 #[cfg(test)]
 mod tests;
 
 pub use csv_file::{fields_path, write_csv};
 pub use hdf5_file::write_hdf5;
-pub use stored::{StoredHistory, read_hdf5};
+pub use kept::KeptRun;
+pub use stored::{StoredHistory, parse};
 
 use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
 
@@ -51,29 +54,8 @@ pub struct HistoryHeader {
     pub t_fail_s: Option<f64>,
     /// Names of the simulated effects.
     pub effects: Vec<String>,
-}
-
-/// A failure to write a history file.
-#[derive(Debug, thiserror::Error)]
-pub enum HistoryFileError {
-    /// The operating system refused.
-    #[error("cannot write {path}")]
-    Io {
-        /// File.
-        path: String,
-        /// Reason.
-        #[source]
-        source: std::io::Error,
-    },
-    /// HDF5 refused.
-    #[error("cannot write {path} as HDF5")]
-    Hdf5 {
-        /// File.
-        path: String,
-        /// Reason.
-        #[source]
-        source: hdf5::Error,
-    },
+    /// The run ([`KeptRun::content`]) when the file belongs to a store; else empty.
+    pub run: String,
 }
 
 /// One named column.
@@ -360,23 +342,4 @@ fn resampled(from: &[f64], values: &[f64], to: &[f64]) -> Vec<f64> {
             }
         })
         .collect()
-}
-
-/// A file beside `path`, to be renamed over it; it removes itself when that does not happen.
-fn aside(path: &std::path::Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => std::path::Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".opshock-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Readable as the user's umask allows, like any other product; the crate's default is private.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-        builder.tempfile_in(folder)
-    }
-    #[cfg(not(unix))]
-    builder.tempfile_in(folder)
 }

@@ -5,9 +5,16 @@ use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
 
+use crate::store::error::StoreError;
+use crate::store::hdf5_file;
+use crate::store::seal::{self, Sealed};
+
 /// The columns on the time of disk and ramp, and whose they are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StoredHistory {
+    /// Digest of the run it is of ([`KeptRun::content`](super::KeptRun::content)); empty outside a
+    /// store.
+    pub run: String,
     /// Coordinates of the point, as `ramp`, `pulse_ms`, `sign`.
     pub point: BTreeMap<String, String>,
     /// Amplitude without sign, G.
@@ -18,13 +25,30 @@ pub struct StoredHistory {
     pub columns: BTreeMap<String, Vec<f64>>,
 }
 
-/// Reads what [`write_hdf5`](super::write_hdf5) wrote.
+/// Reads the bytes that [`write_hdf5`](super::write_hdf5) wrote; `path` is only named in the error.
 ///
 /// # Errors
 ///
-/// HDF5's, when the file is none of those.
-pub fn read_hdf5(path: &Path) -> hdf5::Result<StoredHistory> {
-    let file = hdf5::File::open(path)?;
+/// E182 they do not match their seal, have none, or are no history.
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<StoredHistory, StoreError> {
+    let damaged = |what: String| StoreError::Damaged {
+        path: path.to_owned(),
+        what,
+        hint: "`opshock sweep` records it anew if the study still keeps it; else remove it",
+    };
+    match seal::check(bytes) {
+        Sealed::Whole(inside) => {
+            content(inside).map_err(|error| damaged(format!("not a history of opshock ({error})")))
+        }
+        Sealed::Broken => Err(damaged("its bytes do not match its seal".into())),
+        Sealed::Without => Err(damaged(
+            "it has no seal: cut short, or of an opshock before histories were sealed".into(),
+        )),
+    }
+}
+
+fn content(inside: &[u8]) -> hdf5::Result<StoredHistory> {
+    let file = hdf5_file::open(inside)?;
     let text = |name: &str| -> hdf5::Result<String> {
         let value: VarLenUnicode = file.attr(name)?.read_scalar()?;
         Ok(value.to_string())
@@ -46,6 +70,7 @@ pub fn read_hdf5(path: &Path) -> hdf5::Result<StoredHistory> {
         }
     }
     Ok(StoredHistory {
+        run: text("run_blake3")?,
         point,
         amplitude_g: file.attr("amplitude_g")?.read_scalar()?,
         verdict: text("verdict")?,

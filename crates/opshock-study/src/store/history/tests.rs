@@ -48,6 +48,7 @@ fn header() -> HistoryHeader {
         verdict: "fails".into(),
         t_fail_s: Some(5.025e-4),
         effects: vec!["disk".into(), "ramp.rigid".into()],
+        run: String::new(),
     }
 }
 

@@ -12,18 +12,18 @@
 //! Nothing outside `/machine` depends on the machine, the threads or the time of day. The file is
 //! written whole aside, synced and renamed; `content_blake3`, and `outside_blake3` of
 //! `/machine/outside`, cover what a resume takes from it;
-//! 40 bytes behind the end of the HDF5 data seal the whole file.
+//! a [seal](super::seal) behind the end of the HDF5 data covers the whole file.
 
 mod columns;
 mod read;
-mod seal;
 mod write;
 
-pub use read::read;
-pub use write::write;
+pub use read::{parse, read};
+pub use write::{bytes, write};
 
 use opshock_solver::scene::knob::Levels;
 
+use super::history::KeptRun;
 use super::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
 use super::summary::Summary;
 use crate::search::{ProbeResult, Purpose};
@@ -126,6 +126,23 @@ impl Results {
         });
         let runs = self.runs.iter().map(|row| &row.run).chain(&self.outside);
         touches.chain(runs.cloned().map(Record::Run)).collect()
+    }
+
+    /// Runs on the study's own knobs: their histories may be kept.
+    pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
+        let rows = self.runs.iter().filter(|row| row.levels.is_none());
+        rows.map(|row| {
+            let point = &self.summary.points[row.point];
+            KeptRun {
+                ramp: &point.ramp,
+                pulse_ms: point.pulse_ms,
+                sign: point.sign,
+                amplitude_g: row.amplitude_g,
+                key: row.run.key,
+                start_s: self.start_s,
+                plan: &self.plan,
+            }
+        })
     }
 
     /// Digest of the table and of the canonical simulations, machine facts left out.

@@ -7,46 +7,47 @@ use hdf5::{File, Group};
 use opshock_solver::scene::knob::Levels;
 
 use super::columns::{get, get_number, get_text, get_texts};
-use super::seal::{self, Seal};
 use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
 use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
 use crate::store::error::StoreError;
+use crate::store::files::{self, RealFiles};
 use crate::store::hdf5_file;
 use crate::store::record::{
     COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
 };
+use crate::store::seal::{self, Sealed};
 use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary, Totals};
 
 /// Reads results; `None` when the file is missing.
 ///
 /// # Errors
 ///
-/// The file is newer (E181), or it is not HDF5, cut short, or its content does not match its
-/// digest (E182).
+/// The file is newer (E181), cannot be read (E183), or it is not HDF5, cut short, or its bytes or
+/// content do not match their digests (E182).
 pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
-    match path.try_exists() {
-        Ok(true) => {}
-        Ok(false) => return Ok(None),
-        Err(source) => {
-            return Err(StoreError::Unreadable {
-                path: path.to_owned(),
-                source,
-            });
-        }
-    }
+    files::read(&RealFiles, path)?
+        .map(|bytes| parse(path, &bytes))
+        .transpose()
+}
+
+/// Reads the bytes of results; `path` is only named in the error.
+///
+/// # Errors
+///
+/// E181 and E182 as for [`read`].
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<Results, StoreError> {
     let damaged = |what: String| StoreError::Damaged {
         path: path.to_owned(),
         what,
         hint: "if the journal is sound, `opshock sweep` writes it anew from there",
     };
-    let seal = seal::check(path).map_err(|source| StoreError::Unreadable {
-        path: path.to_owned(),
-        source,
-    })?;
-    if seal == Seal::Broken {
-        return Err(damaged("its bytes do not match its seal".into()));
-    }
-    let file = hdf5_file::open(path)
+    let inside = match seal::check(bytes) {
+        Sealed::Whole(inside) => inside,
+        // Another program has changed it: it is judged by its digests alone.
+        Sealed::Without => bytes,
+        Sealed::Broken => return Err(damaged("its bytes do not match its seal".into())),
+    };
+    let file = hdf5_file::open(inside)
         .map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
     let found =
         format(&file).map_err(|error| damaged(format!("not results of opshock ({error})")))?;
@@ -67,7 +68,7 @@ pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
     if found > 1 && results.content_digest() != digest {
         return Err(damaged("its content does not match its digest".into()));
     }
-    Ok(Some(results))
+    Ok(results)
 }
 
 fn format(file: &File) -> hdf5::Result<u32> {

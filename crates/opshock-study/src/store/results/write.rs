@@ -5,52 +5,52 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::columns::{self, Column, Values, counts, numbers, put_number, put_text, texts};
-use super::{RESULTS_FORMAT, Results, RunRow, seal};
+use super::{RESULTS_FORMAT, Results, RunRow};
 use crate::search::Verdict;
 use crate::search::lattice::REFERENCE_G;
-use crate::store::aside;
 use crate::store::error::StoreError;
-use crate::store::hdf5_file;
 use crate::store::record::{COST_NAMES, RunRecord, StoredTouch, cost_counts};
 use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary};
+use crate::store::{aside, hdf5_file, seal};
 
-/// Replaces `path` by these results: written aside, closed, synced, renamed.
+/// Replaces `path` by these results: made and sealed in memory, written aside, synced, renamed.
 ///
 /// # Errors
 ///
 /// The folder cannot be written; the old file is then whole and in place.
 pub fn write(path: &Path, results: &Results) -> Result<(), StoreError> {
-    let unwritable = |source| StoreError::Unwritable {
-        path: path.to_owned(),
-        source,
-    };
-    let file = aside::file(path).map_err(unwritable)?;
-    fill(file.path(), results)
-        .map_err(|error| unwritable(std::io::Error::other(error.to_string())))?;
-    seal::put(file.path()).map_err(unwritable)?;
-    aside::persist(file, path).map_err(unwritable)
+    aside::write(path, &bytes(path, results)?)
 }
 
-fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
-    let file = hdf5_file::create(path)?;
-    let root = file.as_group()?;
+/// The bytes of these results, sealed; `path` is only named in the error.
+///
+/// # Errors
+///
+/// E183: out of memory.
+pub fn bytes(path: &Path, results: &Results) -> Result<Vec<u8>, StoreError> {
+    hdf5_file::bytes(|root| fill(root, results))
+        .map(seal::seal)
+        .map_err(|error| StoreError::not_made(path, &error))
+}
+
+fn fill(root: &Group, results: &Results) -> hdf5::Result<()> {
     let Results {
         summary, session, ..
     } = results;
-    put_text(&root, "format", "opshock results")?;
-    put_number(&root, "format_version", RESULTS_FORMAT)?;
-    put_text(&root, "program_version", &session.program_version)?;
-    put_text(&root, "commit", &session.commit)?;
-    put_number(&root, "physics_structure", session.physics_structure)?;
-    put_number(&root, "physics_head", session.physics_head)?;
-    put_text(&root, "study", &summary.study)?;
-    put_text(&root, "study_digest", &summary.digest)?;
-    put_text(&root, "axes", &summary.axes.join(" "))?;
-    put_number(&root, "nodes_per_octave", results.nodes_per_octave)?;
-    put_number(&root, "reference_g", REFERENCE_G)?;
-    put_number(&root, "start_s", results.start_s)?;
-    put_text(&root, "plan", &results.plan)?;
-    put_text(&root, "content_blake3", &results.content_digest())?;
+    put_text(root, "format", "opshock results")?;
+    put_number(root, "format_version", RESULTS_FORMAT)?;
+    put_text(root, "program_version", &session.program_version)?;
+    put_text(root, "commit", &session.commit)?;
+    put_number(root, "physics_structure", session.physics_structure)?;
+    put_number(root, "physics_head", session.physics_head)?;
+    put_text(root, "study", &summary.study)?;
+    put_text(root, "study_digest", &summary.digest)?;
+    put_text(root, "axes", &summary.axes.join(" "))?;
+    put_number(root, "nodes_per_octave", results.nodes_per_octave)?;
+    put_number(root, "reference_g", REFERENCE_G)?;
+    put_number(root, "start_s", results.start_s)?;
+    put_text(root, "plan", &results.plan)?;
+    put_text(root, "content_blake3", &results.content_digest())?;
 
     let points = root.create_group("points")?;
     columns::write(&points, &point_columns(summary))?;
@@ -62,8 +62,7 @@ fn fill(path: &Path, results: &Results) -> hdf5::Result<()> {
     let records: Vec<&RunRecord> = results.runs.iter().map(|row| &row.run).collect();
     columns::write(&runs, &run_columns(&records, results.start_s))?;
 
-    machine(&root.create_group("machine")?, results, &records)?;
-    file.close()
+    machine(&root.create_group("machine")?, results, &records)
 }
 
 fn machine(group: &Group, results: &Results, records: &[&RunRecord]) -> hdf5::Result<()> {
