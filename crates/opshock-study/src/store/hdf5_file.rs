@@ -4,7 +4,7 @@
 //! It writes what is left when the last of a file's groups is dropped, where an error has no way
 //! out, and it may crash on a file with flipped bytes. Bytes are written by
 //! [`aside`](super::aside), whose errors are those of the operating system, and their
-//! [seal](super::seal) is checked before they are opened.
+//! seal (`store/seal.rs`) is checked before they are opened.
 #![expect(
     unsafe_code,
     reason = "the HDF5 crate has no images of files: one C call makes them, two open them"

@@ -12,7 +12,7 @@
 //! So any two root columns can be drawn against each other at once, and nothing computed is lost.
 //! Extremes of the head belong to `/head`, interpolation may cut them off.
 //! Times are on the study's axis: the pulse starts at [`HistoryHeader::start_s`].
-//! An HDF5 file ends with a [seal](super::seal).
+//! An HDF5 file ends with a seal (`store/seal.rs`).
 
 mod csv_file;
 mod hdf5_file;

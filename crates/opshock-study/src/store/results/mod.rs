@@ -12,7 +12,7 @@
 //! Nothing outside `/machine` depends on the machine, the threads or the time of day. The file is
 //! written whole aside, synced and renamed; `content_blake3`, and `outside_blake3` of
 //! `/machine/outside`, cover what a resume takes from it;
-//! a [seal](super::seal) behind the end of the HDF5 data covers the whole file.
+//! a seal (`store/seal.rs`) behind the end of the HDF5 data covers the whole file.
 
 mod columns;
 mod read;
