@@ -4,6 +4,7 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::failure::{Failure, Fault};
 use crate::report::{RunDot, Saving, ShockFilm, savings};
+use crate::store::files::list;
 use crate::store::folder::session;
 use crate::store::history::read_hdf5;
 use crate::store::{self, Audit, Loaded, Results, StoreError, Summary};
@@ -118,12 +119,8 @@ pub fn results(folder: &Path, console: &Console) -> Result<Results, Failure> {
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,
 /// else the first that can be shown.
 pub fn film(folder: &Path, resolved_study: &str) -> Option<ShockFilm> {
-    let entries = std::fs::read_dir(folder.join("histories")).ok()?;
-    let mut paths: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|ending| ending == "h5"))
-        .collect();
-    paths.sort();
+    let mut paths = list(&folder.join("histories")).ok()?;
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "h5"));
     let is_deformable = |path: &&PathBuf| {
         path.file_name()
             .is_some_and(|name| name.to_string_lossy().starts_with("deformable"))

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::aside;
 use super::error::StoreError;
+use super::files::list;
 use super::journal::{self, JournalHeader, JournalWriter};
 use super::lock::StoreLock;
 use super::machine;
@@ -258,17 +259,13 @@ fn probe(folder: &Path) -> std::io::Result<()> {
 
 /// Removes what a killed process left aside. Only called under the lock.
 fn clear_aside(folder: &Path) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
+    for path in list(folder).unwrap_or_default() {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
         if [".aside-", ".probe-"]
             .iter()
             .any(|prefix| name.starts_with(prefix))
         {
-            let _ = std::fs::remove_file(entry.path());
+            let _ = std::fs::remove_file(&path);
         }
     }
 }

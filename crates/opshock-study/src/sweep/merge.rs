@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::engine::replay;
 use super::input::SweepInput;
 use crate::search::ProbeResult;
+use crate::store::files::list;
 use crate::store::{
     Loaded, Record, Results, RunKey, Session, Store, StoreError, StoredTouch, TouchRecord,
 };
@@ -161,13 +162,17 @@ fn take_histories(from: &Path, to: &Path) -> Result<(), StoreError> {
         let path = path.to_owned();
         move |source| StoreError::Unwritable { path, source }
     };
-    let Ok(entries) = std::fs::read_dir(from.join("histories")) else {
-        return Ok(());
+    let path = from.join("histories");
+    let found = match list(&path) {
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        found => found.map_err(|source| StoreError::Unreadable { path, source })?,
     };
-    for entry in entries.flatten() {
-        let target = to.join("histories").join(entry.file_name());
+    for path in found {
+        let target = to
+            .join("histories")
+            .join(path.file_name().unwrap_or_default());
         if !target.exists() {
-            crate::store::keep_copy(&entry.path(), &target).map_err(unwritable(&target))?;
+            crate::store::keep_copy(&path, &target).map_err(unwritable(&target))?;
         }
     }
     Ok(())
