@@ -6,6 +6,7 @@ use std::process::Command;
 use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+use opshock_tests::program::program;
 
 const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
 
@@ -20,18 +21,16 @@ fn finish(folder: &Path) -> SweepEnd {
 struct Mounted(PathBuf);
 
 impl Mounted {
-    /// `None`, said aloud, where this user may not mount.
-    fn tmpfs(at: &Path, options: &str) -> Option<Mounted> {
+    fn tmpfs(at: &Path, options: &str) -> Mounted {
         std::fs::create_dir_all(at).expect("folder");
         let mounted = Command::new("mount")
             .args(["-t", "tmpfs", "-o", options, "tmpfs"])
             .arg(at)
-            .output();
-        if mounted.is_ok_and(|output| output.status.success()) {
-            return Some(Mounted(at.to_owned()));
-        }
-        println!("SKIPPED: this user may not mount a file system of {options}");
-        None
+            .output()
+            .expect("mount");
+        let said = String::from_utf8_lossy(&mounted.stderr);
+        assert!(mounted.status.success(), "only root may mount: {said}");
+        Mounted(at.to_owned())
     }
 
     fn remount(&self, options: &str) {
@@ -52,7 +51,7 @@ impl Drop for Mounted {
 
 /// Sweeps in another process; exit code and what it said on standard error.
 fn mock(folder: &Path) -> (Option<i32>, String) {
-    let output = Command::new(MOCK)
+    let output = program(MOCK)
         .arg(folder)
         .args(["1", "1", "60000"])
         .output()
@@ -62,13 +61,12 @@ fn mock(folder: &Path) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
     let root = tempfile::tempdir().expect("folder");
     let whole = finish(&root.path().join("whole"));
     let expected = dump(&root.path().join("whole/results.h5"), &["/machine"]);
-    let Some(disk) = Mounted::tmpfs(&root.path().join("small"), "size=64k") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("small"), "size=64k");
     let folder = disk.0.join("store");
     let (code, said) = mock(&folder);
     assert_eq!(code, Some(6), "{said}");
@@ -82,11 +80,10 @@ fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
 }
 
 #[test]
-fn a_file_system_that_is_full_already_is_told_before_computing() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_file_system_that_is_full_already_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = Mounted::tmpfs(&root.path().join("full"), "size=16k") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("full"), "size=16k");
     let ballast = disk.0.join("ballast");
     let mut bytes = 16 << 10;
     while std::fs::write(&ballast, vec![1; bytes]).is_err() {
@@ -99,11 +96,10 @@ fn a_file_system_that_is_full_already_is_told_before_computing() {
 }
 
 #[test]
-fn a_read_only_file_system_is_told_before_computing() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_read_only_file_system_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = Mounted::tmpfs(&root.path().join("readonly"), "size=4m") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("readonly"), "size=4m");
     let folder = disk.0.join("store");
     finish(&folder);
     let journal = std::fs::read(folder.join("journal")).expect("journal");
@@ -154,10 +150,7 @@ fn a_folder_without_permission_is_told_before_computing() {
     } else {
         run(&["env"])
     };
-    let Ok(done) = done else {
-        println!("SKIPPED: root, and no setpriv to become somebody else");
-        return;
-    };
+    let done = done.expect("setpriv of util-linux");
     let said = String::from_utf8_lossy(&done.stderr);
     assert_eq!(done.status.code(), Some(6), "{said}");
     assert!(said.starts_with("E183"), "{said}");

@@ -138,7 +138,10 @@ fn an_error_that_was_not_computed_is_absent_in_every_product() {
         cells.split(',').nth(place.expect("a column"))
     };
     assert_eq!(cell("a_crit_g"), Some(&*row.a_crit_g.unwrap().to_string()));
-    assert_eq!((cell("err_low_g"), cell("err_high_g")), (Some(""), Some("")));
+    assert_eq!(
+        (cell("err_low_g"), cell("err_high_g")),
+        (Some(""), Some(""))
+    );
     let json = serde_json::to_value(&without).expect("JSON");
     assert!(json["points"][0]["err_low_g"].is_null() && json["points"][0]["err_high_g"].is_null());
     assert_eq!(json["points"][0]["err_parts"], serde_json::json!({}));
