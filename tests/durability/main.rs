@@ -3,6 +3,7 @@
 mod flipped;
 mod full_disk;
 mod kills;
+mod limits;
 mod power_loss;
 mod signals;
 mod sim_files;

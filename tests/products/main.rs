@@ -21,6 +21,7 @@ mod imported_suspension;
 mod imports;
 mod longer_window;
 mod lowest_gap;
+mod memory;
 mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
