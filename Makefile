@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy verify-mounts verify-faults verify-hdf5 verify-klu accuracy figures
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy verify-mounts verify-faults verify-hdf5 verify-klu accuracy figures bench-against
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -66,6 +66,10 @@ check: fmt clippy doc test ## what CI runs
 
 bench: bootstrap ## benchmarks; what they print is kept in results/bench
 	scripts/bench
+
+bench-against: bootstrap ## processor and wall time against an older revision: make bench-against REV=7e99eeb [CASES="shock sweep climbed"] [PAIRS=3]
+	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
+	scripts/bench-against $(REV) $(CASES)
 
 verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu ## heavy evidence, in parts
 

@@ -13,6 +13,7 @@ mod cli_studies;
 mod cml_drives;
 mod compare;
 mod error_bars;
+mod frozen_store;
 mod hdf5_readers;
 mod heads;
 mod identity;
