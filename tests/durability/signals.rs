@@ -185,7 +185,7 @@ fn the_program_tells_how_to_go_on_after_a_signal() {
         .position(|two| two[0] == "--set" && two[1] == "--set");
     let mut words = words;
     words.remove(place.expect("two in a row"));
-    let mut child = under_test(OPSHOCK)
+    let mut child = Command::new(command.get_program())
         .current_dir(root.path())
         .args(&words)
         .stdout(Stdio::null())
