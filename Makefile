@@ -4,7 +4,7 @@ OPSHOCK := target/release/opshock
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy accuracy figures
+.PHONY: help bootstrap build fig13 study test check fmt clippy doc bench verify verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-fuzz verify-accuracy verify-mounts verify-faults verify-hdf5 verify-klu accuracy figures bench-against
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -69,7 +69,11 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; what they print is kept in results/bench
 	scripts/bench
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp verify-faults ## heavy evidence, in parts
+bench-against: bootstrap ## processor and wall time against an older revision: make bench-against REV=7e99eeb [CASES="shock sweep climbed"] [PAIRS=3]
+	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
+	scripts/bench-against $(REV) $(CASES)
+
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -80,8 +84,7 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
 
-.PHONY: verify-faults
-verify-faults: ## writes that fail at every place, file systems that fill up (root, strace): PART=sweep, report, export or run
+verify-faults: ## system calls that fail at every place, file systems that fill up (root, strace): PART=sweep, report, export, run or a (closing)
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 faults_slow_$(PART)
 
@@ -93,7 +96,7 @@ verify-search: bootstrap ## certify = "full" on 10 000 random tables (OPSHOCK_SE
 
 verify-slurm: ## a job array with a killed task on a real Slurm on the loopback address
 	@scripts/bootstrap --verify
-	OPSHOCK_NEEDS_SLURM=1 cargo test --release --locked -p opshock-tests --test products -- --nocapture slurm::
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture slurm::
 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
@@ -116,7 +119,18 @@ verify-accuracy: bootstrap ## do the error bars hold the truth? 300 known answer
 
 verify-report: ## the report in headless Chromium, series read by VTK (installs both)
 	@scripts/bootstrap --verify
-	OPSHOCK_NEED_CHROMIUM=1 cargo test --locked -p opshock-tests --test products -- --include-ignored --nocapture report_page report_slow
+	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture report_page report_slow
+
+verify-mounts: bootstrap ## stores on file systems that are full or read-only (needs root, to mount them)
+	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture mounts_
+
+verify-hdf5: ## h5dump and h5py read every dataset with its units
+	@scripts/bootstrap --verify
+	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture hdf5_readers
+
+verify-klu: ## SuiteSparse's KLU, a yardstick of the benchmarks, on a system with a known solution
+	@scripts/bootstrap --verify
+	cargo test --locked -p opshock-klu -- --ignored --nocapture
 
 verify-fuzz: bootstrap ## 10 million damaged files a reader: PART=study, surface, pulse, journal, market, calculix, dense, rail, run, dynamic or gmsh (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test fuzz -- --ignored --nocapture --test-threads=1 fuzz_slow_$(PART)

@@ -6,6 +6,7 @@ use std::process::Command;
 use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+use opshock_tests::program::program;
 
 use crate::made::{MAKING, OPSHOCK, Reference};
 use crate::mounted::Mounted;
@@ -19,17 +20,9 @@ fn finish(folder: &Path) -> SweepEnd {
     sweep(&input, &simulator, folder, &options, &Silent).expect("sweeps")
 }
 
-/// `None`, said aloud, where this user may not mount.
-fn tmpfs(at: &Path, options: &str) -> Option<Mounted> {
-    let mounted = Mounted::try_tmpfs(at, options);
-    mounted
-        .inspect_err(|why| println!("SKIPPED: {options}: {why}"))
-        .ok()
-}
-
 /// Sweeps in another process; exit code and what it said on standard error.
 fn mock(folder: &Path) -> (Option<i32>, String) {
-    let output = Command::new(MOCK)
+    let output = program(MOCK)
         .arg(folder)
         .args(["1", "1", "60000"])
         .output()
@@ -39,13 +32,12 @@ fn mock(folder: &Path) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
     let root = tempfile::tempdir().expect("folder");
     let whole = finish(&root.path().join("whole"));
     let expected = dump(&root.path().join("whole/results.h5"), &["/machine"]);
-    let Some(disk) = tmpfs(&root.path().join("small"), "size=64k") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("small"), "size=64k");
     let folder = disk.path().join("store");
     let (code, said) = mock(&folder);
     assert_eq!(code, Some(6), "{said}");
@@ -59,11 +51,10 @@ fn a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finished() {
 }
 
 #[test]
-fn a_file_system_that_is_full_already_is_told_before_computing() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_file_system_that_is_full_already_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = tmpfs(&root.path().join("full"), "size=16k") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("full"), "size=16k");
     let ballast = disk.path().join("ballast");
     let mut bytes = 16 << 10;
     while std::fs::write(&ballast, vec![1; bytes]).is_err() {
@@ -76,11 +67,10 @@ fn a_file_system_that_is_full_already_is_told_before_computing() {
 }
 
 #[test]
-fn a_read_only_file_system_is_told_before_computing() {
+#[ignore = "needs root, to mount: make verify-mounts"]
+fn mounts_a_read_only_file_system_is_told_before_computing() {
     let root = tempfile::tempdir().expect("folder");
-    let Some(disk) = tmpfs(&root.path().join("readonly"), "size=4m") else {
-        return;
-    };
+    let disk = Mounted::tmpfs(&root.path().join("readonly"), "size=4m");
     let folder = disk.path().join("store");
     finish(&folder);
     let journal = std::fs::read(folder.join("journal")).expect("journal");
@@ -131,10 +121,7 @@ fn a_folder_without_permission_is_told_before_computing() {
     } else {
         run(&["env"])
     };
-    let Ok(done) = done else {
-        println!("SKIPPED: root, and no setpriv to become somebody else");
-        return;
-    };
+    let done = done.expect("setpriv of util-linux");
     let said = String::from_utf8_lossy(&done.stderr);
     assert_eq!(done.status.code(), Some(6), "{said}");
     assert!(said.starts_with("E183"), "{said}");

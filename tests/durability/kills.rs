@@ -12,6 +12,7 @@ use opshock_study::store::{PointDigest, Record, RunKey, journal, results};
 use opshock_study::sweep::{Silent, SweepInput, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+use opshock_tests::program::program;
 use opshock_tests::refined::{refined_study, sweep_rounds};
 use opshock_tests::seeded::{OnPanic, Seeded, seeds};
 
@@ -134,7 +135,7 @@ fn life(swept: Swept, seed: u64, expected: &[String], kills: &mut Kills) {
     }
     let mut before = stored(&folder);
     for _ in 0..KILLS {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_sweep-mock"));
+        let mut program = program(env!("CARGO_BIN_EXE_sweep-mock"));
         // Checkpoints every few milliseconds: some kills fall into them.
         let checkpoint_ms = seeded.one_of(&["2", "10", "1000"]);
         program.arg(&folder).args(["2", "2", checkpoint_ms]);

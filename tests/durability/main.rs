@@ -5,6 +5,7 @@ mod flipped;
 mod full_disk;
 mod histories;
 mod kills;
+mod limits;
 mod made;
 mod mounted;
 mod power_loss;

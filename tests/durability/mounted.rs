@@ -12,22 +12,15 @@ impl Mounted {
     /// # Panics
     /// Where this user may not mount one.
     pub fn tmpfs(at: &Path, options: &str) -> Mounted {
-        let mounted = Mounted::try_tmpfs(at, options);
-        mounted.unwrap_or_else(|why| panic!("a file system of {options} needs root: {why}"))
-    }
-
-    /// As [`Mounted::tmpfs`], or why not.
-    pub fn try_tmpfs(at: &Path, options: &str) -> Result<Mounted, String> {
         std::fs::create_dir_all(at).expect("folder");
-        let mount = Command::new("mount")
+        let mounted = Command::new("mount")
             .args(["-t", "tmpfs", "-o", options, "tmpfs"])
             .arg(at)
-            .output();
-        match mount {
-            Ok(output) if output.status.success() => Ok(Mounted(at.to_owned())),
-            Ok(output) => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
-            Err(error) => Err(error.to_string()),
-        }
+            .output()
+            .expect("mount");
+        let said = String::from_utf8_lossy(&mounted.stderr);
+        assert!(mounted.status.success(), "only root may mount: {said}");
+        Mounted(at.to_owned())
     }
 
     /// Where it is.

@@ -8,6 +8,7 @@ use opshock_study::store::{Status, results};
 use opshock_study::sweep::{Silent, SweepOptions, stored, sweep};
 use opshock_tests::coarse;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+use opshock_tests::program::program as under_test;
 
 const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
 const OPSHOCK: &str = env!("CARGO_BIN_EXE_opshock-under-test");
@@ -18,7 +19,7 @@ fn study() -> PathBuf {
 
 /// `opshock sweep` of the fast study into `s.opshock` of a folder.
 fn program(folder: &Path) -> Command {
-    let mut command = Command::new(OPSHOCK);
+    let mut command = under_test(OPSHOCK);
     command.current_dir(folder).arg("sweep").arg(study());
     command.args(["--store", "s.opshock", "-j1"]);
     for set in coarse::TWO_POINTS.iter().chain(&coarse::SEARCH) {
@@ -52,7 +53,7 @@ fn start(
     sleep_ms: &str,
     runs: usize,
 ) -> (Child, BufReader<std::process::ChildStdout>) {
-    let mut child = Command::new(MOCK)
+    let mut child = under_test(MOCK)
         .arg(folder)
         .args(["2", sleep_ms])
         .stdout(Stdio::piped())
@@ -148,7 +149,7 @@ fn a_second_process_is_refused_and_disturbs_nothing() {
     let root = tempfile::tempdir().expect("folder");
     let folder = root.path().join("store");
     let (mut first, lines) = start(&folder, "3", 10);
-    let second = Command::new(MOCK)
+    let second = under_test(MOCK)
         .arg(&folder)
         .args(["2", "3"])
         .output()
@@ -184,7 +185,7 @@ fn the_program_tells_how_to_go_on_after_a_signal() {
         .position(|two| two[0] == "--set" && two[1] == "--set");
     let mut words = words;
     words.remove(place.expect("two in a row"));
-    let mut child = Command::new(OPSHOCK)
+    let mut child = Command::new(command.get_program())
         .current_dir(root.path())
         .args(&words)
         .stdout(Stdio::null())

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::{Done, opshock, study};
-use opshock_study::study::memory::{check_memory, film_bytes};
+use opshock_study::study::memory::{Demand, film_bytes};
 use opshock_study::study::{SetArg, Severity, Study, StudyErrors, check_threads};
 
 /// Files in the order of their names. Paths are relative, so that messages are the same anywhere.
@@ -170,13 +170,9 @@ fn what_is_no_text_file_is_refused_with_the_reason() {
         assert!(looped.hint.contains("a.toml -> "), "{looped}");
         // A FIFO nobody writes to would block a reader that opens it.
         let fifo = at("fifo.toml");
-        if std::process::Command::new("mkfifo")
-            .arg(&fifo)
-            .status()
-            .is_ok_and(|status| status.success())
-        {
-            assert_eq!(refused(&fifo).code, "E105");
-        }
+        let made = std::process::Command::new("mkfifo").arg(&fifo).status();
+        assert!(made.expect("mkfifo").success());
+        assert_eq!(refused(&fifo).code, "E105");
     }
 }
 
@@ -242,16 +238,20 @@ fn threads_are_limited() {
     }
 }
 
-/// 20 370 film cells: the program's peak was 444 MB, 427 of them the film's. 10 000 cells, beside
-/// 60 MB, are 210 MB a worker.
+/// A film of 10 000 cells, beside what every thread takes, is 75 MB a worker.
 #[test]
 fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
-    let worker = 60e6 + film_bytes(10_000.0);
-    assert!((film_bytes(20_370.0) / 427e6 - 1.0).abs() < 0.05);
-    assert!(check_memory(5, worker, 5.0 * worker).is_ok());
-    let fault = check_memory(6, worker, 5.0 * worker).unwrap_err();
-    assert_eq!(fault.code, "E186");
-    assert_eq!(fault.hint, "-j 5 fits");
+    let demand = Demand {
+        film: film_bytes(10_000.0),
+        ..Demand::default()
+    };
+    let worker = demand.bytes(1);
+    assert!((worker / 75e6 - 1.0).abs() < 1e-9);
+    assert!(demand.check("it", 5, 5.0 * worker).is_ok());
+    let fault = demand.check("it", 6, 5.0 * worker).unwrap_err();
+    let fault = fault.to_json()["errors"][0].clone();
+    assert_eq!(fault["code"], "E186");
+    assert_eq!(fault["hint"], "-j 5 fits");
     let folder = tempfile::tempdir().unwrap();
     let path = study("fig13").canonicalize().unwrap();
     let sweep = |gigabytes: &str, climbs: &str| {
@@ -273,8 +273,8 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
         ];
         Done::of(folder.path(), &asked)
     };
-    // One climb may make it 40 000 cells, which are 1.3 GB a worker.
-    for (gigabytes, climbs) in [("0.6", "0"), ("0.01", "0"), ("3.7", "1")] {
+    // Held still on 40 000 cells, which are 0.4 GB a worker. One climb may make it 160 000, which are 3.2 GB.
+    for (gigabytes, climbs) in [("1.2", "0"), ("0.01", "0"), ("9.5", "1")] {
         let refused = sweep(gigabytes, climbs);
         assert_eq!(refused.code, 3, "{}", refused.stderr);
         assert_eq!(refused.errors()[0]["code"], "E186");

@@ -1,12 +1,16 @@
 //! Running the program: what every test of the command line shares, and what every command keeps.
 
 use assert_cmd::Command;
+use opshock_tests::program::program;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
+/// The program itself.
+pub const OPSHOCK: &str = env!("CARGO_BIN_EXE_opshock-under-test");
+
 /// The program in `folder`, without the caller's terminal settings.
 pub fn opshock(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_opshock-under-test"));
+    let mut command = Command::from_std(program(OPSHOCK));
     command
         .current_dir(folder)
         .env_remove("NO_COLOR")
@@ -128,7 +132,7 @@ fn a_wrong_command_line_is_exit_2_on_stderr_also_as_json() {
 fn a_reader_that_goes_away_ends_the_program_quietly() {
     use std::io::Read as _;
     use std::process::Stdio;
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+    let mut child = program(OPSHOCK)
         .arg("schema")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -1,6 +1,7 @@
 //! `run`: one shock through the program; histories and plots agree with the JSON.
 
-use super::cli::{COARSE, Done, files, study};
+use super::cli::{COARSE, Done, OPSHOCK, files, study};
+use opshock_tests::program::program;
 use serde_json::Value;
 use std::path::Path;
 
@@ -406,7 +407,7 @@ fn doctor_runs_the_hard_cases_and_tells_figure_and_bound() {
 fn an_interrupted_sweep_saves_and_ends_with_the_code_of_the_signal() {
     use std::io::{BufRead as _, BufReader};
     let folder = tempfile::tempdir().unwrap();
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+    let mut child = program(OPSHOCK)
         .current_dir(folder.path())
         .args([
             "sweep",

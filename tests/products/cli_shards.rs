@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::cli::{Done, study};
 use opshock_tests::hdf5_dump::dump;
+use opshock_tests::program::program;
 
 /// Figure 13 without and with the rigid ramp at two widths, coarse: 8 points.
 const SMALL: [&str; 8] = [
@@ -44,7 +45,7 @@ fn merged_shards_are_the_sweep_bit_for_bit() {
     // Shards 2 and 3 at the same time; 1 when they have ended.
     let mut running: Vec<_> = ["2/3", "3/3"]
         .map(|shard| {
-            std::process::Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+            program(crate::cli::OPSHOCK)
                 .current_dir(&parts)
                 .args(words("sweep", file, &["-j1", "--shard", shard]))
                 .stdout(std::process::Stdio::null())

@@ -75,7 +75,9 @@ fn only_what_differs_is_told_and_whether_it_is_beyond_the_errors() {
             "{point}"
         );
     }
-    assert_eq!(point["significance"], "beyond_bars");
+    // Neither has error bars: what is known of the errors decides nothing.
+    assert_eq!(point["significance"], "beyond_brackets");
+    assert!(point["a"]["err_high_g"].is_null(), "{point}");
     let change_pct = point["change_pct"].as_f64().unwrap();
     assert!((change_pct - 10.0).abs() <= 1.1, "{change_pct}");
 
@@ -83,6 +85,7 @@ fn only_what_differs_is_told_and_whether_it_is_beyond_the_errors() {
     for line in [
         "settings that differ: 1\n  ramp.clearance_um: 100.0 | 120.0\n",
         "points of both: 1 differ, 1 equal\n",
+        "beyond brackets, no bars",
         "points of A only: 2\n  none 0.5 ms +\n  none 0.5 ms -\n",
         "points of B only: 2\n",
     ] {

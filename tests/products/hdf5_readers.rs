@@ -1,5 +1,5 @@
 //! Readers that are not ours: `h5dump` and h5py read every dataset of what the program writes, and
-//! find units on each. Skipped aloud where neither is installed (`scripts/bootstrap --verify`).
+//! find units on each.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -63,10 +63,10 @@ fn datasets(file: &Path) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "needs h5dump and h5py: make verify-hdf5"]
 fn h5dump_and_h5py_read_every_dataset_with_units() {
     let folder = tempfile::tempdir().unwrap();
     let files = files(folder.path());
-    let has_h5dump = Command::new("h5dump").arg("--version").output().is_ok();
     let venv = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/verify-venv/bin/python");
     let python = [venv, "/usr/bin/python3".into(), "python3".into()]
         .into_iter()
@@ -74,48 +74,40 @@ fn h5dump_and_h5py_read_every_dataset_with_units() {
             let import = Command::new(python).args(["-c", "import h5py"]).output();
             import.is_ok_and(|output| output.status.success())
         });
+    let python = python.expect("a python with h5py: scripts/bootstrap --verify");
     for file in &files {
         let expected = datasets(file);
         assert!(expected.len() >= 15, "{expected:?}");
-        if has_h5dump {
-            // All values, then the attributes alone.
-            let whole = Command::new("h5dump").arg(file).output().unwrap();
-            assert!(whole.status.success(), "{}", file.display());
-            assert!(
-                whole.stderr.is_empty(),
-                "{}",
-                String::from_utf8_lossy(&whole.stderr)
-            );
-            for name in &expected {
-                let output = Command::new("h5dump")
-                    .args(["-a", &format!("{name}/units")])
-                    .arg(file)
-                    .output()
-                    .unwrap();
-                assert!(output.status.success(), "{name} has no units");
-            }
-        }
-        if let Some(python) = &python {
-            let output = Command::new(python)
-                .args(["-c", H5PY])
+        // All values, then the attributes alone.
+        let whole = Command::new("h5dump").arg(file).output();
+        let whole = whole.expect("h5dump of hdf5-tools");
+        assert!(whole.status.success(), "{}", file.display());
+        assert!(
+            whole.stderr.is_empty(),
+            "{}",
+            String::from_utf8_lossy(&whole.stderr)
+        );
+        for name in &expected {
+            let output = Command::new("h5dump")
+                .args(["-a", &format!("{name}/units")])
                 .arg(file)
                 .output()
                 .unwrap();
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{}: {said}", file.display());
-            let told = String::from_utf8(output.stdout).unwrap();
-            let mut found: Vec<&str> = told
-                .lines()
-                .filter_map(|line| line.split(' ').next())
-                .collect();
-            found.sort_unstable();
-            assert_eq!(found, expected, "{}", file.display());
+            assert!(output.status.success(), "{name} has no units");
         }
-    }
-    if !has_h5dump {
-        println!("SKIPPED: h5dump is not installed (hdf5-tools)");
-    }
-    if python.is_none() {
-        println!("SKIPPED: no python with h5py");
+        let output = Command::new(&python)
+            .args(["-c", H5PY])
+            .arg(file)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{}: {said}", file.display());
+        let told = String::from_utf8(output.stdout).unwrap();
+        let mut found: Vec<&str> = told
+            .lines()
+            .filter_map(|line| line.split(' ').next())
+            .collect();
+        found.sort_unstable();
+        assert_eq!(found, expected, "{}", file.display());
     }
 }

@@ -120,7 +120,7 @@ fn critical(folder: &Path, file: &str) -> Vec<Critical> {
 }
 
 #[test]
-#[ignore = "slow: some minutes; needs gmsh and CalculiX"]
+#[ignore = "slow: some minutes; needs Gmsh and CalculiX: make verify-ramp"]
 fn outside_slow_ramp_by_gmsh_and_calculix() {
     let at = tempfile::tempdir().unwrap();
     let folder = at.path();

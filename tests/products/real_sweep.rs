@@ -3,7 +3,7 @@
 
 use std::fs::OpenOptions;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::sync::LazyLock;
 use std::time::Duration;
 
@@ -11,6 +11,7 @@ use super::cli::{Done, study};
 use opshock_study::store::journal;
 use opshock_study::store::record::Record;
 use opshock_tests::hdf5_dump::dump;
+use opshock_tests::program::program;
 
 const STORE: &str = "s.opshock";
 
@@ -81,7 +82,7 @@ fn runs(folder: &Path) -> usize {
 /// running.
 fn kill_after(folder: &Path, set: &[&str], more: usize) -> bool {
     let before = runs(folder);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
+    let mut child = program(crate::cli::OPSHOCK)
         .current_dir(folder)
         .args(arguments(set, 2))
         .stdout(Stdio::null())

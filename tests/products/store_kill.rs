@@ -9,6 +9,7 @@ use opshock_study::search::Status;
 use opshock_study::sweep::{Silent, SweepEnd, SweepOptions, stored, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
+use opshock_tests::program::program;
 
 const MOCK: &str = env!("CARGO_BIN_EXE_sweep-mock");
 
@@ -30,7 +31,7 @@ fn content(folder: &Path) -> Vec<String> {
 
 /// Starts a sweep of some 500 runs of 3 ms on two threads and waits until it runs.
 fn start(folder: &Path) -> Child {
-    let mut child = Command::new(MOCK)
+    let mut child = program(MOCK)
         .arg(folder)
         .args(["2", "3"])
         .stdout(Stdio::piped())

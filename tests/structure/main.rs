@@ -2,4 +2,5 @@
 
 mod architecture;
 mod floors;
+mod skips;
 mod wording;

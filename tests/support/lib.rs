@@ -5,6 +5,7 @@ pub mod hdf5_dump;
 pub mod mock_bars;
 pub mod mock_sweep;
 pub mod pairs;
+pub mod program;
 pub mod refined;
 pub mod runge_kutta;
 pub mod scenes;

@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::knob::{Knob, Levels};
-use opshock_study::search::{Flag, Probe, Purpose, Retry};
+use opshock_study::report::comparison::Significance;
+use opshock_study::report::{critical_shock_figure, table};
+use opshock_study::search::{Flag, Probe, Purpose, Retry, Status};
 use opshock_study::store::results;
 use opshock_study::store::summary::PointSummary;
 use opshock_study::study::Ramp;
@@ -107,11 +109,70 @@ fn runs_of_bars_are_labelled_and_switched_off_by_the_plan() {
     assert_eq!(without.summary.totals.bar_runs, 0);
     for (with, without) in with.summary.points.iter().zip(&without.summary.points) {
         assert_eq!(with.a_crit_g, without.a_crit_g);
-        assert_eq!(without.err_parts.len(), 1);
         let sum: f64 = with.err_parts.iter().map(|(_, part)| part.high_g).sum();
         assert_eq!(with.err_high_g, Some(sum));
-        assert!(with.err_high_g > without.err_high_g);
+        // The bracket alone is no error.
+        assert_eq!(without.err_parts, []);
+        assert_eq!((without.err_low_g, without.err_high_g), (None, None));
     }
+}
+
+/// A sweep without error bars gave `-0.0 +5.0`, the width of the bracket, where the same with them gave `-9.3 +9.4`.
+#[test]
+fn an_error_that_was_not_computed_is_absent_in_every_product() {
+    let (mut input, laws) = (laws_study(1), LawSimulator::of(3, 1));
+    let folder = tempfile::tempdir().expect("folder");
+    let with = run(&input, &laws, &folder.path().join("with"), 1).summary;
+    for point in &mut input.points {
+        point.bar = None;
+    }
+    let store = folder.path().join("without");
+    let without = run(&input, &laws, &store, 1).summary;
+    let row = &without.points[0];
+    assert_eq!(row.status, Status::Ok);
+
+    let csv = table::csv(&without);
+    let (header, cells) = csv.split_once('\n').expect("a row");
+    let cell = |name: &str| {
+        let place = header.split(',').position(|column| column == name);
+        cells.split(',').nth(place.expect("a column"))
+    };
+    assert_eq!(cell("a_crit_g"), Some(&*row.a_crit_g.unwrap().to_string()));
+    assert_eq!(
+        (cell("err_low_g"), cell("err_high_g")),
+        (Some(""), Some(""))
+    );
+    let json = serde_json::to_value(&without).expect("JSON");
+    assert!(json["points"][0]["err_low_g"].is_null() && json["points"][0]["err_high_g"].is_null());
+    assert_eq!(json["points"][0]["err_parts"], serde_json::json!({}));
+    for text in [table::terminal(&without), table::markdown(&without, "")] {
+        assert!(!text.contains("-0.0 +"), "{text}");
+    }
+    let file = hdf5::File::open(store.join("results.h5")).expect("opens");
+    let column = |name: &str| {
+        let set = file.dataset(&format!("points/{name}")).expect("a column");
+        set.read_raw::<f64>().expect("reads")[0]
+    };
+    assert!(column("err_low_g").is_nan() && column("err_high_g").is_nan());
+    drop(file);
+    let stored = results::read(&store.join("results.h5")).expect("reads");
+    assert_eq!(stored.expect("is there").summary, without);
+
+    let figure = critical_shock_figure(&without, "");
+    assert!(figure.subtitle.ends_with("no bar: error not known"));
+    let sample = &figure.panels[0].series[0].samples[0];
+    assert!(sample.note.contains("error not known"), "{}", sample.note);
+
+    // Two nodes apart: beyond the brackets, which decides nothing about errors.
+    let mut other = row.clone();
+    for value in [&mut other.a_crit_g, &mut other.a_fail_g] {
+        *value = value.map(|g| 1.05 * g);
+    }
+    assert_eq!(Significance::of(row, &other), Significance::BeyondBrackets);
+    assert_eq!(
+        Significance::of(&with.points[0], &other),
+        Significance::BeyondBrackets
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The paper's two shocks with its three ramp models.
 
+use crate::study::memory::Demand;
 use crate::study::{Choice, ChoiceError, Point, Ramp, Sign, Study};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
@@ -170,6 +171,11 @@ impl Task {
     /// The scene, for telling equal runs.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Memory that it takes.
+    pub fn demand(&self) -> Demand {
+        Demand::run(&self.scene, &self.plan, true)
     }
 
     /// Onset of the pulse on the study's axis, s.

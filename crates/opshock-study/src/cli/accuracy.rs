@@ -10,8 +10,10 @@ use crate::identity;
 use crate::provenance::{self, PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::report::write_accuracy;
 use crate::store::{StoreError, aside};
+use crate::study::memory::Demand;
 use crate::study::{Choice, Point, Ramp, Sign, Study};
 use clap::Args;
+use opshock_solver::simulation::Scope;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -174,6 +176,10 @@ fn ladders_of(
 ) -> Result<PointLadders, Failure> {
     let sign = point.factor();
     let settings = ladders(&point.scene);
+    let plan = Scope::Full.plan();
+    let scenes = settings.iter().map(|setting| &setting.scene);
+    let runs = scenes.map(|scene| Demand::run(scene, &plan, false));
+    super::memory::check("a ladder", runs.fold(Demand::default(), Demand::max), 1)?;
     let key = |setting: &Setting| {
         let head = identity::head_key(&setting.scene, PHYSICS_STRUCTURE, PHYSICS_HEAD);
         let mut hasher = blake3::Hasher::new();

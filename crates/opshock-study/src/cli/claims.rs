@@ -5,7 +5,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::figures::{critical_shocks, swept};
-use super::study_file;
+use super::{memory, study_file};
 use crate::claims::{
     Case, Finding, Sensitivity, ShockError, Shocks, Task, Variant, coarse_sets, findings, merged,
     rows, shock_sets, touched_ramps, with_sets,
@@ -13,6 +13,7 @@ use crate::claims::{
 use crate::provenance;
 use crate::report::{ClaimTable, write_claims, write_sensitivity};
 use crate::store::Summary;
+use crate::study::memory::Demand;
 use crate::study::{Ramp, Study};
 use crate::sweep::{Ending, Physics, Silent, StopFlag, SweepInput, SweepOptions, sweep};
 use anyhow::Context as _;
@@ -169,12 +170,21 @@ impl Runner {
     }
 
     fn with_finer_knobs(&self, study: &Study) -> Result<(Shocks, Vec<Finer>), Failure> {
-        let tasks = Shocks::tasks(study, Levels::NONE).map_err(shock_failure)?;
-        let own = self.run(&tasks, &[]).map_err(shock_failure)?;
+        let tasks = |levels| Shocks::tasks(study, levels).map_err(shock_failure);
+        let own = tasks(Levels::NONE)?;
+        let finer = Knob::ALL.map(|knob| Ok((knob, tasks(Levels::NONE.turned(knob, 1))?)));
+        let all_finer = finer.into_iter().collect::<Result<Vec<_>, Failure>>()?;
+        let all = all_finer.iter().flat_map(|(_, tasks)| tasks).chain(&own);
+        let demand = all
+            .clone()
+            .map(Task::demand)
+            .fold(Demand::default(), Demand::max);
+        // The histories of all stay.
+        let models = all.map(|task| task.demand().steps).sum();
+        memory::check("the shocks", Demand { models, ..demand }, self.threads)?;
+        let own = self.run(&own, &[]).map_err(shock_failure)?;
         let mut finer = Vec::new();
-        for knob in Knob::ALL {
-            let levels = Levels::NONE.turned(knob, 1);
-            let tasks = Shocks::tasks(study, levels).map_err(shock_failure)?;
+        for (knob, tasks) in all_finer {
             let cases = self.run(&tasks, &[]).map_err(shock_failure)?;
             finer.push((knob.as_str(), Shocks::of(cases)));
         }
@@ -263,6 +273,7 @@ impl Runner {
         let mut store = folder.as_os_str().to_owned();
         store.push(".opshock");
         let store = PathBuf::from(store);
+        memory::check("the sweep", memory::of_sweep(study), self.threads)?;
         let input = SweepInput::of(study).context("the study has no amplitudes to search")?;
         let options = SweepOptions {
             stop: stop.clone(),

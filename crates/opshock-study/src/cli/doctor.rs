@@ -4,6 +4,7 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::memory;
 use crate::provenance;
 use crate::report::runs_table;
 use crate::store::{self, StoreError, machine};
@@ -55,6 +56,7 @@ pub fn run(
     // Two threads show a race also on one core.
     let threads = global.threads().max(2);
     let study = small_study()?;
+    memory::check("the small sweep", memory::of_sweep(&study), threads)?;
     let alone = swept(&study, &arguments.folder, 1)?;
     let together = swept(&study, &arguments.folder, threads)?;
     let checks = vec![

@@ -6,8 +6,9 @@ use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::ShockArgs;
 use super::thresholds::coordinates;
-use super::{stored, study_file};
+use super::{memory, stored, study_file};
 use crate::report::savings;
+use crate::study::memory::Demand;
 use crate::study::{Faces, Point, Study};
 use anyhow::Context as _;
 use clap::Args;
@@ -68,7 +69,12 @@ pub fn run(
     let plan = study.plan();
     let mut cells: Option<(Scene, usize)> = None;
     let mut all = Vec::new();
-    for point in chosen(&study, arguments)? {
+    let points = chosen(&study, arguments)?;
+    let runs = points
+        .iter()
+        .map(|point| Demand::run(&point.scene, &plan, false));
+    memory::check("a point", runs.fold(Demand::default(), Demand::max), 1)?;
+    for point in points {
         let film_cells = film_cells(&plan, &point.scene, &mut cells)?;
         all.push(explain(
             &study,

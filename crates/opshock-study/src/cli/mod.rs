@@ -47,6 +47,8 @@ use failure::{Failure, Fault};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// Simulates a hard disk drive's head-disk interface under operational shock and finds the
 /// amplitude it survives.
@@ -163,6 +165,7 @@ enum Command {
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {
+    tame_signals();
     let arguments: Vec<OsString> = std::env::args_os().collect();
     // A mistake in the arguments must be told in JSON too, before they are understood.
     let json = arguments
@@ -191,6 +194,18 @@ pub fn main() -> ExitCode {
             failure.exit().into()
         }
     }
+}
+
+/// A write past a file-size limit fails with its error instead of ending the process by SIGXFSZ. What aborts the
+/// process, above all memory that the machine refuses, has told why on standard error and ends it with
+/// [`Exit::Internal`].
+fn tame_signals() {
+    use signal_hook::consts::{SIGABRT, SIGXFSZ};
+    use signal_hook::flag;
+    // Both are refused only for signals that no program may handle.
+    let _ = flag::register(SIGXFSZ, Arc::default());
+    let always = Arc::new(AtomicBool::new(true));
+    let _ = flag::register_conditional_shutdown(SIGABRT, Exit::Internal.code().into(), always);
 }
 
 fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {

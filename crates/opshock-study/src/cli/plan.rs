@@ -4,9 +4,10 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::{slurm, stored, study_file};
+use super::{memory, slurm, stored, study_file};
 use crate::study::Study;
 use crate::study::difference::SettingDifference;
+use crate::study::memory::Demand;
 use crate::sweep::forecast::{Forecast, Spread, forecast};
 use crate::sweep::refine::refined;
 use crate::sweep::{Physics, SweepInput};
@@ -52,6 +53,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
     } else {
         global.threads()
     };
+    memory::check("the forecast", Demand::models(&study), 1)?;
     let nodes = history_nodes(&study);
     let mut forecast = forecast(&input, &Physics::of(&study), loaded, threads, nodes);
     forecast.may_add(to_add as u64);

@@ -2,8 +2,9 @@
 //! shock, and the film's stiffness and damping at the same frequencies.
 
 use crate::cli::failure::{Failure, Fault};
-use crate::cli::study_file;
+use crate::cli::{memory, study_file};
 use crate::study::Study;
+use crate::study::memory::Demand;
 use anyhow::Context as _;
 use nalgebra::Complex;
 use opshock_solver::head::response::{Drive, HeadResponse};
@@ -86,6 +87,7 @@ pub fn responses(
     // Small motions about flight over a plane disk.
     still.run_out.clear();
     let plan = Plan::new(&[Output::CriticalShock], Mode::Full);
+    memory::check("the response", Demand::run(&still, &plan, false), 1)?;
     let model = Model::assemble(&still, &plan, None)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let head = model.head().context("no head")?;

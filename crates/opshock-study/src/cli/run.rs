@@ -5,10 +5,11 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::ShockArgs;
-use super::study_file;
+use super::{memory, study_file};
 use crate::provenance;
 use crate::report::{RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures};
 use crate::store::history::{HistoryHeader, fields_path, write_csv, write_hdf5};
+use crate::study::memory::Demand;
 use crate::study::{Shot, Study};
 use clap::Args;
 use opshock_solver::ramp::RampModel;
@@ -93,7 +94,9 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
 
 /// Runs the shock by the study's plan.
 pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
-    let model = Model::assemble(&shot.point.scene, &study.plan(), None)
+    let plan = study.plan();
+    memory::check("the run", Demand::run(&shot.point.scene, &plan, record), 1)?;
+    let model = Model::assemble(&shot.point.scene, &plan, None)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     let request = Request {
         amplitude_m_per_s2: shot.amplitude_m_per_s2,

@@ -5,8 +5,9 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::selection::{PointArgs, unshaken_point};
-use super::study_file;
+use super::{memory, study_file};
 use crate::study::Study;
+use crate::study::memory::Demand;
 use anyhow::Context as _;
 use clap::Args;
 use nalgebra::Complex;
@@ -157,6 +158,7 @@ struct State {
 }
 
 fn film(study: &Study, scene: &Scene) -> Result<Film, Failure> {
+    memory::check("the steady flight", Demand::impedance(scene), 1)?;
     let film = scene.film();
     film.map_err(|error| study_file::cannot_be_simulated(study, &error))
 }

@@ -61,7 +61,9 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     if !study.asks_for(Output::CriticalShock) {
         return thresholds::run(&study, console);
     }
-    memory::check(&study, global.threads(), arguments.memory_gb)?;
+    let gigabytes = arguments.memory_gb.map(|gb| 1e9 * gb);
+    let available = gigabytes.unwrap_or_else(memory::available_bytes);
+    memory::of_sweep(&study).check("the sweep", global.threads(), available)?;
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;

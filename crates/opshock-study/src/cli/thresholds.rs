@@ -4,7 +4,8 @@
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::study_file;
+use super::{memory, study_file};
+use crate::study::memory::Demand;
 use crate::study::{Point, Study, StudyError, StudyErrors};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
@@ -29,6 +30,11 @@ pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
         return Err(StudyErrors::from(fault).into());
     }
     let plan = Plan::new(&[Output::TouchThreshold], Mode::Auto);
+    let runs = study
+        .points
+        .iter()
+        .map(|point| Demand::run(&point.scene, &plan, false));
+    memory::check("a point", runs.fold(Demand::default(), Demand::max), 1)?;
     let mut rows = Vec::new();
     for place in study.table_order() {
         let point = &study.points[place];

@@ -56,7 +56,15 @@ pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
         .points
         .iter()
         .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
-    let mut subtitle = "highest surviving amplitude with its error bar".to_owned();
+    let has_bar = |point: &PointSummary| point.err_low_g.is_some();
+    let mut subtitle = "highest surviving amplitude".to_owned();
+    if summary.points.iter().any(has_bar) {
+        subtitle.push_str(" with its error bar");
+    }
+    let lacks_bar = |point: &PointSummary| point.status == Status::Ok && !has_bar(point);
+    if summary.points.iter().any(lacks_bar) {
+        subtitle.push_str("; no bar: error not known");
+    }
     if bounded {
         subtitle.push_str("; open arrow: no bracket within the searched range");
     }
@@ -150,14 +158,16 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
         _ => return None,
     };
     let g = |v: Option<f64>| v.map_or("-".to_owned(), |v| format!("{v:.1}"));
+    let error = match (point.err_low_g, point.err_high_g) {
+        (Some(low), Some(high)) => format!("error -{low:.1} +{high:.1} G"),
+        _ => "error not known".to_owned(),
+    };
     let mut note = format!(
-        "{name}, {} ms, {}: survives {} G, fails {} G, error -{} +{} G, {}",
+        "{name}, {} ms, {}: survives {} G, fails {} G, {error}, {}",
         point.pulse_ms,
         point.sign.as_str(),
         g(point.a_crit_g),
         g(point.a_fail_g),
-        g(point.err_low_g),
-        g(point.err_high_g),
         point.status.as_str()
     );
     for flag in &point.flags {

@@ -90,7 +90,7 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
     }
     text.push_str(
         "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; error: \
-         bar of `A_crit`; first touch: amplitude at which the disk first reaches the ramp. \
+         bar of `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
          `> A`: no failure up to A; `< A`: failure already at A.\n",
     );
     text.push_str(&parts_table(summary));

@@ -6,6 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
+use super::files::list;
 
 /// Names that files aside may begin with, those of earlier versions included.
 const PREFIXES: [&str; 3] = [PREFIX, ".probe-", ".opshock-"];
@@ -70,14 +71,10 @@ fn aside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::TempPath> {
 
 /// Removes what killed processes left aside in a folder. Only called under its store's lock.
 pub(super) fn clear(folder: &Path) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
+    for path in list(folder).unwrap_or_default() {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
         if PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {
-            let _ = std::fs::remove_file(entry.path());
+            let _ = std::fs::remove_file(&path);
         }
     }
 }

@@ -1,9 +1,11 @@
 //! The system calls under a journal, so that tests can put a file system there that fails.
 
+use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::fs::File;
 use std::io::{Read, Write};
-use std::path::Path;
+use std::os::unix::ffi::OsStrExt as _;
+use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
 
@@ -89,6 +91,26 @@ pub trait OpenFile: Debug + Send {
         }
         Ok(())
     }
+}
+
+/// Paths of what is in a folder, sorted.
+///
+/// Not by [`std::fs::read_dir`], which panics where the system cannot close the folder.
+///
+/// # Errors
+///
+/// The folder is missing (`NotFound`) or cannot be read.
+pub fn list(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in rustix::fs::Dir::new(File::open(folder)?)? {
+        let entry = entry?;
+        let name = entry.file_name().to_bytes();
+        if name != b"." && name != b".." {
+            found.push(folder.join(OsStr::from_bytes(name)));
+        }
+    }
+    found.sort();
+    Ok(found)
 }
 
 /// The file system of the machine.

@@ -60,7 +60,7 @@ pub struct ErrorPart {
 
 /// Critical shock of one point.
 ///
-/// The bar is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`. `a_fail_g` is the lowest failing
+/// The bar is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`; an error that was not computed is absent. `a_fail_g` is the lowest failing
 /// amplitude in the evidence, `a_crit_g` the highest surviving one below it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointSummary {

@@ -1,55 +1,196 @@
 //! Memory that simulations need, and whether a machine has it.
+//!
+//! Every number is a measured peak of resident memory less that of a program that does nothing, on x86-64 Linux;
+//! `tests/products/memory.rs` holds the estimates against such peaks.
 
-use super::{Study, StudyError};
+use super::{KeepHistories, Study, StudyError, StudyErrors};
+use opshock_solver::scene::plan::{Needs, Plan};
+use opshock_solver::scene::{Scene, Window};
 
-/// Bytes that a worker keeps besides the film: disk modes, histories, program.
-const BASE_BYTES: f64 = 60e6;
+/// Bytes of every thread that simulates: disk modes, film of some hundred cells, scratch.
+const THREAD: f64 = 25e6;
+/// Bytes of a film's matrices and banded factors over n^1.5 cells, as of bands √n wide: 54 and 45 at 5000 and 20 000.
+const FLIGHT: f64 = 50.0;
+/// The same where its complex impedance is found too: 150 and 152.
+const IMPEDANCE: f64 = 150.0;
+/// The same of films that are only held still, with factors of single precision: 27 and 33 at 40 000 and 16 000.
+const HELD: f64 = 30.0;
+/// Bytes of a model per time step of disk and ramp: the unit response, which has more on a hub or a base that vibrates.
+const UNIT_RESPONSE: [f64; 2] = [190.0, 330.0];
+/// Bytes of a run per time step: the motion of the disk under the slider and its rate.
+const MOTION: f64 = 48.0;
+/// The same of histories that are kept, and of what is written or drawn of them: 211 (HDF5), 325 (CSV), 535 (plots).
+const HISTORY: f64 = 450.0;
+/// Models with turned knobs that an error bar asks for, and that a sweep keeps.
+const TURNED: [usize; 2] = [9, 24];
 
-/// Bytes of the film's matrices and banded factors for n cells, at their peak while the steady flight
-/// is found. Measured peaks at 5145, 20 370 and 50 464 cells, less the 17 MB of a process with 16
-/// cells: 56, 427 and 1531 MB, which are 153, 147 and 135 bytes times n^1.5, as of bands √n wide.
+/// Bytes of a film of n cells while a shock is run.
 pub fn film_bytes(cells: f64) -> f64 {
-    150.0 * cells.powf(1.5)
+    FLIGHT * cells.powf(1.5)
 }
 
-/// Bytes that one worker needs for the finest film of a study: that of its points with their cells doubled `film_steps`
-/// times, or the one that corrects their grids, which has every cell of the reference cut in four.
-pub fn worker_bytes(study: &Study, film_steps: u32) -> f64 {
-    let cells = study.points.iter().map(|point| {
-        let film = &point.scene.film_resolution;
-        (film.cells << film_steps).max(4 * film.reference_cells)
-    });
-    BASE_BYTES + film_bytes(cells.max().unwrap_or(0) as f64)
+/// Bytes while a grid of n cells, and the same with every cell cut in four, tells what other grids leave out.
+pub fn reference_bytes(cells: f64) -> f64 {
+    HELD * (4.0 * cells).powf(1.5)
 }
 
-/// Checks that `workers` workers of `worker_bytes` each fit into `available_bytes`.
-///
-/// # Errors
-/// E186 with the estimate and a number of workers that fits.
-pub fn check_memory(
-    workers: usize,
-    worker_bytes: f64,
-    available_bytes: f64,
-) -> Result<(), Box<StudyError>> {
-    let fitting = (available_bytes / worker_bytes).floor();
-    if workers as f64 <= fitting {
-        return Ok(());
+/// Bytes that simulations need beyond those of the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Demand {
+    /// Models that are kept for all workers.
+    pub models: f64,
+    /// Film of each worker.
+    pub film: f64,
+    /// Time steps of each worker: its model, motion and histories.
+    pub steps: f64,
+}
+
+impl Demand {
+    /// One shock, from building its model on.
+    pub fn run(scene: &Scene, plan: &Plan, record: bool) -> Demand {
+        let (n, model) = unit_response(scene);
+        let film = &scene.film_resolution;
+        let cells = film.cells as f64;
+        // Pressure and height, once in the head's run and once in its outcome.
+        let fields = 32.0 * cells * plan.field_times_s.len() as f64;
+        let kept = if record { HISTORY * n + fields } else { 0.0 };
+        let needs_film = plan.needs >= Needs::Flight;
+        let reference = reference_bytes(film.reference_cells as f64);
+        Demand {
+            models: 0.0,
+            film: needs_film
+                .then(|| film_bytes(cells).max(reference))
+                .unwrap_or_default(),
+            steps: model + MOTION * n + kept,
+        }
     }
-    let hint = if fitting >= 1.0 {
-        format!("-j {fitting} fits")
-    } else {
-        "not even one fits: take fewer film_cells, or a machine with more memory".to_string()
+
+    /// The steady flight of a scene with its impedance.
+    pub fn impedance(scene: &Scene) -> Demand {
+        let film = &scene.film_resolution;
+        let reference = reference_bytes(film.reference_cells as f64);
+        Demand {
+            film: (IMPEDANCE * (film.cells as f64).powf(1.5)).max(reference),
+            ..Demand::default()
+        }
+    }
+
+    /// The first touches of all points of a study, whose models are kept.
+    pub fn models(study: &Study) -> Demand {
+        let mut seen: Vec<&Scene> = Vec::new();
+        let mut models = 0.0;
+        for point in &study.points {
+            if !seen.contains(&&point.scene) {
+                seen.push(&point.scene);
+                models += unit_response(&point.scene).1;
+            }
+        }
+        let plan = study.plan();
+        let runs = study
+            .points
+            .iter()
+            .map(|point| Demand::run(&point.scene, &plan, false));
+        Demand {
+            models,
+            ..runs.fold(Demand::default(), Demand::max)
+        }
+    }
+
+    /// A whole sweep: windows may be doubled, points refined to films of `finer` times the cells, and films held still
+    /// on finer ones yet.
+    pub fn sweep(study: &Study, finer: f64) -> Demand {
+        let search = &study.search;
+        let mut all = Demand::models(study);
+        let mut longest: f64 = 0.0;
+        for point in &study.points {
+            let film = &point.scene.film_resolution;
+            let (cells, reference) = (finer * film.cells as f64, film.reference_cells as f64);
+            all.film = all.film.max(film_bytes(cells));
+            if search.error_bars {
+                // A grid of twice the reference's cells, or the film's own, with every cell cut in four.
+                let held = if reference > 0.0 {
+                    8.0 * reference
+                } else {
+                    4.0 * cells
+                };
+                all.film = all.film.max(film_bytes(held));
+            }
+            let (n, model) = unit_response(&point.scene);
+            longest = longest.max(model);
+            // A model of the doubled window in the making.
+            let is_kept = study.output.keep_histories != KeepHistories::None;
+            let kept = if is_kept { HISTORY * n } else { 0.0 };
+            all.steps = all.steps.max(2.0 * (model + MOTION * n) + kept);
+        }
+        let turned = match search.error_bars {
+            true => TURNED[1].min(TURNED[0] * study.points.len()) as f64 * longest,
+            false => 0.0,
+        };
+        // Of every point the model of the doubled window is kept too.
+        all.models += 2.0 * all.models + turned;
+        all
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Demand) -> Demand {
+        Demand {
+            models: self.models.max(other.models),
+            film: self.film.max(other.film),
+            steps: self.steps.max(other.steps),
+        }
+    }
+
+    /// What so many workers need together.
+    pub fn bytes(&self, workers: usize) -> f64 {
+        self.models + workers as f64 * self.worker()
+    }
+
+    fn worker(&self) -> f64 {
+        THREAD + self.film + self.steps
+    }
+
+    /// Checks that it fits, with so many workers, into `available` bytes; `what` names it.
+    ///
+    /// # Errors
+    /// E186 with the estimate, and a number of workers that fits or what to make smaller.
+    pub fn check(&self, what: &str, workers: usize, available: f64) -> Result<(), StudyErrors> {
+        if self.bytes(workers) <= available {
+            return Ok(());
+        }
+        let fitting = ((available - self.models) / self.worker()).floor();
+        let hint = if fitting >= 1.0 {
+            format!("-j {fitting} fits")
+        } else if self.film > self.steps.max(self.models) {
+            "take fewer film_cells or film_reference_cells, or a machine with more memory".into()
+        } else {
+            "take a shorter window_ms, a longer structure_step_us, fewer fields.times_ms or points, or a machine with \
+             more memory"
+                .to_string()
+        };
+        let message = format!(
+            "{what} needs more memory than there is: about {} for films and {} for time steps in each of {workers} \
+             workers, {} for the models of all points",
+            gigabytes(self.film),
+            gigabytes(self.steps),
+            gigabytes(self.models)
+        );
+        let fault = StudyError::in_file("E186", "-j", message)
+            .value(gigabytes(self.bytes(workers)))
+            .allowed(format!("at most {}", gigabytes(available)))
+            .hint(hint);
+        Err(fault.into())
+    }
+}
+
+/// Time steps of a scene's window, and bytes of its model for them.
+fn unit_response(scene: &Scene) -> (f64, f64) {
+    let window_s = match scene.window {
+        Window::Fixed { length_s } => length_s,
+        Window::UntilDecayed { max_s, .. } => max_s,
     };
-    let message = format!(
-        "the sweep needs more memory than there is: about {} in each of {workers} workers",
-        gigabytes(worker_bytes)
-    );
-    Err(Box::new(
-        StudyError::in_file("E186", "-j", message)
-            .value(gigabytes(worker_bytes * workers as f64))
-            .allowed(format!("at most {}", gigabytes(available_bytes)))
-            .hint(hint),
-    ))
+    let n = window_s / scene.structure_resolution.step_s;
+    let has_bodies = scene.disk.hub.is_some() || !scene.base.is_empty();
+    (n, UNIT_RESPONSE[usize::from(has_bodies)] * n)
 }
 
 fn gigabytes(bytes: f64) -> String {

@@ -8,7 +8,8 @@ use crate::store::summary::{ErrorPart, PointSummary};
 /// Row of a point.
 ///
 /// The answer lies between the highest survivor, which is reported, and the lowest failure above
-/// it: the bracket adds nothing below the reported value and its width above. Where the bar climbed,
+/// it: the bracket adds nothing below the reported value and its width above. The bracket alone is no error: without
+/// an error bar, or where no other part of it could be found, the row has none. Where the bar climbed,
 /// both are those of the finer knobs; brackets and scan stay those of the study's own.
 pub(super) fn row(
     point: &SweepPoint,
@@ -29,9 +30,9 @@ pub(super) fn row(
             findings.failure.map(amplitude),
         ),
     };
-    let err_parts = match (findings.status, a_crit_g, a_fail_g) {
-        (Status::Ok, Some(a_crit_g), Some(a_fail_g)) => {
-            parts(bar.map(|(answer, _)| &answer.bar), a_crit_g, a_fail_g)
+    let err_parts = match (findings.status, bar, a_crit_g, a_fail_g) {
+        (Status::Ok, Some((answer, _)), Some(a_crit_g), Some(a_fail_g)) => {
+            parts(&answer.bar, a_crit_g, a_fail_g)
         }
         _ => Vec::new(),
     };
@@ -98,15 +99,22 @@ pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
     }
 }
 
-/// The bracket to its last digit, and what the resolution adds as shares of the answer.
-fn parts(bar: Option<&Bar>, a_crit_g: f64, a_fail_g: f64) -> Vec<(String, ErrorPart)> {
+/// The bracket to its last digit, and what the resolution adds as shares of the answer; nothing where that is not known.
+fn parts(bar: &Bar, a_crit_g: f64, a_fail_g: f64) -> Vec<(String, ErrorPart)> {
+    let others: Vec<_> = bar
+        .parts
+        .iter()
+        .filter(|part| part.name != "search")
+        .collect();
+    if others.is_empty() && bar.flags.contains(&Flag::BarPartial) {
+        return Vec::new();
+    }
     let search = ErrorPart {
         low_g: 0.0,
         high_g: a_fail_g - a_crit_g,
         factor: 1.0,
     };
-    let others = bar.into_iter().flat_map(|bar| &bar.parts);
-    let others = others.filter(|part| part.name != "search").map(|part| {
+    let others = others.into_iter().map(|part| {
         let part_g = ErrorPart {
             low_g: part.low * a_crit_g,
             high_g: part.high * a_crit_g,

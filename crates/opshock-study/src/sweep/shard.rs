@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::search::Order;
+use crate::store::files::list;
 use crate::store::lock;
 use crate::store::{Record, journal};
 
@@ -77,19 +78,11 @@ fn folder(whole: &Path, number: usize, count: usize) -> PathBuf {
 ///
 /// The folder cannot be read.
 pub fn stores(whole: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let entries = match std::fs::read_dir(whole.join(SHARDS)) {
-        Ok(entries) => entries,
+    let mut found = match list(&whole.join(SHARDS)) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => return Err(error),
+        found => found?,
     };
-    let mut found = Vec::new();
-    for entry in entries {
-        let path = entry?.path();
-        if path.join("journal").exists() || path.join("results.h5").exists() {
-            found.push(path);
-        }
-    }
-    found.sort();
+    found.retain(|path| path.join("journal").exists() || path.join("results.h5").exists());
     Ok(found)
 }
 

@@ -247,6 +247,12 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 };
                 (!part.low_g.is_nan()).then(|| ((*name).to_owned(), part))
             };
+            let mut err_parts: Vec<_> = parts.iter().filter_map(part).collect();
+            // Older files give the bracket alone as an error.
+            let is_bracket = matches!(&err_parts[..], [(name, _)] if name == "search");
+            let error = |column| number(column).filter(|_| !is_bracket);
+            let (err_low_g, err_high_g) = (error(3), error(4));
+            err_parts.retain(|_| !is_bracket);
             Ok(PointSummary {
                 ramp: ramp[i].clone(),
                 pulse_ms: numbers[0][i],
@@ -254,9 +260,9 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 axes: columns.iter().map(|column| column[i].clone()).collect(),
                 a_crit_g: number(1),
                 a_fail_g: number(2),
-                err_low_g: number(3),
-                err_high_g: number(4),
-                err_parts: parts.iter().filter_map(part).collect(),
+                err_low_g,
+                err_high_g,
+                err_parts,
                 levels: levels[i].clone(),
                 onset_g: number(5),
                 runs: runs[i],

@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::study::fault::StudyError;
 use crate::study::key::{Key, Kind};
-use crate::study::memory::film_bytes;
+use crate::study::memory::{film_bytes, reference_bytes};
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};
 
@@ -93,7 +93,7 @@ pub(super) fn not_a_word(
 pub(super) fn memory_hint(path: &str, count: f64) -> String {
     let bytes = match path {
         "solver.film_cells" => film_bytes(count),
-        "solver.film_reference_cells" => film_bytes(4.0 * count),
+        "solver.film_reference_cells" => reference_bytes(count),
         // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
         "solver.disk_harmonics" => count * 2.0 * 82.0 * 82.0 * 8.0,
         "solver.disk_elements" => 8.0 * (2.0 * count + 2.0).powi(2),

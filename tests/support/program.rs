@@ -1,0 +1,11 @@
+//! A program under test, started.
+
+use std::process::Command;
+
+/// The program at `path` with every signal at its default: what the tests were started to ignore, under `nohup` or in
+/// the background of a script, it would ignore with them. Its process is that of the command.
+pub fn program(path: &str) -> Command {
+    let mut command = Command::new("env");
+    command.args(["--default-signal", path]);
+    command
+}
