@@ -84,7 +84,7 @@ verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSH
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture durability_slow
 
-verify-faults: ## system calls that fail at every place, file systems that fill up (root, strace): PART=sweep, report, export, run or a (closing)
+verify-faults: ## system calls that fail at every place, file systems that fill up (root, strace): PART=sweep, report, export or run
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 faults_slow_$(PART)
 

@@ -376,7 +376,7 @@ fn doctor_finds_a_sound_machine_and_leaves_nothing() {
     assert_eq!(files(folder.path()).len(), 0);
     assert_eq!(
         Done::of(folder.path(), &["doctor", "no/such/folder"]).code,
-        1
+        6
     );
 }
 
