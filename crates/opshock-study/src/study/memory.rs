@@ -54,13 +54,13 @@ impl Demand {
         // Pressure and height, once in the head's run and once in its outcome.
         let fields = 32.0 * cells * plan.field_times_s.len() as f64;
         let kept = if record { HISTORY * n + fields } else { 0.0 };
-        let needs_film = plan.needs >= Needs::Flight;
         let reference = reference_bytes(film.reference_cells as f64);
         Demand {
             models: 0.0,
-            film: needs_film
-                .then(|| film_bytes(cells).max(reference))
-                .unwrap_or_default(),
+            film: match plan.needs >= Needs::Flight {
+                true => film_bytes(cells).max(reference),
+                false => 0.0,
+            },
             steps: model + MOTION * n + kept,
         }
     }
