@@ -92,7 +92,7 @@ fn part(names: &[&str]) {
     let strace = Command::new("strace").arg("-V").output();
     assert!(
         strace.is_ok_and(|output| output.status.success()),
-        "strace is not installed"
+        "strace is missing"
     );
     let is_chosen = |making: &&Making| names.contains(&making.name);
     for making in MAKING.iter().filter(is_chosen) {
@@ -110,25 +110,25 @@ fn part(names: &[&str]) {
 }
 
 #[test]
-#[ignore = "minutes, strace and root: make verify-faults PART=sweep"]
+#[ignore = "needs strace and root, takes minutes: make verify-faults"]
 fn faults_slow_sweep() {
     part(&["sweep"]);
 }
 
 #[test]
-#[ignore = "minutes, strace and root: make verify-faults PART=report"]
+#[ignore = "needs strace and root, takes minutes: make verify-faults"]
 fn faults_slow_report() {
     part(&["report", "export_csv"]);
 }
 
 #[test]
-#[ignore = "minutes, strace and root: make verify-faults PART=export"]
+#[ignore = "needs strace and root, takes minutes: make verify-faults"]
 fn faults_slow_export() {
     part(&["export_vtu"]);
 }
 
 #[test]
-#[ignore = "minutes, strace and root: make verify-faults PART=run"]
+#[ignore = "needs strace and root, takes minutes: make verify-faults"]
 fn faults_slow_run() {
     part(&["history_h5", "history_csv", "plots"]);
 }

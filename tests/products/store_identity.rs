@@ -231,3 +231,65 @@ fn the_journal_alone_is_a_store() {
     let kept: PathBuf = store.join("study.resolved.toml");
     assert_eq!(std::fs::read_to_string(kept).unwrap(), drive(0.635));
 }
+
+#[test]
+fn a_store_without_its_journal_header_still_knows_its_study() {
+    let root = tempfile::tempdir().unwrap();
+    let root = root.path();
+    write(&root.join("a.toml"), &drive(0.635));
+    let truth = swept(root, "a.toml", &[]);
+    let store = root.join("a.opshock");
+    let journal = store.join("journal");
+    let mut bytes = std::fs::read(&journal).unwrap();
+    bytes[20] ^= 1;
+    std::fs::write(&journal, &bytes).unwrap();
+    std::fs::remove_file(store.join("results.h5")).unwrap();
+    for source in ["a.toml", "a.opshock"] {
+        let done = Done::of(root, &["report", source, "--json"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_eq!(answer(&done.json()), truth);
+    }
+    // Nor is another study admitted, and without the text nothing is made up.
+    let other = drive(0.9).replace("name = \"Fig. 13", "name = \"Another, not Fig. 13");
+    write(&root.join("c.toml"), &other);
+    refused(&sweep(root, "c.toml", &["--store", "a.opshock"]));
+    std::fs::remove_file(store.join("study.resolved.toml")).unwrap();
+    let done = Done::of(root, &["report", "a.opshock"]);
+    assert_eq!(done.code, 6, "{}", done.stderr);
+    assert!(done.stderr.contains("E182"), "{}", done.stderr);
+    // The study itself makes it whole, with every run that is.
+    assert_eq!(swept(root, "a.toml", &[]), truth);
+}
+
+#[test]
+fn shards_of_before_an_edit_do_not_take_the_place_of_what_came_after() {
+    let root = tempfile::tempdir().unwrap();
+    let root = root.path();
+    write(&root.join("a.toml"), &drive(0.635));
+    for part in ["1/2", "2/2"] {
+        let done = sweep(root, "a.toml", &["--shard", part]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+    }
+    assert_eq!(Done::of(root, &["merge", "a.toml"]).code, 0);
+    write(&root.join("a.toml"), &drive(0.9));
+    let after = swept(root, "a.toml", &[]);
+    refused(&Done::of(root, &["merge", "a.opshock"]));
+    refused(&Done::of(root, &["merge", "a.toml"]));
+    assert_eq!(
+        answer(&Done::of(root, &["report", "a.toml", "--json"]).json()),
+        after
+    );
+}
+
+#[test]
+fn a_study_whose_name_is_no_text_is_swept_and_read() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path().join(std::ffi::OsStr::from_bytes(b"n\xe9"));
+    write(&folder.join("a.toml"), &drive(0.635));
+    let truth = swept(&folder, "a.toml", &[]);
+    assert_eq!(
+        answer(&Done::of(&folder, &["report", "a.toml", "--json"]).json()),
+        truth
+    );
+}

@@ -819,4 +819,16 @@ fn what_is_unset_is_as_if_the_file_did_not_have_it() {
     assert_eq!(code(&["ramp.contact_stifness_n_per_m"]), "E110");
     assert_eq!(code(&["disk.rpm", "disk.rpm.x"]), "E114");
     assert!(SetArg::unset("disk rpm").is_err() && SetArg::unset("").is_err());
+    // An entry that is taken away moves those behind it, and one that is not there is a mistake.
+    let modes = |k: usize| format!("ramp.deformable.modes[{k}]");
+    let count = |study: Study| {
+        study
+            .resolved_toml()
+            .matches("[[ramp.deformable.modes]]")
+            .count()
+    };
+    let all = count(plain);
+    assert_eq!(count(unset(&[&modes(0)]).unwrap()), all - 1);
+    assert_eq!(code(&[&modes(0), &modes(1)]), "E114");
+    assert_eq!(code(&[&modes(99)]), "E113");
 }

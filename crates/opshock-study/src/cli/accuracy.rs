@@ -9,6 +9,7 @@ use crate::accuracy::{Accuracy, BRACKET, Bench, Measured, PointLadders, Setting,
 use crate::identity;
 use crate::provenance::{self, PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::report::write_accuracy;
+use crate::store::files::{self, RealFiles};
 use crate::store::{StoreError, aside};
 use crate::study::memory::Demand;
 use crate::study::{Choice, Point, Ramp, Sign, Study};
@@ -61,8 +62,6 @@ const PROBE: f64 = 0.9;
 /// What was measured before, by content of the setting.
 struct Memory<'a> {
     folder: &'a Path,
-    /// A line per measurement.
-    text: String,
     known: HashMap<String, Measured>,
 }
 
@@ -75,29 +74,32 @@ struct Line {
 }
 
 impl Memory<'_> {
-    /// Reads what this program has measured into `folder`; a line that it did not write is left out.
-    fn open(folder: &Path) -> Memory<'_> {
-        let mut memory = Memory {
-            folder,
-            text: String::new(),
-            known: HashMap::new(),
-        };
-        let text = std::fs::read_to_string(folder.join(MEASURED)).unwrap_or_default();
-        for line in text.lines() {
-            if let Ok(Line { key, measured }) = serde_json::from_str(line) {
-                memory.text += &format!("{line}\n");
-                memory.known.insert(key, measured);
+    /// Reads what was measured into `folder`; of a line that this program does not read nothing is known.
+    fn open(folder: &Path) -> Result<Memory<'_>, StoreError> {
+        let mut known = HashMap::new();
+        for line in Self::bytes(folder)?.split(|&byte| byte == b'\n') {
+            if let Ok(Line { key, measured }) = serde_json::from_slice(line) {
+                known.insert(key, measured);
             }
         }
-        memory
+        Ok(Memory { folder, known })
     }
 
+    fn bytes(folder: &Path) -> Result<Vec<u8>, StoreError> {
+        Ok(files::read(&RealFiles, &folder.join(MEASURED))?.unwrap_or_default())
+    }
+
+    /// Adds a measurement behind what the file holds now, another process's included.
     fn keep(&mut self, key: String, measured: Measured) -> Result<(), StoreError> {
         let line = Line { key, measured };
-        let text = serde_json::to_string(&line).expect("a measurement serialises");
-        self.text += &format!("{text}\n");
+        let mut bytes = Self::bytes(self.folder)?;
+        if !matches!(bytes.last(), None | Some(b'\n')) {
+            bytes.push(b'\n');
+        }
+        serde_json::to_writer(&mut bytes, &line).expect("a measurement serialises");
+        bytes.push(b'\n');
+        aside::write_all(self.folder, [(MEASURED, &bytes)])?;
         self.known.insert(line.key, line.measured);
-        aside::write_all(self.folder, [(MEASURED, &self.text)])?;
         Ok(())
     }
 }
@@ -111,7 +113,7 @@ pub fn run(
     let study = study_file::read(&arguments.study, global, console)?;
     study_file::refuse_unaccepted(&study, global)?;
     let points = points(&study, &arguments.at)?;
-    let mut memory = Memory::open(&arguments.out);
+    let mut memory = Memory::open(&arguments.out)?;
     let mut measured = Vec::new();
     for point in &points {
         measured.push(ladders_of(

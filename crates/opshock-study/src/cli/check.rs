@@ -88,10 +88,10 @@ fn as_text(study: &Study) -> String {
             "" => "not in the file".to_owned(),
             value => format!("file: {value}"),
         };
-        line(
-            "set",
-            format!("{} = {} ({before})", over.key, over.set_value),
-        );
+        match over.set_value.as_str() {
+            "" => line("unset", format!("{} ({before})", over.key)),
+            value => line("set", format!("{} = {value} ({before})", over.key)),
+        }
     }
     text
 }

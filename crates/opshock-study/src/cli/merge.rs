@@ -20,8 +20,9 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub struct MergeArgs {
     /// Store of the whole sweep, or its study file; made when it is missing
+    // Not `store`: arguments are known by their names, and --store has that.
     #[arg(value_name = "STORE|STUDY")]
-    store: PathBuf,
+    target: PathBuf,
     /// Stores to take from [default: the shards in STORE]
     #[arg(value_name = "FROM")]
     from: Vec<PathBuf>,
@@ -29,14 +30,14 @@ pub struct MergeArgs {
 
 /// Runs the command.
 pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
-    let target = if arguments.from.is_empty() || arguments.store.is_file() {
-        stored::source(&arguments.store, global)?
+    let target = if arguments.from.is_empty() || arguments.target.is_file() {
+        stored::source(&arguments.target, global)?
     } else {
-        stored::Source::of_folder(&arguments.store)
+        stored::Source::of_folder(&arguments.target)
     };
     let folder = &target.folder;
     let from = if arguments.from.is_empty() {
-        shard::stores(folder).with_context(|| format!("cannot read {}", folder.display()))?
+        shard::stores(folder)?
     } else {
         arguments.from.clone()
     };
@@ -105,9 +106,20 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
 fn texts(store: &Path, target: &stored::Source) -> Result<StudyTexts, Failure> {
     let owner = owner(store)?;
     target.check(&owner)?;
+    // Shards of an older form of the study must not take its place unasked.
+    if !target.is_of_study() && target.folder.exists() {
+        let whole = stored::finished(&target.folder)?;
+        if let Some(whole) = whole.owner.filter(|whole| whole.digest != owner.digest) {
+            let resolved = owner.resolved.as_deref().unwrap_or_default();
+            whole.belongs(&target.folder, store, &owner.digest, resolved)?;
+        }
+    }
     // The file as given is for people: a store may have lost it.
     let given = std::fs::read_to_string(store.join("study.toml")).unwrap_or_default();
-    let file = owner.file.map(|file| store.join(file));
+    let file = match target.file() {
+        Some(file) => Some(file.to_owned()),
+        None => owner.file.map(|file| store.join(file)),
+    };
     Ok(StudyTexts {
         name: owner.name,
         digest: owner.digest,
@@ -119,11 +131,7 @@ fn texts(store: &Path, target: &stored::Source) -> Result<StudyTexts, Failure> {
 
 /// The study that a store belongs to.
 fn owner(store: &Path) -> Result<Owner, Failure> {
-    let (loaded, _) = store::load(store)?;
-    let empty = || StoreError::Empty {
-        path: store.to_owned(),
-    };
-    Ok(loaded.owner.ok_or_else(empty)?)
+    Ok(stored::owner(&mut store::load(store)?.0, store)?)
 }
 
 /// Refuses stores whose studies differ.

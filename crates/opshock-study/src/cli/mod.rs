@@ -196,8 +196,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// A write past a file-size limit fails with its error instead of ending the process by SIGXFSZ. What aborts the
-/// process, above all memory that the machine refuses, has told why on standard error and ends it with
+/// A write past a file-size limit fails with its error instead of ending the process by SIGXFSZ. Memory that
+/// the machine refuses is told by the standard library, which then aborts: that ends with
 /// [`Exit::Internal`].
 fn tame_signals() {
     use signal_hook::consts::{SIGABRT, SIGXFSZ};

@@ -14,7 +14,7 @@ use anyhow::Context as _;
 use std::path::{Path, PathBuf};
 
 /// Folder of the store of the study file at `path`: `--store`, else the file's name with `.opshock` in
-/// place of `.toml`, beside it. No other file has the same.
+/// place of `.toml`, beside it.
 pub fn folder_of_study(path: &Path, global: &GlobalArgs) -> PathBuf {
     if let Some(folder) = &global.store {
         return folder.clone();
@@ -40,6 +40,16 @@ impl Source {
             folder: folder.to_owned(),
             study: None,
         }
+    }
+
+    /// Whether a study was named, and not the store itself.
+    pub fn is_of_study(&self) -> bool {
+        self.study.is_some()
+    }
+
+    /// The study file named.
+    pub fn file(&self) -> Option<&Path> {
+        self.study.as_ref()?.file.as_deref()
     }
 
     /// Refuses a store that was made for other settings than the study named.
@@ -149,7 +159,7 @@ pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<Strin
     for (code, message) in &loaded.notes {
         console.tell(&format!("warning: {code}: {message}"));
     }
-    let owner = loaded.owner.take().unwrap_or_default();
+    let owner = owner(&mut loaded, &source.folder)?;
     source.check(&owner)?;
     // Simulations finished after the last checkpoint count too, and a study changed after it: the
     // searches are played again.
@@ -174,6 +184,21 @@ pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<Strin
         }
         (Err(error), None) => Err(error),
     }
+}
+
+/// The study that the store in `folder` says it belongs to.
+///
+/// # Errors
+///
+/// E182: nothing of it is left.
+pub fn owner(loaded: &mut Loaded, folder: &Path) -> Result<Owner, StoreError> {
+    let owner = loaded.owner.take();
+    let known = owner.filter(|owner| !owner.digest.is_empty());
+    known.ok_or_else(|| StoreError::Damaged {
+        path: folder.join("journal"),
+        what: "it does not hold its study, and study.resolved.toml is missing".into(),
+        hint: "`opshock sweep` of its study writes both anew and uses what is whole",
+    })
 }
 
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,

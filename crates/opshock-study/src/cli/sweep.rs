@@ -63,7 +63,6 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     }
     let gigabytes = arguments.memory_gb.map(|gb| 1e9 * gb);
     let available = gigabytes.unwrap_or_else(memory::available_bytes);
-    memory::of_sweep(&study).check("the sweep", global.threads(), available)?;
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;
@@ -90,6 +89,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     let (mut computed_runs, mut reused_runs) = (0, 0);
     let (input, end) = loop {
+        memory::of_sweep(&study).check("the sweep", global.threads(), available)?;
         let progress = kind.start(&study.name);
         let input = SweepInput::of(&study).context(no_range)?;
         let physics = Physics::of(&study);

@@ -48,7 +48,7 @@ pub trait Files: Debug + Send + Sync {
 /// # Errors
 ///
 /// E183: it cannot be read.
-pub(super) fn read(files: &impl Files, path: &Path) -> Result<Option<Vec<u8>>, StoreError> {
+pub fn read(files: &impl Files, path: &Path) -> Result<Option<Vec<u8>>, StoreError> {
     match files.read(path) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),

@@ -7,10 +7,11 @@
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
-use super::folder::StudyTexts;
+use super::folder::{RESOLVED_FILE, StudyTexts};
 use super::journal::JournalHeader;
 use super::results::Results;
 use crate::study::difference::{self, SettingDifference};
+use crate::study::digest_of;
 
 /// Settings that a message lists at most.
 const LISTED: usize = 6;
@@ -29,34 +30,46 @@ pub struct Owner {
 }
 
 impl Owner {
-    /// Of the store in `folder` with these files; `None` when there is nothing in it. The journal
-    /// comes first: a sweep of a changed study writes it before new results.
+    /// Of the store in `folder` with these files; `None` when they do not say. The journal comes
+    /// first: a sweep of a changed study writes it before new results. Then the results, and last,
+    /// for journals of an earlier program and damaged ones, the study that lies beside.
     pub(super) fn of(
         folder: &Path,
         journal: Option<&JournalHeader>,
         results: Option<&Results>,
     ) -> Option<Owner> {
-        let text = || std::fs::read_to_string(folder.join(super::folder::RESOLVED_FILE)).ok();
-        match (journal, results) {
-            (Some(header), _) if !header.digest.is_empty() => Some(Owner {
+        if let Some(header) = journal.filter(|header| !header.digest.is_empty()) {
+            return Some(Owner {
                 name: header.study.clone(),
                 digest: header.digest.clone(),
                 file: header.file.clone(),
                 resolved: Some(header.resolved.clone()),
-            }),
-            (_, Some(results)) => Some(Owner {
-                name: results.summary.study.clone(),
-                digest: results.summary.digest.clone(),
-                file: None,
-                resolved: text(),
-            }),
-            (Some(header), None) => Some(Owner {
-                name: header.study.clone(),
-                resolved: text(),
-                ..Owner::default()
-            }),
-            (None, None) => None,
+            });
         }
+        let resolved = std::fs::read_to_string(folder.join(RESOLVED_FILE)).ok();
+        if let Some(Results { summary, .. }) = results {
+            return Some(Owner {
+                name: summary.study.clone(),
+                digest: summary.digest.clone(),
+                file: None,
+                resolved,
+            });
+        }
+        let Some(resolved) = resolved else {
+            return journal.map(|header| Owner {
+                name: header.study.clone(),
+                ..Owner::default()
+            });
+        };
+        Some(Owner {
+            name: difference::flat(&resolved)?
+                .get("name")?
+                .as_str()?
+                .to_owned(),
+            digest: digest_of(&resolved),
+            file: None,
+            resolved: Some(resolved),
+        })
     }
 
     /// Refuses a sweep of a study into the store in `folder`, unless it holds this study or an
@@ -68,8 +81,8 @@ impl Owner {
     pub fn admit(&self, folder: &Path, study: &StudyTexts) -> Result<(), StoreError> {
         let is_same_file = match (&self.file, study.file_from(folder)) {
             (Some(found), Some(wanted)) => *found == wanted,
-            (None, None) => self.name == study.name,
-            _ => false,
+            // A journal of an earlier program or none, or a study from no file: the name is all there is.
+            _ => self.name == study.name,
         };
         if self.digest == study.digest || is_same_file {
             return Ok(());
@@ -79,7 +92,7 @@ impl Owner {
             folder,
             &file.unwrap_or_else(|| format!("\"{}\"", study.name)),
             &study.resolved,
-            "name another store with --store, and this one with --reuse to take what stays valid",
+            "name another store; `sweep --reuse` of this one takes what stays valid",
         ))
     }
 
@@ -143,9 +156,10 @@ impl Owner {
 }
 
 impl StudyTexts {
-    /// The study file as seen from a store's folder, which exists.
+    /// The study file as seen from a store's folder, which exists; `None` where no text names it.
     pub(super) fn file_from(&self, folder: &Path) -> Option<PathBuf> {
         let folder = std::fs::canonicalize(folder).ok()?;
-        pathdiff::diff_paths(self.file.as_ref()?, folder)
+        let file = pathdiff::diff_paths(self.file.as_ref()?, folder)?;
+        file.to_str().is_some().then_some(file)
     }
 }

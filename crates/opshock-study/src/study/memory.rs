@@ -158,14 +158,16 @@ impl Demand {
             return Ok(());
         }
         let fitting = ((available - self.models) / self.worker()).floor();
-        let hint = if fitting >= 1.0 {
-            format!("-j {fitting} fits")
+        let (key, hint) = if fitting >= 1.0 {
+            ("-j", format!("-j {fitting} fits"))
         } else if self.film > self.steps.max(self.models) {
-            "take fewer film_cells or film_reference_cells, or a machine with more memory".into()
+            let hint =
+                "take fewer film_cells or film_reference_cells, or a machine with more memory";
+            ("solver.film_cells", hint.to_owned())
         } else {
-            "take a shorter window_ms, a longer structure_step_us, fewer fields.times_ms or points, or a machine with \
-             more memory"
-                .to_string()
+            let hint = "take a shorter window_ms, a longer structure_step_us, fewer fields.times_ms or points, \
+                        or a machine with more memory";
+            ("pulse.window_ms", hint.to_owned())
         };
         let message = format!(
             "{what} needs more memory than there is: about {} for films and {} for time steps in each of {workers} \
@@ -174,7 +176,7 @@ impl Demand {
             gigabytes(self.steps),
             gigabytes(self.models)
         );
-        let fault = StudyError::in_file("E186", "-j", message)
+        let fault = StudyError::in_file("E186", key, message)
             .value(gigabytes(self.bytes(workers)))
             .allowed(format!("at most {}", gigabytes(available)))
             .hint(hint);

@@ -26,7 +26,7 @@ pub fn lay_over(root: &mut Node, sets: &[SetArg], faults: &mut Vec<StudyError>) 
     for (position, set) in sets.iter().enumerate() {
         if let Some(earlier) = sets[..position]
             .iter()
-            .find(|other| collide(&other.key, &set.key))
+            .find(|other| collide(&other.key, &set.key) || moves(other, set))
         {
             if earlier.key == set.key && earlier.text == set.text {
                 continue;
@@ -49,11 +49,17 @@ pub fn lay_over(root: &mut Node, sets: &[SetArg], faults: &mut Vec<StudyError>) 
         let is_known =
             || keys::find(&set.key).is_some() || keys::is_table(&keys::pattern(&set.key));
         if set.is_unset() && is_known() {
-            overrides.extend(remove(root, &set.key).map(|old| Override {
-                key: set.key.clone(),
-                file_value: old.place.text().to_string(),
-                set_value: String::new(),
-            }));
+            match remove(root, &set.key) {
+                Ok(old) => overrides.extend(old.map(|old| Override {
+                    key: set.key.clone(),
+                    file_value: old.place.text().to_string(),
+                    set_value: String::new(),
+                })),
+                Err(message) => {
+                    let place = set.node(position).place;
+                    faults.push(StudyError::at("E113", &place, &set.key, message));
+                }
+            }
             continue;
         }
         let node = set.node(position);
@@ -93,6 +99,15 @@ pub fn seed_lists(root: &mut Node, sets: &[SetArg], base: impl Fn(&Node, &str) -
     }
 }
 
+/// Whether an entry that is taken away moves the one that another argument takes away.
+fn moves(a: &SetArg, b: &SetArg) -> bool {
+    let list = |set: &SetArg| {
+        let (list, last) = set.key.rsplit_once('[')?;
+        (set.is_unset() && last.ends_with(']')).then(|| list.to_owned())
+    };
+    list(a).is_some_and(|of_a| Some(of_a) == list(b))
+}
+
 /// Whether two paths name the same key, or one lies inside the other.
 fn collide(a: &str, b: &str) -> bool {
     let inside = |outer: &str, inner: &str| {
@@ -104,29 +119,41 @@ fn collide(a: &str, b: &str) -> bool {
 }
 
 /// Takes away what stands at a dotted path, if anything does.
-fn remove(root: &mut Node, path: &str) -> Option<Node> {
+///
+/// # Errors
+/// What is wrong with a position that a list does not have.
+fn remove(root: &mut Node, path: &str) -> Result<Option<Node>, String> {
     let steps: Vec<Step<'_>> = steps(path).collect();
-    let (last, way) = steps.split_last()?;
     let mut here = root;
-    for step in way {
+    for (k, step) in steps.iter().enumerate() {
+        let last = k + 1 == steps.len();
         here = match (step, &mut here.value) {
             (Step::Name(name), Value::Table(members)) => {
-                &mut members.iter_mut().find(|(member, _)| member == name)?.1
+                let Some(at) = members.iter().position(|(member, _)| member == name) else {
+                    return Ok(None);
+                };
+                if last {
+                    return Ok(Some(members.remove(at).1));
+                }
+                &mut members[at].1
             }
-            (Step::Position(position), Value::List(items)) => items.get_mut(*position)?,
-            _ => return None,
+            (Step::Position(position), Value::List(items)) => {
+                if *position >= items.len() {
+                    return Err(no_entry(*position, items.len()));
+                }
+                if last {
+                    return Ok(Some(items.remove(*position)));
+                }
+                &mut items[*position]
+            }
+            _ => return Ok(None),
         };
     }
-    match (last, &mut here.value) {
-        (Step::Name(name), Value::Table(members)) => {
-            let at = members.iter().position(|(member, _)| member == name)?;
-            Some(members.remove(at).1)
-        }
-        (Step::Position(position), Value::List(items)) if *position < items.len() => {
-            Some(items.remove(*position))
-        }
-        _ => None,
-    }
+    Ok(None)
+}
+
+fn no_entry(position: usize, count: usize) -> String {
+    format!("entry {position} does not exist; the list has {count}, counted from 0")
 }
 
 /// Puts a node at a dotted path, making tables on the way; returns what stood there.
@@ -171,11 +198,9 @@ fn insert(root: &mut Node, path: &str, node: Node) -> Result<Option<Node>, Box<S
             }
             (Step::Position(position), Value::List(items)) => {
                 let count = items.len();
-                items.get_mut(position).ok_or_else(|| {
-                    blocked(format!(
-                        "entry {position} does not exist; the list has {count}, counted from 0"
-                    ))
-                })?
+                items
+                    .get_mut(position)
+                    .ok_or_else(|| blocked(no_entry(position, count)))?
             }
             (Step::Name(name), _) => {
                 return Err(blocked(format!("cannot hold a key {name}: found {kind}")));

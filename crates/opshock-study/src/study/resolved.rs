@@ -109,10 +109,19 @@ fn inner_list(settings: &Settings, list: &str, path: &str) -> Option<String> {
 
 /// Digest of a study: of its resolved text.
 pub fn digest(settings: &Settings) -> [u8; 32] {
+    *hash(&text(settings)).as_bytes()
+}
+
+/// Digest, in hexadecimal digits, of the study whose resolved text this is.
+pub fn digest_of(resolved: &str) -> String {
+    hash(resolved).to_hex().to_string()
+}
+
+fn hash(resolved: &str) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
     hasher.update(b"opshock study 1\n");
-    hasher.update(text(settings).as_bytes());
-    *hasher.finalize().as_bytes()
+    hasher.update(resolved.as_bytes());
+    hasher.finalize()
 }
 
 /// TOML of the value at a path: what was set, or what the accuracy rung stands for.

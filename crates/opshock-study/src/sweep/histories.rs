@@ -48,9 +48,15 @@ impl Wanted {
         match self.run(input).read(folder) {
             Ok(kept) => Ok(kept.is_some()),
             Err(StoreError::Damaged { path, what, .. }) => {
-                Err(format!("{}: {what}; recorded anew", path.display()))
+                Err(format!("{}: {what}; it is recorded anew", path.display()))
             }
-            Err(error) => Err(format!("{error}; recorded anew")),
+            Err(error) => {
+                let reason = std::error::Error::source(&error).map(ToString::to_string);
+                Err(format!(
+                    "{error}: {}; it is recorded anew",
+                    reason.unwrap_or_default()
+                ))
+            }
         }
     }
 }

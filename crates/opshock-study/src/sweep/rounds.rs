@@ -59,10 +59,7 @@ pub enum RoundError {
 /// [`StoreError`]: a store is damaged or newer.
 pub fn finished(whole: &Path) -> Result<Loaded, StoreError> {
     let mut all = Loaded::default();
-    let shards = stores(whole).map_err(|source| StoreError::Unreadable {
-        path: whole.to_owned(),
-        source,
-    })?;
+    let shards = stores(whole)?;
     for path in std::iter::once(whole.to_owned()).chain(shards) {
         take(&path, &mut all)?;
     }

@@ -99,14 +99,15 @@ pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
     }
 }
 
-/// The bracket to its last digit, and what the resolution adds as shares of the answer; nothing where that is not known.
+/// The bracket to its last digit, and what the resolution adds as shares of the answer; nothing where
+/// that is not known.
 fn parts(bar: &Bar, a_crit_g: f64, a_fail_g: f64) -> Vec<(String, ErrorPart)> {
     let others: Vec<_> = bar
         .parts
         .iter()
         .filter(|part| part.name != "search")
         .collect();
-    if others.is_empty() && bar.flags.contains(&Flag::BarPartial) {
+    if others.is_empty() {
         return Vec::new();
     }
     let search = ErrorPart {

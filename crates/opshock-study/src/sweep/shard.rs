@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::search::Order;
+use crate::store::StoreError;
 use crate::store::files::list;
 use crate::store::lock;
 use crate::store::{Record, journal};
@@ -77,10 +78,11 @@ fn folder(whole: &Path, number: usize, count: usize) -> PathBuf {
 /// # Errors
 ///
 /// The folder cannot be read.
-pub fn stores(whole: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut found = match list(&whole.join(SHARDS)) {
+pub fn stores(whole: &Path) -> Result<Vec<PathBuf>, StoreError> {
+    let path = whole.join(SHARDS);
+    let mut found = match list(&path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        found => found?,
+        found => found.map_err(|source| StoreError::Unreadable { path, source })?,
     };
     found.retain(|path| path.join("journal").exists() || path.join("results.h5").exists());
     Ok(found)

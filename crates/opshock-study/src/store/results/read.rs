@@ -58,7 +58,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Results, StoreError> {
             known: RESULTS_FORMAT,
         });
     }
-    let (results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
+    let (mut results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
     // Files of 0.1.0 before November 2026 have none.
     let outside = outside_digest(&file).map_err(|error| damaged(error.to_string()))?;
     if outside.is_some_and(|digest| digest != results.outside_digest()) {
@@ -67,6 +67,13 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Results, StoreError> {
     // Digests of the first format cover a table without the parts of the error bars.
     if found > 1 && results.content_digest() != digest {
         return Err(damaged("its content does not match its digest".into()));
+    }
+    // Older files give the bracket alone as an error.
+    for row in &mut results.summary.points {
+        if matches!(&row.err_parts[..], [(name, _)] if name == "search") {
+            (row.err_low_g, row.err_high_g) = (None, None);
+            row.err_parts.clear();
+        }
     }
     Ok(results)
 }
@@ -247,12 +254,6 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 };
                 (!part.low_g.is_nan()).then(|| ((*name).to_owned(), part))
             };
-            let mut err_parts: Vec<_> = parts.iter().filter_map(part).collect();
-            // Older files give the bracket alone as an error.
-            let is_bracket = matches!(&err_parts[..], [(name, _)] if name == "search");
-            let error = |column| number(column).filter(|_| !is_bracket);
-            let (err_low_g, err_high_g) = (error(3), error(4));
-            err_parts.retain(|_| !is_bracket);
             Ok(PointSummary {
                 ramp: ramp[i].clone(),
                 pulse_ms: numbers[0][i],
@@ -260,9 +261,9 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 axes: columns.iter().map(|column| column[i].clone()).collect(),
                 a_crit_g: number(1),
                 a_fail_g: number(2),
-                err_low_g,
-                err_high_g,
-                err_parts,
+                err_low_g: number(3),
+                err_high_g: number(4),
+                err_parts: parts.iter().filter_map(part).collect(),
                 levels: levels[i].clone(),
                 onset_g: number(5),
                 runs: runs[i],
