@@ -67,7 +67,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; what they print is kept in results/bench
 	scripts/bench
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -90,6 +90,10 @@ verify-slurm: ## a job array with a killed task on a real Slurm on the loopback 
 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
+
+.PHONY: verify-flight
+verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-solid
 verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh

@@ -172,7 +172,12 @@ impl<'a> Held<'a> {
         }
         self.psi = guess(film);
         self.newton.forget();
-        self.newton.force_held(&mut self.psi, attitude)
+        let held = self.newton.force_held(&mut self.psi, attitude);
+        held.or_else(|_| {
+            self.psi = film.ambient(attitude);
+            self.newton.relax(&mut self.psi, attitude);
+            self.newton.force_held(&mut self.psi, attitude)
+        })
     }
 }
 

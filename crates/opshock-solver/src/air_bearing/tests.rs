@@ -53,19 +53,16 @@ fn slider() -> SliderParameters {
 }
 
 fn film(cells: usize, floor_m: f64) -> Film {
+    film_of(FlowModel::FukuiKaneko, cells, floor_m)
+}
+
+fn film_of(flow: FlowModel, cells: usize, floor_m: f64) -> Film {
     let resolution = FilmResolution {
         cells,
         floor_m,
         reference_cells: 0,
     };
-    Film::build(
-        &slider(),
-        &air(),
-        FlowModel::FukuiKaneko,
-        565.0,
-        &resolution,
-    )
-    .unwrap()
+    Film::build(&slider(), &air(), flow, 565.0, &resolution).unwrap()
 }
 
 fn wavy_state(film: &Film, attitude: &Attitude) -> Vec<f64> {
@@ -302,4 +299,32 @@ fn far_starts_reach_the_same_equilibrium() {
         );
         assert!((other.attitude.pitch_rad / flown.attitude.pitch_rad - 1.0).abs() < 1e-8);
     }
+}
+
+/// Gas that does not slip: Newton's method from ambient pressure empties cells until its matrix is singular, relaxation settles.
+#[test]
+fn relaxation_settles_the_film_that_newton_does_not() {
+    let continuum = film_of(FlowModel::Continuum, 1000, 3e-10);
+    let attitude = continuum.usual_attitude();
+    let mut newton = newton::Newton::<f64>::new(&continuum);
+    let mut psi = continuum.ambient(&attitude);
+    let held = newton.hold(&mut psi, &attitude, 60, newton::NEAR);
+    assert!(!held.is_ok_and(|(_, step)| step < newton::NEAR));
+    psi = continuum.ambient(&attitude);
+    let before = newton.n_factored;
+    assert!(newton.relax(&mut psi, &attitude));
+    assert!(newton.n_factored - before < 60);
+    let (_, step) = newton
+        .hold(&mut psi, &attitude, 10, newton::CONVERGED)
+        .unwrap();
+    assert!(step < newton::CONVERGED);
+    assert!(psi.iter().all(|psi| *psi > 0.0));
+    // With slip Newton's method settles it from ambient pressure.
+    let slip = film_of(FlowModel::Slip1, 1000, 3e-10);
+    let mut newton = newton::Newton::<f64>::new(&slip);
+    let mut psi = slip.ambient(&slip.usual_attitude());
+    let (_, step) = newton
+        .hold(&mut psi, &slip.usual_attitude(), 60, newton::NEAR)
+        .unwrap();
+    assert!(step < newton::NEAR);
 }
