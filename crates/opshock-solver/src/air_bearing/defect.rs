@@ -174,9 +174,10 @@ impl<'a> Held<'a> {
         self.newton.forget();
         let held = self.newton.force_held(&mut self.psi, attitude);
         held.or_else(|_| {
+            let mut newton = Newton::<f64>::new(film);
             self.psi = film.ambient(attitude);
-            self.newton.relax(&mut self.psi, attitude);
-            self.newton.force_held(&mut self.psi, attitude)
+            newton.relax(&mut self.psi, attitude);
+            newton.force_held(&mut self.psi, attitude)
         })
     }
 }

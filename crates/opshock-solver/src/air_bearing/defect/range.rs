@@ -29,6 +29,9 @@ const HEIGHTS: [f64; 2] = [0.05, 1.5];
 const PITCH: f64 = 0.18;
 const ROLL: f64 = 0.12;
 
+/// Pitch in equilibrium at the ends of those heights, in that of steady flight, beyond which it is not believed.
+const PITCHES: [f64; 2] = [0.3, 3.0];
+
 /// Least distance of the two points, in the slider's width.
 const APART: f64 = 0.02;
 
@@ -117,25 +120,42 @@ impl Range {
             0.5 * (first - second)
         };
         let load_n = flight.lift_n + flight.suction_n;
-        let flights = LOADS.into_iter().find_map(|loads| {
-            let flown = loads.map(|share| match share {
+        let flown = |loads: [f64; 3]| {
+            let found = loads.map(|share| match share {
                 1.0 => Some(steady),
                 _ => {
                     let load = [share * load_n, 0.0, 0.0];
                     Some(fly_near(film, load, &steady).ok()?.attitude)
                 }
             });
-            let [a, b, c] = flown;
+            let [a, b, c] = found;
             Some([a?, b?, c?])
-        });
-        let along = |value: &dyn Fn(&Attitude) -> f64| match flights {
-            Some(flown) => Parabola::through(flown.map(|q| ((mean(&q) + floor_m).ln(), value(&q)))),
-            // Without neighbours that of steady flight is taken for all heights.
-            None => Parabola::level(value(&steady)),
         };
-        let equilibrium = along(&|q| q.pitch_rad);
+        let along = |flown: [Attitude; 3], value: &dyn Fn(&Attitude) -> f64| {
+            Parabola::through(flown.map(|q| ((mean(&q) + floor_m).ln(), value(&q))))
+        };
+        let pitch = |q: &Attitude| q.pitch_rad;
+        let [usual, light] = LOADS;
+        let (equilibrium, leaning) = match flown(usual).or_else(|| flown(light)) {
+            Some(flown) => (along(flown, &pitch), along(flown, &lean).inside()),
+            // Without neighbours steady flight is taken for all heights.
+            None => (
+                Parabola::level(pitch(&steady)),
+                Parabola::level(lean(&steady)),
+            ),
+        };
+        // Far from the flights a parabola through them may lead anywhere.
+        let is_sound = HEIGHTS.iter().all(|height| {
+            let (end, _) = equilibrium.at((height * mean_m + floor_m).ln());
+            let share = end / steady.pitch_rad;
+            (PITCHES[0]..PITCHES[1]).contains(&share)
+        });
+        let equilibrium = match is_sound {
+            true => equilibrium,
+            false => equilibrium.inside(),
+        };
         let leaning = match film.blows_across() {
-            true => along(&lean),
+            true => leaning,
             false => Parabola::level(0.0),
         };
         let half_m = 0.5 * (points[1].1[2] - points[0].1[2]).abs();
@@ -229,30 +249,53 @@ fn height(attitude: &Attitude, [by_h, by_pitch, by_roll]: &[f64; 3]) -> f64 {
     by_h * attitude.centre_height_m + by_pitch * attitude.pitch_rad + by_roll * attitude.roll_rad
 }
 
-/// A parabola by places and divided differences.
+/// A parabola by places and divided differences, level outside of some.
 #[derive(Clone, Debug, PartialEq)]
-struct Parabola([f64; 3], [f64; 3]);
+struct Parabola {
+    places: [f64; 3],
+    differences: [f64; 3],
+    inside: [f64; 2],
+}
 
 impl Parabola {
     /// Through three points.
     fn through([a, b, c]: [(f64, f64); 3]) -> Self {
         let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (q.0 - p.0);
         let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
-        Self([a.0, b.0, c.0], [a.1, slope(a, b), bend])
+        Self {
+            places: [a.0, b.0, c.0],
+            differences: [a.1, slope(a, b), bend],
+            inside: [f64::NEG_INFINITY, f64::INFINITY],
+        }
     }
 
     /// The same everywhere.
     fn level(value: f64) -> Self {
-        Self([0.0, 1.0, 2.0], [value, 0.0, 0.0])
+        Self {
+            places: [0.0, 1.0, 2.0],
+            differences: [value, 0.0, 0.0],
+            inside: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// Level outside of its points.
+    fn inside(self) -> Self {
+        let [a, b, c] = self.places;
+        let inside = [a.min(b).min(c), a.max(b).max(c)];
+        Self { inside, ..self }
     }
 
     /// Value and derivative at a place.
     fn at(&self, x: f64) -> (f64, f64) {
-        let Self([a, b, _], [constant, linear, quadratic]) = self;
-        let (from_a, from_b) = (x - a, x - b);
+        let [least, most] = self.inside;
+        let level = x < least || x > most;
+        let x = x.clamp(least, most);
+        let [constant, linear, quadratic] = self.differences;
+        let (from_a, from_b) = (x - self.places[0], x - self.places[1]);
+        let slope = linear + quadratic * (from_a + from_b);
         (
             constant + from_a * (linear + from_b * quadratic),
-            linear + quadratic * (from_a + from_b),
+            if level { 0.0 } else { slope },
         )
     }
 }
