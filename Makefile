@@ -73,7 +73,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -100,6 +100,10 @@ verify-slurm: ## a job array with a killed task on a real Slurm on the loopback 
 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
+
+.PHONY: verify-flight
+verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-solid
 verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh

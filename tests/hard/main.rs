@@ -1,5 +1,6 @@
 //! Hard cases and random scenes: what must hold of any scene, and of the ones that break solvers.
 
 mod cases;
+mod flights;
 mod random_heads;
 mod random_structures;

@@ -335,7 +335,7 @@ fn surface_forces_pull_the_slider_in_at_a_fold() {
         let film = under_potential(&bare, low * (1.0 - share));
         let flight = fly(&film, [LOAD_N, 0.0, 0.0]).unwrap();
         // The unstable partner of the flight, with which it merges at the fold.
-        let lower = lower_equilibria(&film, [LOAD_N, 0.0, 0.0], &flight).unwrap();
+        let lower = lower_equilibria(&film, [LOAD_N, 0.0, 0.0], &flight);
         let apart = flight.min_clearance_m - lower[0].min_clearance_m;
         assert!(!lower[0].stable);
         [determinant(&flight).powi(2), apart.powi(2)]

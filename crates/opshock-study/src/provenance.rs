@@ -21,4 +21,4 @@ pub const LONG_VERSION: &str =
 pub const PHYSICS_STRUCTURE: u32 = 7;
 
 /// Physics version of the head stage (film, slider, suspension, criterion).
-pub const PHYSICS_HEAD: u32 = 11;
+pub const PHYSICS_HEAD: u32 = 12;

@@ -172,7 +172,13 @@ impl<'a> Held<'a> {
         }
         self.psi = guess(film);
         self.newton.forget();
-        self.newton.force_held(&mut self.psi, attitude)
+        let held = self.newton.force_held(&mut self.psi, attitude);
+        held.or_else(|_| {
+            let mut newton = Newton::<f64>::new(film);
+            self.psi = film.ambient(attitude);
+            newton.relax(&mut self.psi, attitude);
+            newton.force_held(&mut self.psi, attitude)
+        })
     }
 }
 

@@ -18,7 +18,7 @@ use super::layout;
 use super::mesh::{Cell, Mesh, Side};
 use super::steady::{SteadyError, usual_attitude};
 use super::storage::storage;
-use super::surface_forces::Interaction;
+use super::surface_forces::{Interaction, SurfaceLoad};
 use super::thickness::Floor;
 use super::{Attitude, FilmResolution, FlowModel};
 use crate::gas::GasParameters;
@@ -57,6 +57,9 @@ pub enum FilmError {
         rail: usize,
     },
 }
+
+/// A roll that moves no point of a slider by an atom's thousandth, rad.
+const LEAN_RAD: f64 = 1e-11;
 
 /// Film under one slider: immutable once built.
 #[derive(Clone, Debug)]
@@ -205,6 +208,11 @@ impl Film {
         self.defect = None;
         self.defect = Some(reference.defect_of(&self)?);
         Ok(self)
+    }
+
+    /// What [`Film::corrected_by`] adds to force and moments at an attitude; `None` of a film as its grid has it.
+    pub fn correction(&self, attitude: &Attitude) -> Option<SurfaceLoad> {
+        Some(self.defect.as_ref()?.load(attitude))
     }
 
     /// Number of cells n, the length of every ψ.
@@ -375,6 +383,31 @@ impl Film {
         for (h, cell) in out.iter_mut().zip(&self.mesh.cells) {
             *h = cell.place.height(attitude) + cell.recess;
         }
+    }
+
+    /// `attitude` rolled by next to nothing to the side to which wind across the slider rolls it: of two points that mirror
+    /// each other it tells the one that comes closer, so that skews of either sign have grids that mirror each other.
+    pub(super) fn leaning(&self, attitude: &Attitude) -> Attitude {
+        let lean_rad = match self.blows_across() {
+            true if self.blows_inwards() => -LEAN_RAD,
+            true => LEAN_RAD,
+            false => 0.0,
+        };
+        Attitude {
+            roll_rad: attitude.roll_rad + lean_rad,
+            ..*attitude
+        }
+    }
+
+    /// Whether the wind blows across the slider as well.
+    pub(super) fn blows_across(&self) -> bool {
+        self.columns.interior[1].wind != 0.0
+    }
+
+    /// Whether the wind blows across the slider towards its inner side.
+    pub(super) fn blows_inwards(&self) -> bool {
+        let across = &self.columns.interior[1];
+        across.up > across.down
     }
 
     /// Smallest clearance of the true surface over the disk's plane.

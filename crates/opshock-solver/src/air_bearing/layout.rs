@@ -135,7 +135,9 @@ pub(super) fn refined(
 ) -> Option<([Lines; 2], Held)> {
     let attitude = film.usual_attitude();
     let mut newton = Newton::<f64>::new(&film);
-    newton.hold(&mut psi, &attitude, 40, ESTIMATED).ok()?;
+    newton
+        .hold_surely(&mut psi, &attitude, 40, ESTIMATED)
+        .ok()?;
     newton.factor(&psi, &attitude).ok()?;
     let mut adjoint = newton.clearance_goal(&attitude)?;
     let transposed = newton.linearisation.by_psi.transposed();
@@ -180,6 +182,7 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
         .map(|cell| film.cell_height(cell, attitude).0)
         .collect();
     let mut strips = vec![[Strip::default(); 2]; film.n_cells()];
+    let is_straight = !film.blows_across();
     for (k, face) in film.mesh.faces.iter().enumerate() {
         let d = usize::from(k >= (nx - 1) * ny);
         let base = face.place.height(attitude);
@@ -193,10 +196,12 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
         let [l, r] = face.sides.map(|side| side.cell);
         let z = (weight[0] * adjoint[l] + weight[1] * adjoint[r]) / (weight[0] + weight[1]);
         let lines = &film.mesh.lines[d];
-        let at = if d == 0 {
-            [l % nx, r % nx]
-        } else {
-            [l / nx, r / nx]
+        // Cells count along y first. Where no wind blows across, layouts keep the places of a numbering along x,
+        // by which they were calibrated (CONVECTIVE); with wind across these would not mirror each other.
+        let at = match (is_straight, d) {
+            (true, 0) => [l % nx, r % nx],
+            (true, _) => [l / nx, r / nx],
+            (false, _) => [l, r].map(|cell| film.mesh.place_of(cell)[d]),
         };
         let apart = 0.5 * (lines.width(at[0]) + lines.width(at[1]));
         let slope = face.is_smooth().then(|| (psi[r] - psi[l]) / apart);

@@ -190,9 +190,8 @@ impl Mesh {
         } else {
             Some(k + 1).filter(|&b| b < lines.n_cells())
         };
-        let behind = behind.filter(|&b| {
-            d == 0 && sign * wind > 0.0 && (recess(b) - recess(k)).abs() < SAME_RECESS_M
-        });
+        let behind =
+            behind.filter(|&b| sign * wind > 0.0 && (recess(b) - recess(k)).abs() < SAME_RECESS_M);
         let half_width = 0.5 * lines.width(k);
         Side {
             cell: cell(k),

@@ -1,6 +1,7 @@
 //! Air bearing: compressible Reynolds equation with rarefaction under one slider.
 
 mod balance;
+mod carrying;
 mod corner;
 mod defect;
 mod derivatives;
@@ -15,6 +16,7 @@ mod layout;
 mod linearise;
 mod mesh;
 mod newton;
+mod relaxation;
 mod state;
 pub mod steady;
 mod storage;

@@ -41,7 +41,7 @@ const PSI_KEPT: f64 = 0.2;
 /// Scratch of the Newton iterations, with factors kept as `E`.
 pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) film: &'a Film,
-    scratch: FilmScratch,
+    pub(super) scratch: FilmScratch,
     pub(super) linearisation: FilmLinearisation,
     pub(super) lu: BandedLu<E>,
     /// A⁻¹ [C, R], column by column.
@@ -50,6 +50,8 @@ pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) n_factored: usize,
     /// Whether `lu` holds factors from near the state.
     has_factors: bool,
+    /// Whether [`Newton::drift`] relaxes a film that Newton's method does not settle, and ends on the disk.
+    pub(super) relaxes: bool,
 }
 
 impl<'a, E: Entry> Newton<'a, E> {
@@ -65,6 +67,7 @@ impl<'a, E: Entry> Newton<'a, E> {
             zero: Diagonals::zeros(n, Vec::new()),
             n_factored: 0,
             has_factors: false,
+            relaxes: false,
         }
     }
 
@@ -99,7 +102,7 @@ impl<'a, E: Entry> Newton<'a, E> {
     pub(super) fn clearance_goal(&mut self, attitude: &Attitude) -> Option<Vec<f64>> {
         let (_, stiffness, _) = self.schur();
         let film = self.film;
-        let closest = film.min_clearance(attitude);
+        let closest = film.min_clearance(&film.leaning(attitude));
         let [l, w] = film.extent_m();
         let arms = Vector3::new(1.0, -(closest.x_m - 0.5 * l), closest.y_m - 0.5 * w);
         let row = stiffness.transpose().try_inverse()? * arms;
@@ -151,6 +154,26 @@ impl<'a, E: Entry> Newton<'a, E> {
             }
         }
         Ok((most, step))
+    }
+
+    /// As [`Newton::hold`], and where that does not come there, again after [`Newton::relax`] from ambient pressure. Whether
+    /// it came there, the last relative step tells.
+    pub(super) fn hold_surely(
+        &mut self,
+        psi: &mut Vec<f64>,
+        attitude: &Attitude,
+        most: usize,
+        until: f64,
+    ) -> Result<(usize, f64), BandedError> {
+        let before = self.n_factored;
+        match self.hold(psi, attitude, most, until) {
+            Ok(held) if held.1 < until => return Ok(held),
+            _ => {}
+        }
+        *psi = self.film.ambient(attitude);
+        self.relax(psi, attitude);
+        let (_, step) = self.hold(psi, attitude, most, until)?;
+        Ok((self.n_factored - before, step))
     }
 
     /// The factors at hand are of no use from here on.
@@ -232,7 +255,7 @@ impl<'a, E: Entry> Newton<'a, E> {
     /// plate on springs; the film follows quasi-statically. D falls with the unbalanced force.
     pub(super) fn drift(
         &mut self,
-        psi: &mut [f64],
+        psi: &mut Vec<f64>,
         attitude: &mut Attitude,
         load: &Vector3<f64>,
     ) -> Result<(), BandedError> {
@@ -241,7 +264,16 @@ impl<'a, E: Entry> Newton<'a, E> {
         let levers = Vector3::new(1.0, 0.5 * l, 0.5 * w);
         let scale = load.component_div(&levers).norm().max(1e-6);
         for _ in 0..MOST_DRIFT_STEPS {
-            self.hold(psi, attitude, 8, CONVERGED)?;
+            // A slider so far into the disk does not come back.
+            let depth = -self.film.min_clearance(attitude).value_m / self.film.floor_m();
+            if depth > if self.relaxes { 1.0 } else { 10.0 } {
+                return Ok(());
+            }
+            if self.relaxes {
+                self.hold_surely(psi, attitude, 8, NEAR)?;
+            } else {
+                self.hold(psi, attitude, 8, CONVERGED)?;
+            }
             self.factor(psi, attitude)?;
             let (force, stiffness, pending) = self.schur();
             let unbalanced = force - load - pending;

@@ -8,13 +8,19 @@
 //! enough (a start far away, a pitch of the wrong sign) the slider follows an overdamped motion
 //! under load and film force: every stable equilibrium attracts it, and Newton takes over near the
 //! end. An equilibrium is stable when all eigenvalues of its stiffness have positive real parts.
+//!
+//! Where that finds no stable equilibrium with a clearance, the flight is followed from lighter loads
+//! (`carrying`), films that Newton's method does not settle by pseudo-transient continuation (`relaxation`). It either
+//! comes to the load, or ends before, and the slider cannot fly.
 
 use super::Attitude;
+use super::carrying::{Path, followed};
 use super::film::Film;
 use super::newton::{CONVERGED, MOST_ITERATIONS, NEAR, Newton, span};
 use crate::linalg::banded::BandedError;
 use crate::slider::clearance::ClearanceMap;
 use nalgebra::{Matrix3, Vector3};
+use std::fmt;
 use thiserror::Error;
 
 /// Why no steady state was found.
@@ -42,12 +48,45 @@ pub enum SteadyError {
         /// Smallest clearance without surface forces, m.
         without_m: f64,
     },
+    /// The film carries less than the load: no stable equilibrium has a clearance.
+    #[error(
+        "the slider cannot fly under {:.4} mN: its film carries {:.4} mN at most, at a clearance of {:.3} nm; \
+         followed from lighter loads, {ends}", 1e3 * load_n, 1e3 * carried_n, 1e9 * clearance_m
+    )]
+    CannotFly {
+        /// The load, N.
+        load_n: f64,
+        /// The largest load of a stable flight, to about a thousandth of the load, N.
+        carried_n: f64,
+        /// Smallest clearance of that flight, m.
+        clearance_m: f64,
+        /// How the flights end there.
+        ends: FlightsEnd,
+    },
     /// The only equilibria found are unstable.
     #[error("the equilibrium at {attitude:?} is not stable")]
     Unstable {
         /// Its attitude.
         attitude: Attitude,
     },
+}
+
+/// How the stable flights under growing loads end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlightsEnd {
+    /// At a limit point: no flight next to the last one carries more.
+    AtLimitPoint,
+    /// At the disk: the next one has no clearance.
+    AtDisk,
+}
+
+impl fmt::Display for FlightsEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AtLimitPoint => "its flights end at a limit point of the load",
+            Self::AtDisk => "its flights end with the slider on the disk",
+        })
+    }
 }
 
 /// Film in equilibrium under a held slider.
@@ -108,7 +147,8 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, Stea
     let mut newton = Newton::<f64>::new(film);
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
-    let (n_iterations, step) = newton.hold(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
+    let (n_iterations, step) =
+        newton.hold_surely(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
     if step >= CONVERGED {
         return Err(SteadyError::NotConverged {
             iterations: n_iterations,
@@ -137,14 +177,19 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 ///
 /// Of several stable equilibria met on the way the one with the largest clearance is flown
 /// ([`lower_equilibria`] looks for those below). Where surface forces act, one within the range of the
-/// film's floor is no flight.
+/// film's floor is no flight, and none is without clearance.
 ///
 /// # Errors
 ///
-/// [`SteadyError`] when no stable equilibrium is found; it names the best attitude met.
+/// [`SteadyError::CannotFly`] when the film does not carry the load, [`SteadyError`] when a stable equilibrium is
+/// neither found nor ruled out; it names the best attitude met.
 pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
     if film.surface_forces().is_none() {
-        return seek(film, load, start, true);
+        let flown = seek(film, load, start, true);
+        return match flown {
+            Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
+            other => followed(film, load, start).unwrap_or(other),
+        };
     }
     let flown = seek(film, load, start, false);
     let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.floor_m();
@@ -165,12 +210,9 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
 /// [`SteadyError`] when it is not found or not stable.
 pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
     let mut search = Search::new(film, Vector3::from(load), *start);
-    search.attempt(start, film.ambient(start))?;
+    search.attempt(start, film.ambient(start));
     search.finish()
 }
-
-/// First and smallest step in the share of the surface forces.
-const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 
 /// The flight under surface forces, followed from `bare` without them as their share grows to 1. Near
 /// pull-in, where the slider has next to no stiffness left, Newton's method from afar misses it.
@@ -180,29 +222,15 @@ const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 /// [`SteadyError::PulledIn`] with the share at which the flight ends.
 fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
-    let mut reached = (0.0, bare.attitude, bare.psi.clone());
-    let [mut step, smallest] = SHARE_STEPS;
-    loop {
-        let share = f64::min(reached.0 + step, 1.0);
-        let under = film.with_surface_share(share);
-        let mut search = Search::new(&under, load, reached.1);
-        let (mut attitude, mut psi) = (reached.1, reached.2.clone());
-        search.settle(&mut psi, &mut attitude, 0)?;
-        let flies = |found: &Found| found.stable && found.clearance_m >= 2.0 * film.floor_m();
-        if search.found.iter().any(flies) {
-            if share == 1.0 {
-                return search.finish();
-            }
-            reached = (share, attitude, psi);
-        } else if step > smallest {
-            step *= 0.5;
-        } else {
-            return Err(SteadyError::PulledIn {
-                share: reached.0,
-                without_m: bare.min_clearance_m,
-            });
-        }
+    let at = |share| (film.with_surface_share(share), load);
+    let path = Path::along(&at, (0.0, Found::of(bare)), 2.0 * film.floor_m());
+    if path.share < 1.0 {
+        return Err(SteadyError::PulledIn {
+            share: path.share,
+            without_m: bare.min_clearance_m,
+        });
     }
+    Search::new(film, load, path.last.attitude).told(path.last)
 }
 
 /// The search for equilibria behind [`fly_from`]; by overdamped motion only where that is asked for.
@@ -216,14 +244,14 @@ fn seek(
     let mut search = Search::new(film, load, *start);
     let usual = film.usual_attitude();
     if *start != usual {
-        search.attempt(start, film.ambient(start))?;
+        search.attempt(start, film.ambient(start));
     }
-    search.attempt(&usual, film.usual_psi().to_vec())?;
+    search.attempt(&usual, film.usual_psi().to_vec());
     if search.best().is_none() && may_drift {
         let mut high = usual;
         high.centre_height_m += 1e-7;
         for from in [usual, high, *start] {
-            search.attempt_by_drift(&from)?;
+            search.attempt_by_drift(&from);
             if search.best().is_some() {
                 break;
             }
@@ -234,21 +262,9 @@ fn seek(
 
 /// Equilibria under the same load below a flight, where the surface presses on the film's floor: stable
 /// ones are states in which a slider may remain after a touch.
-///
-/// # Errors
-///
-/// [`SteadyError::Singular`].
-pub fn lower_equilibria(
-    film: &Film,
-    load: [f64; 3],
-    flight: &Flight,
-) -> Result<Vec<Equilibrium>, SteadyError> {
-    let mut search = Search {
-        newton: Newton::<f64>::new(film),
-        load: Vector3::from(load),
-        found: vec![Found::of(flight)],
-        last: flight.attitude,
-    };
+pub fn lower_equilibria(film: &Film, load: [f64; 3], flight: &Flight) -> Vec<Equilibrium> {
+    let mut search = Search::new(film, Vector3::from(load), flight.attitude);
+    search.found.push(Found::of(flight));
     let flown = flight.attitude;
     for clearance in [2.0 * film.floor_m(), 8.0 * film.floor_m()] {
         let mut below = flown;
@@ -258,9 +274,9 @@ pub fn lower_equilibria(
         for (psi, (flown, ambient)) in psi.iter_mut().zip(flight.psi.iter().zip(&ambient)) {
             *psi *= flown / ambient;
         }
-        search.attempt(&below, psi)?;
+        search.attempt(&below, psi);
     }
-    Ok(search.found[1..].iter().map(Found::equilibrium).collect())
+    search.found[1..].iter().map(Found::equilibrium).collect()
 }
 
 /// Clearance of the usual attitude, m.
@@ -281,19 +297,22 @@ pub(super) fn usual_attitude(clearance: &ClearanceMap, length_m: f64, wind: f64)
 }
 
 /// Equilibria met so far.
-struct Search<'a> {
-    newton: Newton<'a>,
-    load: Vector3<f64>,
-    found: Vec<Found>,
+pub(super) struct Search<'a> {
+    pub(super) newton: Newton<'a>,
+    pub(super) load: Vector3<f64>,
+    pub(super) found: Vec<Found>,
     last: Attitude,
+    /// Why the last attempt that broke down did.
+    broken: Option<BandedError>,
 }
 
-struct Found {
-    attitude: Attitude,
-    psi: Vec<f64>,
+#[derive(Clone)]
+pub(super) struct Found {
+    pub(super) attitude: Attitude,
+    pub(super) psi: Vec<f64>,
     stiffness: Matrix3<f64>,
-    clearance_m: f64,
-    stable: bool,
+    pub(super) clearance_m: f64,
+    pub(super) stable: bool,
     n_iterations: usize,
 }
 
@@ -319,34 +338,47 @@ impl Found {
 }
 
 impl<'a> Search<'a> {
-    fn new(film: &'a Film, load: Vector3<f64>, last: Attitude) -> Self {
+    pub(super) fn new(film: &'a Film, load: Vector3<f64>, last: Attitude) -> Self {
         Self {
             newton: Newton::<f64>::new(film),
             load,
             found: Vec::new(),
             last,
+            broken: None,
         }
     }
 
     /// Newton from a start, the film from `psi`; what it converges to joins `found`.
-    fn attempt(&mut self, start: &Attitude, mut psi: Vec<f64>) -> Result<(), BandedError> {
+    fn attempt(&mut self, start: &Attitude, mut psi: Vec<f64>) {
         let before = self.newton.n_factored;
         let mut attitude = *start;
-        self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?;
-        self.settle(&mut psi, &mut attitude, before)
+        let held = self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR);
+        let settled = held.and_then(|_| self.settle(&mut psi, &mut attitude, before));
+        self.broken = settled.err().or(self.broken);
     }
 
     /// Overdamped motion from a start, then Newton.
-    fn attempt_by_drift(&mut self, start: &Attitude) -> Result<(), BandedError> {
+    pub(super) fn attempt_by_drift(&mut self, start: &Attitude) {
+        let broken = self.drifted(start).err();
+        self.broken = broken.or(self.broken);
+    }
+
+    fn drifted(&mut self, start: &Attitude) -> Result<(), BandedError> {
         let before = self.newton.n_factored;
         let mut attitude = *start;
         let mut psi = self.newton.film.ambient(start);
-        self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?;
+        match self.newton.relaxes {
+            true => self
+                .newton
+                .hold_surely(&mut psi, start, MOST_ITERATIONS, NEAR)?,
+            false => self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?,
+        };
         self.newton.drift(&mut psi, &mut attitude, &self.load)?;
         self.settle(&mut psi, &mut attitude, before)
     }
 
-    fn settle(
+    /// Newton from a state near an equilibrium, which joins `found`.
+    pub(super) fn settle(
         &mut self,
         psi: &mut [f64],
         attitude: &mut Attitude,
@@ -401,13 +433,21 @@ impl<'a> Search<'a> {
                 Some(found) => SteadyError::Unstable {
                     attitude: found.attitude,
                 },
-                None => SteadyError::NotConverged {
-                    iterations: self.newton.n_factored,
-                    attitude: self.last,
+                None => match self.broken {
+                    Some(broken) => SteadyError::Singular(broken),
+                    None => SteadyError::NotConverged {
+                        iterations: self.newton.n_factored,
+                        attitude: self.last,
+                    },
                 },
             });
         };
         let found = self.found.swap_remove(best);
+        self.told(found)
+    }
+
+    /// All that is told about an equilibrium.
+    pub(super) fn told(mut self, found: Found) -> Result<Flight, SteadyError> {
         let film = self.newton.film;
         self.newton.factor(&found.psi, &found.attitude)?;
         self.newton.schur();

@@ -281,13 +281,21 @@ fn slider_place(scene: &Scene) -> SliderPlace {
     }
 }
 
+/// Share of the load that a film carries under which it is sampled where it does not carry that of the scene.
+const OF_CARRIED: f64 = 0.95;
+
 /// Forces by which every grid of the film of `scene` is corrected.
 fn reference_forces(scene: &Scene) -> Result<ReferenceForces, BuildError> {
     let film = scene
         .with_film_cells(scene.film_resolution.reference_cells)
         .film()?;
     let finer = scene.film_cut_in_two(&film)?;
-    let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
+    let fly_under = |load_n| fly(&film, [load_n, 0.0, 0.0]);
+    let flight = match fly_under(scene.suspension.gram_load_n) {
+        // Whether the slider flies is for the corrected film to say; about its last flight it is told what to correct.
+        Err(SteadyError::CannotFly { carried_n, .. }) => fly_under(OF_CARRIED * carried_n)?,
+        flight => flight?,
+    };
     Ok(ReferenceForces::sample(&film, &finer, &flight)?)
 }
 

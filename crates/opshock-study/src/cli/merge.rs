@@ -120,12 +120,17 @@ fn texts(store: &Path, target: &stored::Source) -> Result<StudyTexts, Failure> {
         Some(file) => Some(file.to_owned()),
         None => owner.file.map(|file| store.join(file)),
     };
+    let resolved = owner.resolved.ok_or_else(|| StoreError::Damaged {
+        path: store.to_owned(),
+        what: "it does not keep the study of its results".into(),
+        hint: "`opshock sweep` of that study into it mends this",
+    })?;
     Ok(StudyTexts {
         name: owner.name,
         digest: owner.digest,
         file: file.and_then(|file| std::fs::canonicalize(file).ok()),
         given,
-        resolved: owner.resolved.unwrap_or_default(),
+        resolved,
     })
 }
 

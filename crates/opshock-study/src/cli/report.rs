@@ -111,6 +111,24 @@ pub fn run(
         plan: &stored.plan,
         film: film.as_ref(),
     };
+    if let Some(out) = arguments
+        .out
+        .as_ref()
+        .filter(|out| out.join("journal").exists())
+    {
+        return Err(Failure::Usage(vec![Fault {
+            key: Some("--out".into()),
+            value: Some(out.display().to_string()),
+            allowed: Some("a folder that is no store".into()),
+            ..Fault::new(
+                "usage",
+                format!(
+                    "{} is a store: the report would replace its results",
+                    out.display()
+                ),
+            )
+        }]));
+    }
     if let Some(out) = &arguments.out {
         let mut files = report_files(&source).context("cannot draw the report")?;
         // What the table shows, whatever became of the store's own file.

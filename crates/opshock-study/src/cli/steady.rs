@@ -12,14 +12,18 @@ use anyhow::Context as _;
 use clap::Args;
 use nalgebra::Complex;
 use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
-use opshock_solver::air_bearing::steady::{Equilibrium, fixed_attitude, fly, lower_equilibria};
-use opshock_solver::air_bearing::{Attitude, Film};
+use opshock_solver::air_bearing::steady::{
+    Equilibrium, SteadyError, fixed_attitude, lower_equilibria,
+};
+use opshock_solver::air_bearing::{Attitude, Film, SurfaceLoad};
 use opshock_solver::scene::Scene;
+use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_solver::slider::body::Inertia;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Print the flying attitude, or the forces at a given one; stiffness, damping, impedance
 #[derive(Args, Debug)]
@@ -67,16 +71,19 @@ struct SteadyJson {
     unknowns: usize,
     /// Equilibria below the flight; null for a held slider.
     lower: Option<Vec<LowerJson>>,
+    /// What the film's grid leaves out of the air's force, put back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    correction: Option<LoadJson>,
     /// Share of the forces between slider and disk beside the air.
     #[serde(skip_serializing_if = "Option::is_none")]
-    surface_forces: Option<SurfaceJson>,
+    surface_forces: Option<LoadJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
     impedance: Option<Vec<ImpedanceJson>>,
 }
 
-/// Part of the force, the moments and the stiffness above that is no air.
+/// Part of the force, the moments and the stiffness above that the film's pressure on its grid does not make.
 #[derive(Debug, Serialize)]
-struct SurfaceJson {
+struct LoadJson {
     force_n: f64,
     pitch_moment_n_m: f64,
     roll_moment_n_m: f64,
@@ -120,10 +127,17 @@ pub fn run(
     check_frequencies(&arguments.impedance)?;
     let study = study_file::read(&arguments.study, global, console)?;
     let scene = unshaken_point(&study, &arguments.point)?.scene;
-    let film = film(&study, &scene)?;
-    let state = match held {
-        Some(attitude) => held_state(&film, &scene, attitude)?,
-        None => flying_state(&film, &study, &scene)?,
+    let (film, state) = match held {
+        Some(attitude) => {
+            let film = film_to_hold(&study, &scene, console)?;
+            let state = held_state(&film, &scene, attitude)?;
+            (film, state)
+        }
+        None => {
+            let bearing = bearing(&study, &scene)?;
+            let state = flying_state(&bearing, &scene)?;
+            (bearing.film, state)
+        }
     };
     let steady = SteadyJson {
         impedance: impedance(&film, &state, &arguments.impedance)?,
@@ -143,8 +157,8 @@ pub fn run(
 ///
 /// No steady flight, or a mode that does not settle.
 pub fn air_bearing_modes(study: &Study, scene: &Scene) -> Result<Vec<ModeJson>, Failure> {
-    let film = film(study, scene)?;
-    Ok(flying_state(&film, study, scene)?
+    let bearing = bearing(study, scene)?;
+    Ok(flying_state(&bearing, scene)?
         .json
         .modes
         .unwrap_or_default())
@@ -157,17 +171,32 @@ struct State {
     json: SteadyJson,
 }
 
-fn film(study: &Study, scene: &Scene) -> Result<Film, Failure> {
+/// The film and the flight of every simulation of `scene`.
+fn bearing(study: &Study, scene: &Scene) -> Result<Bearing, Failure> {
     memory::check("the steady flight", Demand::impedance(scene), 1)?;
-    let film = scene.film();
-    film.map_err(|error| study_file::cannot_be_simulated(study, &error))
+    let bearing = Bearing::build(scene, None);
+    bearing.map_err(|error| study_file::cannot_be_simulated(study, &error))
 }
 
-fn flying_state(film: &Film, study: &Study, scene: &Scene) -> Result<State, Failure> {
+/// The same film to hold a slider on. One that cannot fly has none, and the grid is taken as it is.
+fn film_to_hold(study: &Study, scene: &Scene, console: &Console) -> Result<Arc<Film>, Failure> {
+    memory::check("the steady flight", Demand::impedance(scene), 1)?;
+    match Bearing::build(scene, None) {
+        Ok(bearing) => Ok(bearing.film),
+        Err(BuildError::Steady(error @ SteadyError::CannotFly { .. })) => {
+            console.tell(&format!("{error}; the film is taken as its grid has it"));
+            let film = scene.film().map(Arc::new);
+            film.map_err(|error| study_file::cannot_be_simulated(study, &error))
+        }
+        Err(error) => Err(study_file::cannot_be_simulated(study, &error)),
+    }
+}
+
+fn flying_state(bearing: &Bearing, scene: &Scene) -> Result<State, Failure> {
     let load = [scene.suspension.gram_load_n, 0.0, 0.0];
-    let flight = fly(film, load).map_err(|error| study_file::cannot_be_simulated(study, &error))?;
-    let lower = lower_equilibria(film, load, &flight).context("no search below the flight")?;
-    let mut state = described(film, flight.psi, flight.attitude);
+    let (film, flight) = (&*bearing.film, &*bearing.flight);
+    let lower = lower_equilibria(film, load, flight);
+    let mut state = described(film, flight.psi.clone(), flight.attitude);
     state.json.stiffness = flight.stiffness;
     state.json.damping = flight.damping;
     state.json.lower = Some(lower.iter().map(lower_json).collect());
@@ -217,12 +246,12 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
     let [force_n, pitch_moment_n_m, roll_moment_n_m] =
         film.force(&psi, &attitude, &mut film.scratch());
     let [air_n, air_pitch_n_m, air_roll_n_m] = film.air_force(&psi, &attitude, &mut film.scratch());
-    let surface_forces = film.surface_load(&attitude).map(|load| SurfaceJson {
+    let part = |load: SurfaceLoad| LoadJson {
         force_n: load.force[0],
         pitch_moment_n_m: load.force[1],
         roll_moment_n_m: load.force[2],
         stiffness: load.by_attitude.map(|row| row.map(|slope| -slope)),
-    });
+    };
     let [length_m, width_m] = film.extent_m();
     let json = SteadyJson {
         min_clearance_m: film.min_clearance(&attitude).value_m,
@@ -245,7 +274,8 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         modes: None,
         unknowns: n,
         lower: None,
-        surface_forces,
+        correction: film.correction(&attitude).map(part),
+        surface_forces: film.surface_load(&attitude).map(part),
         impedance: None,
     };
     State {
@@ -378,13 +408,17 @@ fn as_text(steady: &SteadyJson) -> String {
         1e6 * steady.centre_of_pressure[1],
         steady.unknowns,
     );
-    if let Some(surface) = &steady.surface_forces {
+    for (name, load) in [
+        ("grid's defect", &steady.correction),
+        ("no air", &steady.surface_forces),
+    ] {
+        let Some(load) = load else { continue };
         let _ = writeln!(
             text,
-            "no air         {:.4} mN of the force, moments {:.4e} and {:.4e} N m",
-            1e3 * surface.force_n,
-            surface.pitch_moment_n_m,
-            surface.roll_moment_n_m
+            "{name:<15}{:.4} mN of the force, moments {:.4e} and {:.4e} N m",
+            1e3 * load.force_n,
+            load.pitch_moment_n_m,
+            load.roll_moment_n_m
         );
     }
     matrix(&mut text, "stiffness", &steady.stiffness);

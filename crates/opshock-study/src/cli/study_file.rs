@@ -4,7 +4,9 @@ use super::GlobalArgs;
 use super::console::{Console, stderr_colour, stderr_width};
 use super::failure::{Failure, Fault};
 use crate::study::{ChoiceError, SetArg, SetSyntaxError, Study, StudyError, StudyErrors, fault};
+use opshock_solver::air_bearing::steady::SteadyError;
 use opshock_solver::head::HeadError;
+use opshock_solver::quantity::GRAM_FORCE_N;
 use opshock_solver::simulation::BuildError;
 use std::path::Path;
 
@@ -83,6 +85,32 @@ pub fn cannot_be_simulated(study: &Study, error: &(dyn std::error::Error + 'stat
             .allowed(format!("a limit below {:.3} nm", nm(min_clearance_m)))
             .hint("no failure by shock: see `opshock steady`");
         fault.key = "solver.fail_below_nm".to_owned();
+        return StudyErrors::from(fault).into();
+    }
+    if let Some(BuildError::Steady(SteadyError::CannotFly {
+        load_n,
+        carried_n,
+        clearance_m,
+        ends,
+    })) = error.downcast_ref()
+    {
+        let gf = |newton: &f64| newton / GRAM_FORCE_N;
+        let message = format!(
+            "the slider cannot fly: its film carries {:.4} gf at most, at a clearance of {:.3} nm (followed from lighter \
+             loads, {ends})",
+            gf(carried_n),
+            1e9 * clearance_m
+        );
+        let mut fault = StudyError::in_file("E192", &file, message)
+            .value(format!("{:.4} gf", gf(load_n)))
+            .allowed(format!(
+                "a gram load below {:.4} gf on this surface",
+                gf(carried_n)
+            ))
+            .hint(
+                "a lighter load, a faster disk, more of the surface as pads, or a higher pressure",
+            );
+        fault.key = "suspension.gram_load_gf".to_owned();
         return StudyErrors::from(fault).into();
     }
     let fault = StudyError::in_file("E190", &file, error.to_string())

@@ -70,7 +70,10 @@ pub enum StoreError {
         holder: String,
     },
     /// Nothing was stored.
-    #[error("{code}: {path} holds no results; run `opshock sweep` first", code = self.code())]
+    #[error(
+        "{code}: {path} holds no results; run `opshock sweep` first, and `opshock merge` where shards have swept",
+        code = self.code()
+    )]
     Empty {
         /// Folder.
         path: PathBuf,

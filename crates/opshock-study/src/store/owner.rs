@@ -52,7 +52,8 @@ impl Owner {
                 name: summary.study.clone(),
                 digest: summary.digest.clone(),
                 file: None,
-                resolved,
+                // A text of other settings, edited or of another store, says nothing about these results.
+                resolved: resolved.filter(|text| digest_of(text) == summary.digest),
             });
         }
         let Some(resolved) = resolved else {

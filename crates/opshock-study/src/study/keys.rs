@@ -347,7 +347,7 @@ static TABLE: &[Key] = &[
     Key::rung("solver.head_tolerance", Number(open(0.0, 1.0)), "1.0e-3", "Relative local error of the clearance per step.").usual(1e-9, 0.1),
     Key::rung("solver.approach_share", Number(open(0.0, 1.0)), "0.25", "Largest share of the clearance closed in one step."),
     Key::rung("solver.film_cells", Integer(16, 4_000_000), "2000", "Wanted number of film cells."),
-    Key::rung("solver.film_reference_cells", Integer(0, 1_000_000), "1000", "Cells of the grid that, cut finer, tells what the film's own leaves out; 0: nothing is added, as where film_cells is set alone."),
+    Key::rung("solver.film_reference_cells", Integer(0, 1_000_000), "1000", "Cells of the grid that, cut finer, tells what the film's own leaves out (2000 at least for a skewed slider); 0: nothing is added, as where film_cells is set alone."),
     Key::rung("solver.film_floor_nm", LENGTH, "0.3", "Floor of the height the film sees.").usual(0.01, 5.0),
     Key::rung("solver.coupling_tolerance", Number(open(0.0, 0.1)), "1.0e-6", "Relative residual of the coupled solve; a hundredth of head_tolerance when that is set alone.").usual(1e-12, 1e-2),
     Key::rung("solver.suspension_modes", Integer(1, 200), "16", "Modes of the suspension kept above the pinned dimple."),

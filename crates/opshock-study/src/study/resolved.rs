@@ -144,10 +144,18 @@ fn value_at(settings: &Settings, path: &str) -> Option<String> {
     let key = keys::find(path)?;
     let is_axis = |path| settings.get(path).is_some_and(|setting| setting.is_axis);
     let follows_axis = is_axis("solver.accuracy")
-        || path == "solver.coupling_tolerance" && is_axis("solver.head_tolerance");
+        || path == "solver.coupling_tolerance" && is_axis("solver.head_tolerance")
+        || path == "solver.film_reference_cells" && has_skews(settings);
     (key.presence == Presence::Rung && !follows_axis)
         .then(|| rung_value(settings, path))
         .flatten()
+}
+
+/// Whether points differ in their skew, on which the film's reference depends.
+fn has_skews(settings: &Settings) -> bool {
+    const SKEW: &str = "slider.skew_deg";
+    let is_axis = settings.get(SKEW).is_some_and(|setting| setting.is_axis);
+    is_axis || settings.per_head().any(|own| own == SKEW)
 }
 
 /// A value the rung gives, back in the unit of its key.

@@ -6,7 +6,7 @@ use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
-use opshock_solver::scene::accuracy::{self, Resolutions, Rung};
+use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
@@ -89,6 +89,9 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
             .map_or(base, |value| value as usize)
     };
     let number = |path: &str, base: f64| view.maybe_si(path).unwrap_or(base);
+    let is_skewed = view
+        .maybe_si("slider.skew_deg")
+        .is_some_and(|skew| skew != 0.0);
     // What the solve leaves must stay small beside the error of a step.
     let coupling_tolerance =
         view.maybe_si("solver.head_tolerance")
@@ -117,6 +120,7 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
                 "solver.film_reference_cells",
                 match view.maybe_integer("solver.film_cells") {
                     Some(_) => 0,
+                    None if is_skewed => base.film.reference_cells.max(SKEWED_REFERENCE_CELLS),
                     None => base.film.reference_cells,
                 },
             ),

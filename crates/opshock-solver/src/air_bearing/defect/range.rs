@@ -8,14 +8,18 @@
 //! ```
 //!
 //! with the pitch θ and θ_eq, what it is in equilibrium under a larger or smaller load, each over half its range.
-//! An attitude out of range counts as the nearest one in it.
+//! An attitude out of range counts as the nearest one in it. Where wind across the slider rolls it, the range of
+//! ½ (h₁ − h₂) lies about what that is in equilibrium, too.
 
 use crate::air_bearing::Attitude;
 use crate::air_bearing::film::Film;
 use crate::air_bearing::steady::{Flight, fly_near};
 
-/// Loads of equilibria that tell θ_eq, in those of steady flight.
-const LOADS: [f64; 3] = [0.6, 1.0, 2.5];
+/// Loads of equilibria that tell θ_eq, in those of steady flight; the second ones where the film does not carry the first.
+const LOADS: [[f64; 3]; 2] = [[0.6, 1.0, 2.5], [0.25, 0.5, 1.0]];
+
+/// Most by which the two points' heights differ in equilibrium, as a share of their sum.
+const MOST_LEAN: f64 = 0.8;
 
 /// Mean height of the two points, in that of steady flight.
 const HEIGHTS: [f64; 2] = [0.05, 1.5];
@@ -24,6 +28,9 @@ const HEIGHTS: [f64; 2] = [0.05, 1.5];
 /// below 4 nm, nineteen times of twenty.
 const PITCH: f64 = 0.18;
 const ROLL: f64 = 0.12;
+
+/// Pitch in equilibrium at the ends of those heights, in that of steady flight, beyond which it is not believed.
+const PITCHES: [f64; 2] = [0.3, 3.0];
 
 /// Least distance of the two points, in the slider's width.
 const APART: f64 = 0.02;
@@ -39,8 +46,10 @@ pub(super) struct Range {
     heights_m: [f64; 2],
     /// Largest half difference of their heights, m.
     lean_m: f64,
-    /// θ_eq at three logarithms of the mean height: the logarithms, and divided differences, rad.
-    equilibrium: ([f64; 3], [f64; 3]),
+    /// θ_eq at three logarithms of the mean height, rad.
+    equilibrium: Parabola,
+    /// The half difference of the points' heights in equilibrium, m; nothing without wind across.
+    leaning: Parabola,
     /// Largest distance of pitch from θ_eq, rad.
     pitch_rad: f64,
 }
@@ -83,7 +92,9 @@ impl Range {
         let usual = film.usual_attitude().pitch_rad.abs();
         let scale = steady.pitch_rad.abs().max(0.01 * usual);
         let [length, width] = film.extent_m();
-        let mut points = [1.0, -1.0].map(|sense| {
+        // Mirrored flights of a mirrored film have mirrored samples.
+        let side = if film.blows_inwards() { -1.0 } else { 1.0 };
+        let mut points = [side, -side].map(|sense| {
             let mut rolled = steady;
             rolled.roll_rad += sense * ROLL * scale;
             let closest = film.min_clearance(&rolled);
@@ -93,7 +104,8 @@ impl Range {
             (form_m, arms)
         });
         let apart = points[1].1[2] - points[0].1[2];
-        let missing = 0.5 * (APART * width - apart.abs()).max(0.0).copysign(apart);
+        let sense = if apart == 0.0 { side } else { apart };
+        let missing = 0.5 * (APART * width - apart.abs()).max(0.0).copysign(sense);
         points[0].1[2] -= missing;
         points[1].1[2] += missing;
         let mean = |attitude: &Attitude| {
@@ -103,20 +115,48 @@ impl Range {
                 .sum::<f64>()
         };
         let mean_m = mean(&steady);
-        let level = ([0.0, 1.0, 2.0], [steady.pitch_rad, 0.0, 0.0]);
+        let lean = |attitude: &Attitude| {
+            let [first, second] = points.map(|(form_m, arms)| form_m + height(attitude, &arms));
+            0.5 * (first - second)
+        };
         let load_n = flight.lift_n + flight.suction_n;
-        let flights = LOADS.map(|share| {
-            let load = [share * load_n, 0.0, 0.0];
-            let found = match share {
-                1.0 => steady,
-                _ => fly_near(film, load, &steady).ok()?.attitude,
-            };
-            Some(((mean(&found) + floor_m).ln(), found.pitch_rad))
+        let flown = |loads: [f64; 3]| {
+            let found = loads.map(|share| match share {
+                1.0 => Some(steady),
+                _ => {
+                    let load = [share * load_n, 0.0, 0.0];
+                    Some(fly_near(film, load, &steady).ok()?.attitude)
+                }
+            });
+            let [a, b, c] = found;
+            Some([a?, b?, c?])
+        };
+        let along = |flown: [Attitude; 3], value: &dyn Fn(&Attitude) -> f64| {
+            Parabola::through(flown.map(|q| ((mean(&q) + floor_m).ln(), value(&q))))
+        };
+        let pitch = |q: &Attitude| q.pitch_rad;
+        let [usual, light] = LOADS;
+        let (equilibrium, leaning) = match flown(usual).or_else(|| flown(light)) {
+            Some(flown) => (along(flown, &pitch), along(flown, &lean).inside()),
+            // Without neighbours steady flight is taken for all heights.
+            None => (
+                Parabola::level(pitch(&steady)),
+                Parabola::level(lean(&steady)),
+            ),
+        };
+        // Far from the flights a parabola through them may lead anywhere.
+        let is_sound = HEIGHTS.iter().all(|height| {
+            let (end, _) = equilibrium.at((height * mean_m + floor_m).ln());
+            let share = end / steady.pitch_rad;
+            (PITCHES[0]..PITCHES[1]).contains(&share)
         });
-        let equilibrium = match flights {
-            [Some(a), Some(b), Some(c)] => divided([a, b, c]),
-            // Without neighbours the pitch of steady flight is taken for all heights.
-            _ => level,
+        let equilibrium = match is_sound {
+            true => equilibrium,
+            false => equilibrium.inside(),
+        };
+        let leaning = match film.blows_across() {
+            true => leaning,
+            false => Parabola::level(0.0),
         };
         let half_m = 0.5 * (points[1].1[2] - points[0].1[2]).abs();
         Self {
@@ -125,18 +165,27 @@ impl Range {
             heights_m: HEIGHTS.map(|share| share * mean_m),
             lean_m: ROLL * scale * half_m,
             equilibrium,
+            leaning,
             pitch_rad: PITCH * scale,
         }
     }
 
-    /// θ_eq and its derivative by the logarithm of the mean height above minus the floor.
-    fn equilibrium(&self, logarithm: f64) -> (f64, f64) {
-        let ([a, b, _], [constant, linear, quadratic]) = self.equilibrium;
-        let (from_a, from_b) = (logarithm - a, logarithm - b);
-        (
-            constant + from_a * (linear + from_b * quadratic),
-            linear + quadratic * (from_a + from_b),
-        )
+    /// Smallest and largest half difference of the points' heights at a mean height: neither point lies in the disk.
+    fn leans(&self, mean: Varying) -> [Varying; 2] {
+        let above_floor = Varying(mean.0 + self.floor_m, mean.1);
+        let (centre_m, slope) = self.leaning.at(above_floor.0.ln());
+        let most_m = MOST_LEAN * mean.0;
+        let centre = match centre_m.abs() > most_m {
+            true => mean.of(most_m.copysign(centre_m), MOST_LEAN.copysign(centre_m)),
+            false => above_floor.of(centre_m, slope / above_floor.0),
+        };
+        [-1.0, 1.0].map(|sense: f64| {
+            let limit = Varying(centre.0 + sense * self.lean_m, centre.1);
+            match sense * limit.0 > mean.0 {
+                true => mean.of(sense * mean.0, sense),
+                false => limit,
+            }
+        })
     }
 
     /// The attitude at shares from -1 to 1 of the ranges of height, pitch and roll.
@@ -144,8 +193,9 @@ impl Range {
         let [low_m, high_m] = self.heights_m.map(|h| (h + self.floor_m).ln());
         let logarithm = 0.5 * ((low_m + high_m) + high * (high_m - low_m));
         let mean_m = logarithm.exp() - self.floor_m;
-        let lean_m = aside * self.lean_m.min(mean_m);
-        let pitch_rad = self.equilibrium(logarithm).0 + up * self.pitch_rad;
+        let [least, most] = self.leans(Varying(mean_m, [0.0; 3]));
+        let lean_m = 0.5 * (least.0 + most.0) + aside * (0.5 * (most.0 - least.0));
+        let pitch_rad = self.equilibrium.at(logarithm).0 + up * self.pitch_rad;
         // Heights of the points are mean + lean and mean - lean: two equations for roll and height.
         let [(first_m, [_, a, b]), (second_m, [_, c, d])] = self.points;
         let rise_m = 2.0 * lean_m - (first_m - second_m) - pitch_rad * (a - c);
@@ -166,12 +216,12 @@ impl Range {
         let [low_m, high_m] = self.heights_m;
         let mean = first.mixed(0.5, second, 0.5).clamped(low_m, high_m);
         let lean = first.mixed(0.5, second, -0.5);
-        let most_m = self.lean_m.min(mean.0);
-        let lean = match lean.0.abs() {
-            d if d <= most_m => lean,
-            // On the edge of the range, which follows the mean height where a point touches.
-            _ if most_m < self.lean_m => mean.of(most_m.copysign(lean.0), 1f64.copysign(lean.0)),
-            _ => Varying(most_m.copysign(lean.0), [0.0; 3]),
+        // On the edge of the range, which follows the mean height where a point touches.
+        let [least, most] = self.leans(mean);
+        let lean = match lean.0 {
+            x if x < least.0 => least,
+            x if x > most.0 => most,
+            _ => lean,
         };
         let above = |sense: f64| {
             let height = mean.mixed(1.0, lean, sense);
@@ -179,7 +229,7 @@ impl Range {
         };
         let (first, second) = (above(1.0), above(-1.0));
         let floor_m = Varying(mean.0 + self.floor_m, mean.1).ln();
-        let (pitch_rad, slope) = self.equilibrium(floor_m.0);
+        let (pitch_rad, slope) = self.equilibrium.at(floor_m.0);
         let up = Varying(attitude.pitch_rad, [0.0, 1.0, 0.0]);
         let up = up.mixed(1.0, floor_m.of(pitch_rad, slope), -1.0);
         let up = up.clamped(-self.pitch_rad, self.pitch_rad);
@@ -199,9 +249,53 @@ fn height(attitude: &Attitude, [by_h, by_pitch, by_roll]: &[f64; 3]) -> f64 {
     by_h * attitude.centre_height_m + by_pitch * attitude.pitch_rad + by_roll * attitude.roll_rad
 }
 
-/// Places and divided differences of the parabola through three points.
-fn divided([a, b, c]: [(f64, f64); 3]) -> ([f64; 3], [f64; 3]) {
-    let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (q.0 - p.0);
-    let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
-    ([a.0, b.0, c.0], [a.1, slope(a, b), bend])
+/// A parabola by places and divided differences, level outside of some.
+#[derive(Clone, Debug, PartialEq)]
+struct Parabola {
+    places: [f64; 3],
+    differences: [f64; 3],
+    inside: [f64; 2],
+}
+
+impl Parabola {
+    /// Through three points.
+    fn through([a, b, c]: [(f64, f64); 3]) -> Self {
+        let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (q.0 - p.0);
+        let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
+        Self {
+            places: [a.0, b.0, c.0],
+            differences: [a.1, slope(a, b), bend],
+            inside: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// The same everywhere.
+    fn level(value: f64) -> Self {
+        Self {
+            places: [0.0, 1.0, 2.0],
+            differences: [value, 0.0, 0.0],
+            inside: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// Level outside of its points.
+    fn inside(self) -> Self {
+        let [a, b, c] = self.places;
+        let inside = [a.min(b).min(c), a.max(b).max(c)];
+        Self { inside, ..self }
+    }
+
+    /// Value and derivative at a place.
+    fn at(&self, x: f64) -> (f64, f64) {
+        let [least, most] = self.inside;
+        let level = x < least || x > most;
+        let x = x.clamp(least, most);
+        let [constant, linear, quadratic] = self.differences;
+        let (from_a, from_b) = (x - self.places[0], x - self.places[1]);
+        let slope = linear + quadratic * (from_a + from_b);
+        (
+            constant + from_a * (linear + from_b * quadratic),
+            if level { 0.0 } else { slope },
+        )
+    }
 }

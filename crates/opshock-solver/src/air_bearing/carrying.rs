@@ -1,0 +1,128 @@
+//! The load that a film carries: flights followed from light loads to heavier ones.
+//!
+//! ```text
+//! R(ψ, q) = 0,   F(ψ, q) = s load,   s from 0 to 1
+//! ```
+//!
+//! A light load leaves the slider high, where the film is easy to find. From there the flight is continued in the share s
+//! of the load, each from the one before, in steps that are halved where none is found. The flights end at a limit point,
+//! where a matrix K of stiffness becomes singular (Keller 1977, in Rabinowitz, *Applications of Bifurcation Theory*, 359), or
+//! where the slider has no clearance left. Beyond a limit point the slider is let down under a load that is a little larger, by
+//! the overdamped motion of [`super::steady`]: where that comes to rest with a clearance, flights are followed on from there.
+//! Where it does not, the last one carries the most.
+
+use super::Attitude;
+use super::film::Film;
+use super::steady::{Flight, FlightsEnd, Found, Search, SteadyError};
+use nalgebra::Vector3;
+
+/// First and smallest step in the share that grows.
+const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
+
+/// Shares of a load under which a first flight is sought.
+const LIGHT: [f64; 6] = [0.5, 0.25, 0.125, 1.0 / 32.0, 1.0 / 128.0, 1.0 / 512.0];
+
+/// Most branches that a slider is let down to.
+const MOST_BRANCHES: usize = 4;
+
+/// Stable flights followed along a share of something.
+pub(super) struct Path {
+    /// Share that was reached; 1 at the end.
+    pub(super) share: f64,
+    /// The flight there.
+    pub(super) last: Found,
+    /// How flights end, where 1 was not reached.
+    pub(super) ends: FlightsEnd,
+}
+
+impl Path {
+    /// From the `start` at a share towards 1, film and load given by `at`; flights have more than `clearance_m`.
+    pub(super) fn along(
+        at: &impl Fn(f64) -> (Film, Vector3<f64>),
+        start: (f64, Found),
+        clearance_m: f64,
+    ) -> Self {
+        let (share, last) = start;
+        let mut path = Self {
+            share,
+            last,
+            ends: FlightsEnd::AtLimitPoint,
+        };
+        let [mut step, smallest] = SHARE_STEPS;
+        while path.share < 1.0 {
+            let share = f64::min(path.share + step, 1.0);
+            let (film, load) = at(share);
+            let mut search = Search::new(&film, load, path.last.attitude);
+            let (mut attitude, mut psi) = (path.last.attitude, path.last.psi.clone());
+            let before = search.newton.n_factored;
+            // What breaks down has found nothing.
+            let _ = search.settle(&mut psi, &mut attitude, before);
+            match search.found.pop() {
+                Some(found) if found.stable && found.clearance_m >= clearance_m => {
+                    path.last = found;
+                    path.share = share;
+                    continue;
+                }
+                Some(found) if found.stable => path.ends = FlightsEnd::AtDisk,
+                _ => path.ends = FlightsEnd::AtLimitPoint,
+            }
+            if step <= smallest {
+                break;
+            }
+            step *= 0.5;
+        }
+        path
+    }
+}
+
+/// The flight under `load` followed from lighter ones, or that there is none; `None` where no light one is found.
+pub(super) fn followed(
+    film: &Film,
+    load: [f64; 3],
+    start: &Attitude,
+) -> Option<Result<Flight, SteadyError>> {
+    let load = Vector3::from(load);
+    let (share, found) = LIGHT
+        .into_iter()
+        .find_map(|share| Some((share, let_down(film, load * share, &starts(film, start))?)))?;
+    let at = |share: f64| (film.clone(), load * share);
+    let mut path = Path::along(&at, (share, found), f64::MIN_POSITIVE);
+    for _ in 1..MOST_BRANCHES {
+        if path.share == 1.0 {
+            break;
+        }
+        let share = f64::min(path.share + 2.0 * SHARE_STEPS[1], 1.0);
+        match let_down(film, load * share, &[path.last.attitude]) {
+            Some(found) => path = Path::along(&at, (share, found), f64::MIN_POSITIVE),
+            None => break,
+        }
+    }
+    if path.share == 1.0 {
+        return Some(Search::new(film, load, path.last.attitude).told(path.last));
+    }
+    Some(Err(SteadyError::CannotFly {
+        load_n: load[0],
+        carried_n: path.share * load[0],
+        clearance_m: path.last.clearance_m,
+        ends: path.ends,
+    }))
+}
+
+/// Attitudes from which a light slider is let go.
+fn starts(film: &Film, start: &Attitude) -> [Attitude; 3] {
+    let usual = film.usual_attitude();
+    let mut high = usual;
+    high.centre_height_m += 1e-7;
+    [usual, high, *start]
+}
+
+/// Where a slider comes to rest with a clearance, let go at one of `starts` under `load`.
+fn let_down(film: &Film, load: Vector3<f64>, starts: &[Attitude]) -> Option<Found> {
+    starts.iter().find_map(|start| {
+        let mut search = Search::new(film, load, *start);
+        search.newton.relaxes = true;
+        search.attempt_by_drift(start);
+        let found = search.found.pop()?;
+        (found.stable && found.clearance_m > 0.0).then_some(found)
+    })
+}

@@ -1,0 +1,162 @@
+//! Random drives either fly or cannot: on the corrected film of every simulation, with every gas model.
+
+use opshock_solver::air_bearing::steady::SteadyError;
+use opshock_solver::scene::Scene;
+use opshock_solver::simulation::{Bearing, BuildError};
+use opshock_tests::drives::{GAS_MODELS, drive, most_carried, turned};
+use opshock_tests::seeded::{OnPanic, seeds};
+
+/// Cells of the film that tells independently what a slider carries, and what it and the corrected one may differ by.
+const APART_CELLS: usize = 400;
+const APART: f64 = 0.12;
+
+/// What is told of a drive.
+#[derive(Clone, Copy)]
+struct Told {
+    flies: bool,
+    /// Relative difference of the clearance to that of the other skew.
+    mirrored: Option<f64>,
+}
+
+fn judge(scene: &Scene, gas_model: &str, mirrors: bool) -> Told {
+    match Bearing::build(scene, None) {
+        Ok(bearing) => {
+            balances(scene, &bearing);
+            let is_turned = mirrors && scene.slider.skew_rad != 0.0;
+            let mirrored = is_turned.then(|| {
+                let other =
+                    Bearing::build(&turned(scene), None).expect("flies with the other skew");
+                let [one, other] = [&bearing, &other].map(|b| b.flight.min_clearance_m);
+                let change = (other / one - 1.0).abs();
+                assert!(change < 5e-4, "{gas_model}: {one:e} and {other:e} m");
+                change
+            });
+            Told {
+                flies: true,
+                mirrored,
+            }
+        }
+        Err(BuildError::Steady(SteadyError::CannotFly { carried_n, .. })) => {
+            cannot(scene, gas_model, carried_n);
+            Told {
+                flies: false,
+                mirrored: None,
+            }
+        }
+        Err(error) => panic!("{gas_model}: {error:?}"),
+    }
+}
+
+/// Residuals of a flight, off the film alone.
+fn balances(scene: &Scene, bearing: &Bearing) {
+    let (film, flight) = (&bearing.film, &bearing.flight);
+    let mut residual = vec![0.0; film.n_cells()];
+    let mut scratch = film.scratch();
+    let [force, pitch, roll] =
+        film.flux_residual_and_force(&flight.psi, &flight.attitude, &mut residual, &mut scratch);
+    let load_n = scene.suspension.gram_load_n;
+    let arm_m = load_n * scene.slider.length_m;
+    assert!((force / load_n - 1.0).abs() < 1e-7, "force {force:e} N");
+    assert!(
+        pitch.abs().max(roll.abs()) < 1e-7 * arm_m,
+        "{pitch:e}, {roll:e} N m"
+    );
+    // Of the gas that the wind carries under the slider.
+    let carried = 6.0
+        * scene.gas.viscosity_pa_s
+        * scene.disk.spin_rad_per_s
+        * scene.slider.radius_m
+        * scene.gas.pressure_pa
+        * flight.attitude.centre_height_m
+        * scene.slider.width_m;
+    let left: f64 = residual.iter().map(|r| r.abs()).sum();
+    assert!(left < 1e-7 * carried, "residual {left:e} of {carried:e}");
+    assert!(flight.min_clearance_m > 0.0);
+    assert!(flight.psi.iter().all(|psi| *psi > 0.0));
+}
+
+/// That no slider held in balance carries the load, and the most they carry is what was told.
+fn cannot(scene: &Scene, gas_model: &str, carried_n: f64) {
+    let cells = APART_CELLS.min(scene.film_resolution.cells);
+    let film = scene.with_film_cells(cells).film().expect("a film");
+    let (most_n, clearance_m) = most_carried(&film, 0.75);
+    let load_n = scene.suspension.gram_load_n;
+    assert!(
+        most_n < (1.0 + APART) * load_n && (carried_n / most_n - 1.0).abs() < APART,
+        "{gas_model}: held films carry {most_n:e} N at {clearance_m:e} m, told {carried_n:e} of {load_n:e} N"
+    );
+}
+
+fn all(gas_model: &str, default: std::ops::Range<u64>) {
+    let range = seeds(default);
+    let (mut flown, mut cannot, mut pairs, mut worst) = (0, 0, 0, 0.0_f64);
+    let mut wrong = Vec::new();
+    for seed in range.clone() {
+        let judged = std::panic::catch_unwind(|| {
+            judge(&drive(seed, gas_model), gas_model, seed.is_multiple_of(4))
+        });
+        match judged {
+            Err(_) => wrong.push(seed),
+            Ok(told) if told.flies => flown += 1,
+            Ok(_) => cannot += 1,
+        }
+        if let Ok(Told {
+            mirrored: Some(change),
+            ..
+        }) = judged
+        {
+            pairs += 1;
+            worst = worst.max(change);
+        }
+        let done = seed + 1 - range.start;
+        if done.is_multiple_of(10) || seed + 1 == range.end {
+            println!(
+                "{gas_model}: {done} drives from seed {}: {flown} fly, {cannot} cannot, wrong {wrong:?}; {pairs} pairs of \
+                 skews differ by {worst:.1e} at most",
+                range.start
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{gas_model}: seeds {wrong:?}");
+}
+
+#[test]
+fn random_drives_fly_or_cannot() {
+    let mut flown = [0; 2];
+    for gas_model in GAS_MODELS {
+        for seed in 0..6 {
+            let _named = OnPanic(seed);
+            let mut scene = drive(seed, gas_model);
+            // Cells of the coarsest preset, corrected by half the reference of a skewed slider: seconds in all.
+            scene.film_resolution.cells = 400;
+            scene.film_resolution.reference_cells = 1000;
+            let told = judge(&scene, gas_model, seed == 4);
+            flown[usize::from(told.flies)] += 1;
+        }
+    }
+    assert!(flown[0] > 0 && flown[1] > 12, "{flown:?}");
+}
+
+#[test]
+#[ignore = "slow: 100 drives, some 20 minutes"]
+fn flight_slow_continuum() {
+    all(GAS_MODELS[0], 0..100);
+}
+
+#[test]
+#[ignore = "slow: 100 drives, some 20 minutes"]
+fn flight_slow_slip_1() {
+    all(GAS_MODELS[1], 0..100);
+}
+
+#[test]
+#[ignore = "slow: 100 drives, some 20 minutes"]
+fn flight_slow_slip_2() {
+    all(GAS_MODELS[2], 0..100);
+}
+
+#[test]
+#[ignore = "slow: 100 drives, some 20 minutes"]
+fn flight_slow_fukui_kaneko() {
+    all(GAS_MODELS[3], 0..100);
+}
