@@ -9,8 +9,7 @@
 //! where a matrix K of stiffness becomes singular (Keller 1977, in Rabinowitz, *Applications of Bifurcation Theory*, 359), or
 //! where the slider has no clearance left. Beyond a limit point the slider is let down under a load that is a little larger, by
 //! the overdamped motion of [`super::steady`]: where that comes to rest with a clearance, flights are followed on from there.
-//! Where it does not, the last one carries the most. Equilibria nearer to the disk than the film's floor that no flight leads
-//! to are none: the film is another one there.
+//! Where it does not, the last one carries the most.
 
 use super::Attitude;
 use super::film::Film;
