@@ -75,14 +75,15 @@ fn balances(scene: &Scene, bearing: &Bearing) {
     assert!(flight.psi.iter().all(|psi| *psi > 0.0));
 }
 
-/// That no slider held in balance carries the load, and the most they carry is what was told.
+/// That no slider held in balance carries the load, nor more than was told. Less proves nothing: equilibria of held sliders
+/// are sought from a few tilts.
 fn cannot(scene: &Scene, gas_model: &str, carried_n: f64) {
     let cells = APART_CELLS.min(scene.film_resolution.cells);
     let film = scene.with_film_cells(cells).film().expect("a film");
     let (most_n, clearance_m) = most_carried(&film, 0.75);
     let load_n = scene.suspension.gram_load_n;
     assert!(
-        most_n < (1.0 + APART) * load_n && (carried_n / most_n - 1.0).abs() < APART,
+        most_n < (1.0 + APART) * load_n && carried_n > (1.0 - APART) * most_n,
         "{gas_model}: held films carry {most_n:e} N at {clearance_m:e} m, told {carried_n:e} of {load_n:e} N"
     );
 }

@@ -83,7 +83,7 @@ pub fn turned(scene: &Scene) -> Scene {
 }
 
 /// The most that a film carries without a moment where pitch and roll are stable, N, and the clearance there, m: of
-/// sliders held still at clearances from 50 nm down to 0.05 nm, each `ratio` of the one before, by forces alone.
+/// sliders held still at clearances from 50 nm down to the film's minimum height, each at least `ratio` of the one before, by forces alone.
 pub fn most_carried(film: &Film, ratio: f64) -> (f64, f64) {
     let mut most = (f64::NEG_INFINITY, f64::NAN);
     let usual = film.usual_attitude();
@@ -91,7 +91,7 @@ pub fn most_carried(film: &Film, ratio: f64) -> (f64, f64) {
         [1.0, 0.5, 0.25, 2.0, 0.12].map(|factor| Vector2::new(factor * usual.pitch_rad, 0.0));
     let mut last = None;
     let mut clearance_m = 50e-9;
-    while clearance_m > 0.05e-9 {
+    loop {
         let tilts = last.into_iter().chain(starts);
         let found = tilts
             .filter_map(|tilt| balanced(film, clearance_m, tilt))
@@ -102,9 +102,11 @@ pub fn most_carried(film: &Film, ratio: f64) -> (f64, f64) {
             most = (load_n, clearance_m);
         }
         last = found.map(|(_, tilt)| tilt);
-        clearance_m *= ratio;
+        if clearance_m <= film.floor_m() {
+            return most;
+        }
+        clearance_m = (clearance_m * ratio).max(film.floor_m());
     }
-    most
 }
 
 /// Slider at a smallest clearance with pitch and roll.

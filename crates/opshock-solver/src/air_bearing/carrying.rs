@@ -7,9 +7,9 @@
 //! A light load leaves the slider high, where the film is easy to find. From there the flight is continued in the share s
 //! of the load, each from the one before, in steps that are halved where none is found. The flights end at a limit point,
 //! where a matrix K of stiffness becomes singular (Keller 1977, in Rabinowitz, *Applications of Bifurcation Theory*, 359), or
-//! where the slider has no clearance left. Beyond a limit point the slider is let down under a load that is a little larger, by
-//! the overdamped motion of [`super::steady`]: where that comes to rest with a clearance, flights are followed on from there.
-//! Where it does not, the last one carries the most.
+//! where the clearance is the film's minimum height, below which there is no flight to speak of. Beyond a limit point the slider
+//! is let down under a load that is a little larger, by the overdamped motion of [`super::steady`]: where that comes to rest
+//! above the minimum height, flights are followed on from there. Where it does not, the last one carries the most.
 
 use super::Attitude;
 use super::film::Film;
@@ -36,7 +36,7 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// From the `start` at a share towards 1, film and load given by `at`; flights have more than `clearance_m`.
+    /// From the `start` at a share towards 1, film and load given by `at`; flights have at least `clearance_m`.
     pub(super) fn along(
         at: &impl Fn(f64) -> (Film, Vector3<f64>),
         start: (f64, Found),
@@ -63,7 +63,7 @@ impl Path {
                     path.share = share;
                     continue;
                 }
-                Some(found) if found.stable => path.ends = FlightsEnd::AtDisk,
+                Some(found) if found.stable => path.ends = FlightsEnd::AtMinimumHeight,
                 _ => path.ends = FlightsEnd::AtLimitPoint,
             }
             if step <= smallest {
@@ -86,14 +86,14 @@ pub(super) fn followed(
         .into_iter()
         .find_map(|share| Some((share, let_down(film, load * share, &starts(film, start))?)))?;
     let at = |share: f64| (film.clone(), load * share);
-    let mut path = Path::along(&at, (share, found), f64::MIN_POSITIVE);
+    let mut path = Path::along(&at, (share, found), film.floor_m());
     for _ in 1..MOST_BRANCHES {
         if path.share == 1.0 {
             break;
         }
         let share = f64::min(path.share + 2.0 * SHARE_STEPS[1], 1.0);
         match let_down(film, load * share, &[path.last.attitude]) {
-            Some(found) => path = Path::along(&at, (share, found), f64::MIN_POSITIVE),
+            Some(found) => path = Path::along(&at, (share, found), film.floor_m()),
             None => break,
         }
     }
@@ -116,13 +116,13 @@ fn starts(film: &Film, start: &Attitude) -> [Attitude; 3] {
     [usual, high, *start]
 }
 
-/// Where a slider comes to rest with a clearance, let go at one of `starts` under `load`.
+/// Where a slider comes to rest above the minimum film height, let go at one of `starts` under `load`.
 fn let_down(film: &Film, load: Vector3<f64>, starts: &[Attitude]) -> Option<Found> {
     starts.iter().find_map(|start| {
         let mut search = Search::new(film, load, *start);
         search.newton.relaxes = true;
         search.attempt_by_drift(start);
         let found = search.found.pop()?;
-        (found.stable && found.clearance_m > 0.0).then_some(found)
+        (found.stable && found.clearance_m >= film.floor_m()).then_some(found)
     })
 }

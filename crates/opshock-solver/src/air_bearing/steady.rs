@@ -76,15 +76,15 @@ pub enum SteadyError {
 pub enum FlightsEnd {
     /// At a limit point: no flight next to the last one carries more.
     AtLimitPoint,
-    /// At the disk: the next one has no clearance.
-    AtDisk,
+    /// At the minimum film height: the next one has less clearance.
+    AtMinimumHeight,
 }
 
 impl fmt::Display for FlightsEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::AtLimitPoint => "its flights end at a limit point of the load",
-            Self::AtDisk => "its flights end with the slider on the disk",
+            Self::AtMinimumHeight => "its flights end at the minimum film height",
         })
     }
 }
@@ -176,8 +176,8 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 /// As [`fly`], from `start`, which may be far from the answer.
 ///
 /// Of several stable equilibria met on the way the one with the largest clearance is flown
-/// ([`lower_equilibria`] looks for those below). Where surface forces act, one within the range of the
-/// film's floor is no flight, and none is without clearance.
+/// ([`lower_equilibria`] looks for those below). One below the film's minimum height is no flight; where surface forces
+/// act, none below twice of it is.
 ///
 /// # Errors
 ///
@@ -187,7 +187,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     if film.surface_forces().is_none() {
         let flown = seek(film, load, start, true);
         return match flown {
-            Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
+            Ok(flight) if flight.min_clearance_m >= film.floor_m() => Ok(flight),
             other => followed(film, load, start).unwrap_or(other),
         };
     }
