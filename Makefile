@@ -73,7 +73,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu ## heavy evidence, in parts
+verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -102,6 +102,9 @@ verify-hard: bootstrap ## hard cases that take longer, each with figure and boun
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
 
 .PHONY: verify-flight
+verify-match: bootstrap ## planted truths that `opshock match` must keep (20 minutes; OPSHOCK_SEEDS=first..end for a part)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture match_slow
+
 verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 

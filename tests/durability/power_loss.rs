@@ -58,6 +58,7 @@ fn name(record: &Record) -> Vec<u8> {
             name
         }
         Record::Touch(touch) => touch.point.0.to_vec(),
+        Record::Numbers { key, .. } => key.0.to_vec(),
         Record::Session(_) => Vec::new(),
     }
 }

@@ -6,8 +6,9 @@ use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_tests::drives::{GAS_MODELS, drive, most_carried, turned};
 use opshock_tests::seeded::{OnPanic, seeds};
 
-/// Cells of the film that tells independently what a slider carries, and what it and the corrected one may differ by.
-const APART_CELLS: usize = 400;
+/// Cells of the films that tell independently what a slider carries, and what they and the corrected one may differ by. A
+/// slider with a skew of 3.7 degrees carries 55 mN on 400 cells, 37.5 on 1000 and 35.9 on 4000 and 8000.
+const APART_CELLS: [usize; 3] = [400, 1000, 2000];
 const APART: f64 = 0.12;
 
 /// What is told of a drive.
@@ -75,17 +76,20 @@ fn balances(scene: &Scene, bearing: &Bearing) {
     assert!(flight.psi.iter().all(|psi| *psi > 0.0));
 }
 
-/// That no slider held in balance carries the load, nor more than was told. Less proves nothing: equilibria of held sliders
-/// are sought from a few tilts.
+/// That no slider held in balance carries the load, nor more than was told: on a coarse film, and where that one says
+/// otherwise on finer ones. Less proves nothing: equilibria of held sliders are sought from a few tilts.
 fn cannot(scene: &Scene, gas_model: &str, carried_n: f64) {
-    let cells = APART_CELLS.min(scene.film_resolution.cells);
-    let film = scene.with_film_cells(cells).film().expect("a film");
-    let (most_n, clearance_m) = most_carried(&film, 0.75);
     let load_n = scene.suspension.gram_load_n;
-    assert!(
-        most_n < (1.0 + APART) * load_n && carried_n > (1.0 - APART) * most_n,
-        "{gas_model}: held films carry {most_n:e} N at {clearance_m:e} m, told {carried_n:e} of {load_n:e} N"
-    );
+    let mut said = String::new();
+    for cells in APART_CELLS {
+        let film = scene.with_film_cells(cells).film().expect("a film");
+        let (most_n, clearance_m) = most_carried(&film, 0.75);
+        if most_n < (1.0 + APART) * load_n && carried_n > (1.0 - APART) * most_n {
+            return;
+        }
+        said += &format!(" {most_n:e} N at {clearance_m:e} m on {cells} cells,");
+    }
+    panic!("{gas_model}: held films carry{said} told {carried_n:e} of {load_n:e} N");
 }
 
 fn all(gas_model: &str, default: std::ops::Range<u64>) {

@@ -22,6 +22,7 @@ mod imported_suspension;
 mod imports;
 mod longer_window;
 mod lowest_gap;
+mod matching;
 mod memory;
 mod mode_shapes;
 mod multi_body;

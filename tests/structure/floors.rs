@@ -78,9 +78,10 @@ const STUDY: &[(&str, u8)] = &[
     ("sweep", 3),
     ("accuracy", 3),
     ("claims", 3),
+    ("matching", 4),
     ("hard_cases", 4),
-    ("report", 4),
-    ("cli", 5),
+    ("report", 5),
+    ("cli", 6),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

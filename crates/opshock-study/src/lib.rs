@@ -9,6 +9,7 @@ pub mod claims;
 pub mod cli;
 pub mod hard_cases;
 pub mod identity;
+pub mod matching;
 pub mod provenance;
 pub mod report;
 pub mod search;

@@ -88,7 +88,7 @@ fn row(
     let mut turned = None;
     if let Some(found) = &finding {
         depends_on.extend(places(found));
-        if matches!(claim.source, Source::Shocks(_)) {
+        if !matches!(claim.source, Source::Critical(_)) {
             let moved = spread(found, finer);
             if !moved.turns.is_empty() {
                 depends_on.push(format!(

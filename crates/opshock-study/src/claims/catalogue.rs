@@ -9,16 +9,18 @@ use crate::store::summary::Summary;
 pub type Parts = Vec<(String, f64, Option<[f64; 2]>)>;
 
 /// Where a number comes from.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// The two shocks; number and note.
+    /// Disk and ramp of the two shocks; number and note.
+    DiskAndRamp(fn(&Shocks) -> (Option<f64>, String)),
+    /// The two shocks with the head; number and note.
     Shocks(fn(&Shocks) -> (Option<f64>, String)),
     /// The table of critical shocks.
     Critical(fn(&Summary) -> Parts),
 }
 
 /// One statement of the paper.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// Stable name.
     pub id: &'static str,
@@ -88,6 +90,21 @@ const fn of_shocks(
     }
 }
 
+const fn of_disk(
+    id: &'static str,
+    place: &'static str,
+    words: &'static str,
+    number: &'static str,
+    unit: &'static str,
+    bounds: (f64, f64),
+    source: fn(&Shocks) -> (Option<f64>, String),
+) -> Claim {
+    Claim {
+        source: Source::DiskAndRamp(source),
+        ..of_shocks(id, place, words, number, unit, bounds, source)
+    }
+}
+
 const fn of_table(
     id: &'static str,
     words: &'static str,
@@ -109,7 +126,7 @@ const fn of_table(
 
 /// Every statement, in the order of the paper.
 pub const CLAIMS: &[Claim] = &[
-    of_shocks(
+    of_disk(
         "pulse",
         "4, Fig. 4",
         "the shock is a half-sine acceleration, given by amplitude and width",
@@ -118,7 +135,7 @@ pub const CLAIMS: &[Claim] = &[
         (0.0, 0.1),
         shock::pulse_shape,
     ),
-    of_shocks(
+    of_disk(
         "free_no_contact",
         "4.1, Fig. 6(1)",
         "400 G, 2 ms, no ramp: no contact force",
@@ -127,7 +144,7 @@ pub const CLAIMS: &[Claim] = &[
         (0.0, 0.0),
         shock::free_force,
     ),
-    of_shocks(
+    of_disk(
         "rigid_touch",
         "4.1, Fig. 6(2)",
         "400 G, 2 ms, rigid: the disk contacts the ramp at 1 ms",
@@ -136,7 +153,7 @@ pub const CLAIMS: &[Claim] = &[
         (0.95, 1.05),
         shock::rigid_touch,
     ),
-    of_shocks(
+    of_disk(
         "rigid_rim",
         "4.1",
         "rigid: the disk's outer radius is limited by the ramp to about 100 um",
@@ -145,7 +162,7 @@ pub const CLAIMS: &[Claim] = &[
         (90.0, 110.0),
         shock::rigid_ramp_point,
     ),
-    of_shocks(
+    of_disk(
         "rigid_slider",
         "4.1, Fig. 5(2)",
         "rigid: the largest displacement at the slider is about 50 um",
@@ -154,7 +171,7 @@ pub const CLAIMS: &[Claim] = &[
         (45.0, 55.0),
         shock::rigid_peak,
     ),
-    of_shocks(
+    of_disk(
         "deformable_touch",
         "4.1, Fig. 6(3)",
         "deformable: the disk contacts the top ramp at about 1 ms",
@@ -163,7 +180,7 @@ pub const CLAIMS: &[Claim] = &[
         (0.9, 1.1),
         shock::deformable_touch,
     ),
-    of_shocks(
+    of_disk(
         "deformable_free_rise",
         "4.1, Fig. 5(3)",
         "deformable: the disk moves on upwards almost as without a ramp",
@@ -172,7 +189,7 @@ pub const CLAIMS: &[Claim] = &[
         (90.0, 110.0),
         shock::deformable_peak,
     ),
-    of_shocks(
+    of_disk(
         "deformable_smooth",
         "4.1, Fig. 5",
         "deformable: the disk moves smoothly, unlike with the rigid ramp",
@@ -181,7 +198,7 @@ pub const CLAIMS: &[Claim] = &[
         (NO_LOWER, 50.0),
         shock::deformable_departure,
     ),
-    of_shocks(
+    of_disk(
         "three_collisions",
         "4.1, Fig. 7",
         "deformable: three collisions between the disk and the top ramp",
@@ -190,7 +207,7 @@ pub const CLAIMS: &[Claim] = &[
         (3.0, 3.0),
         shock::top_collisions,
     ),
-    of_shocks(
+    of_disk(
         "direction_kept",
         "4.1, Fig. 7",
         "deformable: the disk keeps its direction after the collisions",
@@ -199,7 +216,7 @@ pub const CLAIMS: &[Claim] = &[
         (ABOVE_ZERO, NO_UPPER),
         shock::direction_kept,
     ),
-    of_shocks(
+    of_disk(
         "rigid_pitch_jump",
         "4.1, Fig. 8(2)",
         "rigid: the disk's pitch changes suddenly at the contact",
@@ -208,7 +225,7 @@ pub const CLAIMS: &[Claim] = &[
         (2.0, NO_UPPER),
         shock::rigid_pitch_jump,
     ),
-    of_shocks(
+    of_disk(
         "deformable_pitch_jump",
         "4.1, Fig. 8(3)",
         "deformable: the pitch of the disk changes too",
@@ -271,7 +288,7 @@ pub const CLAIMS: &[Claim] = &[
         (ABOVE_ZERO, NO_UPPER),
         shock::deformable_survival,
     ),
-    of_shocks(
+    of_disk(
         "excitation",
         "4.2",
         "0.5 ms excites at 1 kHz, close to the disk's first mode",
@@ -280,7 +297,7 @@ pub const CLAIMS: &[Claim] = &[
         (0.9, 1.1),
         shock::excitation,
     ),
-    of_shocks(
+    of_disk(
         "free_swing",
         "4.2",
         "without contact the amplitude remains almost constant for some time",
@@ -289,7 +306,7 @@ pub const CLAIMS: &[Claim] = &[
         (90.0, 110.0),
         shock::free_swing,
     ),
-    of_shocks(
+    of_disk(
         "short_rigid_slider",
         "4.2, Fig. 10(1)",
         "200 G, 0.5 ms, rigid: slightly less than 50 um at the slider",
@@ -298,7 +315,7 @@ pub const CLAIMS: &[Claim] = &[
         (45.0, 50.0),
         shock::short_rigid_peak,
     ),
-    of_shocks(
+    of_disk(
         "short_rigid_four",
         "4.2, Fig. 11(1)",
         "200 G, 0.5 ms, rigid: four contacts with the ramps",
@@ -307,7 +324,7 @@ pub const CLAIMS: &[Claim] = &[
         (4.0, 4.0),
         shock::short_rigid_contacts,
     ),
-    of_shocks(
+    of_disk(
         "short_rigid_light",
         "4.2, Fig. 10(1)",
         "rigid: the contacts affect the disk's motion only slightly",
@@ -325,7 +342,7 @@ pub const CLAIMS: &[Claim] = &[
         (ABOVE_ZERO, NO_UPPER),
         shock::short_rigid_survival,
     ),
-    of_shocks(
+    of_disk(
         "short_deformable_decay",
         "4.2, Fig. 10(2)",
         "200 G, 0.5 ms, deformable: the displacement decays noticeably",
@@ -334,7 +351,7 @@ pub const CLAIMS: &[Claim] = &[
         (NO_LOWER, 80.0),
         shock::short_deformable_decay,
     ),
-    of_shocks(
+    of_disk(
         "short_deformable_turns",
         "4.2, Fig. 11(2)",
         "deformable: top and bottom are contacted in turn",
@@ -343,7 +360,7 @@ pub const CLAIMS: &[Claim] = &[
         (90.0, 100.0),
         shock::alternation,
     ),
-    of_shocks(
+    of_disk(
         "short_deformable_growth",
         "4.2, Fig. 11(2)",
         "deformable: the contact force increases with time",

@@ -44,7 +44,7 @@ pub fn findings(shocks: &Shocks, critical: Option<&Summary>) -> Vec<Option<Findi
     CLAIMS
         .iter()
         .map(|claim| match claim.source {
-            Source::Shocks(number) => {
+            Source::DiskAndRamp(number) | Source::Shocks(number) => {
                 let (value, note) = number(shocks);
                 let value = value.filter(|value| value.is_finite());
                 Some(Finding {
@@ -60,7 +60,7 @@ pub fn findings(shocks: &Shocks, critical: Option<&Summary>) -> Vec<Option<Findi
 }
 
 /// The worst of the parts speaks for all.
-fn of_parts(claim: &Claim, parts: Vec<(String, f64, Option<[f64; 2]>)>) -> Option<Finding> {
+pub fn of_parts(claim: &Claim, parts: Vec<(String, f64, Option<[f64; 2]>)>) -> Option<Finding> {
     let parts: Vec<Part> = parts
         .into_iter()
         .map(|(at, value, bar)| Part {

@@ -23,8 +23,8 @@ mod shocks;
 
 pub use answer::{Answer, ClaimRow, rows};
 pub use catalogue::{CLAIMS, Claim, Source};
-pub use finding::{Finding, Part, Spread, findings};
-pub use parameter::{Changed, Parameter, parameters};
+pub use finding::{Finding, Part, Spread, findings, of_parts};
+pub use parameter::{Changed, Parameter, number as parameter_value, parameters};
 pub use sensitivity::{
     Found, Rests, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
     with_sets,

@@ -153,7 +153,7 @@ impl Range {
 }
 
 /// The number at a dotted path with list positions.
-fn number(table: &toml::Table, path: &str) -> Option<f64> {
+pub fn number(table: &toml::Table, path: &str) -> Option<f64> {
     let mut here = toml::Value::Table(table.clone());
     for word in path.split('.') {
         let (name, position) = match word.split_once('[') {

@@ -5,7 +5,7 @@ use crate::study::{Choice, ChoiceError, Point, Ramp, Sign, Study};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::Levels;
-use opshock_solver::scene::plan::Plan;
+use opshock_solver::scene::plan::{Needs, Plan};
 use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Workspace, simulate,
 };
@@ -116,6 +116,15 @@ impl Shocks {
     ///
     /// The study leaves an axis open.
     pub fn tasks(study: &Study, levels: Levels) -> Result<Vec<Task>, ShockError> {
+        Self::planned(study, &study.plan().past_touch(), levels)
+    }
+
+    /// The same runs by another plan; without a head, statements about it have no number.
+    ///
+    /// # Errors
+    ///
+    /// As [`Shocks::tasks`].
+    pub fn planned(study: &Study, plan: &Plan, levels: Levels) -> Result<Vec<Task>, ShockError> {
         let mut tasks = Vec::new();
         for shot in [LONG, SHORT] {
             for ramp in [Ramp::None, Ramp::Rigid, Ramp::Deformable] {
@@ -126,7 +135,7 @@ impl Shocks {
                     amplitude_g: None,
                 })?;
                 tasks.push(Task {
-                    plan: study.plan().past_touch(),
+                    plan: plan.clone(),
                     scene: point.scene.at_levels(levels),
                     point,
                     amplitude_g: shot.amplitude_g,
@@ -189,11 +198,20 @@ impl Task {
     ///
     /// The scene has no answer, as a slider without steady flight.
     pub fn run(&self) -> Result<Case, ShockError> {
+        self.run_after(&mut Vec::new())
+    }
+
+    /// Runs it with parts of earlier models where they are the same, and adds its own.
+    ///
+    /// # Errors
+    ///
+    /// As [`Task::run`].
+    pub fn run_after(&self, models: &mut Vec<Model>) -> Result<Case, ShockError> {
         let refused = |reason: String| ShockError::Scene {
             label: self.point.label(),
             reason,
         };
-        let model = Model::assemble(&self.scene, &self.plan, None)
+        let model = Model::assemble(&self.scene, &self.plan, models.iter())
             .map_err(|error| refused(error.to_string()))?;
         let amplitude_m_per_s2 = m_per_s2_from_g(self.amplitude_g);
         let request = Request {
@@ -201,10 +219,11 @@ impl Task {
             record: true,
         };
         let outcome = simulate(&model, &request, &mut Workspace::default());
+        models.push(model);
         if outcome
             .history
             .as_ref()
-            .is_none_or(|h| h.head.time_s.is_empty())
+            .is_none_or(|h| self.plan.needs == Needs::Head && h.head.time_s.is_empty())
         {
             return Err(refused(format!("{:?}", outcome.verdict)));
         }

@@ -17,6 +17,7 @@ mod failure;
 mod figures;
 mod hard_cases;
 mod import;
+mod matching;
 mod memory;
 mod merge;
 mod mode_shapes;
@@ -149,6 +150,7 @@ enum Command {
     Explain(explain::ExplainArgs),
     Plan(plan::PlanArgs),
     Sweep(sweep::SweepArgs),
+    Match(matching::MatchArgs),
     Merge(merge::MergeArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
@@ -219,6 +221,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Plan(arguments) => plan::run(arguments, &cli.global, console),
         Command::Merge(arguments) => merge::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
+        Command::Match(arguments) => matching::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Claims(arguments) => claims::run(arguments, &cli.global, console),

@@ -9,8 +9,10 @@ use super::responses::responses;
 use super::selection::{PointArgs, unshaken_point};
 use super::steady::{ModeJson, air_bearing_modes};
 use super::study_file;
+use crate::study::Study;
 use anyhow::Context as _;
 use clap::Args;
+use opshock_solver::scene::Scene;
 use opshock_solver::structure::{StructureModes, modes};
 use opshock_solver::suspension::ReducedSuspension;
 use serde_json::{Value, json};
@@ -81,6 +83,21 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
         console.result(&all)?;
     }
     Ok(Exit::Complete)
+}
+
+/// What `--json` prints of a scene.
+///
+/// # Errors
+///
+/// No modes, or no steady flight.
+pub(super) fn json_of(study: &Study, scene: &Scene) -> Result<Value, Failure> {
+    let structure = modes(&scene.disk, &scene.disk_resolution, &scene.ramp)
+        .context("no modes of disk and ramp")?;
+    let kept = scene.head_resolution.suspension_modes;
+    let suspension =
+        ReducedSuspension::build(&scene.suspension, kept).context("no modes of the suspension")?;
+    let head = air_bearing_modes(study, scene)?;
+    Ok(as_json(&structure, &suspension, &head))
 }
 
 fn as_json(structure: &StructureModes, suspension: &ReducedSuspension, head: &[ModeJson]) -> Value {

@@ -4,7 +4,8 @@ use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::{memory, slurm, stored, study_file};
+use super::{matching, memory, slurm, stored, study_file};
+use crate::matching::is_match_file;
 use crate::study::Study;
 use crate::study::difference::SettingDifference;
 use crate::study::memory::Demand;
@@ -20,7 +21,7 @@ use std::path::PathBuf;
 /// Tell what a sweep is going to cost: simulations, core-hours, time, disk
 #[derive(Args, Debug)]
 pub struct PlanArgs {
-    /// Study file
+    /// Study file, or match file
     study: PathBuf,
     /// Print a job-array script for Slurm instead, one task per shard with -j threads each
     #[arg(long)]
@@ -32,6 +33,9 @@ pub struct PlanArgs {
 
 /// Runs the command.
 pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    if !arguments.slurm && is_match_file(&arguments.study) {
+        return matching::plan(&arguments.study, global, console);
+    }
     let study = study_file::read(&arguments.study, global, console)?;
     study_file::refuse_unaccepted(&study, global)?;
     let folder = stored::folder_of_study(&arguments.study, global);

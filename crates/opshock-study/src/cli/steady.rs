@@ -164,6 +164,17 @@ pub fn air_bearing_modes(study: &Study, scene: &Scene) -> Result<Vec<ModeJson>, 
         .unwrap_or_default())
 }
 
+/// What `--json` prints of a scene's steady flight.
+///
+/// # Errors
+///
+/// The scene has none.
+pub(super) fn json_of(study: &Study, scene: &Scene) -> Result<serde_json::Value, Failure> {
+    let bearing = bearing(study, scene)?;
+    let state = flying_state(&bearing, scene)?;
+    Ok(serde_json::to_value(state.json).context("the flight cannot be told as JSON")?)
+}
+
 /// A state of the film and what is said about it.
 struct State {
     psi: Vec<f64>,

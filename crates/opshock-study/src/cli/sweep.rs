@@ -274,7 +274,7 @@ fn gigabytes(text: &str) -> Result<f64, String> {
 }
 
 /// A time as `7h30m`, `90s` or `1.5h`: numbers with units that descend, each at most once.
-fn duration(text: &str) -> Result<Duration, String> {
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let wrong = || "must be a time with units d, h, m, s in this order, as 7h30m".to_owned();
     let mut units = [('d', 86400.0), ('h', 3600.0), ('m', 60.0), ('s', 1.0)].into_iter();
     let (mut rest, mut total_s) = (text, 0.0);

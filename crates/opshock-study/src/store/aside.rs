@@ -67,7 +67,7 @@ fn aside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::TempPath> {
 }
 
 /// Removes what killed processes left aside in a folder. Only called under its store's lock.
-pub(super) fn clear(folder: &Path) {
+pub(crate) fn clear(folder: &Path) {
     for path in list(folder).unwrap_or_default() {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {

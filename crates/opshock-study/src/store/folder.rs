@@ -68,7 +68,8 @@ impl Loaded {
                 Record::Touch(touch) => {
                     self.touches.entry(touch.point).or_insert(touch.touch);
                 }
-                Record::Session(_) => {}
+                // Numbers are those of a match, whose store this is not.
+                Record::Session(_) | Record::Numbers { .. } => {}
             }
         }
     }

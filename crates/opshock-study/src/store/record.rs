@@ -111,6 +111,13 @@ pub enum Record {
     Touch(TouchRecord),
     /// A process began to write: program, machine, start, as JSON.
     Session(String),
+    /// Numbers of a parameter set of a match: not asked, none, or a number.
+    Numbers {
+        /// What they were made of.
+        key: PointDigest,
+        /// By the place of the observation.
+        numbers: Vec<Option<Option<f64>>>,
+    },
 }
 
 impl Record {
@@ -137,6 +144,19 @@ impl Record {
                 out.push(3);
                 put_text(&mut out, text);
             }
+            Record::Numbers { key, numbers } => {
+                out.push(4);
+                out.extend_from_slice(&key.0);
+                out.extend_from_slice(&(numbers.len() as u64).to_le_bytes());
+                for number in numbers {
+                    out.push(match number {
+                        None => 0,
+                        Some(None) => 1,
+                        Some(Some(_)) => 2,
+                    });
+                    out.extend_from_slice(&number.flatten().unwrap_or(0.0).to_le_bytes());
+                }
+            }
         }
         out
     }
@@ -159,6 +179,27 @@ impl Record {
                 Record::Touch(TouchRecord { point, touch })
             }
             3 => Record::Session(input.text()?),
+            4 => {
+                let key = PointDigest(input.array()?);
+                let count = usize::try_from(input.count()?).ok()?;
+                if count.checked_mul(9)? != input.0.len() {
+                    return None;
+                }
+                let number = |input: &mut Input<'_>| {
+                    let (kind, value) = (input.byte()?, input.number()?);
+                    match kind {
+                        0 => Some(None),
+                        1 => Some(Some(None)),
+                        2 => Some(Some(Some(value))),
+                        _ => None,
+                    }
+                };
+                let numbers = (0..count).map(|_| number(&mut input));
+                Record::Numbers {
+                    key,
+                    numbers: numbers.collect::<Option<_>>()?,
+                }
+            }
             _ => return None,
         };
         input.0.is_empty().then_some(record)
@@ -384,6 +425,10 @@ mod tests {
                 touch: StoredTouch::NoRamp,
             }),
             Record::Session("{}".into()),
+            Record::Numbers {
+                key: PointDigest([9; 32]),
+                numbers: vec![None, Some(None), Some(Some(-0.0)), Some(Some(1.0 / 3.0))],
+            },
         ] {
             let bytes = record.encode();
             assert_eq!(Record::decode(&bytes), Some(record));

@@ -315,7 +315,7 @@ impl<'a> Run<'a> {
                     self.ledger.finished(run)
                 }
                 Record::Touch(TouchRecord { point, touch }) => self.ledger.touched(point, touch),
-                Record::Run(_) | Record::Session(_) => continue,
+                Record::Run(_) | Record::Session(_) | Record::Numbers { .. } => continue,
             };
             self.report(&told, None);
         }

@@ -27,6 +27,7 @@ pub mod shard;
 mod shelf;
 pub mod simulator;
 pub mod stop;
+mod unkept;
 mod writer;
 
 pub use audit::audit;
@@ -39,3 +40,4 @@ pub use shard::Shard;
 pub use shelf::Counts;
 pub use simulator::{Onset, Simulator};
 pub use stop::StopFlag;
+pub use unkept::unkept;

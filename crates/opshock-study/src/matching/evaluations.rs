@@ -1,0 +1,290 @@
+//! Numbers of parameter sets, kept by content.
+//!
+//! A set of numbers is found again by the study, the settings, the quantities read and the physics versions: ranges of
+//! observations may change and nothing is simulated again.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::file::MatchProblem;
+use super::observation::{Known, Quantity, ShockChoice, Stage};
+use super::outputs::{self, Printed};
+use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use crate::store::journal::{self, JournalHeader, JournalWriter};
+use crate::store::lock::StoreLock;
+use crate::store::{PointDigest, Record, StoreError};
+
+/// What is asked for: stage, parameter set, and whether every discretisation is refined.
+pub(super) type Asked<'a> = (Stage, &'a [f64], bool);
+
+/// Numbers known so far, and where new ones are kept.
+pub struct Evaluations<'a> {
+    problem: &'a MatchProblem,
+    printed: &'a dyn Printed,
+    store: Option<MatchStore>,
+    known: HashMap<PointDigest, Vec<Known>>,
+    /// Numbers computed by this process.
+    pub computed: u64,
+    stop: &'a (dyn Fn() -> bool + Sync),
+    /// Hears how many of how many parameter sets a stage has.
+    progress: &'a dyn Fn(Stage, usize, usize),
+}
+
+/// A store of numbers, open for writing by this process alone.
+pub struct MatchStore {
+    journal: JournalWriter,
+    _lock: StoreLock,
+    read: HashMap<PointDigest, Vec<Known>>,
+    /// What a person should know about its state.
+    pub notes: Vec<String>,
+}
+
+/// Why there is no answer yet.
+#[derive(Debug)]
+pub(super) enum Interrupted {
+    /// A stop was asked for.
+    Stopped,
+    /// The store could not be written.
+    Store(StoreError),
+}
+
+impl MatchStore {
+    /// Opens or makes the store in `folder`.
+    ///
+    /// # Errors
+    /// E181 newer format, E183 not writable, E184 in use, E188 it belongs to another file.
+    pub fn open(folder: &Path, problem: &MatchProblem) -> Result<Self, StoreError> {
+        let unwritable = |source| StoreError::Unwritable {
+            path: folder.to_owned(),
+            source,
+        };
+        std::fs::create_dir_all(folder).map_err(unwritable)?;
+        let lock = StoreLock::take(folder)?;
+        crate::store::aside::clear(folder);
+        let path = folder.join("journal");
+        let content = journal::read(&path)?;
+        let header = header(folder, problem);
+        let mut notes = Vec::new();
+        let mut records = Vec::new();
+        if let Some(content) = content {
+            if let Some(found) = &content.header
+                && (found.digest != header.digest || found.file != header.file)
+            {
+                let file = found.file.as_ref().map(|file| file.display().to_string());
+                return Err(StoreError::OtherStudy {
+                    path: folder.to_owned(),
+                    found: file.unwrap_or_else(|| format!("\"{}\"", found.study)),
+                    wanted: problem.path.display().to_string(),
+                    differ: "the file".to_owned(),
+                    hint: "name another store",
+                });
+            }
+            for damage in content.damage.iter().filter(|damage| !damage.at_end) {
+                notes.push(format!(
+                    "{}: {} bytes at {} cannot be read; what they held is computed again",
+                    path.display(),
+                    damage.length,
+                    damage.offset
+                ));
+            }
+            records = content.records;
+        }
+        let journal = JournalWriter::create(&path, &header, &records)?;
+        let read = records.into_iter().filter_map(|record| match record {
+            Record::Numbers { key, numbers } => {
+                Some((key, numbers.into_iter().map(Known::from).collect()))
+            }
+            _ => None,
+        });
+        Ok(Self {
+            journal,
+            _lock: lock,
+            read: read.collect(),
+            notes,
+        })
+    }
+}
+
+fn header(folder: &Path, problem: &MatchProblem) -> JournalHeader {
+    let file = || -> Option<PathBuf> {
+        let own = std::fs::canonicalize(&problem.path).ok()?;
+        pathdiff::diff_paths(own, std::fs::canonicalize(folder).ok()?)
+    };
+    JournalHeader {
+        study: problem.name.clone(),
+        digest: "match 1".to_owned(),
+        file: file(),
+        resolved: problem.text.clone(),
+    }
+}
+
+impl<'a> Evaluations<'a> {
+    /// With a store, or kept in memory alone; `stop` is asked between simulations, `progress` hears how far a stage is.
+    pub fn new(
+        problem: &'a MatchProblem,
+        printed: &'a dyn Printed,
+        mut store: Option<MatchStore>,
+        stop: &'a (dyn Fn() -> bool + Sync),
+        progress: &'a dyn Fn(Stage, usize, usize),
+    ) -> Self {
+        let known = store.as_mut().map(|store| std::mem::take(&mut store.read));
+        Self {
+            problem,
+            printed,
+            store,
+            known: known.unwrap_or_default(),
+            computed: 0,
+            stop,
+            progress,
+        }
+    }
+
+    /// Numbers of every observation for each that is asked, in their order; those not known are computed by the threads of
+    /// the pool this runs in.
+    pub(super) fn of(&mut self, asked: &[Asked<'_>]) -> Result<Vec<Vec<Known>>, Interrupted> {
+        let keys: Vec<PointDigest> = asked.iter().map(|one| self.key(one)).collect();
+        let mut missing: Vec<usize> = Vec::new();
+        for (place, key) in keys.iter().enumerate() {
+            if !self.known.contains_key(key)
+                && !missing.iter().rev().take(1).any(|last| keys[*last] == *key)
+            {
+                missing.push(place);
+            }
+        }
+        // What is kept with one sync: a kill costs no more.
+        let batch = 16 * rayon::current_num_threads();
+        let mut so_far = 0;
+        for part in missing.chunks(batch) {
+            let (problem, printed, stop) = (self.problem, self.printed, self.stop);
+            let numbers: Vec<Option<Vec<Known>>> = part
+                .par_iter()
+                .map(|place| {
+                    let (stage, unit, is_refined) = asked[*place];
+                    (!stop()).then(|| guarded(problem, printed, stage, unit, is_refined))
+                })
+                .collect();
+            let done = part
+                .iter()
+                .zip(&numbers)
+                .filter_map(|(place, found)| Some((keys[*place], found.clone()?)));
+            let done: Vec<(PointDigest, Vec<Known>)> = done.collect();
+            if let Some(store) = &mut self.store {
+                let record = |(key, numbers): &(PointDigest, Vec<Known>)| Record::Numbers {
+                    key: *key,
+                    numbers: numbers.iter().map(|known| (*known).into()).collect(),
+                };
+                let records: Vec<Record> = done.iter().map(record).collect();
+                store.journal.append(&records).map_err(Interrupted::Store)?;
+            }
+            self.computed += done.len() as u64;
+            let is_whole = done.len() == part.len();
+            self.known.extend(done);
+            so_far += part.len();
+            if let Some((stage, ..)) = asked.first() {
+                (self.progress)(*stage, so_far, missing.len());
+            }
+            if !is_whole {
+                return Err(Interrupted::Stopped);
+            }
+        }
+        Ok(keys.iter().map(|key| self.known[key].clone()).collect())
+    }
+
+    fn key(&self, (stage, unit, is_refined): &Asked<'_>) -> PointDigest {
+        let mut hasher = blake3::Hasher::new();
+        let mut add = |text: &str| {
+            hasher.update(&(text.len() as u64).to_le_bytes());
+            hasher.update(text.as_bytes());
+        };
+        add("opshock match 1");
+        add(&format!(
+            "{PHYSICS_STRUCTURE} {PHYSICS_HEAD} {} {is_refined}",
+            stage.as_str()
+        ));
+        add(&self.problem.study.digest_hex());
+        for argument in self.problem.arguments(*stage, unit) {
+            add(&argument.key);
+            add(&argument.text);
+        }
+        for one in self.problem.observations.iter() {
+            match one.stage == *stage {
+                true => add(&words(&one.quantity)),
+                false => add(""),
+            }
+        }
+        PointDigest(*hasher.finalize().as_bytes())
+    }
+}
+
+/// A panic leaves a parameter set without numbers.
+fn guarded(
+    problem: &MatchProblem,
+    printed: &dyn Printed,
+    stage: Stage,
+    unit: &[f64],
+    is_refined: bool,
+) -> Vec<Known> {
+    let call = || outputs::numbers(problem, printed, stage, unit, is_refined);
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).unwrap_or_else(|_| {
+        let of_stage = problem
+            .observations
+            .iter()
+            .map(|one| match one.stage == stage {
+                true => Known::Missing,
+                false => Known::NotAsked,
+            });
+        of_stage.collect()
+    })
+}
+
+/// What a quantity is, for telling equal ones.
+fn words(quantity: &Quantity) -> String {
+    let shock = |shock: &ShockChoice| format!("{shock:?}");
+    match quantity {
+        Quantity::Run {
+            shock: of,
+            path,
+            equals,
+        } => format!("run {} {path:?} {equals:?}", shock(of)),
+        Quantity::History {
+            shock: of,
+            column,
+            measured,
+            measure,
+        } => {
+            let bits: Vec<u64> = measured
+                .iter()
+                .flat_map(|(t, v)| [t.to_bits(), v.to_bits()])
+                .collect();
+            format!("history {} {column} {measure:?} {bits:x?}", shock(of))
+        }
+        Quantity::Modes(path) => format!("modes {path:?}"),
+        Quantity::Steady(path) => format!("steady {path:?}"),
+        Quantity::Critical(of) => format!("critical {}", shock(of)),
+        Quantity::Statement(claim) => format!("statement {}", claim.id),
+        Quantity::Combined(..) => "combined".to_owned(),
+    }
+}
+
+/// As the journal keeps it: nothing, no number, or a number.
+impl From<Known> for Option<Option<f64>> {
+    fn from(known: Known) -> Self {
+        match known {
+            Known::NotAsked => None,
+            Known::Missing => Some(None),
+            Known::Is(value) => Some(Some(value)),
+        }
+    }
+}
+
+impl From<Option<Option<f64>>> for Known {
+    fn from(kept: Option<Option<f64>>) -> Self {
+        match kept {
+            None => Known::NotAsked,
+            Some(None) => Known::Missing,
+            Some(Some(value)) => Known::Is(value),
+        }
+    }
+}

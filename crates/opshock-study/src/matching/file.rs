@@ -1,0 +1,548 @@
+//! Match files: a study, what is not known of it, and what was observed.
+//!
+//! TOML like a study, read with the same messages: every fault at once, each with its place.
+
+use std::path::{Path, PathBuf};
+
+use super::fields::{Faults, Fields, wrong_kind};
+use super::observation::{Observation, Stage};
+use super::observed;
+use super::prior::{Distribution, Parameter};
+use crate::claims::parameter_value;
+use crate::study::source::{self, Origin, Source};
+use crate::study::tree::{self, Node, Value};
+use crate::study::{SetArg, Study, StudyError, StudyErrors};
+
+/// A match problem that has passed every check.
+#[derive(Clone, Debug)]
+pub struct MatchProblem {
+    /// Name.
+    pub name: String,
+    /// The match file.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+    /// The study whose parameters are sought, with its own values.
+    pub study: Study,
+    /// Seed of every random number.
+    pub seed: u64,
+    /// What is not known.
+    pub parameters: Vec<Parameter>,
+    /// What was observed; those without a range are only reported.
+    pub observations: Vec<Observation>,
+    /// Settings laid over the study for each stage.
+    pub settings: [Vec<String>; 3],
+    /// How much is computed.
+    pub effort: Effort,
+    /// Tolerance of searches for critical shocks, per cent.
+    pub(super) tolerance_pct: f64,
+    /// What the command line lays over the study.
+    sets: Vec<SetArg>,
+}
+
+/// How much is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Independent draws of the prior, by stage; each a part of those of the stage before.
+    pub draws: [u64; 3],
+    /// Waves after the first.
+    pub waves: u32,
+    /// Parameter sets tried in each of them.
+    pub samples: u64,
+    /// Parameter sets tried in the max-min refinement.
+    pub refinement: u64,
+    /// Starts of the refinement.
+    pub starts: u32,
+    /// Parameter sets at which the numerical uncertainty is measured.
+    pub probes: u64,
+}
+
+const TOP: &[&str] = &[
+    "match_format",
+    "name",
+    "study",
+    "unset",
+    "seed",
+    "draws",
+    "waves",
+    "refinement",
+    "settings",
+    "numerics",
+    "parameter",
+    "observation",
+    "statements",
+];
+const PARAMETER: &[&str] = &[
+    "name",
+    "keys",
+    "relative",
+    "uniform",
+    "log_uniform",
+    "normal",
+    "choices",
+    "unset_share",
+    "source",
+];
+const DISTRIBUTIONS: &[&str] = &["uniform", "log_uniform", "normal", "choices"];
+/// Draws of the prior by stage unless the file says otherwise.
+const DRAWS: [u64; 3] = [2000, 300, 30];
+/// No more of anything.
+const MOST: u64 = 100_000_000;
+
+impl MatchProblem {
+    /// Reads a match file, the study it names, and every file that it names; `sets` are laid over the study.
+    ///
+    /// # Errors
+    /// Every fault of the match file, or of the study.
+    pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
+        let text = source::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
+        let source = Source::new(path.display().to_string(), text.clone());
+        let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        let mut faults = Faults::new();
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        let Some(fields) = Fields::of(&root, "", TOP, &mut faults) else {
+            return Err(StudyErrors::new(faults));
+        };
+        match fields.count("match_format", [1, 1], &mut faults) {
+            None if fields.get("match_format").is_none() => {
+                fields.missing("match_format", "1", &mut faults)
+            }
+            _ => {}
+        }
+        let name = fields.text("name", &mut faults);
+        if name.is_none() && fields.get("name").is_none() {
+            fields.missing("name", "a text", &mut faults);
+        }
+        let mut sets = sets.to_vec();
+        for key in fields.texts("unset", &mut faults) {
+            match SetArg::unset(&key) {
+                Ok(argument) => sets.push(argument),
+                Err(error) => {
+                    let fault = fields.fault_of("E193", "unset", error.reason);
+                    faults.push(fault.allowed(
+                        "keys that the study is to lack, as \"ramp.contact_stiffness_n_per_m\"",
+                    ));
+                }
+            }
+        }
+        let study = match fields.text("study", &mut faults) {
+            Some(file) => Some(Study::from_path(&folder.join(file), &sets)?),
+            None => {
+                if fields.get("study").is_none() {
+                    fields.missing(
+                        "study",
+                        "the path of a study file, from the match file's folder",
+                        &mut faults,
+                    );
+                }
+                None
+            }
+        };
+        let effort = effort(&fields, &mut faults);
+        let settings = settings(&fields, &mut faults);
+        let parameters = match &study {
+            Some(study) => parameters(&fields, study, &mut faults),
+            None => Vec::new(),
+        };
+        let observations = observed::read(&fields, &folder, &mut faults);
+        if fields.get("parameter").is_none() {
+            fields.missing("parameter", "[[parameter]], one or more", &mut faults);
+        }
+        if observations.iter().all(|one| one.range.is_none()) && faults.is_empty() {
+            fields.missing(
+                "observation",
+                "[[observation]] with a range, one or more",
+                &mut faults,
+            );
+        }
+        let seed = fields.count("seed", [0, MOST], &mut faults).unwrap_or(1);
+        let mut problem = match (study, faults.is_empty()) {
+            (Some(study), true) => Self {
+                tolerance_pct: study.search.tolerance_pct,
+                sets,
+                name: name.unwrap_or_default(),
+                path: path.to_path_buf(),
+                text,
+                study,
+                seed,
+                parameters,
+                observations,
+                settings,
+                effort,
+            },
+            _ => return Err(StudyErrors::new(faults)),
+        };
+        problem.check_settings(&mut faults);
+        problem.check_ends(&fields, &mut faults);
+        match faults.is_empty() {
+            true => Ok(problem),
+            false => Err(StudyErrors::new(faults)),
+        }
+    }
+
+    /// Stages that some observation needs.
+    pub fn stages(&self) -> impl Iterator<Item = Stage> + '_ {
+        let is_asked = |stage: &Stage| self.observations.iter().any(|one| one.stage == *stage);
+        Stage::ALL.into_iter().filter(is_asked)
+    }
+
+    /// Independent draws of the prior that a stage gets.
+    pub fn draws(&self, stage: Stage) -> u64 {
+        self.effort.draws[stage as usize]
+    }
+
+    /// `--set` and `--unset` arguments of a parameter set at a stage.
+    pub fn arguments(&self, stage: Stage, unit: &[f64]) -> Vec<SetArg> {
+        let mut all = self.sets.clone();
+        let mut lay = |argument: SetArg| {
+            all.retain(|known| known.key != argument.key);
+            all.push(argument);
+        };
+        for text in &self.settings[stage as usize] {
+            lay(SetArg::parse(text).expect("checked when read"));
+        }
+        for (parameter, &p) in self.parameters.iter().zip(unit) {
+            for (key, text) in parameter.settings(p) {
+                lay(match text {
+                    Some(text) => SetArg::parse(&format!("{key}={text}")),
+                    None => SetArg::unset(&key),
+                }
+                .expect("keys are checked when read"));
+            }
+        }
+        all
+    }
+
+    /// The study of a parameter set at a stage.
+    ///
+    /// # Errors
+    /// What the study refuses, as a hinge longer than the beam.
+    pub fn study_of(&self, stage: Stage, unit: &[f64]) -> Result<Study, StudyErrors> {
+        Study::from_path(&self.study.path, &self.arguments(stage, unit))
+    }
+
+    /// The study itself with a parameter set's values.
+    ///
+    /// # Errors
+    /// What the study refuses.
+    pub fn with_values(&self, unit: &[f64]) -> Result<Study, StudyErrors> {
+        let bare = Self {
+            settings: Default::default(),
+            ..self.clone()
+        };
+        bare.study_of(Stage::DiskAndRamp, unit)
+    }
+
+    /// The settings of every stage that is asked for must be a study.
+    fn check_settings(&mut self, faults: &mut Faults) {
+        let stages: Vec<Stage> = self.stages().collect();
+        for stage in stages {
+            let mut sets = self.sets.clone();
+            sets.extend(
+                self.settings[stage as usize]
+                    .iter()
+                    .map(|text| SetArg::parse(text).expect("checked above")),
+            );
+            match Study::from_path(&self.study.path, &sets) {
+                Ok(study) if stage == Stage::CriticalShocks => {
+                    self.tolerance_pct = study.search.tolerance_pct
+                }
+                Ok(_) => {}
+                Err(refused) => faults.extend(refused.errors.into_iter().map(|mut fault| {
+                    fault.message = format!("{} (with settings.{})", fault.message, stage.as_str());
+                    fault
+                })),
+            }
+        }
+    }
+
+    /// Each parameter's ends must be values that the study can have, with all others in the middle.
+    fn check_ends(&self, fields: &Fields<'_>, faults: &mut Faults) {
+        let entries = fields.list("parameter", &mut Faults::new());
+        let middle = vec![0.5; self.parameters.len()];
+        for (place, parameter) in self.parameters.iter().enumerate() {
+            for end in [0.0, parameter.unset_share, 1.0] {
+                let mut unit = middle.clone();
+                unit[place] = end;
+                // The middle itself may be refused; then the fault is not this parameter's.
+                let Err(refused) = self.study_of(Stage::SingleShocks, &unit) else {
+                    continue;
+                };
+                let keys: Vec<&str> = parameter.keys.iter().map(|(key, _)| key.as_str()).collect();
+                let own = refused
+                    .errors
+                    .iter()
+                    .find(|fault| keys.contains(&fault.key.as_str()));
+                if let Some(own) = own {
+                    let (node, path) = &entries[place];
+                    let message = format!(
+                        "the study refuses {}: {}",
+                        parameter.words(end),
+                        own.message
+                    );
+                    let fault = StudyError::at("E193", &node.place, path, message);
+                    faults.push(fault.value(&parameter.name).allowed(own.allowed.clone()));
+                    break;
+                }
+            }
+        }
+    }
+}
+
+fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
+    let names = Stage::ALL.map(Stage::as_str);
+    let table = |name: &str, names: &[&str], faults: &mut Faults| {
+        let node = fields.get(name)?;
+        Fields::of(node, name, names, faults)
+    };
+    let draws = table("draws", &names, faults);
+    let mut effort = Effort {
+        draws: DRAWS,
+        waves: 4,
+        samples: 200,
+        refinement: 200,
+        starts: 2,
+        probes: 6,
+    };
+    if let Some(draws) = draws {
+        let mut most = MOST;
+        for stage in Stage::ALL {
+            let given = draws.count(stage.as_str(), [1, MOST], faults);
+            let count = given.unwrap_or(effort.draws[stage as usize].min(most));
+            if count > most {
+                let fault =
+                    draws.fault_of("E193", stage.as_str(), "is more than the stage before has");
+                faults.push(fault.allowed(format!(
+                    "{most} or fewer: a stage gets the first draws of the one before"
+                )));
+            }
+            effort.draws[stage as usize] = count;
+            most = count;
+        }
+    }
+    if let Some(waves) = table("waves", &["count", "samples"], faults) {
+        let count = waves.count("count", [0, 100], faults);
+        effort.waves = count.map_or(effort.waves, |count| count as u32);
+        effort.samples = waves
+            .count("samples", [1, MOST], faults)
+            .unwrap_or(effort.samples);
+    }
+    if let Some(refinement) = table("refinement", &["evaluations", "starts"], faults) {
+        let evaluations = refinement.count("evaluations", [0, MOST], faults);
+        effort.refinement = evaluations.unwrap_or(effort.refinement);
+        let starts = refinement.count("starts", [1, 1000], faults);
+        effort.starts = starts.map_or(effort.starts, |starts| starts as u32);
+    }
+    if let Some(numerics) = table("numerics", &["probes"], faults) {
+        effort.probes = numerics
+            .count("probes", [0, 1000], faults)
+            .unwrap_or(effort.probes);
+    }
+    effort
+}
+
+fn settings(fields: &Fields<'_>, faults: &mut Faults) -> [Vec<String>; 3] {
+    let names = Stage::ALL.map(Stage::as_str);
+    let table = fields
+        .get("settings")
+        .and_then(|node| Fields::of(node, "settings", &names, faults));
+    Stage::ALL.map(|stage| {
+        let Some(table) = &table else {
+            return Vec::new();
+        };
+        let texts = table.texts(stage.as_str(), faults);
+        for text in &texts {
+            if let Err(error) = SetArg::parse(text) {
+                let fault = table.fault_of("E193", stage.as_str(), error.reason);
+                faults.push(fault.allowed("texts as of --set: \"section.key=VALUE\""));
+            }
+        }
+        texts
+    })
+}
+
+fn parameters(fields: &Fields<'_>, study: &Study, faults: &mut Faults) -> Vec<Parameter> {
+    let resolved = study
+        .resolved_toml()
+        .parse::<toml::Table>()
+        .unwrap_or_default();
+    let mut parameters: Vec<Parameter> = Vec::new();
+    for (node, path) in fields.list("parameter", faults) {
+        let Some(table) = Fields::of(node, &path, PARAMETER, faults) else {
+            continue;
+        };
+        let Some(parameter) = parameter(&table, &resolved, faults) else {
+            continue;
+        };
+        for (key, _) in &parameter.keys {
+            if let Some(other) = parameters
+                .iter()
+                .find(|one| one.keys.iter().any(|(known, _)| known == key))
+            {
+                let fault = table.fault_of(
+                    "E193",
+                    "keys",
+                    format!("{key} is a key of {:?} too", other.name),
+                );
+                faults.push(fault.allowed("a key in one parameter"));
+            }
+        }
+        if parameters.iter().any(|one| one.name == parameter.name) {
+            faults.push(
+                table
+                    .fault_of("E193", "name", "two parameters have this name")
+                    .allowed("one"),
+            );
+        }
+        parameters.push(parameter);
+    }
+    parameters
+}
+
+fn parameter(table: &Fields<'_>, resolved: &toml::Table, faults: &mut Faults) -> Option<Parameter> {
+    let before = faults.len();
+    let keys = table.texts("keys", faults);
+    if keys.is_empty() {
+        table.missing("keys", "a list of keys of the study", faults);
+    }
+    let is_relative = table.flag("relative", faults).unwrap_or(false);
+    let mut with_own = Vec::new();
+    for key in keys {
+        let own = parameter_value(resolved, &key);
+        if is_relative && own.is_none() {
+            let fault = table.fault_of("E193", "keys", format!("{key} has no number in the study"));
+            faults.push(
+                fault.allowed("keys that the study has, where values are relative to its own"),
+            );
+        }
+        if SetArg::unset(&key).is_err() {
+            let fault = table.fault_of("E193", "keys", format!("{key:?} is no key"));
+            faults.push(fault.allowed("dotted names, as \"suspension.gram_load_gf\""));
+        }
+        with_own.push((key, own.filter(|_| is_relative)));
+    }
+    let unset_share = table.positive("unset_share", faults).unwrap_or(0.0);
+    if unset_share >= 1.0 {
+        faults.push(
+            table
+                .fault_of("E130", "unset_share", "leaves no values")
+                .allowed("0 or more, below 1"),
+        );
+    }
+    let distribution = distribution(table, faults);
+    let first = with_own
+        .first()
+        .map(|(key, _)| key.clone())
+        .unwrap_or_default();
+    let name = table.text("name", faults).unwrap_or(first);
+    let source = table.text("source", faults);
+    if source.is_none() && table.get("source").is_none() {
+        table.missing("source", "a text: where the range comes from", faults);
+    }
+    (faults.len() == before).then(|| Parameter {
+        name,
+        keys: with_own,
+        distribution: distribution.expect("without a fault there is one"),
+        unset_share,
+        source: source.unwrap_or_default(),
+    })
+}
+
+fn distribution(table: &Fields<'_>, faults: &mut Faults) -> Option<Distribution> {
+    let given = table.present(DISTRIBUTIONS);
+    let [name] = given[..] else {
+        let fault = table.fault("E193", format!("has {} distributions", given.len()));
+        faults.push(fault.allowed(format!("one of {}", DISTRIBUTIONS.join(", "))));
+        return None;
+    };
+    let spread = |[low, high]: [f64; 2], faults: &mut Faults| {
+        if low < high {
+            return Some([low, high]);
+        }
+        faults.push(
+            table
+                .fault_of("E133", name, "has no width")
+                .allowed("[lowest, highest]"),
+        );
+        None
+    };
+    match name {
+        "uniform" => {
+            let range = table.range(name, false, faults)?;
+            spread(range, faults).map(Distribution::Uniform)
+        }
+        "log_uniform" => {
+            let range = spread(table.range(name, false, faults)?, faults)?;
+            if range[0] <= 0.0 {
+                faults.push(
+                    table
+                        .fault_of("E130", name, "is not above 0")
+                        .allowed("two numbers above 0"),
+                );
+                return None;
+            }
+            Some(Distribution::LogUniform(range))
+        }
+        "normal" => {
+            let node = table.get(name)?;
+            let inner = Fields::of(node, &table.path(name), &["mean", "sd", "range"], faults)?;
+            let (mean, sd) = (inner.number("mean", faults), inner.positive("sd", faults));
+            let range = inner.range("range", false, faults);
+            for (key, found) in [("mean", mean.is_some()), ("sd", sd.is_some())] {
+                if !found && inner.get(key).is_none() {
+                    inner.missing(key, "a number", faults);
+                }
+            }
+            let (mean, sd) = (mean?, sd?);
+            if sd == 0.0 {
+                faults.push(
+                    inner
+                        .fault_of("E130", "sd", "is not above 0")
+                        .allowed("a number above 0"),
+                );
+                return None;
+            }
+            // Six standard deviations hold all but 2e-9 of a normal distribution.
+            let range = range.unwrap_or([mean - 6.0 * sd, mean + 6.0 * sd]);
+            if range[0] >= range[1] || range[1] < mean - 8.0 * sd || range[0] > mean + 8.0 * sd {
+                let fault = inner.fault_of("E133", "range", "holds nothing of the distribution");
+                faults.push(fault.allowed("a range with a width within eight sd of the mean"));
+                return None;
+            }
+            Some(Distribution::Normal { mean, sd, range })
+        }
+        _ => {
+            let entries = table.list(name, faults);
+            let mut texts = Vec::new();
+            for (node, path) in &entries {
+                match node.value {
+                    Value::Table(_) | Value::Date => {
+                        faults.push(wrong_kind(node, path, "a word, number or flag"))
+                    }
+                    _ => texts.push(plain(node)),
+                }
+            }
+            if texts.len() < 2 {
+                faults.push(
+                    table
+                        .fault_of("E193", name, "has fewer than two entries")
+                        .allowed("two or more"),
+                );
+                return None;
+            }
+            Some(Distribution::Choices(texts))
+        }
+    }
+}
+
+/// A value as `--set` takes it.
+fn plain(node: &Node) -> String {
+    node.place.text().trim().to_owned()
+}
+
+/// Whether a file says that it is a match file; what cannot be read is none.
+pub fn is_match_file(path: &Path) -> bool {
+    let text = source::read_text(path).unwrap_or_default();
+    let table = text.parse::<toml::Table>();
+    table.is_ok_and(|table| table.contains_key("match_format"))
+}

@@ -1,0 +1,60 @@
+//! What a match is going to cost.
+
+use std::time::Instant;
+
+use super::file::MatchProblem;
+use super::observation::Stage;
+use super::outputs::{self, Printed};
+use super::prior::draw;
+use super::search::population;
+use serde::Serialize;
+
+/// Parameter sets that are timed.
+const TIMED: u64 = 3;
+
+/// Cost of a stage.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StageCost {
+    /// Stage.
+    pub stage: &'static str,
+    /// Time of a parameter set on one core, s: the mean of three draws of the prior.
+    pub seconds_each: f64,
+    /// Parameter sets: draws of the prior and probes of the numerics, then with every set of every wave and of the
+    /// refinement, none of which was ruled out before.
+    pub sets: [u64; 2],
+    /// Core-hours of both.
+    pub core_h: [f64; 2],
+}
+
+/// Times a few parameter sets of every stage that is asked for.
+pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost> {
+    let effort = &problem.effort;
+    let cost = |stage: Stage| {
+        let began = Instant::now();
+        let timed = TIMED.min(problem.draws(stage));
+        for index in 0..timed {
+            let unit = draw(problem.seed, index, problem.parameters.len());
+            outputs::numbers(problem, printed, stage, &unit, false);
+        }
+        let seconds_each = began.elapsed().as_secs_f64() / timed as f64;
+        let probes = match stage {
+            Stage::CriticalShocks => 0,
+            _ => 2 * effort.probes,
+        };
+        let least = problem.draws(stage) + probes;
+        let promoted = match effort.refinement {
+            0 => 0,
+            _ => u64::from(effort.starts) * population(problem) as u64,
+        };
+        let waves = (u64::from(effort.waves) + 1) * effort.samples;
+        let most = least + waves + promoted + effort.refinement;
+        let sets = [least, most];
+        StageCost {
+            stage: stage.words(),
+            seconds_each,
+            sets,
+            core_h: sets.map(|count| count as f64 * seconds_each / 3600.0),
+        }
+    };
+    problem.stages().map(cost).collect()
+}

@@ -1,0 +1,35 @@
+//! Matching: parameters of a study that make a set of observations true.
+//!
+//! Observations come in three stages of cost: disk and ramp (milliseconds), single shocks with the head, critical shocks.
+//! The first wave draws parameter sets independently from the prior; shares of the prior and their bounds rest on these
+//! draws alone. Later waves explore what is left, and a refinement maximises the smallest margin (`search`). A set is ruled
+//! out where an observation's implausibility reaches 3 (`observation`): history matching (Craig, Goldstein, Seheult and Smith
+//! 1997, in *Case Studies in Bayesian Statistics III*; Vernon, Goldstein and Bower 2010, Bayesian Analysis 5, 619) without an
+//! emulator, as the model itself is fast.
+//!
+//! Every number of a parameter set is kept in the store by its content (`evaluations`). The search is a function of the match
+//! file and these numbers alone, so that a run that was interrupted goes on by being run again.
+
+mod answer;
+mod evaluations;
+mod fields;
+mod file;
+mod forecast;
+mod observation;
+mod observed;
+mod outputs;
+mod prior;
+mod search;
+
+pub use answer::{
+    Conflict, MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow, Share,
+};
+pub use evaluations::{Evaluations, MatchStore};
+pub use file::{Effort, MatchProblem, is_match_file};
+pub use forecast::{StageCost, forecast};
+pub use observation::{
+    Combination, Known, Measure, Observation, Quantity, RULED_OUT, Scalar, ShockChoice, Stage,
+};
+pub use outputs::Printed;
+pub use prior::{Distribution, Parameter, ParameterValue};
+pub use search::{Ended, Sample, Searched, WaveReport, search};

@@ -1,0 +1,552 @@
+//! A match as files: Markdown, HTML, JSON, CSV, a plot of the ranges, and studies with the matching values.
+
+use std::fmt::Write as _;
+
+use super::chart::{
+    Axis, ChartError, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour,
+};
+use super::files::json;
+use super::html::escaped;
+use super::table::csv_line;
+use crate::matching::{Known, MatchAnswer, MatchProblem, MatchingSet, Searched, Share};
+use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+
+/// Conflicts and further measurements that tables show.
+const SHOWN: usize = 40;
+
+/// A heading with a table under it.
+struct Table {
+    title: &'static str,
+    /// What a reader gets from it.
+    words: String,
+    head: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+/// `match.md`, `match.html`, `match.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`, `ranges.png` and
+/// `matching-1.toml` and on, one study for each set of the gallery: names and bytes.
+///
+/// # Errors
+///
+/// A figure that cannot be encoded.
+pub fn match_files(
+    problem: &MatchProblem,
+    answer: &MatchAnswer,
+    found: &Searched,
+    program: &str,
+) -> Result<Vec<(String, Vec<u8>)>, ChartError> {
+    let figure = ranges(answer);
+    let tables = tables(answer);
+    let from = format!(
+        "{program}, physics versions {PHYSICS_STRUCTURE} (disk and ramp) and {PHYSICS_HEAD} (head)"
+    );
+    let mut document = serde_json::to_value(answer).expect("an answer serialises");
+    document["program"] = program.into();
+    document["physics_structure"] = PHYSICS_STRUCTURE.into();
+    document["physics_head"] = PHYSICS_HEAD.into();
+    let mut files = vec![
+        (
+            "match.md".to_owned(),
+            markdown(answer, &tables, &from).into_bytes(),
+        ),
+        (
+            "match.html".to_owned(),
+            page(answer, &tables, &figure, &from).into_bytes(),
+        ),
+        ("match.json".to_owned(), json(&document)),
+        (
+            "observations.csv".to_owned(),
+            observations_csv(answer).into_bytes(),
+        ),
+        (
+            "parameters.csv".to_owned(),
+            parameters_csv(answer).into_bytes(),
+        ),
+        (
+            "samples.csv".to_owned(),
+            samples_csv(problem, found).into_bytes(),
+        ),
+        ("ranges.svg".to_owned(), figure.svg().into_bytes()),
+        ("ranges.png".to_owned(), figure.png()?),
+    ];
+    let sets = answer.matching.iter().chain(&answer.nearest).enumerate();
+    for (place, set) in sets {
+        let name = match set.fails.is_empty() {
+            true => format!("matching-{}.toml", place + 1),
+            false => "nearest.toml".to_owned(),
+        };
+        if let Some(text) = study_text(problem, answer, set, &from) {
+            files.push((name, text.into_bytes()));
+        }
+    }
+    Ok(files)
+}
+
+/// The answer for a terminal.
+pub fn match_text(answer: &MatchAnswer) -> String {
+    let mut text = summary(answer) + "\n";
+    for table in tables(answer) {
+        let _ = write!(text, "\n{}\n", table.title);
+        let all: Vec<&Vec<String>> = std::iter::once(&table.head).chain(&table.rows).collect();
+        let widths: Vec<usize> = (0..table.head.len())
+            .map(|c| {
+                all.iter()
+                    .map(|row| row[c].chars().count())
+                    .max()
+                    .unwrap_or(0)
+            })
+            .collect();
+        for row in all {
+            let cells = row
+                .iter()
+                .zip(&widths)
+                .map(|(cell, width)| format!("{cell:<width$}"));
+            let _ = writeln!(
+                text,
+                "  {}",
+                cells.collect::<Vec<_>>().join("  ").trim_end()
+            );
+        }
+    }
+    text.trim_end().to_owned()
+}
+
+fn summary(answer: &MatchAnswer) -> String {
+    let [held, of] = answer.held();
+    let mut text = format!("{}: ", answer.name);
+    text += &match answer.n_matching {
+        0 => format!(
+            "no parameter set makes all {of} observations true; the nearest makes {held} true"
+        ),
+        n => format!("{n} parameter sets make all {of} observations true"),
+    };
+    let _ = write!(
+        text,
+        " ({} sets tried). Share of the prior that makes all true: {}; that nothing rules out: {}.",
+        answer.tried,
+        share(&answer.all),
+        share(&answer.not_ruled_out)
+    );
+    if !answer.is_complete {
+        text += " The search was interrupted: these are the numbers so far.";
+    }
+    text
+}
+
+fn share(share: &Share) -> String {
+    let percent = |x: f64| short(100.0 * x);
+    let [low, high] = share.interval;
+    match (share.with, share.of) {
+        (_, 0) => "not asked".to_owned(),
+        (0, n) => format!("none of {n}, less than {} % with 95 %", percent(high)),
+        (k, n) => {
+            let own = percent(k as f64 / n as f64);
+            format!(
+                "{own} % ({k} of {n}, 95 %: {} to {})",
+                percent(low),
+                percent(high)
+            )
+        }
+    }
+}
+
+/// Four digits.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if size != 0.0 && !(1e-4..1e6).contains(&size) => format!("{rounded:e}"),
+        _ => format!("{rounded}"),
+    }
+}
+
+fn maybe(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), short)
+}
+
+fn range(ends: Option<[Option<f64>; 2]>) -> String {
+    match ends {
+        None => "not observed".to_owned(),
+        Some([Some(low), Some(high)]) if low == high => short(low),
+        Some([Some(low), Some(high)]) => format!("{} to {}", short(low), short(high)),
+        Some([Some(low), None]) => format!("at least {}", short(low)),
+        Some([None, Some(high)]) => format!("at most {}", short(high)),
+        Some([None, None]) => "any number".to_owned(),
+    }
+}
+
+fn words(list: &[&str]) -> Vec<String> {
+    list.iter().map(|word| (*word).to_owned()).collect()
+}
+
+fn tables(answer: &MatchAnswer) -> Vec<Table> {
+    let observations = Table {
+        title: "Observations",
+        words: "Each with the share of the prior that makes it true, and with the best set: number, and margin (distance to the \
+                nearer end of the range) in units of the numerical uncertainty."
+            .to_owned(),
+        head: words(&["observation", "true with", "numerical uncertainty", "share of the prior", "best set", "margin"]),
+        rows: answer
+            .observations
+            .iter()
+            .map(|one| {
+                vec![
+                    one.name.clone(),
+                    range(one.range),
+                    short(one.numerical_uncertainty),
+                    one.share.as_ref().map_or_else(|| "-".to_owned(), share),
+                    maybe(one.best),
+                    maybe(one.best_margin),
+                ]
+            })
+            .collect(),
+    };
+    let parameters = Table {
+        title: "Parameters",
+        words: "Ranges before, and what the sets that nothing rules out leave of them.".to_owned(),
+        head: words(&["parameter", "before", "after", "left of it (%)", "source"]),
+        rows: answer
+            .parameters
+            .iter()
+            .map(|one| {
+                let to = |ends: &[String; 2]| format!("{} to {}", ends[0], ends[1]);
+                let left = one
+                    .after_probability
+                    .map(|[low, high]| 100.0 * (high - low));
+                let after = one
+                    .after
+                    .as_ref()
+                    .map_or_else(|| "too few plausible sets to tell".to_owned(), to);
+                vec![
+                    one.name.clone(),
+                    to(&one.before),
+                    after,
+                    maybe(left),
+                    one.source.clone(),
+                ]
+            })
+            .collect(),
+    };
+    let mut all = vec![observations, parameters];
+    let sets: Vec<&MatchingSet> = answer.matching.iter().chain(&answer.nearest).collect();
+    if !sets.is_empty() {
+        let mut head = words(&["set", "smallest margin", "decided by"]);
+        head.extend(answer.parameters.iter().map(|one| one.name.clone()));
+        let row = |(place, set): (usize, &&MatchingSet)| {
+            let mut row = vec![
+                (place + 1).to_string(),
+                maybe(set.smallest_margin),
+                set.decided_by.clone(),
+            ];
+            row.extend(
+                set.values
+                    .iter()
+                    .map(|value| value.parse().map_or_else(|_| value.clone(), short)),
+            );
+            row
+        };
+        all.push(Table {
+            title: "Matching sets",
+            words: match &answer.nearest {
+                Some(nearest) => format!(
+                    "None; the nearest one does not have: {}.",
+                    nearest.fails.join(", ")
+                ),
+                None => {
+                    "The one with the largest smallest margin, then sets as far apart as can be."
+                        .to_owned()
+                }
+            },
+            head,
+            rows: sets.iter().enumerate().map(row).collect(),
+        });
+    }
+    if !answer.conflicts.is_empty() {
+        all.push(Table {
+            title: "Conflicts",
+            words: "Smallest groups of observations that no set satisfies together; the bound is for independent draws of the \
+                    prior."
+                .to_owned(),
+            head: words(&["observations", "sets tried", "share of the prior"]),
+            rows: answer
+                .conflicts
+                .iter()
+                .take(SHOWN)
+                .map(|one| vec![one.observations.join(", "), one.tried.to_string(), share(&one.share)])
+                .collect(),
+        });
+    }
+    if !answer.next.is_empty() {
+        all.push(Table {
+            title: "What to measure next",
+            words: "Share of the sets that nothing rules out which would be left, on average, if the number were measured with the \
+                    uncertainty it has here."
+                .to_owned(),
+            head: words(&["number", "expected to be left (%)"]),
+            rows: answer
+                .next
+                .iter()
+                .take(SHOWN)
+                .map(|one| vec![one.observation.clone(), short(100.0 * one.expected_left)])
+                .collect(),
+        });
+    }
+    all
+}
+
+fn markdown(answer: &MatchAnswer, tables: &[Table], from: &str) -> String {
+    let mut text = format!("# Match: {}\n\n{}\n", answer.name, summary(answer));
+    for table in tables {
+        let _ = write!(text, "\n## {}\n\n{}\n\n", table.title, table.words);
+        let line = |cells: &[String]| {
+            let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        text += &line(&table.head);
+        text += &line(&vec!["---".to_owned(); table.head.len()]);
+        table.rows.iter().for_each(|row| text += &line(row));
+    }
+    let _ = write!(text, "\nWaves:\n\n");
+    for wave in &answer.waves {
+        let _ = writeln!(
+            text,
+            "* {}: {} tried, {} kept",
+            wave.name, wave.tried, wave.kept
+        );
+    }
+    let _ = write!(text, "\n{from}\n");
+    text
+}
+
+fn page(answer: &MatchAnswer, tables: &[Table], figure: &Figure, from: &str) -> String {
+    let mut text = format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{name}</title>\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
+         <style>{style}</style></head><body>\n<h1>Match: {name}</h1>\n<p>{summary}</p>\n{svg}\n",
+        name = escaped(&answer.name),
+        style = include_str!("html/style.css"),
+        summary = escaped(&summary(answer)),
+        svg = figure.svg(),
+    );
+    for table in tables {
+        let row = |tag: &str, cells: &[String]| {
+            let cells: String = cells
+                .iter()
+                .map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)))
+                .collect();
+            format!("<tr>{cells}</tr>\n")
+        };
+        let rows: String = table.rows.iter().map(|cells| row("td", cells)).collect();
+        let _ = write!(
+            text,
+            "<h2>{}</h2>\n<p>{}</p>\n<table>\n{}{rows}</table>\n",
+            table.title,
+            escaped(&table.words),
+            row("th", &table.head)
+        );
+    }
+    let _ = write!(text, "<p>{}</p>\n</body></html>\n", escaped(from));
+    text
+}
+
+/// Ranges after over ranges before, as cumulative probabilities of the prior.
+fn ranges(answer: &MatchAnswer) -> Figure {
+    let best = answer.matching.first().or(answer.nearest.as_ref());
+    let samples = answer
+        .parameters
+        .iter()
+        .enumerate()
+        .filter_map(|(place, one)| {
+            let [low, high] = one.after_probability?;
+            let y = best.map_or(0.5 * (low + high), |best| best.unit[place]);
+            Some(Sample {
+                x: place as f64 + 1.0,
+                value: Value::Known {
+                    y,
+                    low: low.min(y),
+                    high: high.max(y),
+                },
+                open: false,
+                note: one
+                    .after
+                    .as_ref()
+                    .map(|ends| format!("{} to {}", ends[0], ends[1]))
+                    .unwrap_or_default(),
+            })
+        });
+    let names = answer.parameters.iter().enumerate();
+    let axis =
+        Axis::linear("").named(names.map(|(place, one)| (place as f64 + 1.0, one.name.clone())));
+    let left = Series::marked(
+        "best set, and what is left",
+        colour::BLUE,
+        None,
+        (Marker::Circle, Fill::Full),
+        samples.collect(),
+    );
+    let n = answer.parameters.len() as f64;
+    let ends = |y: f64| {
+        Series::curve(
+            "range before",
+            colour::GREY,
+            Dash::Dashed,
+            vec![(0.5, y), (n + 0.5, y)],
+        )
+    };
+    Figure {
+        title: answer.name.clone(),
+        subtitle: "what the observations leave of each parameter's range".into(),
+        columns: 1,
+        panel_px: (140.0 + 90.0 * n, 340.0),
+        panels: vec![Panel {
+            title: String::new(),
+            x: axis.between(0.5, n + 0.5),
+            y: Axis::linear("Cumulative probability before").between(-0.05, 1.05),
+            series: vec![ends(0.0), ends(1.0), left],
+            rules: Vec::new(),
+            shaded: None,
+        }],
+    }
+}
+
+fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    rows.into_iter().map(|row| csv_line(&row)).collect()
+}
+
+fn exact(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+fn observations_csv(answer: &MatchAnswer) -> String {
+    let head = words(&[
+        "observation",
+        "stage",
+        "low",
+        "high",
+        "numerical_uncertainty",
+        "draws_with",
+        "draws",
+        "share_low",
+        "share_high",
+        "best",
+        "margin",
+        "source",
+    ]);
+    let rows = answer.observations.iter().map(|one| {
+        let [low, high] = one.range.unwrap_or([None, None]);
+        let share = one.share.map(|share| {
+            [
+                share.with.to_string(),
+                share.of.to_string(),
+                exact(Some(share.interval[0])),
+                exact(Some(share.interval[1])),
+            ]
+        });
+        let mut row = vec![
+            one.name.clone(),
+            one.stage.to_owned(),
+            exact(low),
+            exact(high),
+            exact(Some(one.numerical_uncertainty)),
+        ];
+        row.extend(share.unwrap_or_default());
+        row.extend([exact(one.best), exact(one.best_margin), one.source.clone()]);
+        row
+    });
+    csv(std::iter::once(head).chain(rows))
+}
+
+fn parameters_csv(answer: &MatchAnswer) -> String {
+    let mut head = words(&[
+        "parameter",
+        "keys",
+        "before_low",
+        "before_high",
+        "after_low",
+        "after_high",
+        "source",
+    ]);
+    head.extend(
+        answer
+            .observations
+            .iter()
+            .map(|one| format!("says:{}", one.name)),
+    );
+    let rows = answer.parameters.iter().enumerate().map(|(place, one)| {
+        let after = one.after.clone().unwrap_or_default();
+        let mut row = vec![one.name.clone(), one.keys.join(" ")];
+        row.extend(one.before.clone());
+        row.extend(after);
+        row.push(one.source.clone());
+        row.extend(
+            answer
+                .observations
+                .iter()
+                .map(|observation| exact(observation.says[place])),
+        );
+        row
+    });
+    csv(std::iter::once(head).chain(rows))
+}
+
+/// Every parameter set with its numbers; a number that does not exist is `none`, one that was not asked for empty.
+fn samples_csv(problem: &MatchProblem, found: &Searched) -> String {
+    let mut head = words(&["wave"]);
+    head.extend(problem.parameters.iter().map(|one| one.name.clone()));
+    head.extend(problem.observations.iter().map(|one| one.name.clone()));
+    let rows = found.samples.iter().map(|sample| {
+        let wave = sample
+            .wave
+            .map_or_else(|| "refinement".to_owned(), |wave| wave.to_string());
+        let mut row = vec![wave];
+        row.extend(
+            problem
+                .parameters
+                .iter()
+                .zip(&sample.unit)
+                .map(|(one, p)| one.words(*p)),
+        );
+        row.extend(sample.numbers.iter().map(|(known, _)| match known {
+            Known::NotAsked => String::new(),
+            Known::Missing => "none".to_owned(),
+            Known::Is(value) => exact(Some(*value)),
+        }));
+        row
+    });
+    csv(std::iter::once(head).chain(rows))
+}
+
+/// The study with a set's values; `None` where the study refuses them.
+fn study_text(
+    problem: &MatchProblem,
+    answer: &MatchAnswer,
+    set: &MatchingSet,
+    from: &str,
+) -> Option<String> {
+    let study = problem.with_values(&set.unit).ok()?;
+    let mut text = format!("# {}\n", summary_of(answer, set));
+    for (parameter, value) in problem.parameters.iter().zip(&set.values) {
+        let _ = writeln!(
+            text,
+            "# matched: {} = {value} ({})",
+            parameter.name, parameter.source
+        );
+    }
+    let _ = write!(text, "# {from}\n\n{}", study.resolved_toml());
+    Some(text)
+}
+
+fn summary_of(answer: &MatchAnswer, set: &MatchingSet) -> String {
+    match set.fails.is_empty() {
+        true => format!(
+            "match {:?}: every observation holds, with a smallest margin of {} numerical uncertainties ({})",
+            answer.name,
+            maybe(set.smallest_margin),
+            set.decided_by
+        ),
+        false => format!(
+            "match {:?}: the nearest set, without {}",
+            answer.name,
+            set.fails.join(", ")
+        ),
+    }
+}
