@@ -41,13 +41,20 @@ pub fn tally(rows: &[ClaimRow], has_sensitivity: bool) -> String {
         0 => String::new(),
         left => format!(", {left} are not asked (no table of critical shocks)"),
     };
+    let is_untried = |row: &&ClaimRow| row.answer == Answer::Holds && row.depends_on.is_empty();
+    let untried = rows.iter().filter(is_untried).count();
+    let turn = hold - robust - untried;
     let of_these = match has_sensitivity {
+        false => "Whether they do so robustly was not measured (`--sensitivity`).".to_owned(),
         true => format!(
             "Of these {hold}, {robust} hold robustly, also with any one discretisation parameter refined by a \
-             step and any one parameter that the paper does not print at either end of its range; {} turn.",
-            hold - robust
+             step and any one parameter that the paper does not print at either end of its range; \
+             {turn} turn{}.",
+            match untried {
+                0 => String::new(),
+                _ => format!(", {untried} were not tried (searches left out)"),
+            }
         ),
-        false => "Whether they do so robustly was not measured (`--sensitivity`).".to_owned(),
     };
     format!(
         "{} statements: {hold} hold with the study's own values, {} do not{left}. {of_these}",
@@ -295,14 +302,15 @@ mod tests {
         let turned = row(claim("rigid_touch"), own(), &finer, Some(&all));
         assert_eq!(turned.answer, Answer::Holds);
         assert_eq!(turned.depends_on, ["accuracy: turns with finer disk_modes"]);
+        rows.push(row(claim("rigid_touch"), own(), &[], None));
 
         rows.push(row(claim("rises_none"), None, &[], None));
         assert_eq!(
             tally(&rows, true),
-            "6 statements: 3 hold with the study's own values, 2 do not, 1 are not asked (no table of \
-             critical shocks). Of these 3, 1 hold robustly, also with any one discretisation parameter \
+            "7 statements: 4 hold with the study's own values, 2 do not, 1 are not asked (no table of \
+             critical shocks). Of these 4, 1 hold robustly, also with any one discretisation parameter \
              refined by a step and any one parameter that the paper does not print at either end of its \
-             range; 2 turn."
+             range; 2 turn, 1 were not tried (searches left out)."
         );
     }
 }
