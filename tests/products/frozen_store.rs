@@ -32,4 +32,10 @@ fn a_store_of_7e99eeb_is_read() {
             assert_eq!(done.stdout, table);
         }
     }
+    // The numbers are those of 7e99eeb, whatever program wrote the page.
+    let page = std::fs::read_to_string(folder.path().join("r/table.md")).unwrap();
+    assert!(
+        page.contains("\nopshock 0.1.0 (7e99eeb266b3, physics 7/11), study "),
+        "{page}"
+    );
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use opshock_study::study::{Choice, Ramp, Sign, Study};
+use opshock_study::study::{Choice, Point, Ramp, SetArg, Sign, Study};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies")
@@ -108,17 +108,48 @@ fn fig13_has_the_points_of_the_figure_in_canonical_order() {
     assert_eq!(rails.len(), 8);
 }
 
+fn read_with(name: &str, set: &str) -> Study {
+    let path = folder().join(name).join("study.toml");
+    let set = SetArg::parse(set).unwrap();
+    Study::from_path(&path, &[set]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+#[test]
+fn clearance_and_geometry_have_the_drive_of_fig13_but_for_what_they_ask() {
+    let geometry = read("fig13-geometry");
+    let (coarse, figure) = (read_with("fig13", "solver.accuracy=5%"), read("fig13"));
+    let cases = [(&coarse, read("clearance"), 144), (&figure, geometry, 16)];
+    for (figure, study, points) in &cases {
+        assert_eq!(study.points.len(), *points);
+        for point in &study.points {
+            let mut scene = point.scene.clone();
+            let twin = &twin(figure, point).scene;
+            scene.ramp.clearance_top_m = twin.ramp.clearance_top_m;
+            scene.ramp.clearance_bottom_m = twin.ramp.clearance_bottom_m;
+            if study.name == "Fig. 13 with a ramp from geometry" {
+                scene.ramp.model = twin.ramp.model.clone();
+            }
+            assert_eq!(scene, *twin, "{}: {}", study.name, point.label());
+        }
+    }
+    // The contact among it.
+    let stiffness = |point: &Point| point.scene.ramp.contact_stiffness_n_per_m;
+    let clearance = &cases[0].1.points;
+    assert!(clearance.iter().all(|point| stiffness(point) == Some(1e6)));
+}
+
+/// The point of the same ramp model, width and sign.
+fn twin<'a>(figure: &'a Study, point: &Point) -> &'a Point {
+    let of = |point: &Point| (point.ramp, point.sign, point.pulse_ms);
+    let mut points = figure.points.iter();
+    points.find(|other| of(other) == of(point)).unwrap()
+}
+
 #[test]
 fn the_paper_cases_use_the_drive_of_fig13() {
     let (figure, cases) = (read("fig13"), read("paper-cases"));
     for point in &cases.points {
-        let twin = figure
-            .points
-            .iter()
-            .find(|other| {
-                (other.ramp, other.sign, other.pulse_ms) == (point.ramp, point.sign, point.pulse_ms)
-            })
-            .unwrap();
+        let twin = twin(&figure, point);
         assert_eq!(twin.scene, point.scene);
         assert_eq!(twin.id, point.id);
     }

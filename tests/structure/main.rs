@@ -1,6 +1,7 @@
-//! Floors, names, architecture page.
+//! Floors, names, architecture page, committed results.
 
 mod architecture;
 mod floors;
+mod results;
 mod skips;
 mod wording;

@@ -1,5 +1,7 @@
 //! Version, commit and physics versions that every product carries.
 
+use std::sync::LazyLock;
+
 /// Version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -7,14 +9,21 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// differed from it, or `unknown` when they were in no repository.
 pub const COMMIT: &str = env!("OPSHOCK_COMMIT");
 
-/// `opshock VERSION (COMMIT)`, the line under every figure and table.
+/// `opshock VERSION (COMMIT, physics STRUCTURE/HEAD)`, the line under every figure and table.
 pub fn program() -> String {
-    format!("opshock {VERSION} ({COMMIT})")
+    program_of(VERSION, COMMIT, [PHYSICS_STRUCTURE, PHYSICS_HEAD])
+}
+
+/// The same of another program: the one whose numbers a store holds.
+pub fn program_of(version: &str, commit: &str, [structure, head]: [u32; 2]) -> String {
+    format!("opshock {version} ({commit}, physics {structure}/{head})")
 }
 
 /// What `--version` prints after the name.
-pub const LONG_VERSION: &str =
-    concat!(env!("CARGO_PKG_VERSION"), " (", env!("OPSHOCK_COMMIT"), ")");
+pub fn long_version() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(program);
+    TEXT.strip_prefix("opshock ").unwrap_or_default()
+}
 
 /// Physics version of the structure stage (disk, ramp, contact). Raised by hand when the same
 /// scene gives other numbers than before; stored runs of an older version are then run again.

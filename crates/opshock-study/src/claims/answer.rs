@@ -2,33 +2,65 @@
 
 use super::catalogue::{CLAIMS, Claim, Source};
 use super::finding::{Finding, Spread, spread};
-use super::sensitivity::{Rests, Sensitivity};
+use super::sensitivity::Sensitivity;
 use serde::Serialize;
 
-/// The answer to a statement.
+/// The answer to a statement, by the study's own values first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// It holds, everywhere it was tried.
+    /// It holds with the study's own values, and with any one discretisation parameter refined and any
+    /// one unpublished parameter moved.
+    HoldsRobustly,
+    /// It holds with the study's own values; what it turns with is named, or was not measured.
     Holds,
-    /// It does not hold, wherever it was tried.
+    /// It does not hold with the study's own values, whatever else it holds with.
     DoesNot,
-    /// It holds for some of what was tried.
-    Depends,
     /// The table of critical shocks is missing.
     NotAsked,
 }
 
 impl Answer {
-    /// Words of tables.
+    /// Words of every table and heading.
     pub fn words(self) -> &'static str {
         match self {
-            Answer::Holds => "holds",
-            Answer::DoesNot => "does not hold",
-            Answer::Depends => "depends",
+            Answer::HoldsRobustly => "holds robustly",
+            Answer::Holds => "holds with the study's own values",
+            Answer::DoesNot => "does not hold with the study's own values",
             Answer::NotAsked => "not asked",
         }
     }
+}
+
+/// How many statements hold with the study's own values, and how many of these robustly.
+pub fn tally(rows: &[ClaimRow], has_sensitivity: bool) -> String {
+    let count = |answer| rows.iter().filter(|row| row.answer == answer).count();
+    let robust = count(Answer::HoldsRobustly);
+    let hold = robust + count(Answer::Holds);
+    let left = match count(Answer::NotAsked) {
+        0 => String::new(),
+        left => format!(", {left} are not asked (no table of critical shocks)"),
+    };
+    let is_untried = |row: &&ClaimRow| row.answer == Answer::Holds && row.depends_on.is_empty();
+    let untried = rows.iter().filter(is_untried).count();
+    let turn = hold - robust - untried;
+    let of_these = match has_sensitivity {
+        false => "Whether they do so robustly was not measured (`--sensitivity`).".to_owned(),
+        true => format!(
+            "Of these {hold}, {robust} hold robustly, also with any one discretisation parameter refined by a \
+             step and any one parameter that the paper does not print at either end of its range; \
+             {turn} turn{}.",
+            match untried {
+                0 => String::new(),
+                _ => format!(", {untried} were not tried (searches left out)"),
+            }
+        ),
+    };
+    format!(
+        "{} statements: {hold} hold with the study's own values, {} do not{left}. {of_these}",
+        rows.len(),
+        count(Answer::DoesNot)
+    )
 }
 
 /// A line of the table.
@@ -52,7 +84,7 @@ pub struct ClaimRow {
     pub spread: Option<Spread>,
     /// Answer.
     pub answer: Answer,
-    /// On what it depends, with the range in which it holds.
+    /// What it turns with, with where it holds; of one that does not hold, what it holds with.
     pub depends_on: Vec<String>,
     /// Places whose answer the error bars leave no doubt about, and all; for critical shocks.
     pub beyond_the_bars: Option<[usize; 2]>,
@@ -86,6 +118,10 @@ fn row(
 ) -> ClaimRow {
     let mut depends_on = Vec::new();
     let mut turned = None;
+    let turning = finding.as_ref().and_then(|found| {
+        let row = sensitivity?.row(claim.id)?;
+        row.turning(found.holds)
+    });
     if let Some(found) = &finding {
         depends_on.extend(places(found));
         if !matches!(claim.source, Source::Critical(_)) {
@@ -98,18 +134,15 @@ fn row(
             }
             turned = Some(moved);
         }
-        let rests = sensitivity
-            .and_then(|all| all.row(claim.id))
-            .map(|row| row.rests());
-        if let Some(Rests::On(parameters)) = rests {
-            depends_on.extend(parameters);
+        if let Some(turning) = &turning {
+            depends_on.extend(turning.iter().cloned());
         }
     }
     let answer = match &finding {
         None => Answer::NotAsked,
-        Some(_) if !depends_on.is_empty() => Answer::Depends,
-        Some(found) if found.holds => Answer::Holds,
-        Some(_) => Answer::DoesNot,
+        Some(found) if !found.holds => Answer::DoesNot,
+        Some(_) if turning.is_some() && depends_on.is_empty() => Answer::HoldsRobustly,
+        Some(_) => Answer::Holds,
     };
     let beyond_the_bars = finding
         .as_ref()
@@ -156,13 +189,22 @@ fn places(found: &Finding) -> Option<String> {
 mod tests {
     use super::*;
     use crate::claims::finding::Part;
+    use crate::claims::sensitivity::{Found, Row, Side};
 
     fn claim(id: &str) -> &'static Claim {
         CLAIMS.iter().find(|claim| claim.id == id).expect("a claim")
     }
 
+    fn found(value: f64, holds: bool) -> Finding {
+        Finding {
+            value: Some(value),
+            holds,
+            ..Finding::default()
+        }
+    }
+
     #[test]
-    fn a_statement_that_holds_in_some_places_depends_on_the_pulse() {
+    fn a_statement_that_holds_in_some_places_does_not_hold_and_says_where_it_does() {
         let part = |at: &str, value: f64, bar| Part {
             at: at.into(),
             value,
@@ -170,30 +212,105 @@ mod tests {
             holds: value >= 1.0,
         };
         let found = Finding {
-            value: Some(0.9),
-            holds: false,
             parts: vec![
                 part("1 ms, +", 1.2, [1.1, 1.3]),
                 part("2 ms, +", 0.9, [0.8, 1.1]),
             ],
-            note: String::new(),
+            ..found(0.9, false)
         };
         let row = row(claim("deformable_above_rigid"), Some(found), &[], None);
-        assert_eq!(row.answer, Answer::Depends);
+        assert_eq!(row.answer, Answer::DoesNot);
         assert_eq!(row.depends_on, ["pulse: holds at 1 ms, +; not at 2 ms, +"]);
         assert_eq!(row.beyond_the_bars, Some([1, 2]));
     }
 
-    #[test]
-    fn an_answer_that_turns_with_accuracy_is_no_answer() {
-        let found = |value: f64, holds| Finding {
-            value: Some(value),
-            holds,
-            ..Finding::default()
+    /// `rigid_touch` moved to two values of a parameter, by the answers of the sensitivity's own table
+    /// and of both ends.
+    fn moved(base: bool, ends: [bool; 2]) -> Sensitivity {
+        let found = |holds| Some(Found { value: None, holds });
+        let side = |value, holds| Side {
+            parameter: "mass".into(),
+            key: "mass_mg".into(),
+            base: 3.0,
+            value,
+            found: found(holds),
         };
+        Sensitivity {
+            study: String::new(),
+            program: String::new(),
+            physics: None,
+            coarse: Vec::new(),
+            rows: vec![Row {
+                claim: "rigid_touch".into(),
+                base: found(base),
+                sides: vec![side(2.0, ends[0]), side(4.0, ends[1])],
+            }],
+        }
+    }
+
+    #[test]
+    fn only_what_holds_with_the_studys_own_values_holds_robustly() {
+        let coarse = |word| format!("coarse search of the sensitivity: {word}");
+        let turns = "mass (mass_mg): holds at 2, 3, not at 4";
+        let cases = [
+            (
+                true,
+                moved(true, [true, true]),
+                Answer::HoldsRobustly,
+                vec![],
+            ),
+            (
+                true,
+                moved(true, [true, false]),
+                Answer::Holds,
+                vec![turns.to_owned()],
+            ),
+            // Met by the coarse search wherever it looked, and not by the study itself.
+            (
+                false,
+                moved(true, [true, true]),
+                Answer::DoesNot,
+                vec![coarse("holds")],
+            ),
+            (false, moved(false, [false, false]), Answer::DoesNot, vec![]),
+            (
+                true,
+                moved(false, [false, false]),
+                Answer::Holds,
+                vec![coarse("does not hold")],
+            ),
+        ];
+        let mut rows = Vec::new();
+        for (holds, all, answer, depends_on) in cases {
+            let one = row(
+                claim("rigid_touch"),
+                Some(found(1.0, holds)),
+                &[],
+                Some(&all),
+            );
+            assert_eq!((one.answer, &one.depends_on), (answer, &depends_on));
+            rows.push(one);
+        }
+        // Not moved at all, and turned by a finer parameter of accuracy.
+        let own = || Some(found(1.0, true));
+        assert_eq!(
+            row(claim("rigid_touch"), own(), &[], None).answer,
+            Answer::Holds
+        );
         let finer = [("disk_modes".to_owned(), found(1.2, false))];
-        let row = row(claim("rigid_touch"), Some(found(1.0, true)), &finer, None);
-        assert_eq!(row.answer, Answer::Depends);
-        assert_eq!(row.depends_on, ["accuracy: turns with finer disk_modes"]);
+        let all = moved(true, [true, true]);
+        let turned = row(claim("rigid_touch"), own(), &finer, Some(&all));
+        assert_eq!(turned.answer, Answer::Holds);
+        assert_eq!(turned.depends_on, ["accuracy: turns with finer disk_modes"]);
+        rows.push(row(claim("rigid_touch"), own(), &[], None));
+
+        rows.push(row(claim("rises_none"), None, &[], None));
+        assert_eq!(
+            tally(&rows, true),
+            "7 statements: 4 hold with the study's own values, 2 do not, 1 are not asked (no table of \
+             critical shocks). Of these 4, 1 hold robustly, also with any one discretisation parameter \
+             refined by a step and any one parameter that the paper does not print at either end of its \
+             range; 2 turn, 1 were not tried (searches left out)."
+        );
     }
 }

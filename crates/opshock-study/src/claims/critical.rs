@@ -3,7 +3,7 @@
 //! A ratio's bounds are the quotients of the ends of both bars: both rows wrong by all of their bars
 //! and in opposite directions.
 
-use super::catalogue::Parts;
+use super::catalogue::{Parts, Place};
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Status, Summary};
 
@@ -72,14 +72,50 @@ fn both(a: Vec<(f64, Barred)>, b: &[(f64, Barred)]) -> impl Iterator<Item = (f64
 
 const SIGNS: [Sign; 2] = [Sign::Plus, Sign::Minus];
 
+/// Widths that the paper may have used, ms: it prints none, and draws few points a curve.
+const PAPER_WIDTHS_MS: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 3.0];
+
+/// Ratios of neighbouring widths among [`PAPER_WIDTHS_MS`]. What a curve does at others is noted as a
+/// prediction: near 0.75 ms it may dip, as a half-sine of width T excites an oscillator of frequency f
+/// most at f T = 0.81, and the disk's first mode is near 1 kHz.
+///
+/// # Source
+///
+/// Ayre, Transient response to step and pulse functions, in Harris, Shock and Vibration Handbook, ch. 8.
 fn rises(summary: &Summary, ramp: &str) -> Parts {
-    let mut parts = Parts::new();
+    let mut parts = Parts::default();
+    let mut told = Vec::new();
     for sign in SIGNS {
-        for pair in curve(summary, ramp, sign).windows(2) {
+        let (judged, predicted): (Vec<_>, Vec<_>) = curve(summary, ramp, sign)
+            .into_iter()
+            .partition(|(width, _)| PAPER_WIDTHS_MS.contains(width));
+        for pair in judged.windows(2) {
             let (ratio, bar) = pair[1].1.over(pair[0].1);
             let at = format!("{} to {} ms, {}", pair[0].0, pair[1].0, sign.as_str());
-            parts.push((at, ratio, bar));
+            parts.places.push((at, ratio, bar));
         }
+        for (width, barred) in predicted {
+            let above = judged.iter().position(|(known, _)| *known > width);
+            let Some((low, high)) =
+                above.and_then(|at| Some((judged.get(at.checked_sub(1)?)?, judged[at])))
+            else {
+                continue;
+            };
+            let least = low.1.value.min(high.1.value);
+            let change = 100.0 * (barred.value / least - 1.0);
+            told.push(format!(
+                "{width} ms, {}: {:.1} G, {}",
+                sign.as_str(),
+                barred.value,
+                match change < 0.0 {
+                    true => format!("a dip {:.1} % below {} and {} ms", -change, low.0, high.0),
+                    false => format!("no dip between {} and {} ms", low.0, high.0),
+                }
+            ));
+        }
+    }
+    if !told.is_empty() {
+        parts.note = format!("prediction, not judged: {}", told.join("; "));
     }
     parts
 }
@@ -103,7 +139,8 @@ fn signs(summary: &Summary, ramp: &str) -> Parts {
             let (apart, bar) = plus.distance(minus);
             (format!("{width} ms"), apart, bar)
         })
-        .collect()
+        .collect::<Vec<_>>()
+        .into()
 }
 
 pub(super) fn signs_none(summary: &Summary) -> Parts {
@@ -118,8 +155,8 @@ pub(super) fn signs_deformable(summary: &Summary) -> Parts {
     signs(summary, "deformable")
 }
 
-fn ratios(summary: &Summary, ramp: &str, to: &str, is_asked: impl Fn(f64) -> bool) -> Parts {
-    let mut parts = Parts::new();
+fn ratios(summary: &Summary, ramp: &str, to: &str, is_asked: impl Fn(f64) -> bool) -> Vec<Place> {
+    let mut parts = Vec::new();
     for sign in SIGNS {
         let one = curve(summary, ramp, sign);
         for (width, a, b) in both(one, &curve(summary, to, sign)) {
@@ -133,25 +170,24 @@ fn ratios(summary: &Summary, ramp: &str, to: &str, is_asked: impl Fn(f64) -> boo
 }
 
 pub(super) fn above_when_long(summary: &Summary) -> Parts {
-    ratios(summary, "deformable", "rigid", |width| {
-        width >= LONG_FROM_MS
-    })
+    let is_long = |width| width >= LONG_FROM_MS;
+    ratios(summary, "deformable", "rigid", is_long).into()
 }
 
 pub(super) fn below_when_short(summary: &Summary) -> Parts {
     let widths = summary.points.iter().map(|point| point.pulse_ms);
     let shortest = widths.fold(f64::INFINITY, f64::min);
-    ratios(summary, "deformable", "rigid", |width| width == shortest)
+    ratios(summary, "deformable", "rigid", |width| width == shortest).into()
 }
 
 pub(super) fn below_none(summary: &Summary) -> Parts {
-    let mut parts = Parts::new();
+    let mut parts = Vec::new();
     for ramp in ["rigid", "deformable"] {
         for (at, ratio, bar) in ratios(summary, ramp, "none", |_| true) {
             parts.push((format!("{ramp}, {at}"), ratio, bar));
         }
     }
-    parts
+    parts.into()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! A claim's number, and what is known of its uncertainty.
 
-use super::catalogue::{CLAIMS, Claim, Source};
+use super::catalogue::{CLAIMS, Claim, Parts, Source};
 use super::shocks::Shocks;
 use crate::store::summary::Summary;
 use serde::{Deserialize, Serialize};
@@ -60,8 +60,8 @@ pub fn findings(shocks: &Shocks, critical: Option<&Summary>) -> Vec<Option<Findi
 }
 
 /// The worst of the parts speaks for all.
-pub fn of_parts(claim: &Claim, parts: Vec<(String, f64, Option<[f64; 2]>)>) -> Option<Finding> {
-    let parts: Vec<Part> = parts
+pub fn of_parts(claim: &Claim, Parts { places, note }: Parts) -> Option<Finding> {
+    let parts: Vec<Part> = places
         .into_iter()
         .map(|(at, value, bar)| Part {
             at,
@@ -73,14 +73,12 @@ pub fn of_parts(claim: &Claim, parts: Vec<(String, f64, Option<[f64; 2]>)>) -> O
     let worst = parts
         .iter()
         .min_by(|a, b| claim.margin(a.value).total_cmp(&claim.margin(b.value)))?;
+    let holding = parts.iter().filter(|part| part.holds).count();
+    let aside = if note.is_empty() { "" } else { "; " };
     Some(Finding {
         value: Some(worst.value),
         holds: worst.holds,
-        note: format!(
-            "{} of {} places",
-            parts.iter().filter(|p| p.holds).count(),
-            parts.len()
-        ),
+        note: format!("holds at {holding} of {} places{aside}{note}", parts.len()),
         parts,
     })
 }
@@ -150,7 +148,7 @@ mod tests {
             ("2 ms, +".to_owned(), 1.5, Some([1.2, 1.8])),
             ("3 ms, +".to_owned(), 0.97, Some([0.9, 0.99])),
         ];
-        let found = of_parts(claim, parts).expect("parts");
+        let found = of_parts(claim, parts.into()).expect("parts");
         assert_eq!(found.value, Some(0.97));
         assert!(!found.holds);
         let beyond: Vec<_> = found
@@ -159,6 +157,6 @@ mod tests {
             .map(|part| part.is_beyond_the_bar(claim))
             .collect();
         assert_eq!(beyond, [Some(false), Some(true), Some(true)]);
-        assert_eq!(of_parts(claim, Vec::new()), None);
+        assert_eq!(of_parts(claim, Parts::default()), None);
     }
 }

@@ -21,12 +21,12 @@ mod sensitivity;
 mod shock_numbers;
 mod shocks;
 
-pub use answer::{Answer, ClaimRow, rows};
+pub use answer::{Answer, ClaimRow, rows, tally};
 pub use catalogue::{CLAIMS, Claim, Source};
 pub use finding::{Finding, Part, Spread, findings, of_parts};
 pub use parameter::{Changed, Parameter, number as parameter_value, parameters};
 pub use sensitivity::{
-    Found, Rests, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
+    Found, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
     with_sets,
 };
 pub use shocks::{Case, LONG, PaperShock, SHORT, ShockError, Shocks, Task, Three};

@@ -8,6 +8,7 @@ use super::catalogue::{CLAIMS, Claim};
 use super::finding::{Finding, findings};
 use super::parameter::{parameters, resolved};
 use super::shocks::Shocks;
+use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::store::summary::{PointSummary, Summary};
 use crate::study::{Ramp, SetArg, Study, StudyErrors};
 use serde::{Deserialize, Serialize};
@@ -168,21 +169,18 @@ pub struct Row {
     pub sides: Vec<Side>,
 }
 
-/// What a claim rests on.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Rests {
-    /// It holds, or does not, whatever parameter is moved.
-    Robust,
-    /// It turns with these parameters; each with the range in which it holds.
-    On(Vec<String>),
-}
-
 impl Row {
-    /// What the claim rests on.
-    pub fn rests(&self) -> Rests {
-        let Some(base) = self.base else {
-            return Rests::Robust;
-        };
+    /// What the claim's answer `own`, with the study's own values, turns with: each with where it holds.
+    /// `None` where nothing was tried.
+    pub fn turning(&self, own: bool) -> Option<Vec<String>> {
+        let base = self.base?;
+        let mut turning = Vec::new();
+        if base.holds != own {
+            turning.push(format!(
+                "coarse search of the sensitivity: {}",
+                if base.holds { "holds" } else { "does not hold" }
+            ));
+        }
         let mut ranges: BTreeMap<usize, (String, Vec<(f64, bool)>)> = BTreeMap::new();
         for (place, side) in self.sides.iter().enumerate() {
             let Some(found) = side.found else { continue };
@@ -196,7 +194,6 @@ impl Row {
             });
             entry.1.push((side.value, found.holds));
         }
-        let mut turning = Vec::new();
         for (name, mut tried) in ranges.into_values() {
             tried.sort_by(|a, b| a.0.total_cmp(&b.0));
             if tried.iter().any(|(_, holds)| *holds != base.holds) {
@@ -215,11 +212,7 @@ impl Row {
                 ));
             }
         }
-        if turning.is_empty() {
-            Rests::Robust
-        } else {
-            Rests::On(turning)
-        }
+        Some(turning)
     }
 
     /// The claim itself.
@@ -238,6 +231,9 @@ pub struct Sensitivity {
     pub study: String,
     /// Program.
     pub program: String,
+    /// Physics versions of structure and head; absent before they were kept.
+    #[serde(default)]
+    pub physics: Option<[u32; 2]>,
     /// Settings of the coarse search; empty: the critical shocks were left alone.
     pub coarse: Vec<String>,
     /// A row for each claim.
@@ -291,12 +287,18 @@ impl Sensitivity {
         Sensitivity {
             study: study.digest_hex(),
             program: program.into(),
+            physics: Some([PHYSICS_STRUCTURE, PHYSICS_HEAD]),
             coarse: match base.1 {
                 Some(_) => coarse_sets(),
                 None => Vec::new(),
             },
             rows: rows.collect(),
         }
+    }
+
+    /// Whether it is of this study and of the physics of this program.
+    pub fn is_of(&self, study: &Study) -> bool {
+        self.study == study.digest_hex() && self.physics == Some([PHYSICS_STRUCTURE, PHYSICS_HEAD])
     }
 
     /// Row of a claim.
@@ -335,11 +337,14 @@ mod tests {
                 side("c", 5.0, None),
             ],
         };
-        assert_eq!(
-            row.rests(),
-            Rests::On(vec!["b (key.b): holds at 8, 10, not at 12".into()])
-        );
+        let turns = "b (key.b): holds at 8, 10, not at 12".to_owned();
+        assert_eq!(row.turning(true), Some(vec![turns.clone()]));
+        // What the fine table denies is not what the coarse search was asked to move.
+        let coarse = "coarse search of the sensitivity: holds".to_owned();
+        assert_eq!(row.turning(false), Some(vec![coarse, turns]));
         row.sides.truncate(2);
-        assert_eq!(row.rests(), Rests::Robust);
+        assert_eq!(row.turning(true), Some(Vec::new()));
+        row.base = None;
+        assert_eq!(row.turning(true), None);
     }
 }

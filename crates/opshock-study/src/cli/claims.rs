@@ -77,9 +77,8 @@ pub fn run(
         .map(|(knob, shocks)| ((*knob).to_owned(), findings(shocks, None)))
         .collect();
 
-    let mut written = Vec::new();
     let sensitivity = match (&arguments.sensitivity, &arguments.out) {
-        (Some(kept), Some(out)) => {
+        (Some(kept), _) => {
             let Some(all) = runner.sensitivity(
                 &study,
                 &own,
@@ -91,11 +90,10 @@ pub fn run(
                 console.tell("saved; run again to go on");
                 return Ok(Exit::Budget);
             };
-            written.extend(write_sensitivity(out, &all)?);
             Some(all)
         }
-        (_, Some(out)) => known_sensitivity(out, &study, console),
-        (_, None) => None,
+        (None, Some(out)) => known_sensitivity(out, &study, console),
+        (None, None) => None,
     };
     let table = ClaimTable {
         study: study.path.display().to_string(),
@@ -105,7 +103,12 @@ pub fn run(
         has_sensitivity: sensitivity.is_some(),
         claims: rows(found, &finer, sensitivity.as_ref()),
     };
+    let mut written = Vec::new();
     if let Some(out) = &arguments.out {
+        // Both, so that they say the same.
+        if let Some(all) = &sensitivity {
+            written.extend(write_sensitivity(out, all, &table.claims)?);
+        }
         written.extend(write_claims(out, &table)?);
     }
     for path in written {
@@ -119,14 +122,17 @@ pub fn run(
     Ok(Exit::Complete)
 }
 
-/// The sensitivity that lies in the folder, when it is of this study.
+/// The sensitivity that lies in the folder, when it is of this study and this physics.
 fn known_sensitivity(out: &Path, study: &Study, console: &Console) -> Option<Sensitivity> {
     let path = out.join("sensitivity.json");
     let text = std::fs::read_to_string(&path).ok()?;
     match serde_json::from_str::<Sensitivity>(&text) {
-        Ok(known) if known.study == study.digest_hex() => Some(known),
+        Ok(known) if known.is_of(study) => Some(known),
         Ok(_) => {
-            console.tell(&format!("{}: of another study, not used", path.display()));
+            console.tell(&format!(
+                "{}: of another study or physics version, not used",
+                path.display()
+            ));
             None
         }
         Err(error) => {

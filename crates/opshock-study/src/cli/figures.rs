@@ -122,16 +122,17 @@ pub(super) fn swept(
     }
 }
 
-/// Critical shocks out of a store or a table, and its name.
+/// Critical shocks out of a store or a table, and its name; of a table with its digest, which says
+/// whether it is still the one that was read.
 pub(super) fn critical_shocks(
     path: &Path,
     console: &Console,
 ) -> Result<(Summary, String), Failure> {
-    let name = path.display().to_string();
+    let mut name = path.display().to_string();
     let summary = if path.is_dir() {
         stored::read(&stored::Source::of_folder(path), console)?.summary
     } else {
-        read_table(path).map_err(|error| {
+        let (summary, digest) = read_table(path).map_err(|error| {
             let mut message = error.to_string();
             if let Some(reason) = std::error::Error::source(&error) {
                 message = format!("{message}: {reason}");
@@ -142,7 +143,9 @@ pub(super) fn critical_shocks(
                 allowed: Some("a store, or the table.csv of a report".into()),
                 ..Fault::new("usage", message)
             }])
-        })?
+        })?;
+        name += &format!(" (blake3 {})", &digest[..16]);
+        summary
     };
     Ok((summary, name))
 }

@@ -56,7 +56,7 @@ use std::sync::atomic::AtomicBool;
 #[derive(Parser, Debug)]
 #[command(
     name = "opshock",
-    version = provenance::LONG_VERSION,
+    version = provenance::long_version(),
     disable_help_subcommand = true,
     disable_version_flag = true,
     after_help = "Exit codes: 0 complete, 1 internal, 2 command line, 3 study invalid, 4 complete \
@@ -73,7 +73,7 @@ struct Cli {
 /// Options of every command.
 #[derive(Args, Debug)]
 struct GlobalArgs {
-    /// Print version and commit
+    /// Print version, commit and physics versions
     #[arg(short = 'V', long, action = ArgAction::Version)]
     version: Option<bool>,
     /// Worker threads [default: all cores]

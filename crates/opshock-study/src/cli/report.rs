@@ -6,7 +6,6 @@ use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::stored::{self, Stored};
 use crate::accuracy::Accuracy;
-use crate::provenance;
 use crate::report::{
     CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
 };
@@ -91,7 +90,8 @@ pub fn run(
     let (results, study) = stored::load(&source, console)?;
     let stored = Stored::of(&source.folder, &results, study);
     let folder = source.folder;
-    let program = provenance::program();
+    // Not this one: it may be newer than the numbers.
+    let program = results.session.program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
     let shown = stored.resolved_study.as_deref();
     let film = match shown.filter(|_| arguments.out.is_some()) {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour};
 use super::files::{ReportError, json};
 use super::table::csv_line;
-use crate::claims::{Answer, ClaimRow, Found, Rests, Row, Sensitivity};
+use crate::claims::{Answer, ClaimRow, Found, Row, Sensitivity, tally};
 use crate::store::aside::write_all;
 use serde::Serialize;
 
@@ -30,27 +30,11 @@ pub struct ClaimTable {
 impl ClaimTable {
     /// The Markdown of `claims.md`.
     pub fn markdown(&self) -> String {
-        let count = |answer| {
-            self.claims
-                .iter()
-                .filter(|row| row.answer == answer)
-                .count()
-        };
         let mut text = format!(
-            "# The paper's statements\n\n{} statements: {} hold, {} do not, {} depend on something \
-             named in the last column{}.\n\n",
-            self.claims.len(),
-            count(Answer::Holds),
-            count(Answer::DoesNot),
-            count(Answer::Depends),
-            match count(Answer::NotAsked) {
-                0 => String::new(),
-                left => format!(", {left} not asked (no table of critical shocks)"),
-            }
-        );
-        text.push_str(
-            "| where | the paper says | here | holds with | answer | with the study's own values | depends on |\n\
-             | --- | --- | --- | --- | --- | --- | --- |\n",
+            "# The paper's statements\n\n{}\n\n\
+             | where | the paper says | here | holds with | answer | turns with |\n\
+             | --- | --- | --- | --- | --- | --- |\n",
+            tally(&self.claims, self.has_sensitivity)
         );
         for row in &self.claims {
             let cells = [
@@ -59,7 +43,6 @@ impl ClaimTable {
                 number_cell(row),
                 row.holds_with.clone(),
                 row.answer.words().to_owned(),
-                own_words(row).to_owned(),
                 row.depends_on.join("; "),
             ];
             let _ = writeln!(
@@ -177,14 +160,6 @@ impl ClaimTable {
     }
 }
 
-fn own_words(row: &ClaimRow) -> &'static str {
-    match &row.finding {
-        None => "",
-        Some(found) if found.holds => "holds",
-        Some(_) => "does not",
-    }
-}
-
 fn number_cell(row: &ClaimRow) -> String {
     let Some(found) = &row.finding else {
         return String::new();
@@ -210,7 +185,7 @@ fn number_cell(row: &ClaimRow) -> String {
         let _ = write!(text, "; {}", found.note);
     }
     if let Some([sure, all]) = row.beyond_the_bars {
-        let _ = write!(text, ", {sure} of {all} beyond the bars");
+        let _ = write!(text, "; {sure} of {all} beyond the bars");
     }
     text
 }
@@ -258,16 +233,23 @@ pub fn write_claims(folder: &Path, table: &ClaimTable) -> Result<Vec<PathBuf>, R
     Ok(write_all(folder, files)?)
 }
 
-/// Writes `sensitivity.md`, `.csv`, `.json`, `.svg` and `.png` into `folder`; returns the written
-/// files.
+/// Writes `sensitivity.md`, `.csv`, `.json`, `.svg` and `.png` into `folder`, with the answers of the
+/// table beside it; returns the written files.
 ///
 /// # Errors
 ///
 /// [`ReportError`] at the first file that cannot be made.
-pub fn write_sensitivity(folder: &Path, all: &Sensitivity) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_sensitivity(
+    folder: &Path,
+    all: &Sensitivity,
+    claims: &[ClaimRow],
+) -> Result<Vec<PathBuf>, ReportError> {
     let figure = tornado(all);
     let files = [
-        ("sensitivity.md", sensitivity_markdown(all).into_bytes()),
+        (
+            "sensitivity.md",
+            sensitivity_markdown(all, claims).into_bytes(),
+        ),
         ("sensitivity.csv", sensitivity_csv(all).into_bytes()),
         ("sensitivity.json", json(all)),
         ("sensitivity.svg", figure.svg().into_bytes()),
@@ -276,46 +258,19 @@ pub fn write_sensitivity(folder: &Path, all: &Sensitivity) -> Result<Vec<PathBuf
     Ok(write_all(folder, files)?)
 }
 
-fn sensitivity_markdown(all: &Sensitivity) -> String {
-    let answered = || all.rows.iter().filter_map(|row| Some((row, row.base?)));
-    let robust = |wanted: bool| {
-        answered()
-            .filter(|(row, base)| row.rests() == Rests::Robust && base.holds == wanted)
-            .collect::<Vec<_>>()
-    };
-    let turning: Vec<(&Row, Found)> = answered()
-        .filter(|(row, _)| row.rests() != Rests::Robust)
-        .collect();
+fn sensitivity_markdown(all: &Sensitivity, claims: &[ClaimRow]) -> String {
     let mut text = format!(
         "# What the statements rest on\n\nEvery parameter that the paper does not print is moved to \
-         both ends of a range, one at a time. Of {} statements {} hold whatever is moved, {} never \
-         do, {} turn with a parameter and so rest on what was tuned.\n\n![Tornado plot](sensitivity.png)\n\n## Robust\n\n",
-        answered().count(),
-        robust(true).len(),
-        robust(false).len(),
-        turning.len()
+         both ends of a range, one at a time. {}\n\n![Tornado plot](sensitivity.png)\n",
+        tally(claims, true)
     );
-    let words = |row: &Row| {
-        row.claim()
-            .map_or(row.claim.clone(), |claim| claim.words.to_owned())
-    };
-    for (row, _) in robust(true) {
-        let _ = writeln!(text, "- {}", words(row));
-    }
-    text.push_str("\n## Never met\n\n");
-    for (row, _) in robust(false) {
-        let _ = writeln!(text, "- {}", words(row));
-    }
-    text.push_str("\n## Rest on tuning\n\n");
-    for (row, base) in &turning {
-        let own = if base.holds {
-            "holds here"
-        } else {
-            "does not hold here"
-        };
-        let _ = writeln!(text, "- {} ({own})", words(row));
-        if let Rests::On(list) = row.rests() {
-            for line in list {
+    for answer in [Answer::HoldsRobustly, Answer::Holds, Answer::DoesNot] {
+        let mut words = answer.words().to_owned();
+        words[..1].make_ascii_uppercase();
+        let _ = writeln!(text, "\n## {words}\n");
+        for row in claims.iter().filter(|row| row.answer == answer) {
+            let _ = writeln!(text, "- {}", row.paper);
+            for line in &row.depends_on {
                 let _ = writeln!(text, "  - {line}");
             }
         }
@@ -351,11 +306,11 @@ fn sensitivity_markdown(all: &Sensitivity) -> String {
     }
     text.push_str("\nThe two shocks run at the study's accuracy. ");
     if all.coarse.is_empty() {
-        let left: Vec<String> = all
+        let left: Vec<&str> = all
             .rows
             .iter()
             .filter(|row| row.base.is_none())
-            .map(words)
+            .filter_map(|row| Some(row.claim()?.words))
             .collect();
         let _ = write!(
             text,
@@ -560,6 +515,71 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::{CLAIMS, Finding, rows};
+
+    #[test]
+    fn both_pages_give_every_statement_the_same_answer() {
+        let finding = |holds| {
+            Some(Finding {
+                value: Some(1.0),
+                holds,
+                ..Finding::default()
+            })
+        };
+        // Every statement met by the coarse search at every end; the second is not by the study itself.
+        let found = Some(Found {
+            value: None,
+            holds: true,
+        });
+        let all = Sensitivity {
+            study: "d".into(),
+            program: "opshock".into(),
+            physics: None,
+            coarse: vec!["a".into()],
+            rows: CLAIMS
+                .iter()
+                .map(|claim| Row {
+                    claim: claim.id.into(),
+                    base: found,
+                    sides: Vec::new(),
+                })
+                .collect(),
+        };
+        let own = (0..CLAIMS.len()).map(|place| finding(place != 1)).collect();
+        let claims = rows(own, &[], Some(&all));
+        let rests = sensitivity_markdown(&all, &claims);
+        let table = ClaimTable {
+            study: "s".into(),
+            digest: "d".into(),
+            program: "opshock".into(),
+            critical: None,
+            has_sensitivity: true,
+            claims,
+        };
+        let table = table.markdown();
+        for page in [&rests, &table] {
+            let told = "37 statements: 36 hold with the study's own values, 1 do not. Of these 36, 36 hold robustly,";
+            assert!(page.contains(told), "{page}");
+        }
+        let (robust, not) = rests.split_once("## Does not hold").expect("a heading");
+        for (place, claim) in CLAIMS.iter().enumerate() {
+            let (line, cells) = (
+                format!("\n- {}\n", claim.words),
+                format!("| {} |", claim.words),
+            );
+            let row = table
+                .lines()
+                .find(|row| row.contains(&cells))
+                .expect("a row");
+            assert_eq!(robust.contains(&line), place != 1);
+            assert_eq!(not.contains(&line), place == 1);
+            assert_eq!(row.contains("| holds robustly |"), place != 1);
+            assert_eq!(
+                row.contains("| does not hold with the study's own values |"),
+                place == 1
+            );
+        }
+    }
 
     #[test]
     fn numbers_keep_four_digits_and_changes_two() {

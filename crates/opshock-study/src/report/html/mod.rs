@@ -29,7 +29,7 @@ pub struct ReportSource<'a> {
     pub summary: &'a Summary,
     /// Every simulation.
     pub runs: &'a [RunDot],
-    /// Program, as `provenance::program()` names it.
+    /// Program that swept the store, as `provenance::program()` names it.
     pub program: &'a str,
     /// The study with every default written out, when the store has it.
     pub resolved_study: Option<&'a str>,

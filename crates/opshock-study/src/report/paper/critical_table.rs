@@ -33,18 +33,19 @@ pub enum TableError {
     },
 }
 
-/// Reads the `table.csv` of a report. What the table leaves out (parts of the bars, brackets,
-/// totals) is empty.
+/// Reads the `table.csv` of a report; beside it the BLAKE3 of the file. What the table leaves out
+/// (parts of the bars, brackets, totals) is empty.
 ///
 /// # Errors
 ///
 /// [`TableError`] with file, line and column.
-pub fn read_table(path: &Path) -> Result<Summary, TableError> {
+pub fn read_table(path: &Path) -> Result<(Summary, String), TableError> {
     let text = std::fs::read_to_string(path).map_err(|source| TableError::Io {
         path: path.display().to_string(),
         source,
     })?;
-    parse(&text, &path.display().to_string())
+    let digest = blake3::hash(text.as_bytes()).to_hex().to_string();
+    Ok((parse(&text, &path.display().to_string())?, digest))
 }
 
 fn parse(text: &str, path: &str) -> Result<Summary, TableError> {

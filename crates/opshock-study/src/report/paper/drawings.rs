@@ -324,9 +324,7 @@ fn drawing(
         csv: corners_csv(&outlines, marks),
         figure: Figure {
             title: title.into(),
-            subtitle: format!(
-                "disk, contact points and head to scale; after the paper's Fig. {number}   [{program}]"
-            ),
+            subtitle: format!("to scale; after the paper's Fig. {number}   [{program}]"),
             columns: 1,
             panel_px,
             panels: vec![Panel {

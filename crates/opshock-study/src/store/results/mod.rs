@@ -26,6 +26,7 @@ use opshock_solver::scene::knob::Levels;
 use super::history::KeptRun;
 use super::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
 use super::summary::Summary;
+use crate::provenance;
 use crate::search::{ProbeResult, Purpose};
 
 /// Number of the format of `results.h5`; raised when an older reader would go wrong.
@@ -90,6 +91,14 @@ pub struct Session {
     pub threads: usize,
     /// Start of the process, seconds since 1970.
     pub started_unix_s: f64,
+}
+
+impl Session {
+    /// The program, as [`provenance::program`] names it.
+    pub fn program(&self) -> String {
+        let physics = [self.physics_structure, self.physics_head];
+        provenance::program_of(&self.program_version, &self.commit, physics)
+    }
 }
 
 /// Content of `results.h5`.
