@@ -39,13 +39,22 @@ fn a_lasting_contact_takes_less_energy_the_finer_the_step() {
         outcome(&paper("rigid", 2.0, &sets), 400.0)
     };
     let [coarse, fine] = ["0.25", "0.125"].map(at);
-    for (run, share) in [(&coarse, 1e-4), (&fine, 1e-5)] {
+    for (run, share) in [(&coarse, 1e-4), (&fine, 3e-5)] {
         let taken = run.energy.algorithmic_j / run.energy.h_peak_j;
         assert!(taken <= 0.0 && taken > -share, "{taken:e}");
         assert!(run.energy.closure.abs() < 1e-9);
     }
     let change = impulse(&coarse) / impulse(&fine) - 1.0;
-    assert!(change.abs() < 1e-3, "{change:e}");
+    assert!(change.abs() < 2e-4, "{change:e}");
+    // What it takes it takes from the damping: all that is lost hardly depends on the step.
+    let [lost, lost_finely] = [&coarse, &fine].map(|run| {
+        let e = &run.energy;
+        (e.damping_loss_j + e.impact_loss_j - e.algorithmic_j) / e.h_peak_j
+    });
+    assert!(
+        (lost - lost_finely).abs() < 1e-5,
+        "{lost:e} {lost_finely:e}"
+    );
 }
 
 /// Under the slider the motion after a blow is that of few modes; a hard contact of the same scene
@@ -86,20 +95,24 @@ fn motion_under_the_slider_converges_with_the_disks_modes() {
     assert!(hard > 2.0 * soft, "{hard} {soft}");
 }
 
-/// With a rigid ramp the spring is the arm's only mode: the same bits as such an arm.
+/// With a rigid ramp the spring is the arm's only mode: as the step shrinks it moves as such an arm.
 #[test]
 fn a_rigid_ramp_with_a_stiffness_is_an_arm_of_one_mode() {
-    let rigid = paper("rigid", 0.5, &[("solver.disk_cut_khz", "20")]);
+    let sets = [
+        ("solver.disk_cut_khz", "20"),
+        ("solver.structure_step_us", "0.03125"),
+    ];
+    let rigid = paper("rigid", 0.5, &sets);
     let stiffness = rigid
         .ramp
         .contact_stiffness_n_per_m
         .expect("the study has one");
-    let frequency_hz = 4.0e5;
+    let frequency_hz = rigid.ramp.contact_frequency_hz;
     let arm = vec![ArmMode {
         frequency_hz,
         mass_kg: stiffness / (std::f64::consts::TAU * frequency_hz).powi(2),
         participation: 0.0,
-        damping_ratio: 0.5,
+        damping_ratio: rigid.ramp.contact_damping_ratio,
     }];
     let mut alike = rigid.clone();
     alike.ramp.contact_stiffness_n_per_m = None;
@@ -108,10 +121,12 @@ fn a_rigid_ramp_with_a_stiffness_is_an_arm_of_one_mode() {
         bottom: arm,
     };
     let [a, b] = [&rigid, &alike].map(|scene| outcome(scene, 250.0));
+    assert_eq!(a.top.first_touch_s, b.top.first_touch_s);
     assert!(a.top.first_touch_s.is_some());
-    assert_eq!(a.top, b.top);
-    assert_eq!(a.disk, b.disk);
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-4;
+    assert!(near(impulse(&a), impulse(&b)), "{:?} {:?}", a.top, b.top);
+    assert!(near(a.disk.slider_max_m, b.disk.slider_max_m));
     // Below first touch it is the motion without any ramp.
-    let none = paper("none", 0.5, &[("solver.disk_cut_khz", "20")]);
+    let none = paper("none", 0.5, &sets);
     assert_eq!(outcome(&none, 150.0).disk, outcome(&rigid, 150.0).disk);
 }

@@ -3,6 +3,7 @@
 mod base;
 mod bodies;
 mod contact;
+mod contact_energy;
 mod contact_method;
 mod contact_stiffness;
 mod coupled_ramp;

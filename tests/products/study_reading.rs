@@ -87,6 +87,7 @@ fn the_table_of_keys_is_consistent() {
         "poisson",
         "modal_ratio",
         "damping_ratio",
+        "contact_damping_ratio",
         "participation",
         "restitution",
         "rise_share",
@@ -228,10 +229,13 @@ fn every_value_changes_the_digest_and_is_written_out() {
             continue;
         };
         let set = format!("{}={value}", key.path);
-        // A hub has both stiffnesses, an oblique shock a hub, a stop its gap.
+        // A hub has both stiffnesses, an oblique shock a hub, a stop its gap, a contact's spring a stiffness.
         let around: &[&str] = match key.path {
             path if path.starts_with("hub.") || key.code == "E138" => &HUB,
             path if path.starts_with("suspension.li") => &STOPS,
+            "ramp.contact_frequency_khz" | "ramp.contact_damping_ratio" => {
+                &["ramp.contact_stiffness_n_per_m=1.0e6"]
+            }
             // A repulsion ends an attraction.
             "surface_forces.repulsion_j_m6" => &["surface_forces.hamaker_j=1.0e-19"],
             _ => &[],

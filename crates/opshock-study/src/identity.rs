@@ -8,7 +8,9 @@
 use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::GasParameters;
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use opshock_solver::ramp::{
+    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
+};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
@@ -396,6 +398,8 @@ impl Digester {
             angle_rad,
             restitution,
             contact_stiffness_n_per_m,
+            contact_frequency_hz,
+            contact_damping_ratio,
         } = ramp;
         self.numbers(&[
             *clearance_top_m,
@@ -404,10 +408,15 @@ impl Digester {
             *angle_rad,
             *restitution,
         ]);
-        // A hard contact keeps the identity that it had before the stiffness was a parameter.
+        // What a scene does not say keeps the identity that it had before it was a parameter.
         if let Some(stiffness) = contact_stiffness_n_per_m {
             self.text("contact stiffness");
             self.numbers(&[*stiffness]);
+            let spring = [*contact_frequency_hz, *contact_damping_ratio];
+            if spring != [CONTACT_FREQUENCY_HZ, CONTACT_DAMPING_RATIO] {
+                self.text("contact spring");
+                self.numbers(&spring);
+            }
         }
         match model {
             RampModel::None => self.text("none"),

@@ -41,15 +41,52 @@ pub trait UnilateralSystem {
     fn longest_aim_s(&self) -> f64 {
         f64::INFINITY
     }
-    /// Energy per squared impulse that damping takes in one step from the ripple which a train of
-    /// equal impulses, one per step, makes of a constant force, 1/kg; none by default.
-    fn ripple_loss(&self) -> [[f64; 2]; 2] {
-        [[0.0; 2]; 2]
+    /// What impulses of a lasting contact may give back of what damping takes; nothing by default.
+    fn refund(&self) -> Refund {
+        Refund::default()
     }
     /// Applies impulses (N s) now, and to the state ahead what they lead to.
     fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind);
     /// Makes ahead the new now.
     fn commit(&mut self);
+}
+
+/// Most energy that impulses P now may give back, J: Σ c + s P + P·R P.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Refund {
+    /// c, without an impulse of the contact, J.
+    pub constant_j: [f64; 2],
+    /// s, m/s.
+    pub slope_m_per_s: [f64; 2],
+    /// R, 1/kg.
+    pub square_per_kg: [[f64; 2]; 2],
+}
+
+impl Refund {
+    /// What `impulse_n_s` may give back, J: of the contacts that have one.
+    pub fn of(&self, impulse_n_s: [f64; 2]) -> f64 {
+        -self.excess([0.0; 2], impulse_n_s)
+    }
+
+    /// Energy of `impulse_n_s` on gaps of mean rates `mean_m_per_s` before and after, less
+    /// [`Self::of`], J.
+    fn excess(&self, mean_m_per_s: [f64; 2], impulse_n_s: [f64; 2]) -> f64 {
+        let squares = product(self.square_per_kg, impulse_n_s);
+        let of_contact = |i: usize| match impulse_n_s[i] {
+            0.0 => 0.0,
+            p => p * (mean_m_per_s[i] - squares[i] - self.slope_m_per_s[i]) - self.constant_j[i],
+        };
+        of_contact(0) + of_contact(1)
+    }
+
+    /// Largest impulse of contact `i` alone, of mobility `w`, which `stop` stops dead: the larger root
+    /// of P v + ½ w P² = c + s P + R P² with v = −w stop.
+    fn largest(&self, i: usize, w: f64, stop: f64) -> f64 {
+        let alpha = 1.0 - 2.0 * self.square_per_kg[i][i] / w;
+        let beta = 1.0 + self.slope_m_per_s[i] / (w * stop);
+        let constant = 2.0 * self.constant_j[i] / (w * stop * stop);
+        stop * (beta + (beta * beta + alpha * constant).max(0.0).sqrt()) / alpha
+    }
 }
 
 /// The law of impact and its numerical limits.
@@ -158,7 +195,7 @@ fn begin_at_node(
         collide(system, left_s, n, law, memory, report);
         system.look_ahead(left_s);
     } else if closed[0] || closed[1] {
-        let p = aimed_impulse(system, closed, system.ripple_loss());
+        let p = aimed_impulse(system, closed, system.refund());
         if p != [0.0; 2] {
             system.impulse(p, ImpulseKind::Sustained);
         }
@@ -183,7 +220,7 @@ fn collide(
         lcp::solve(system.mobility(), target, closed).unwrap_or([0.0; 2])
     } else {
         report.accumulated |= law.restitution > 0.0;
-        let p = aimed_impulse(system, closed, [[0.0; 2]; 2]);
+        let p = aimed_impulse(system, closed, Refund::default());
         for (lasting, p) in memory.lasting.iter_mut().zip(p) {
             *lasting |= p > 0.0;
         }
@@ -195,12 +232,8 @@ fn collide(
 }
 
 /// Impulse now that brings the gaps ahead to zero, between stopping dead and the energy bound
-/// P·v⁻ + ½ P·W P ≤ P·R P with `refund` R.
-fn aimed_impulse(
-    system: &impl UnilateralSystem,
-    closed: [bool; 2],
-    refund: [[f64; 2]; 2],
-) -> [f64; 2] {
+/// P·v⁻ + ½ P·W P ≤ `refund` of P.
+fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2], refund: Refund) -> [f64; 2] {
     let (now, ahead) = (system.gaps(), system.gaps_ahead());
     let w = system.mobility();
     let rate = [now[0].rate_m_per_s, now[1].rate_m_per_s];
@@ -216,8 +249,8 @@ fn aimed_impulse(
         if stop[i] == 0.0 {
             return 0.0;
         }
-        let largest = 2.0 * stop[i] / (1.0 - 2.0 * refund[i][i] / w[i][i]);
-        aim[i].clamp(stop[i], largest)
+        let largest = refund.largest(i, w[i][i], stop[i]);
+        aim[i].clamp(stop[i], largest.max(stop[i]))
     });
     if !(closed[0] && closed[1]) {
         return bounded;
@@ -227,10 +260,8 @@ fn aimed_impulse(
     let beyond = [bounded[0] - stop[0], bounded[1] - stop[1]];
     let at = |share: f64| [stop[0] + share * beyond[0], stop[1] + share * beyond[1]];
     let energy = |p: [f64; 2]| {
-        let (wp, rp) = (product(w, p), product(refund, p));
-        (0..2)
-            .map(|i| p[i] * (rate[i] + 0.5 * wp[i] - rp[i]))
-            .sum::<f64>()
+        let wp = product(w, p);
+        refund.excess(std::array::from_fn(|i| rate[i] + 0.5 * wp[i]), p)
     };
     // A quadratic in the share through its values at 0, 1/2 and 1, negative at 0.
     let (e0, e1, e2) = (energy(at(0.0)), energy(at(0.5)), energy(at(1.0)));

@@ -9,5 +9,5 @@ pub mod lcp;
 pub mod moreau_jean;
 
 pub use advance::{
-    ContactMemory, Gap, ImpactLaw, ImpulseKind, StepReport, UnilateralSystem, advance,
+    ContactMemory, Gap, ImpactLaw, ImpulseKind, Refund, StepReport, UnilateralSystem, advance,
 };

@@ -176,6 +176,15 @@ impl Oscillator {
         2.0 * self.eta() * integral
     }
 
+    /// Displacement at the instants of equal impulses, one per step of `h_s`, over that by a constant
+    /// force of the same sum: (ωh/2) cot(ωh/2) without damping, below 1. Without turn.
+    pub fn train_share(&self, h_s: f64) -> f64 {
+        // The periodic motion: q comes back to itself, r to what the impulse, 1, takes it from.
+        let flow = self.flow(h_s);
+        let (qq, qr, rq, rr) = (flow.qq.re, flow.qr.re, flow.rq.re, flow.rr.re);
+        self.omega_rad_per_s * self.omega_rad_per_s * h_s * qr / (qq * rr - qr * rq)
+    }
+
     /// Energy of the material, J for unit mass and q in m kg^½.
     pub fn material_energy(&self, q: Complex<f64>, r: Complex<f64>) -> f64 {
         let s = r + Complex::new(0.0, self.turn_rad_per_s) * q;

@@ -1,12 +1,12 @@
 //! How a structural model is put together.
 
-use super::bank::Bank;
+use super::bank::{Bank, Spring};
 use super::driven::{Arm, Driven};
 use super::free_motion::FreeMotion;
 use super::model::{StructureError, StructureModel, StructureParameters, StructureWarning};
 use super::rotor::{Rotor, is_carried};
 use super::shared::{Asleep, Shared};
-use super::{SliderPlace, Window};
+use super::{ContactMethod, SliderPlace, Window};
 use crate::complementarity::ImpactLaw;
 use crate::disk::{
     self, DiskBasis, DiskMode, DiskModes, DiskParameters, DiskResolution, Harmonics,
@@ -88,6 +88,7 @@ impl StructureModel {
             slider,
             oblique: oblique.copied(),
             is_on_base: !base.is_empty(),
+            method: resolution.contact,
             step_s,
         };
         let (mut bank, arms) = assembly.bank(&basis.modes);
@@ -163,6 +164,7 @@ struct Assembly {
     slider: SliderPlace,
     oblique: Option<ObliqueShock>,
     is_on_base: bool,
+    method: ContactMethod,
     step_s: f64,
 }
 
@@ -171,15 +173,12 @@ impl Assembly {
     fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
         let Self { disk, ramp, .. } = self;
         let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.is_on_base);
-        let stiffness = match ramp.model {
-            RampModel::None => None,
-            _ => ramp.contact_stiffness_n_per_m,
-        };
-        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, stiffness, self.step_s);
+        let spring = Spring::of(ramp, self.method, self.step_s);
+        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, spring, self.step_s);
         let arms = match &ramp.model {
             RampModel::None | RampModel::Rigid => [add(&[]), add(&[])],
             RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
-            RampModel::Coupled { modes } => bank.add_coupled(modes, stiffness, self.step_s),
+            RampModel::Coupled { modes } => bank.add_coupled(modes, spring, self.step_s),
         };
         if let Some(shock) = &self.oblique {
             // A turning base shakes the ramp by another axial load than the spindle.

@@ -1,5 +1,6 @@
 //! Disk and arms put together as one bank of oscillators.
 
+use super::ContactMethod;
 use super::driven::Arm;
 use super::free_motion::{ForcedModes, ForcedShapes};
 use super::model::SliderPlace;
@@ -7,17 +8,47 @@ use super::rotor::RidingMode;
 use crate::disk::{DiskMode, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
-use crate::ramp::{ArmMode, CoupledMode};
+use crate::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 
 /// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
 const FASTEST_ARM_ANGLE: f64 = 1.5;
-/// Frequency of the contact's spring on its mass, Hz: above what a blow carries to the slider. The
-/// mass must not vanish with the step, or the impulses of a lasting contact, one a step, would take
-/// the spring's energy at every step.
-const SPRING_HZ: f64 = 4.0e5;
-/// Its damping ratio there: ringing at that frequency is no physics. It is a loss factor of 6 % at
-/// 25 kHz, as polymers have it.
-const SPRING_DAMPING: f64 = 0.5;
+
+/// The spring of a contact: one more mode of its arm.
+#[derive(Clone, Copy)]
+pub(super) struct Spring {
+    mode: ArmMode,
+}
+
+impl Spring {
+    /// The spring of `ramp` if it has one. The exact flow carries a force as impulses, one a step, at
+    /// which the spring is shorter than in the mean by 1 − [`Oscillator::train_share`]; its mass makes
+    /// up for that, so that a lasting contact has the stiffness given at its nodes.
+    pub fn of(ramp: &RampParameters, method: ContactMethod, step_s: f64) -> Option<Self> {
+        let stiffness_n_per_m = ramp.contact_stiffness_n_per_m?;
+        let (frequency_hz, damping_ratio) = (ramp.contact_frequency_hz, ramp.contact_damping_ratio);
+        let resolved_hz = frequency_hz.min(fastest_arm_hz(step_s));
+        let share = match method {
+            ContactMethod::ExactFlow => {
+                let omega = std::f64::consts::TAU * resolved_hz;
+                Oscillator::fixed(omega, damping_ratio).train_share(step_s)
+            }
+            ContactMethod::MoreauJean => 1.0,
+        };
+        (ramp.model != RampModel::None).then_some(Self {
+            mode: ArmMode {
+                frequency_hz,
+                mass_kg: share * stiffness_n_per_m / (std::f64::consts::TAU * frequency_hz).powi(2),
+                participation: 0.0,
+                damping_ratio,
+            },
+        })
+    }
+}
+
+/// Fastest mode of an arm that steps resolve, Hz.
+fn fastest_arm_hz(step_s: f64) -> f64 {
+    FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s)
+}
 
 /// Columns over all oscillators while they are put together.
 pub(super) struct Bank {
@@ -29,6 +60,8 @@ pub(super) struct Bank {
     pub contact: Vec<f64>,
     pub contact_turn: Vec<f64>,
     pub arm_shape: [Vec<f64>; 2],
+    /// Bank index of the mode of each contact's spring; none of hard contacts.
+    pub springs: Vec<usize>,
     pub n_arms: usize,
     pub n_slowed: usize,
     pub rim: Vec<f64>,
@@ -61,6 +94,7 @@ impl Bank {
             contact: zero(),
             contact_turn: zero(),
             arm_shape: [zero(), zero()],
+            springs: Vec::new(),
             n_arms: 0,
             n_slowed: 0,
             rim: zero(),
@@ -128,18 +162,10 @@ impl Bank {
     /// Appends the modes of an arm. A mode too fast for the step is slowed to
     /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: its stiffness, its load and so all slow
     /// motion stay as they are.
-    ///
-    /// A contact stiffness is one more mode.
-    pub fn add_arm(&mut self, modes: &[ArmMode], stiffness: Option<f64>, step_s: f64) -> Arm {
+    pub fn add_arm(&mut self, modes: &[ArmMode], spring: Option<Spring>, step_s: f64) -> Arm {
         let start = self.oscillators.len();
-        let fastest_hz = FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s);
-        let spring = stiffness.map(|stiffness_n_per_m| ArmMode {
-            frequency_hz: SPRING_HZ,
-            mass_kg: stiffness_n_per_m / (std::f64::consts::TAU * SPRING_HZ).powi(2),
-            participation: 0.0,
-            damping_ratio: SPRING_DAMPING,
-        });
-        for mut mode in modes.iter().copied().chain(spring) {
+        let fastest_hz = fastest_arm_hz(step_s);
+        for mut mode in modes.iter().copied().chain(spring.map(|s| s.mode)) {
             if mode.frequency_hz > fastest_hz {
                 let gain = (mode.frequency_hz / fastest_hz).powi(2);
                 mode.frequency_hz = fastest_hz;
@@ -173,6 +199,8 @@ impl Bank {
             column.resize(self.forced.oscillators.len() - 1, 0.0);
             column.push(shape);
         }
+        self.springs
+            .extend(spring.map(|_| self.oscillators.len() - 1));
         self.n_arms += 1;
         Arm {
             modes: start..self.oscillators.len(),
@@ -180,25 +208,25 @@ impl Bank {
     }
 
     /// Appends the modes of a body that holds both arms. One too fast for the step is slowed as in
-    /// [`Self::add_arm`]: φ/ω and p/ω stay. A contact stiffness is one more mode per arm.
+    /// [`Self::add_arm`]: φ/ω and p/ω stay. Each arm has its own `spring`.
     pub fn add_coupled(
         &mut self,
         modes: &[CoupledMode],
-        stiffness: Option<f64>,
+        spring: Option<Spring>,
         step_s: f64,
     ) -> [Arm; 2] {
         let start = self.oscillators.len();
-        let springs = stiffness.into_iter().flat_map(|stiffness_n_per_m| {
-            let shape = std::f64::consts::TAU * SPRING_HZ / stiffness_n_per_m.sqrt();
+        let springs = spring.into_iter().flat_map(|Spring { mode }| {
+            let shape = mode.mass_kg.sqrt().recip();
             [[shape, 0.0], [0.0, shape]].map(|shape_per_sqrt_kg| CoupledMode {
-                frequency_hz: SPRING_HZ,
+                frequency_hz: mode.frequency_hz,
                 shape_per_sqrt_kg,
                 participation_sqrt_kg: 0.0,
-                damping_ratio: SPRING_DAMPING,
+                damping_ratio: mode.damping_ratio,
             })
         });
+        let fastest_hz = fastest_arm_hz(step_s);
         for mode in modes.iter().copied().chain(springs) {
-            let fastest_hz = FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s);
             let share = (fastest_hz / mode.frequency_hz).min(1.0);
             self.n_slowed += usize::from(share < 1.0);
             let omega = std::f64::consts::TAU * mode.frequency_hz * share;
@@ -223,7 +251,10 @@ impl Bank {
             }
         }
         self.n_arms += 2;
-        let modes = start..self.oscillators.len();
+        let end = self.oscillators.len();
+        let modes = start..end;
+        self.springs
+            .extend(spring.into_iter().flat_map(|_| [end - 2, end - 1]));
         [0, 1].map(|_| Arm {
             modes: modes.clone(),
         })

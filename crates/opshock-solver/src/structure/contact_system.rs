@@ -9,7 +9,7 @@ use super::free_motion::Sample;
 use super::history::Break;
 use super::rotor::{self, RotorState};
 use super::run_books::RunBooks;
-use crate::complementarity::{Gap, ImpulseKind, StepReport, UnilateralSystem};
+use crate::complementarity::{Gap, ImpulseKind, Refund, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::lanes::abreast;
 use crate::modal::ModalState;
@@ -299,8 +299,8 @@ impl UnilateralSystem for ContactSystem<'_> {
         compliance
     }
 
-    fn ripple_loss(&self) -> [[f64; 2]; 2] {
-        self.driven.ripple_loss
+    fn refund(&self) -> Refund {
+        self.driven.refund(&self.run.state.now)
     }
 
     fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind) {
@@ -316,12 +316,15 @@ impl UnilateralSystem for ContactSystem<'_> {
             ImpulseKind::Impact => self.run.ledger.impact -= change,
             ImpulseKind::Sustained => {
                 // Damping of the ripple is the impulses' doing and not the structure's.
-                let r = driven.ripple_loss;
-                let ripple: f64 = (0..2)
-                    .map(|i| p[i] * (r[i][0] * p[0] + r[i][1] * p[1]))
-                    .sum();
-                self.run.ledger.algorithmic += change - ripple;
-                self.run.ledger.damping.add(-ripple);
+                let back = driven.ripple_of(p).min(self.refund().of(p));
+                let algorithmic = self.run.ledger.algorithmic + (change - back);
+                // What springs give back beyond that is damping, too.
+                let beyond = match driven.has_springs() {
+                    true => algorithmic.max(0.0),
+                    false => 0.0,
+                };
+                self.run.ledger.algorithmic = algorithmic - beyond;
+                self.run.ledger.damping.add(-back - beyond);
             }
         }
         let on_disk = p[1] - p[0];

@@ -9,15 +9,27 @@ use super::flight::Flight;
 use super::model::StructureWarning;
 use super::rotor::{self, Rotor};
 use super::stride::Outlook;
+use crate::complementarity::Refund;
 use crate::disk::{DiskBasis, DiskMode, DiskPose};
 use crate::modal::bank::padded;
-use crate::modal::{BankFlow, Oscillator, PartFlows, Readout};
+use crate::modal::{BankFlow, LossForm, ModalState, Oscillator, PartFlows, Readout};
 use std::ops::Range;
 
 /// One arm in the bank of oscillators.
 pub(super) struct Arm {
     /// Indices of its modes in the bank.
     pub modes: Range<usize>,
+}
+
+/// The spring of a contact in the bank of oscillators.
+pub(super) struct DrivenSpring {
+    mode: usize,
+    /// Jump of the mode's velocity per impulse of the contact, 1/√kg.
+    push: f64,
+    /// Loss in a step: no shock drives the spring.
+    loss: LossForm,
+    /// What an even train of unit impulses would lose.
+    ripple_loss: f64,
 }
 
 /// The bank of oscillators and what is read from it.
@@ -56,6 +68,8 @@ pub(super) struct Driven {
     pub flight: Option<Flight>,
     pub mobility: [[f64; 2]; 2],
     pub ripple_loss: [[f64; 2]; 2],
+    /// Springs of both contacts; none of hard ones.
+    springs: Vec<DrivenSpring>,
     /// Harmonics left out, waves that grow.
     pub warnings: Vec<StructureWarning>,
 }
@@ -90,6 +104,16 @@ impl Driven {
         }
         let outlook = Outlook::new(&bank.contact, &step_flow);
         let part_flows = PartFlows::new(&bank.oscillators);
+        let spring = |(side, &mode): (usize, &usize)| {
+            let (sign, o) = ([1.0, -1.0][side], &bank.oscillators[mode]);
+            DrivenSpring {
+                mode,
+                push: sign * bank.arm_shape[side][mode],
+                loss: o.loss_form(step_s),
+                ripple_loss: o.ripple_loss(step_s),
+            }
+        };
+        let springs = bank.springs.iter().enumerate().map(spring).collect();
         let mut driven = Self {
             weights: EnergyWeights::new(&bank.oscillators),
             step_loss: LossWeights::new(&bank.oscillators, &bank.forced_index, step_s),
@@ -111,6 +135,7 @@ impl Driven {
             step_compliance: [[0.0; 2]; 2],
             mobility,
             ripple_loss,
+            springs,
             warnings,
         };
         driven.step_compliance = driven.compliance(&driven.step_flow);
@@ -136,6 +161,36 @@ impl Driven {
             [disk + across(top, top), -other],
             [-other, disk + across(bottom, bottom)],
         ]
+    }
+
+    /// Whether contacts have a stiffness.
+    pub fn has_springs(&self) -> bool {
+        !self.springs.is_empty()
+    }
+
+    /// Loss of the ripple of equal `impulses`, one a step, J.
+    pub fn ripple_of(&self, impulses: [f64; 2]) -> f64 {
+        let (p, r) = (impulses, self.ripple_loss);
+        (0..2)
+            .map(|i| p[i] * (r[i][0] * p[0] + r[i][1] * p[1]))
+            .sum()
+    }
+
+    /// What impulses of a lasting contact may give back of the damping in the step ahead of `now`: of
+    /// the springs what they lose in it, of all else what an even train of impulses would.
+    pub fn refund(&self, now: &ModalState) -> Refund {
+        let mut refund = Refund {
+            square_per_kg: self.ripple_loss,
+            ..Refund::default()
+        };
+        for (side, spring) in self.springs.iter().enumerate() {
+            let (push, loss) = (spring.push, &spring.loss);
+            let (q, r) = (now.q_re[spring.mode], now.r_re[spring.mode]);
+            refund.constant_j[side] = loss.loss(q.into(), r.into());
+            refund.slope_m_per_s[side] = 2.0 * push * (loss.rr * r + loss.qr.re * q);
+            refund.square_per_kg[side][side] += push * push * (loss.rr - spring.ripple_loss);
+        }
+        refund
     }
 
     /// Modes of the arms with padding, which the disk's follow.
@@ -180,7 +235,7 @@ fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
     }
     let oscillator = |at: &Option<usize>| at.map(|i| bank.oscillators[i]).unwrap_or_default();
     bank.oscillators = order.iter().map(oscillator).collect();
-    for index in &mut bank.forced_index {
+    for index in bank.forced_index.iter_mut().chain(&mut bank.springs) {
         let place = order.iter().position(|at| *at == Some(*index));
         *index = place.expect("every mode has a place");
     }

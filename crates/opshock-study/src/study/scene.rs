@@ -5,7 +5,9 @@
 use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use opshock_solver::ramp::{
+    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
+};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
@@ -364,6 +366,12 @@ fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
         angle_rad: view.si("ramp.angle_deg"),
         restitution: view.si("ramp.restitution"),
         contact_stiffness_n_per_m: view.maybe_si("ramp.contact_stiffness_n_per_m"),
+        contact_frequency_hz: view
+            .maybe_si("ramp.contact_frequency_khz")
+            .unwrap_or(CONTACT_FREQUENCY_HZ),
+        contact_damping_ratio: view
+            .maybe_si("ramp.contact_damping_ratio")
+            .unwrap_or(CONTACT_DAMPING_RATIO),
     }
 }
 

@@ -2,7 +2,9 @@
 
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
-use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
+use opshock_solver::ramp::{
+    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampModel, RampParameters,
+};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::structure::{
     ContactMethod, SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
@@ -184,6 +186,8 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
             angle_rad: 0.0,
             restitution: 0.0,
             contact_stiffness_n_per_m: None,
+            contact_frequency_hz: CONTACT_FREQUENCY_HZ,
+            contact_damping_ratio: CONTACT_DAMPING_RATIO,
         },
         slider: SliderPlace {
             radius_m: 0.02125,

@@ -54,6 +54,14 @@ impl Check<'_, '_> {
             let fault = self.fault("E136", &contact, message);
             fault.allowed = "restitution = 0, or no contact_stiffness_n_per_m".to_string();
         }
+        for path in ["ramp.contact_frequency_khz", "ramp.contact_damping_ratio"] {
+            let given = self.sound(&[path]) && self.view.maybe_number(path).is_some();
+            if given && self.view.get(contact[1]).is_none() {
+                let message = "a hard contact has no spring";
+                let fault = self.fault("E136", &[path], message);
+                fault.allowed = "with contact_stiffness_n_per_m".to_string();
+            }
+        }
         for path in [
             "ramp.clearance_um",
             "ramp.clearance_top_um",
