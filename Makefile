@@ -54,6 +54,10 @@ claims: build ## the paper's statements judged, in results/paper/claims.md
 claims-sensitivity: build ## the same, and what each rests on: tornado plot in results/paper/sensitivity.md (20 minutes, resumes)
 	$(OPSHOCK) claims studies/paper-cases/study.toml $(CRITICAL) --out results/paper --sensitivity results/paper/sensitivity -j $(JOBS) > /dev/null
 
+.PHONY: match-paper
+match-paper: build ## which drive makes the paper's statements true: in results/match-paper/ (at most 3 hours at a time; goes on where it stopped)
+	$(OPSHOCK) match studies/paper-cases/match.toml --store results/match-paper/match.opshock --out results/match-paper --budget 3h -j $(JOBS)
+
 study: build ## run another study: make study NAME=drive-2.5in
 	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }
 	$(OPSHOCK) sweep studies/$(NAME)/study.toml --store results/$(NAME)/$(NAME).opshock -j $(JOBS) $(OR_OPEN)

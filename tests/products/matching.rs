@@ -217,7 +217,7 @@ fn is_kept(planted: &Planted) -> (bool, f64) {
 }
 
 const QUICK: &str = "[draws]\ndisk_and_ramp = 120\nsingle_shocks = 10\n[waves]\ncount = 3\nsamples = 60\n[refinement]\nevaluations = 0\n[numerics]\nprobes = 3\n";
-const WHOLE: &str = "[draws]\ndisk_and_ramp = 400\nsingle_shocks = 20\n[waves]\ncount = 4\nsamples = 120\n[refinement]\nevaluations = 100\n";
+const WHOLE: &str = "[draws]\ndisk_and_ramp = 400\nsingle_shocks = 20\n[waves]\ncount = 12\nsamples = 40\n[refinement]\nevaluations = 100\n";
 
 #[test]
 fn planted_truths_are_kept_and_ranges_narrow() {

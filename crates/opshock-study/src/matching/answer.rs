@@ -1,52 +1,19 @@
 //! What a search says: matching sets, shares of the prior, conflicts, ranges, and what to measure next.
 
+use super::conflicts::{Conflict, conflicts};
 use super::file::MatchProblem;
-use super::observation::{Known, RULED_OUT, Stage};
-use super::search::{Ended, Sample, Searched, WaveReport, hull};
+use super::observation::{Known, RULED_OUT};
+use super::sample::Sample;
+use super::search::{Ended, Searched, WaveReport, hull};
+use super::share::Share;
 use serde::Serialize;
-use statrs::distribution::{Beta, ContinuousCDF as _};
 
 /// Sets of the gallery.
 const GALLERY: usize = 12;
-/// Largest group of observations that is looked at.
-const LARGEST_GROUP: usize = 4;
-/// Groups listed at most.
-const MOST_GROUPS: usize = 200;
 /// Plausible sets for every parameter and one from which ranges are told.
 const SETS_A_DIMENSION: usize = 10;
 /// Numbers compared for what a further measurement would leave.
 const MOST_PAIRED: usize = 400;
-
-/// A share of the prior.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Share {
-    /// Draws with it.
-    pub with: u64,
-    /// Independent draws of the prior.
-    pub of: u64,
-    /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); with none, the upper end
-    /// is one-sided, about 3/n.
-    pub interval: [f64; 2],
-}
-
-impl Share {
-    /// Of `with` among `of` independent draws.
-    pub fn of(with: u64, of: u64) -> Self {
-        let (k, n) = (with as f64, of as f64);
-        let quantile =
-            |a: f64, b: f64, p: f64| Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p));
-        let interval = match (with, of) {
-            (_, 0) => [0.0, 1.0],
-            (0, _) => [0.0, 1.0 - 0.05_f64.powf(1.0 / n)],
-            (k, n) if k == n => [0.05_f64.powf(1.0 / n as f64), 1.0],
-            _ => [
-                quantile(k, n - k + 1.0, 0.025),
-                quantile(k + 1.0, n - k, 0.975),
-            ],
-        };
-        Self { with, of, interval }
-    }
-}
 
 /// An observation's line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -106,17 +73,6 @@ pub struct MatchingSet {
     pub fails: Vec<String>,
 }
 
-/// Observations that no set satisfies together.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Conflict {
-    /// Their names; none of them can be left out.
-    pub observations: Vec<String>,
-    /// Sets, of all waves, of which all of them are known.
-    pub tried: u64,
-    /// Independent draws among these, none of which satisfies all.
-    pub share: Share,
-}
-
 /// What measuring a number would leave of the matching sets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Narrowing {
@@ -163,32 +119,33 @@ impl MatchAnswer {
     /// From what was searched.
     pub fn of(problem: &MatchProblem, found: &Searched) -> Self {
         let told = Told { problem, found };
-        let whole: Vec<&Sample> = found
-            .samples
-            .iter()
-            .filter(|one| told.is_whole(one))
-            .collect();
+        let seen = &problem.observations[..];
+        let whole: Vec<&Sample> = found.samples.iter().filter(|one| one.is_whole()).collect();
         let mut holding: Vec<&Sample> = whole
             .iter()
             .copied()
-            .filter(|one| told.fails(one).is_empty())
+            .filter(|one| one.fails(seen).is_empty())
             .collect();
-        holding.sort_by(|a, b| told.smallest(b).0.total_cmp(&told.smallest(a).0));
+        holding.sort_by(|a, b| {
+            b.smallest_margin(seen)
+                .0
+                .total_cmp(&a.smallest_margin(seen).0)
+        });
         let nearest = whole.iter().max_by(|a, b| {
-            let order = |one: &Sample| std::cmp::Reverse(told.fails(one).len());
+            let order = |one: &Sample| std::cmp::Reverse(one.fails(seen).len());
             order(a)
                 .cmp(&order(b))
-                .then(told.shortfall(b).total_cmp(&told.shortfall(a)))
+                .then(a.score(seen).total_cmp(&b.score(seen)))
         });
         let best = holding.first().or(nearest).copied();
         let gallery = spread(&holding);
         let draws = &found.samples[..found.draws];
-        let asked: Vec<&Sample> = draws.iter().filter(|one| told.is_whole(one)).collect();
+        let asked: Vec<&Sample> = draws.iter().filter(|one| one.is_whole()).collect();
         let all = asked
             .iter()
-            .filter(|one| told.fails(one).is_empty())
+            .filter(|one| one.fails(seen).is_empty())
             .count();
-        let left = asked.iter().filter(|one| !told.is_ruled_out(one)).count();
+        let left = asked.iter().filter(|one| !one.is_ruled_out(seen)).count();
         Self {
             name: problem.name.clone(),
             is_complete: found.ended == Ended::Complete,
@@ -204,7 +161,7 @@ impl MatchAnswer {
                 true => nearest.map(|one| told.set(one)),
                 false => None,
             },
-            conflicts: told.conflicts(),
+            conflicts: conflicts(problem, found),
             next: told.next(&whole),
             tried: found.waves.iter().map(|wave| wave.tried).sum(),
             waves: found.waves.clone(),
@@ -218,52 +175,6 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    fn is_whole(&self, sample: &Sample) -> bool {
-        sample
-            .numbers
-            .iter()
-            .all(|(known, _)| *known != Known::NotAsked)
-    }
-
-    fn is_ruled_out(&self, sample: &Sample) -> bool {
-        let mut all = self.problem.observations.iter().zip(&sample.numbers);
-        all.any(|(one, (known, u))| {
-            one.implausibility(*known, *u)
-                .is_some_and(|i| i >= RULED_OUT)
-        })
-    }
-
-    fn fails(&self, sample: &Sample) -> Vec<usize> {
-        let holds =
-            |k: &usize| self.problem.observations[*k].holds(sample.numbers[*k].0) == Some(false);
-        (0..self.problem.observations.len()).filter(holds).collect()
-    }
-
-    /// Smallest margin and its observation.
-    fn smallest(&self, sample: &Sample) -> (f64, Option<usize>) {
-        let margins = self
-            .problem
-            .observations
-            .iter()
-            .zip(&sample.numbers)
-            .enumerate();
-        margins
-            .filter_map(|(k, (one, (known, u)))| Some((one.margin(*known, *u)?, Some(k))))
-            .fold((f64::INFINITY, None), |least, one| {
-                if one.0 < least.0 { one } else { least }
-            })
-    }
-
-    /// What the observations that fail lack together.
-    fn shortfall(&self, sample: &Sample) -> f64 {
-        let margins = self.problem.observations.iter().zip(&sample.numbers);
-        let margins = margins.filter_map(|(one, (known, u))| one.margin(*known, *u));
-        margins
-            .filter(|margin| *margin < 0.0)
-            .map(|margin| (-margin).min(1e3).ln_1p())
-            .sum()
-    }
-
     fn observation(&self, place: usize, best: Option<&Sample>) -> ObservationRow {
         let one = &self.problem.observations[place];
         let draws = || self.found.samples[..self.found.draws].iter();
@@ -313,7 +224,7 @@ impl Told<'_> {
     fn parameters(&self, whole: &[&Sample]) -> Vec<ParameterRow> {
         let left: Vec<&[f64]> = whole
             .iter()
-            .filter(|one| !self.is_ruled_out(one))
+            .filter(|one| !one.is_ruled_out(&self.problem.observations))
             .map(|one| &one.unit[..])
             .collect();
         let d = self.problem.parameters.len();
@@ -337,7 +248,7 @@ impl Told<'_> {
     }
 
     fn set(&self, sample: &Sample) -> MatchingSet {
-        let (margin, by) = self.smallest(sample);
+        let (margin, by) = sample.smallest_margin(&self.problem.observations);
         let name = |k: usize| self.problem.observations[k].name.clone();
         let values = self.problem.parameters.iter().zip(&sample.unit);
         MatchingSet {
@@ -345,91 +256,19 @@ impl Told<'_> {
             unit: sample.unit.clone(),
             smallest_margin: Some(margin).filter(|margin| margin.is_finite()),
             decided_by: by.map(name).unwrap_or_default(),
-            fails: self.fails(sample).into_iter().map(name).collect(),
+            fails: sample
+                .fails(&self.problem.observations)
+                .into_iter()
+                .map(name)
+                .collect(),
         }
-    }
-
-    /// Smallest groups of observations that no set satisfies together.
-    fn conflicts(&self) -> Vec<Conflict> {
-        let ranged: Vec<usize> = (0..self.problem.observations.len())
-            .filter(|k| self.problem.observations[*k].range.is_some())
-            .collect();
-        let samples = &self.found.samples;
-        let words = samples.len().div_ceil(64);
-        let bits = |is: &dyn Fn(&Sample, usize) -> bool, k: usize| {
-            let mut set = vec![0_u64; words];
-            for (place, sample) in samples.iter().enumerate() {
-                if is(sample, k) {
-                    set[place / 64] |= 1 << (place % 64);
-                }
-            }
-            set
-        };
-        let holds = |sample: &Sample, k: usize| {
-            self.problem.observations[k].holds(sample.numbers[k].0) == Some(true)
-        };
-        let known = |sample: &Sample, k: usize| sample.numbers[k].0 != Known::NotAsked;
-        let holding: Vec<Vec<u64>> = ranged.iter().map(|k| bits(&holds, *k)).collect();
-        let asked: Vec<Vec<u64>> = ranged.iter().map(|k| bits(&known, *k)).collect();
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        let mut level: Vec<(Vec<usize>, Vec<u64>)> = vec![(Vec::new(), vec![u64::MAX; words])];
-        for _ in 0..LARGEST_GROUP {
-            let mut next = Vec::new();
-            for (group, set) in &level {
-                for k in group.last().map_or(0, |last| last + 1)..ranged.len() {
-                    let mut larger = group.clone();
-                    larger.push(k);
-                    if groups
-                        .iter()
-                        .any(|small| small.iter().all(|one| larger.contains(one)))
-                    {
-                        continue;
-                    }
-                    let both: Vec<u64> = set.iter().zip(&holding[k]).map(|(a, b)| a & b).collect();
-                    match both.iter().any(|word| *word != 0) {
-                        true => next.push((larger, both)),
-                        false => groups.push(larger),
-                    }
-                }
-            }
-            level = next;
-        }
-        let conflicts = groups.into_iter().map(|group| {
-            let tried = (0..words).map(|w| {
-                let all = group.iter().fold(u64::MAX, |all, k| all & asked[*k][w]);
-                (w, all)
-            });
-            let mut counts = [0_u64; 2];
-            for (w, all) in tried {
-                counts[0] += u64::from(all.count_ones());
-                let first = 64 * w;
-                let draws = self.found.draws.saturating_sub(first).min(64);
-                let mask = if draws == 64 {
-                    u64::MAX
-                } else {
-                    (1_u64 << draws) - 1
-                };
-                counts[1] += u64::from((all & mask).count_ones());
-            }
-            Conflict {
-                observations: group
-                    .iter()
-                    .map(|k| self.problem.observations[ranged[*k]].name.clone())
-                    .collect(),
-                tried: counts[0],
-                share: Share::of(0, counts[1]),
-            }
-        });
-        let mut conflicts: Vec<Conflict> = conflicts.filter(|one| one.tried > 0).collect();
-        conflicts.truncate(MOST_GROUPS);
-        conflicts
     }
 
     /// Over all pairs of sets that nothing rules out: how often the second agrees with the number of the first.
     fn next(&self, whole: &[&Sample]) -> Vec<Narrowing> {
         let left = whole
             .iter()
-            .filter(|one| !self.is_ruled_out(one))
+            .filter(|one| !one.is_ruled_out(&self.problem.observations))
             .take(MOST_PAIRED);
         let left: Vec<&Sample> = left.copied().collect();
         if left.len() < 2 {
@@ -516,32 +355,11 @@ impl MatchAnswer {
         let best = self.matching.first().or(self.nearest.as_ref());
         [best.map_or(0, |best| ranged - best.fails.len()), ranged]
     }
-
-    /// Whether a stage was asked of the problem.
-    pub fn has(&self, stage: Stage) -> bool {
-        self.observations
-            .iter()
-            .any(|one| one.stage == stage.words())
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn shares_have_exact_intervals() {
-        // Clopper and Pearson: 10 of 100 is 4.90 % to 17.62 % (R: binom.test(10, 100)).
-        let [low, high] = Share::of(10, 100).interval;
-        assert!(
-            (low - 0.049_005_4).abs() < 1e-6 && (high - 0.176_222_6).abs() < 1e-6,
-            "{low} {high}"
-        );
-        // The rule of three: none of 3000 is below 0.1 % with 95 %.
-        let [_, none] = Share::of(0, 3000).interval;
-        assert!((none - 9.980_8e-4).abs() < 1e-7, "{none}");
-        assert_eq!(Share::of(0, 0).interval, [0.0, 1.0]);
-    }
 
     #[test]
     fn distances_of_distributions_are_kolmogorovs() {

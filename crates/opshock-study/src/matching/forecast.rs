@@ -6,7 +6,7 @@ use super::file::MatchProblem;
 use super::observation::Stage;
 use super::outputs::{self, Printed};
 use super::prior::draw;
-use super::search::population;
+use super::refinement::population;
 use serde::Serialize;
 
 /// Parameter sets that are timed.

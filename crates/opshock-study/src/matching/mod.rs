@@ -11,19 +11,24 @@
 //! file and these numbers alone, so that a run that was interrupted goes on by being run again.
 
 mod answer;
+mod conflicts;
 mod evaluations;
 mod fields;
 mod file;
 mod forecast;
+mod measured;
 mod observation;
 mod observed;
 mod outputs;
+mod parameters;
 mod prior;
+mod refinement;
+mod sample;
 mod search;
+mod share;
 
-pub use answer::{
-    Conflict, MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow, Share,
-};
+pub use answer::{MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow};
+pub use conflicts::Conflict;
 pub use evaluations::{Evaluations, MatchStore};
 pub use file::{Effort, MatchProblem, is_match_file};
 pub use forecast::{StageCost, forecast};
@@ -32,4 +37,6 @@ pub use observation::{
 };
 pub use outputs::Printed;
 pub use prior::{Distribution, Parameter, ParameterValue};
-pub use search::{Ended, Sample, Searched, WaveReport, search};
+pub use sample::Sample;
+pub use search::{Ended, Searched, WaveReport, search};
+pub use share::Share;

@@ -83,6 +83,25 @@ pub enum Measure {
     Largest,
 }
 
+/// Histories that can be compared with measured ones, and what they need.
+pub(super) const COLUMNS: [(&str, Stage); 15] = [
+    ("disk_slider_m", Stage::DiskAndRamp),
+    ("disk_ramp_m", Stage::DiskAndRamp),
+    ("disk_rim_m", Stage::DiskAndRamp),
+    ("disk_pitch_rad", Stage::DiskAndRamp),
+    ("disk_roll_rad", Stage::DiskAndRamp),
+    ("ramp_top_m", Stage::DiskAndRamp),
+    ("ramp_bottom_m", Stage::DiskAndRamp),
+    ("contact_top_n", Stage::DiskAndRamp),
+    ("contact_bottom_n", Stage::DiskAndRamp),
+    ("slider_z_m", Stage::SingleShocks),
+    ("slider_pitch_rad", Stage::SingleShocks),
+    ("slider_roll_rad", Stage::SingleShocks),
+    ("min_clearance_m", Stage::SingleShocks),
+    ("bearing_force_n", Stage::SingleShocks),
+    ("dimple_force_n", Stage::SingleShocks),
+];
+
 /// How numbers of other observations make one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combination {

@@ -33,25 +33,6 @@ pub trait Printed: Sync {
     fn steady(&self, study: &Study, scene: &Scene) -> Result<Value, String>;
 }
 
-/// Histories that can be compared with measured ones, and what they need.
-pub(super) const COLUMNS: [(&str, Stage); 15] = [
-    ("disk_slider_m", Stage::DiskAndRamp),
-    ("disk_ramp_m", Stage::DiskAndRamp),
-    ("disk_rim_m", Stage::DiskAndRamp),
-    ("disk_pitch_rad", Stage::DiskAndRamp),
-    ("disk_roll_rad", Stage::DiskAndRamp),
-    ("ramp_top_m", Stage::DiskAndRamp),
-    ("ramp_bottom_m", Stage::DiskAndRamp),
-    ("contact_top_n", Stage::DiskAndRamp),
-    ("contact_bottom_n", Stage::DiskAndRamp),
-    ("slider_z_m", Stage::SingleShocks),
-    ("slider_pitch_rad", Stage::SingleShocks),
-    ("slider_roll_rad", Stage::SingleShocks),
-    ("min_clearance_m", Stage::SingleShocks),
-    ("bearing_force_n", Stage::SingleShocks),
-    ("dimple_force_n", Stage::SingleShocks),
-];
-
 /// Numbers of every observation at `stage` for a parameter set; with every discretisation refined once where that is
 /// asked. A parameter set that the study refuses, or that has no answer, has no numbers.
 pub(super) fn numbers(

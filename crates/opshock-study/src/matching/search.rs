@@ -4,23 +4,11 @@ use super::evaluations::{Asked, Evaluations, Interrupted};
 use super::file::MatchProblem;
 use super::observation::{Known, Quantity, RULED_OUT, Stage};
 use super::prior::{draw, filling, numbers};
+use super::sample::Sample;
 use crate::store::StoreError;
 
 /// Sets from which a wave starts at least; the nearest where fewer are left.
 const PARENTS: usize = 20;
-/// Implausibility beyond which one observation is as wrong as any.
-const FAR: f64 = 1e3;
-
-/// A parameter set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
-    /// Cumulative probabilities of the parameters.
-    pub unit: Vec<f64>,
-    /// Wave, 0 for draws of the prior; `None` for the refinement.
-    pub wave: Option<u32>,
-    /// Numbers of the observations, those of combinations included, each with its numerical uncertainty.
-    pub numbers: Vec<(Known, f64)>,
-}
 
 /// What a wave did.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,11 +114,11 @@ impl Evaluations<'_> {
     }
 }
 
-struct Run<'a, 'b> {
-    problem: &'a MatchProblem,
-    evaluations: &'a mut Evaluations<'b>,
+pub(super) struct Run<'a, 'b> {
+    pub(super) problem: &'a MatchProblem,
+    pub(super) evaluations: &'a mut Evaluations<'b>,
     tell: &'a mut dyn FnMut(&WaveReport),
-    found: Searched,
+    pub(super) found: Searched,
 }
 
 impl Run<'_, '_> {
@@ -201,26 +189,28 @@ impl Run<'_, '_> {
         self.found.draws = samples.len();
         // What is not ruled out goes on to the later stages.
         let mut left: Vec<usize> = (0..samples.len())
-            .filter(|k| !self.is_ruled_out(&samples[*k]) && !self.is_whole(&samples[*k]))
+            .filter(|k| {
+                !samples[*k].is_ruled_out(&self.problem.observations) && !samples[*k].is_whole()
+            })
             .collect();
         left.truncate(problem.effort.samples as usize);
         let mut on: Vec<Sample> = left.iter().map(|k| samples[*k].clone()).collect();
         self.found.samples = samples;
         // Kept apart from the draws, whose shares would be biased by a choice.
         self.stages_of(&mut on)?;
-        on.retain(|one| self.is_whole(one));
+        on.retain(|one| one.is_whole());
         let tried = self.found.draws as u64;
         let draws = self.found.samples.len();
         self.found.samples.extend(on);
         let kept = self.found.samples[..draws]
             .iter()
-            .filter(|one| !self.is_ruled_out(one))
+            .filter(|one| !one.is_ruled_out(&self.problem.observations))
             .count();
         self.report("prior", tried, kept as u64);
         Ok(())
     }
 
-    fn fresh(&self, unit: Vec<f64>, wave: Option<u32>) -> Sample {
+    pub(super) fn fresh(&self, unit: Vec<f64>, wave: Option<u32>) -> Sample {
         let nothing = vec![(Known::NotAsked, 0.0); self.problem.observations.len()];
         Sample {
             unit,
@@ -230,7 +220,11 @@ impl Run<'_, '_> {
     }
 
     /// Fills in the numbers of a stage.
-    fn evaluate(&mut self, stage: Stage, samples: &mut [Sample]) -> Result<(), Interrupted> {
+    pub(super) fn evaluate(
+        &mut self,
+        stage: Stage,
+        samples: &mut [Sample],
+    ) -> Result<(), Interrupted> {
         let asked: Vec<Asked<'_>> = samples
             .iter()
             .map(|one| (stage, &one.unit[..], false))
@@ -267,35 +261,11 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Implausibilities of what is known.
-    fn implausibilities<'s>(&'s self, sample: &'s Sample) -> impl Iterator<Item = f64> + 's {
-        let observations = self.problem.observations.iter().zip(&sample.numbers);
-        observations.filter_map(|(one, (known, u))| one.implausibility(*known, *u))
-    }
-
-    fn is_ruled_out(&self, sample: &Sample) -> bool {
-        self.implausibilities(sample).any(|i| i >= RULED_OUT)
-    }
-
-    fn is_whole(&self, sample: &Sample) -> bool {
-        sample
-            .numbers
-            .iter()
-            .all(|(known, _)| *known != Known::NotAsked)
-    }
-
-    /// How far a sample is from all that was observed; 0 where nothing is implausible.
-    fn distance(&self, sample: &Sample) -> f64 {
-        self.implausibilities(sample)
-            .map(|i| i.min(FAR).ln_1p())
-            .sum()
-    }
-
     /// Stage by stage, for those that are not ruled out.
     fn stages_of(&mut self, samples: &mut [Sample]) -> Result<(), Interrupted> {
         for stage in self.problem.stages().collect::<Vec<_>>() {
             let left: Vec<usize> = (0..samples.len())
-                .filter(|k| !self.is_ruled_out(&samples[*k]))
+                .filter(|k| !samples[*k].is_ruled_out(&self.problem.observations))
                 .collect();
             let mut on: Vec<Sample> = left.iter().map(|k| samples[*k].clone()).collect();
             self.evaluate(stage, &mut on)?;
@@ -309,7 +279,9 @@ impl Run<'_, '_> {
     /// Places of the sets that a wave starts from.
     fn parents(&self) -> Vec<usize> {
         let samples = &self.found.samples;
-        let kept = |k: &usize| self.is_whole(&samples[*k]) && !self.is_ruled_out(&samples[*k]);
+        let kept = |k: &usize| {
+            samples[*k].is_whole() && !samples[*k].is_ruled_out(&self.problem.observations)
+        };
         let left: Vec<usize> = (0..samples.len()).filter(kept).collect();
         if left.len() >= PARENTS {
             return left;
@@ -323,7 +295,13 @@ impl Run<'_, '_> {
                 .count()
         };
         let mut all: Vec<(usize, usize, f64)> = (0..samples.len())
-            .map(|k| (k, unknown(k), self.distance(&samples[k])))
+            .map(|k| {
+                (
+                    k,
+                    unknown(k),
+                    samples[k].distance(&self.problem.observations),
+                )
+            })
             .collect();
         all.sort_by(|a, b| {
             let far = |one: &(usize, usize, f64)| one.2 + one.1 as f64 * RULED_OUT.ln_1p();
@@ -367,160 +345,19 @@ impl Run<'_, '_> {
         self.stages_of(&mut samples)?;
         let kept = samples
             .iter()
-            .filter(|one| self.is_whole(one) && !self.is_ruled_out(one))
+            .filter(|one| one.is_kept(&self.problem.observations))
             .count();
         self.found.samples.extend(samples);
         self.report(&format!("wave {wave}"), count, kept as u64);
         Ok(())
     }
 
-    /// Score that the refinement makes as large as it can: the smallest margin where all hold, else what is missing.
-    fn score(&self, sample: &Sample) -> f64 {
-        let observations = self.problem.observations.iter().zip(&sample.numbers);
-        let margins = observations.filter_map(|(one, (known, u))| one.margin(*known, *u));
-        let (mut missing, mut smallest) = (0.0, f64::INFINITY);
-        for margin in margins {
-            smallest = smallest.min(margin);
-            if margin < 0.0 {
-                // A step for each that does not hold, so that one more holds before the others come nearer.
-                missing += 1.0 + (-margin).min(FAR).ln_1p();
-            }
-        }
-        match missing > 0.0 {
-            true => -missing,
-            false => smallest.min(FAR),
-        }
-    }
-
-    /// Takes the best of the sets that did not come through all stages through them: what rules out a set early may be little.
-    fn promote(&mut self) -> Result<(), Interrupted> {
-        let effort = &self.problem.effort;
-        let samples = &self.found.samples;
-        let part = samples.iter().filter(|one| !self.is_whole(one));
-        let mut all: Vec<(f64, &Sample)> = part.map(|one| (self.score(one), one)).collect();
-        all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all.truncate(effort.starts as usize * population(self.problem));
-        let mut on: Vec<Sample> = all
-            .into_iter()
-            .map(|(_, one)| Sample {
-                wave: None,
-                ..one.clone()
-            })
-            .collect();
-        for stage in self.problem.stages().collect::<Vec<_>>() {
-            self.evaluate(stage, &mut on)?;
-        }
-        self.found.samples.extend(on);
-        Ok(())
-    }
-
-    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341) from the best sets, `start` of them
-    /// left out in front.
-    fn refine(&mut self, start: u32) -> Result<(), Interrupted> {
-        let problem = self.problem;
-        let most = problem.effort.refinement / u64::from(problem.effort.starts);
-        let size = population(problem);
-        let whole = self.found.samples.iter().filter(|one| self.is_whole(one));
-        let mut all: Vec<(f64, &Sample)> = whole.map(|one| (self.score(one), one)).collect();
-        all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all.dedup_by(|a, b| a.1.unit == b.1.unit);
-        // Every start its own part of the best, so that they are different ones.
-        let stride = problem.effort.starts as usize;
-        let part = all.iter().skip(start as usize).step_by(stride).take(size);
-        let mut population: Vec<(f64, Sample)> =
-            part.map(|(score, one)| (*score, (*one).clone())).collect();
-        if population.len() < 4 || most == 0 {
-            return Ok(());
-        }
-        let before = population[0].0;
-        let (mut tried, mut generation) = (0, 0);
-        while tried < most {
-            let mut children: Vec<Sample> = Vec::new();
-            let n = (population.len() as u64).min(most - tried) as usize;
-            for k in 0..n {
-                children.push(self.child(&population, k, start, generation));
-            }
-            self.compete(&mut population, children)?;
-            tried += n as u64;
-            self.found.refined += n as u64;
-            generation += 1;
-        }
-        let best = population
-            .iter()
-            .map(|(score, _)| *score)
-            .fold(f64::NEG_INFINITY, f64::max);
-        let holding = population.iter().filter(|(score, _)| *score >= 0.0).count();
-        self.found.samples.extend(
-            population
-                .into_iter()
-                .map(|(_, one)| Sample { wave: None, ..one }),
-        );
-        self.report(
-            &format!("refinement {}: {before:.3} to {best:.3}", start + 1),
-            tried,
-            holding as u64,
-        );
-        Ok(())
-    }
-
-    fn child(&self, population: &[(f64, Sample)], k: usize, start: u32, generation: u64) -> Sample {
-        let stage = 1000 + start;
-        let mut random = numbers(self.problem.seed, stage, generation * 1000 + k as u64);
-        let pick = |random: &mut dyn FnMut() -> f64| (random() * population.len() as f64) as usize;
-        let best =
-            (0..population.len()).max_by(|a, b| population[*a].0.total_cmp(&population[*b].0));
-        let unit = |k: usize| &population[k].1.unit;
-        let (own, best) = (unit(k), unit(best.unwrap_or(k)));
-        let (a, b) = (pick(&mut random), pick(&mut random));
-        let (towards, along) = (random() * random(), 0.2 + 0.7 * random());
-        let sure = (random() * own.len() as f64) as usize;
-        let moved: Vec<f64> = (0..own.len())
-            .map(|d| {
-                let step = towards * (best[d] - own[d])
-                    + along * (unit(a)[d] - unit(b)[d])
-                    + 0.01 * (random() - 0.5);
-                match d == sure || random() < 0.8 {
-                    true => reflected(own[d] + step),
-                    false => own[d],
-                }
-            })
-            .collect();
-        self.fresh(moved, None)
-    }
-
-    /// A child takes its parent's place where it is better. Stage by stage: one that is worse by what is known of it is not
-    /// simulated on.
-    fn compete(
-        &mut self,
-        population: &mut [(f64, Sample)],
-        children: Vec<Sample>,
-    ) -> Result<(), Interrupted> {
-        let mut left: Vec<(usize, Sample)> = children.into_iter().enumerate().collect();
-        for stage in self.problem.stages().collect::<Vec<_>>() {
-            let mut on: Vec<Sample> = left.iter().map(|(_, one)| one.clone()).collect();
-            self.evaluate(stage, &mut on)?;
-            left = left
-                .into_iter()
-                .zip(on)
-                .map(|((k, _), one)| (k, one))
-                .collect();
-            left.retain(|(k, one)| self.score(one) >= population[*k].0.min(0.0));
-        }
-        for (k, one) in left {
-            let score = self.score(&one);
-            if score >= population[k].0 {
-                population[k] = (score, one);
-            }
-        }
-        Ok(())
-    }
-
-    fn report(&mut self, name: &str, tried: u64, kept: u64) {
+    pub(super) fn report(&mut self, name: &str, tried: u64, kept: u64) {
         let n = self.problem.parameters.len();
         let samples = &self.found.samples;
         let left = samples
             .iter()
-            .filter(|one| self.is_whole(one) && !self.is_ruled_out(one));
+            .filter(|one| one.is_kept(&self.problem.observations));
         let left: Vec<&[f64]> = left.map(|one| &one.unit[..]).collect();
         let left = match left.is_empty() {
             true => Vec::new(),
@@ -538,11 +375,6 @@ impl Run<'_, '_> {
         (self.tell)(&report);
         self.found.waves.push(report);
     }
-}
-
-/// Sets that evolve together in a refinement.
-pub(super) fn population(problem: &MatchProblem) -> usize {
-    (2 * problem.parameters.len()).clamp(6, 30)
 }
 
 /// Smallest and largest of each parameter.
@@ -565,7 +397,7 @@ fn box_of<'s>(units: impl Iterator<Item = &'s [f64]>, parameters: usize) -> Vec<
 }
 
 /// Back into 0 to 1 at its ends.
-fn reflected(x: f64) -> f64 {
+pub(super) fn reflected(x: f64) -> f64 {
     let x = x.rem_euclid(2.0);
     if x > 1.0 { 2.0 - x } else { x }
 }

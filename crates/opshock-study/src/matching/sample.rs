@@ -1,0 +1,91 @@
+//! A parameter set, and how it stands to the observations.
+
+use super::observation::{Known, Observation, RULED_OUT};
+
+/// Implausibility or negative margin beyond which one observation is as wrong as any.
+const FAR: f64 = 1e3;
+
+/// A parameter set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Cumulative probabilities of the parameters.
+    pub unit: Vec<f64>,
+    /// Wave, 0 for draws of the prior; `None` for the refinement.
+    pub wave: Option<u32>,
+    /// Numbers of the observations, those of combinations included, each with its numerical uncertainty.
+    pub numbers: Vec<(Known, f64)>,
+}
+
+impl Sample {
+    /// Every number is known.
+    pub fn is_whole(&self) -> bool {
+        self.numbers
+            .iter()
+            .all(|(known, _)| *known != Known::NotAsked)
+    }
+
+    /// Some observation is implausible, by what is known.
+    pub fn is_ruled_out(&self, observations: &[Observation]) -> bool {
+        self.implausibilities(observations).any(|i| i >= RULED_OUT)
+    }
+
+    /// Plausible by every number.
+    pub(super) fn is_kept(&self, observations: &[Observation]) -> bool {
+        self.is_whole() && !self.is_ruled_out(observations)
+    }
+
+    fn implausibilities<'s>(
+        &'s self,
+        observations: &'s [Observation],
+    ) -> impl Iterator<Item = f64> + 's {
+        let pairs = observations.iter().zip(&self.numbers);
+        pairs.filter_map(|(one, (known, u))| one.implausibility(*known, *u))
+    }
+
+    fn margins<'s>(
+        &'s self,
+        observations: &'s [Observation],
+    ) -> impl Iterator<Item = (usize, f64)> + 's {
+        let pairs = observations.iter().zip(&self.numbers).enumerate();
+        pairs.filter_map(|(place, (one, (known, u)))| Some((place, one.margin(*known, *u)?)))
+    }
+
+    /// How far it is from all that was observed; 0 where nothing is implausible.
+    pub(super) fn distance(&self, observations: &[Observation]) -> f64 {
+        self.implausibilities(observations)
+            .map(|i| i.min(FAR).ln_1p())
+            .sum()
+    }
+
+    /// Places of observations that do not hold.
+    pub(super) fn fails(&self, observations: &[Observation]) -> Vec<usize> {
+        let holds =
+            |place: &usize| observations[*place].holds(self.numbers[*place].0) == Some(false);
+        (0..observations.len()).filter(holds).collect()
+    }
+
+    /// Smallest margin, and the place of the observation that has it.
+    pub(super) fn smallest_margin(&self, observations: &[Observation]) -> (f64, Option<usize>) {
+        let margins = self
+            .margins(observations)
+            .map(|(place, margin)| (margin, Some(place)));
+        margins.fold((f64::INFINITY, None), |least, one| {
+            if one.0 < least.0 { one } else { least }
+        })
+    }
+
+    /// What the search makes as large as it can: the smallest margin where all hold, else what is missing, with a step for
+    /// each observation that does not hold, so that one more holds before the others come nearer.
+    pub(super) fn score(&self, observations: &[Observation]) -> f64 {
+        let missing = self
+            .margins(observations)
+            .filter(|(_, margin)| *margin < 0.0);
+        let missing: f64 = missing
+            .map(|(_, margin)| 1.0 + (-margin).min(FAR).ln_1p())
+            .sum();
+        match missing > 0.0 {
+            true => -missing,
+            false => self.smallest_margin(observations).0.min(FAR),
+        }
+    }
+}
