@@ -464,3 +464,101 @@ fn a_store_of_another_match_is_refused() {
         "{told}"
     );
 }
+
+/// Every kind of output of a drive whose one free parameter does not touch it, against the commands that print it.
+#[test]
+fn outputs_are_those_of_the_commands() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let study = shipped("paper-cases").display().to_string();
+    let coarse = [
+        "solver.film_cells=250",
+        "solver.film_reference_cells=0",
+        "ramp.models=[\"none\"]",
+        "pulse.widths_ms=[2.0]",
+        "outputs=[\"critical_shock\", \"disk_displacement\"]",
+        "search.tolerance_pct=5.0",
+        "search.certify=\"off\"",
+        "search.error_bars=false",
+    ];
+    let run = |words: &[&str]| {
+        let sets = coarse.iter().flat_map(|set| ["--set", set]);
+        let output = program(OPSHOCK)
+            .args(words)
+            .args(sets)
+            .arg("--json")
+            .output()
+            .expect("the program runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        serde_json::from_slice::<Value>(&output.stdout)
+            .unwrap_or_else(|_| panic!("{words:?}: {told}"))
+    };
+    let shock = [
+        "--ramp",
+        "none",
+        "--pulse-ms",
+        "2",
+        "--sign",
+        "+",
+        "--amplitude-g",
+        "400",
+    ];
+    let history = path("history.csv");
+    run(&[&["run", &study, "--history", &history][..], &shock].concat());
+    let measured: String = std::fs::read_to_string(&history)
+        .expect("a history")
+        .lines()
+        .fold(String::new(), |all, line| {
+            let cells: Vec<&str> = line.split(',').take(3).collect();
+            all + &format!("{},{}\n", cells[0], cells[2])
+        });
+    assert!(
+        measured.starts_with("time_s,disk_slider_m\n"),
+        "{}",
+        &measured[..60]
+    );
+    std::fs::write(path("tower.csv"), measured).expect("written");
+    let (modes, steady) = (run(&["modes", &study]), run(&["steady", &study]));
+    let swept = run(&["sweep", &study, "--store", &path("sweep")]);
+    let wanted = [
+        modes["disk"][1]["rotating_frame_hz"].as_f64(),
+        steady["stiffness"][0][0].as_f64(),
+        Some(0.0),
+        swept["points"][0]["a_crit_g"].as_f64(),
+    ];
+    let own = "shock = { ramp = \"none\", pulse_ms = 2.0, sign = \"+\"";
+    let text = format!(
+        "match_format = 1\nname = \"outputs\"\nstudy = {study:?}\n[draws]\ndisk_and_ramp = 1\n[waves]\ncount = 0\n[refinement]\n\
+         evaluations = 0\n[numerics]\nprobes = 0\n[settings]\ndisk_and_ramp = {coarse:?}\nsingle_shocks = {coarse:?}\n\
+         critical_shocks = {coarse:?}\n[[parameter]]\nkeys = [\"ramp.clearance_um\"]\nuniform = [90.0, 110.0]\nsource = \
+         \"test\"\n[[observation]]\nname = \"modes\"\noutput = \"modes.disk.1.rotating_frame_hz\"\n[[observation]]\nname = \
+         \"steady\"\noutput = \"steady.stiffness.0.0\"\n[[observation]]\nname = \"history\"\nhistory = \"disk_slider_m\"\nfile = \
+         \"tower.csv\"\n{own}, amplitude_g = 400.0 }}\nrange = [0.0, 1e-9]\n[[observation]]\nname = \"critical\"\n\
+         critical_shock = true\n{own} }}\n"
+    );
+    let file = folder.path().join("match.toml");
+    std::fs::write(&file, text).expect("written");
+    let out = folder.path().join("out");
+    let (code, json, told) = matched(
+        &file,
+        &folder.path().join("store"),
+        &["--out", out.to_str().expect("a path")],
+    );
+    assert_eq!((code, &json["n_matching"]), (Some(0), &1.into()), "{told}");
+    let samples = std::fs::read_to_string(out.join("samples.csv")).expect("samples");
+    let last: Vec<&str> = samples
+        .lines()
+        .nth(1)
+        .expect("a sample")
+        .split(',')
+        .collect();
+    let found: Vec<Option<f64>> = last[2..].iter().map(|cell| cell.parse().ok()).collect();
+    for (k, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+        let (found, wanted) = (found.expect("a number"), wanted.expect("a number"));
+        // The command prints the history with as many digits as read back to the same bits.
+        assert!(
+            (found - wanted).abs() <= 1e-12 * wanted.abs() + 1e-20 * f64::from(u8::from(k == 2)),
+            "{k}: {found} {wanted}"
+        );
+    }
+}

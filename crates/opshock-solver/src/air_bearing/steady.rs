@@ -176,8 +176,8 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 /// As [`fly`], from `start`, which may be far from the answer.
 ///
 /// Of several stable equilibria met on the way the one with the largest clearance is flown
-/// ([`lower_equilibria`] looks for those below). One below the film's minimum height is no flight; where surface forces
-/// act, none below twice of it is.
+/// ([`lower_equilibria`] looks for those below). Where surface forces act, one within the range of the film's minimum height
+/// is no flight, and none is without clearance; flights followed from lighter loads end at the minimum height.
 ///
 /// # Errors
 ///
@@ -187,7 +187,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     if film.surface_forces().is_none() {
         let flown = seek(film, load, start, true);
         return match flown {
-            Ok(flight) if flight.min_clearance_m >= film.floor_m() => Ok(flight),
+            Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
             other => followed(film, load, start).unwrap_or(other),
         };
     }

@@ -142,8 +142,11 @@ impl<'a> Evaluations<'a> {
     }
 
     /// Numbers of every observation for each that is asked, in their order; those not known are computed by the threads of
-    /// the pool this runs in.
-    pub(super) fn of(&mut self, asked: &[Asked<'_>]) -> Result<Vec<Vec<Known>>, Interrupted> {
+    /// the pool this runs in. Where that is interrupted, those that are known, and why.
+    pub(super) fn of(
+        &mut self,
+        asked: &[Asked<'_>],
+    ) -> (Vec<Option<Vec<Known>>>, Result<(), Interrupted>) {
         let keys: Vec<PointDigest> = asked.iter().map(|one| self.key(one)).collect();
         let mut missing: Vec<usize> = Vec::new();
         for (place, key) in keys.iter().enumerate() {
@@ -153,6 +156,17 @@ impl<'a> Evaluations<'a> {
                 missing.push(place);
             }
         }
+        let computed = self.compute(asked, &keys, &missing);
+        let numbers = keys.iter().map(|key| self.known.get(key).cloned());
+        (numbers.collect(), computed)
+    }
+
+    fn compute(
+        &mut self,
+        asked: &[Asked<'_>],
+        keys: &[PointDigest],
+        missing: &[usize],
+    ) -> Result<(), Interrupted> {
         // What is kept with one sync: a kill costs no more.
         let batch = 16 * rayon::current_num_threads();
         let mut so_far = 0;
@@ -189,7 +203,7 @@ impl<'a> Evaluations<'a> {
                 return Err(Interrupted::Stopped);
             }
         }
-        Ok(keys.iter().map(|key| self.known[key].clone()).collect())
+        Ok(())
     }
 
     fn key(&self, (stage, unit, is_refined): &Asked<'_>) -> PointDigest {

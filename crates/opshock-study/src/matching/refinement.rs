@@ -29,11 +29,10 @@ impl Run<'_, '_> {
                 ..one.clone()
             })
             .collect();
-        for stage in self.problem.stages().collect::<Vec<_>>() {
-            self.evaluate(stage, &mut on)?;
-        }
+        let mut stages = self.problem.stages().collect::<Vec<_>>().into_iter();
+        let evaluated = stages.try_for_each(|stage| self.evaluate(stage, &mut on));
         self.found.samples.extend(on);
-        Ok(())
+        evaluated
     }
 
     /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341) from the best sets, `start` of them
@@ -58,13 +57,17 @@ impl Run<'_, '_> {
         }
         let before = population[0].0;
         let (mut tried, mut generation) = (0, 0);
+        let mut interrupted = Ok(());
         while tried < most {
             let mut children: Vec<Sample> = Vec::new();
             let n = (population.len() as u64).min(most - tried) as usize;
             for k in 0..n {
                 children.push(self.child(&population, k, start, generation));
             }
-            self.compete(&mut population, children)?;
+            interrupted = self.compete(&mut population, children);
+            if interrupted.is_err() {
+                break;
+            }
             tried += n as u64;
             self.found.refined += n as u64;
             generation += 1;
@@ -79,6 +82,7 @@ impl Run<'_, '_> {
                 .into_iter()
                 .map(|(_, one)| Sample { wave: None, ..one }),
         );
+        interrupted?;
         self.report(
             &format!("refinement {}: {before:.3} to {best:.3}", start + 1),
             tried,

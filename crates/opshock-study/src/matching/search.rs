@@ -154,9 +154,11 @@ impl Run<'_, '_> {
                     .map(move |unit| (stage, &unit[..], is_refined))
                     .collect::<Vec<Asked<'_>>>()
             };
-            let own = self.evaluations.of(&asked(false))?;
-            let refined = self.evaluations.of(&asked(true))?;
-            for (own, refined) in own.iter().zip(&refined) {
+            let (own, interrupted) = self.evaluations.of(&asked(false));
+            interrupted?;
+            let (refined, interrupted) = self.evaluations.of(&asked(true));
+            interrupted?;
+            for (own, refined) in own.iter().flatten().zip(refined.iter().flatten()) {
                 for (place, u) in self.found.measured_u.iter_mut().enumerate() {
                     if let (Known::Is(a), Known::Is(b)) = (own[place], refined[place]) {
                         *u = u.max((a - b).abs());
@@ -182,11 +184,15 @@ impl Run<'_, '_> {
         let mut samples: Vec<Sample> = (0..draws)
             .map(|k| self.fresh(self.draw(k), Some(0)))
             .collect();
+        self.found.draws = samples.len();
         for stage in stages {
             let part = problem.draws(stage) as usize;
-            self.evaluate(stage, &mut samples[..part])?;
+            let evaluated = self.evaluate(stage, &mut samples[..part]);
+            if evaluated.is_err() {
+                self.found.samples = samples;
+                return evaluated;
+            }
         }
-        self.found.draws = samples.len();
         // What is not ruled out goes on to the later stages.
         let mut left: Vec<usize> = (0..samples.len())
             .filter(|k| {
@@ -229,16 +235,16 @@ impl Run<'_, '_> {
             .iter()
             .map(|one| (stage, &one.unit[..], false))
             .collect();
-        let found = self.evaluations.of(&asked)?;
+        let (found, interrupted) = self.evaluations.of(&asked);
         for (sample, found) in samples.iter_mut().zip(found) {
-            for (place, known) in found.into_iter().enumerate() {
+            for (place, known) in found.into_iter().flatten().enumerate() {
                 if known != Known::NotAsked {
                     sample.numbers[place] = (known, self.numerical_u(place, known));
                 }
             }
             self.combine(sample);
         }
-        Ok(())
+        interrupted
     }
 
     fn numerical_u(&self, place: usize, known: Known) -> f64 {
@@ -268,10 +274,11 @@ impl Run<'_, '_> {
                 .filter(|k| !samples[*k].is_ruled_out(&self.problem.observations))
                 .collect();
             let mut on: Vec<Sample> = left.iter().map(|k| samples[*k].clone()).collect();
-            self.evaluate(stage, &mut on)?;
+            let evaluated = self.evaluate(stage, &mut on);
             for (k, one) in left.into_iter().zip(on) {
                 samples[k] = one;
             }
+            evaluated?;
         }
         Ok(())
     }
@@ -342,12 +349,13 @@ impl Run<'_, '_> {
             };
             samples.push(self.fresh(proposed.into_iter().map(reflected).collect(), Some(wave)));
         }
-        self.stages_of(&mut samples)?;
+        let evaluated = self.stages_of(&mut samples);
         let kept = samples
             .iter()
             .filter(|one| one.is_kept(&self.problem.observations))
             .count();
         self.found.samples.extend(samples);
+        evaluated?;
         self.report(&format!("wave {wave}"), count, kept as u64);
         Ok(())
     }
