@@ -47,7 +47,7 @@ pub(super) fn conflicts(problem: &MatchProblem, found: &Searched) -> Vec<Conflic
     let asked: Vec<Vec<u64>> = ranged.iter().map(|k| bits(&known, *k)).collect();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut level: Vec<(Vec<usize>, Vec<u64>)> = vec![(Vec::new(), vec![u64::MAX; words])];
-    for _ in 0..LARGEST_GROUP {
+    for size in 1..=LARGEST_GROUP {
         let mut next = Vec::new();
         for (group, set) in &level {
             let first = group.last().map_or(0, |last| last + 1);
@@ -62,8 +62,10 @@ pub(super) fn conflicts(problem: &MatchProblem, found: &Searched) -> Vec<Conflic
                 }
                 let both: Vec<u64> = set.iter().zip(true_with).map(|(a, b)| a & b).collect();
                 match both.iter().any(|word| *word != 0) {
-                    true => next.push((larger, both)),
                     false => groups.push(larger),
+                    // Of the largest groups, nearly all of the memory, nothing is made.
+                    true if size < LARGEST_GROUP => next.push((larger, both)),
+                    true => {}
                 }
             }
         }
