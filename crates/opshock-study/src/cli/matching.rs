@@ -68,9 +68,10 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
             console.tell(&format!("{}: {done} of {of} parameter sets", stage.words()));
         }
     };
-    let pool = rayon::ThreadPoolBuilder::new()
+    // All of this process: the search itself runs on this thread.
+    rayon::ThreadPoolBuilder::new()
         .num_threads(global.threads())
-        .build()
+        .build_global()
         .context("cannot start threads")?;
     let mut evaluations =
         Evaluations::new(&problem, &Commands, Some(store), &asked_to_stop, &progress);
@@ -80,7 +81,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
         .map(|one| one.name.as_str())
         .collect();
     let mut tell = |wave: &WaveReport| console.tell(&wave_words(wave, &names));
-    let found = pool.in_place_scope(|_| search(&problem, &mut evaluations, &mut tell))?;
+    let found = search(&problem, &mut evaluations, &mut tell)?;
     let answer = MatchAnswer::of(&problem, &found);
     console.tell(&format!(
         "{} simulated sets of numbers, {} s",

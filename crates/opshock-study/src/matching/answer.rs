@@ -7,6 +7,7 @@ use super::sample::Sample;
 use super::search::{Ended, Searched, WaveReport, hull};
 use super::share::Share;
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// Sets of the gallery.
 const GALLERY: usize = 12;
@@ -120,7 +121,14 @@ impl MatchAnswer {
     pub fn of(problem: &MatchProblem, found: &Searched) -> Self {
         let told = Told { problem, found };
         let seen = &problem.observations[..];
-        let whole: Vec<&Sample> = found.samples.iter().filter(|one| one.is_whole()).collect();
+        // A set that several parts of the search have is one.
+        let mut met = HashSet::new();
+        let mut is_new = |one: &&Sample| {
+            let bits = one.unit.iter().map(|p| p.to_bits());
+            met.insert(bits.collect::<Vec<u64>>())
+        };
+        let whole = found.samples.iter().filter(|one| one.is_whole());
+        let whole: Vec<&Sample> = whole.filter(&mut is_new).collect();
         let mut holding: Vec<&Sample> = whole
             .iter()
             .copied()

@@ -236,6 +236,10 @@ impl Combination {
 
     /// The number, and its numerical uncertainty when those of its parts have opposite senses.
     pub fn of(self, parts: &[(Known, f64)]) -> (Known, f64) {
+        // What is not asked for yet is no answer, whatever the others say.
+        if parts.iter().any(|(known, _)| *known == Known::NotAsked) {
+            return (Known::NotAsked, 0.0);
+        }
         let mut values = Vec::new();
         for (known, u) in parts {
             match known {
@@ -245,14 +249,14 @@ impl Combination {
         }
         let ratio = |(a, ua): (f64, f64), (b, ub): (f64, f64)| {
             let value = a / b;
-            (value, value.abs() * (ua / a.abs() + ub / b.abs()))
+            (value, (ua + value.abs() * ub) / b.abs())
         };
         let (first, second) = (values[0], values[1]);
         let (value, u) = match self {
             Combination::Ratio => ratio(first, second),
             Combination::Difference => (first.0 - second.0, first.1 + second.1),
             Combination::DistancePct => {
-                let sum = first.0 + second.0;
+                let sum = (first.0 + second.0).abs();
                 let value = 200.0 * (first.0 - second.0).abs() / sum;
                 let by = |own: f64| 400.0 * own.abs() / (sum * sum);
                 (value, by(second.0) * first.1 + by(first.0) * second.1)
@@ -317,6 +321,10 @@ mod tests {
             - (by(200.0, 100.0 + 1e-4) - distance) / 1e-4 * 3.0;
         assert!((u - slope).abs() < 1e-5, "{u} {slope}");
         assert_eq!(Combination::Order.of(&[b, a, b]).0, Known::Is(0.5));
+        let zero = (Known::Is(0.0), 1.0);
+        assert_eq!(Combination::Ratio.of(&[zero, b]), (Known::Is(0.0), 0.01));
+        let (missing, later) = ((Known::Missing, 0.0), (Known::NotAsked, 0.0));
+        assert_eq!(Combination::Ratio.of(&[missing, later]).0, Known::NotAsked);
         assert_eq!(
             Combination::Ratio.of(&[a, (Known::Missing, 0.0)]).0,
             Known::Missing

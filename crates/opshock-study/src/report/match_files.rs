@@ -301,15 +301,20 @@ fn study_text(
     from: &str,
 ) -> Option<String> {
     let study = problem.with_values(&set.unit).ok()?;
-    let mut text = format!("# {}\n", summary_of(answer, set));
+    let mut lines = vec![summary_of(answer, set)];
     for (parameter, value) in problem.parameters.iter().zip(&set.values) {
-        let _ = writeln!(
-            text,
-            "# matched: {} = {value} ({})",
+        lines.push(format!(
+            "matched: {} = {value} ({})",
             parameter.name, parameter.source
-        );
+        ));
     }
-    let _ = write!(text, "# {from}\n\n{}", study.resolved_toml());
+    lines.push(from.to_owned());
+    let mut text = String::new();
+    for line in lines {
+        // A text of several lines stays one comment.
+        let _ = writeln!(text, "# {}", line.replace(char::is_control, " "));
+    }
+    let _ = write!(text, "\n{}", study.resolved_toml());
     Some(text)
 }
 
