@@ -348,6 +348,89 @@ fn an_interrupted_match_ends_with_the_same_bytes_on_any_threads() {
     assert!(told.contains("0 simulated"), "{told}");
 }
 
+/// A parameter with choices beside those of [`small`], each of which is refined by itself.
+fn with_choices(file: &Path, choices: &str, each: &str) {
+    let text = std::fs::read_to_string(file).expect("read");
+    let of_each = format!("starts = 1\neach = {each:?}\n");
+    let text = text.replacen("starts = 1\n", &of_each, 1)
+        + &format!("[[parameter]]\nname = \"pads\"\n{choices}\nsource = \"test\"\n");
+    std::fs::write(file, text).expect("written");
+}
+
+#[test]
+fn every_choice_of_a_parameter_has_a_search_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = small(folder.path(), TWO);
+    let speeds = "keys = [\"disk.rpm\"]\nchoices = [4200, 5400, 7200]";
+    with_choices(&file, speeds, "pads");
+    let (code, json, told) = matched(&file, &folder.path().join("store"), &[]);
+    assert_eq!(code, Some(0), "{told}");
+    let choices = json["best_of_each"]["choices"].as_array().expect("a list");
+    assert_eq!(choices.len(), 3);
+    let place = json["parameters"].as_array().expect("a list").len() - 1;
+    let mut tried = 0;
+    for (row, speed) in choices.iter().zip(["4200", "5400", "7200"]) {
+        assert_eq!(row[0], speed);
+        tried += row[1].as_u64().expect("a count");
+        assert_eq!(row[2]["values"][place], speed);
+        // One of the two that contradict each other.
+        assert_eq!(row[2]["fails"].as_array().map(Vec::len), Some(1), "{row}");
+    }
+    // 40 draws, 10 of the wave, and populations of six with children for each; most children were dropped or repeat.
+    assert!((50..=50 + 3 * 12).contains(&tried), "{tried}");
+    // The study's first point has no ramp: its step is refined all the same.
+    let near = &json["observations"][0];
+    assert!(near["numerical_uncertainty"].as_f64() > Some(0.0), "{near}");
+}
+
+#[test]
+fn a_search_of_each_choice_needs_choices() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = small(folder.path(), TWO);
+    with_choices(
+        &file,
+        "keys = [\"disk.rpm\"]\nchoices = [4200, 5400]",
+        "gap",
+    );
+    let (code, _, told) = matched(&file, &folder.path().join("store"), &[]);
+    assert_eq!(code, Some(3));
+    let said = "refinement.each = \\\"gap\\\": is no parameter with choices";
+    assert!(
+        told.contains("E193") && told.contains("pads"),
+        "{said}: {told}"
+    );
+}
+
+#[test]
+fn numbers_belong_to_the_files_that_choices_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let one = TWO.split("[[observation]]").nth(1).expect("the first");
+    let file = small(folder.path(), &format!("[[observation]]{one}"));
+    let surface = shipped("paper-cases").with_file_name("../fig13/surface.toml");
+    let own = folder.path().join("surface.toml");
+    let text = std::fs::read_to_string(surface).expect("read");
+    std::fs::write(&own, &text).expect("written");
+    let pads = format!(
+        "keys = [\"slider.surface\"]\nchoices = [{{ file = {own:?} }}, {{ preset = \"femto-2.5in\" }}]"
+    );
+    with_choices(&file, &pads, "pads");
+    let store = folder.path().join("store");
+    let simulated = || -> u64 {
+        let (code, _, told) = matched(&file, &store, &[]);
+        assert_eq!(code, Some(0), "{told}");
+        let words = told.split(" simulated sets").next().expect("a count");
+        let count = words.rsplit(|c: char| !c.is_ascii_digit()).next();
+        count
+            .and_then(|digits| digits.parse().ok())
+            .expect("a count")
+    };
+    let all = simulated();
+    assert_eq!(simulated(), 0);
+    std::fs::write(&own, text.replace("crown_nm = 15.0", "crown_nm = 14.0")).expect("written");
+    let again = simulated();
+    assert!((1..all).contains(&again), "{again} of {all}");
+}
+
 #[test]
 fn matching_studies_have_the_values_and_say_so() {
     let folder = tempfile::tempdir().expect("a folder");

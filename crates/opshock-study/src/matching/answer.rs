@@ -3,6 +3,7 @@
 use super::conflicts::{Conflict, conflicts};
 use super::file::MatchProblem;
 use super::observation::{Known, RULED_OUT};
+use super::prior::ParameterValue;
 use super::sample::Sample;
 use super::search::{Ended, Searched, WaveReport, hull};
 use super::share::Share;
@@ -72,6 +73,17 @@ pub struct MatchingSet {
     pub decided_by: String,
     /// Observations that do not hold.
     pub fails: Vec<String>,
+    /// Observations that do not hold by their numerical uncertainty.
+    pub falls_short: Vec<String>,
+}
+
+/// The best set with each choice of the parameter that the refinement keeps.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BestOfEach {
+    /// Parameter.
+    pub parameter: String,
+    /// Its choices, each with the sets of which every number is known, and the best of them.
+    pub choices: Vec<(String, u64, Option<MatchingSet>)>,
 }
 
 /// What measuring a number would leave of the matching sets.
@@ -105,6 +117,8 @@ pub struct MatchAnswer {
     pub n_matching: u64,
     /// The best set where none holds everything.
     pub nearest: Option<MatchingSet>,
+    /// The best set with each choice of a parameter, where the refinement has a search for each.
+    pub best_of_each: Option<BestOfEach>,
     /// Smallest groups that no set satisfies together.
     pub conflicts: Vec<Conflict>,
     /// What to measure next, the most telling first.
@@ -139,12 +153,7 @@ impl MatchAnswer {
                 .0
                 .total_cmp(&a.smallest_margin(seen).0)
         });
-        let nearest = whole.iter().max_by(|a, b| {
-            let order = |one: &Sample| std::cmp::Reverse(one.fails(seen).len());
-            order(a)
-                .cmp(&order(b))
-                .then(a.score(seen).total_cmp(&b.score(seen)))
-        });
+        let nearest = whole.iter().max_by(|a, b| a.order(b, seen, &found.scales));
         let best = holding.first().or(nearest).copied();
         let gallery = spread(&holding);
         let draws = &found.samples[..found.draws];
@@ -169,6 +178,10 @@ impl MatchAnswer {
                 true => nearest.map(|one| told.set(one)),
                 false => None,
             },
+            best_of_each: problem
+                .effort
+                .each
+                .map(|place| told.best_of_each(place, &whole)),
             conflicts: conflicts(problem, found),
             next: told.next(&whole),
             tried: found.waves.iter().map(|wave| wave.tried).sum(),
@@ -269,6 +282,32 @@ impl Told<'_> {
                 .into_iter()
                 .map(name)
                 .collect(),
+            falls_short: sample
+                .falls_short(&self.problem.observations)
+                .into_iter()
+                .map(name)
+                .collect(),
+        }
+    }
+
+    fn best_of_each(&self, place: usize, whole: &[&Sample]) -> BestOfEach {
+        let parameter = &self.problem.parameters[place];
+        let choices = parameter.choices().iter().enumerate();
+        let row = |(choice, text): (usize, &String)| {
+            let value = ParameterValue::Choice(choice);
+            let those = || {
+                whole
+                    .iter()
+                    .filter(|one| parameter.value(one.unit[place]) == value)
+            };
+            let best =
+                those().max_by(|a, b| a.order(b, &self.problem.observations, &self.found.scales));
+            let best = best.map(|one| self.set(one));
+            (text.clone(), those().count() as u64, best)
+        };
+        BestOfEach {
+            parameter: parameter.name.clone(),
+            choices: choices.map(row).collect(),
         }
     }
 
@@ -353,15 +392,19 @@ fn kolmogorov(numbers: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 impl MatchAnswer {
+    /// Observations with a range.
+    pub fn ranged(&self) -> usize {
+        let ranged = self.observations.iter().filter(|one| one.range.is_some());
+        ranged.count()
+    }
+
     /// Observations with a range that the best set satisfies, and all of them.
     pub fn held(&self) -> [usize; 2] {
-        let ranged = self
-            .observations
-            .iter()
-            .filter(|one| one.range.is_some())
-            .count();
         let best = self.matching.first().or(self.nearest.as_ref());
-        [best.map_or(0, |best| ranged - best.fails.len()), ranged]
+        [
+            best.map_or(0, |best| self.ranged() - best.fails.len()),
+            self.ranged(),
+        ]
     }
 }
 

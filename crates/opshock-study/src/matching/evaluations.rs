@@ -1,7 +1,7 @@
 //! Numbers of parameter sets, kept by content.
 //!
-//! A set of numbers is found again by the study, the settings, the quantities read and the physics versions: ranges of
-//! observations may change and nothing is simulated again.
+//! A set of numbers is found again by the study that was simulated, by content with every file that it names, the
+//! quantities read and the physics versions: ranges of observations may change and nothing is simulated again.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -15,6 +15,7 @@ use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::store::journal::{self, JournalHeader, JournalWriter};
 use crate::store::lock::StoreLock;
 use crate::store::{PointDigest, Record, StoreError};
+use crate::study::{Study, StudyErrors};
 
 /// What is asked for: stage, parameter set, and whether every discretisation is refined.
 pub(super) type Asked<'a> = (Stage, &'a [f64], bool);
@@ -147,7 +148,8 @@ impl<'a> Evaluations<'a> {
         &mut self,
         asked: &[Asked<'_>],
     ) -> (Vec<Option<Vec<Known>>>, Result<(), Interrupted>) {
-        let keys: Vec<PointDigest> = asked.iter().map(|one| self.key(one)).collect();
+        let read = asked.par_iter().map(|one| read(self.problem, one).0);
+        let keys: Vec<PointDigest> = read.collect();
         let mut missing: Vec<usize> = Vec::new();
         for (place, key) in keys.iter().enumerate() {
             if !self.known.contains_key(key)
@@ -156,45 +158,35 @@ impl<'a> Evaluations<'a> {
                 missing.push(place);
             }
         }
-        let computed = self.compute(asked, &keys, &missing);
+        let computed = self.compute(asked, &missing);
         let numbers = keys.iter().map(|key| self.known.get(key).cloned());
         (numbers.collect(), computed)
     }
 
-    fn compute(
-        &mut self,
-        asked: &[Asked<'_>],
-        keys: &[PointDigest],
-        missing: &[usize],
-    ) -> Result<(), Interrupted> {
+    fn compute(&mut self, asked: &[Asked<'_>], missing: &[usize]) -> Result<(), Interrupted> {
         // What is kept with one sync: a kill costs no more.
         let batch = 16 * rayon::current_num_threads();
         let mut so_far = 0;
         for part in missing.chunks(batch) {
             let (problem, printed, stop) = (self.problem, self.printed, self.stop);
-            let numbers: Vec<Option<Vec<Known>>> = part
+            let numbers: Vec<Option<Computed>> = part
                 .par_iter()
-                .map(|place| {
-                    let (stage, unit, is_refined) = asked[*place];
-                    (!stop()).then(|| guarded(problem, printed, stage, unit, is_refined))
-                })
+                .map(|place| (!stop()).then(|| compute(problem, printed, &asked[*place])))
                 .collect();
-            let done = part
-                .iter()
-                .zip(&numbers)
-                .filter_map(|(place, found)| Some((keys[*place], found.clone()?)));
-            let done: Vec<(PointDigest, Vec<Known>)> = done.collect();
+            let done: Vec<Computed> = numbers.into_iter().flatten().collect();
             if let Some(store) = &mut self.store {
-                let record = |(key, numbers): &(PointDigest, Vec<Known>)| Record::Numbers {
-                    key: *key,
-                    numbers: numbers.iter().map(|known| (*known).into()).collect(),
+                let record = |one: &Computed| Record::Numbers {
+                    key: one.key,
+                    numbers: one.numbers.iter().map(|known| (*known).into()).collect(),
                 };
-                let records: Vec<Record> = done.iter().map(record).collect();
+                let lasting = done.iter().filter(|one| one.is_lasting);
+                let records: Vec<Record> = lasting.map(record).collect();
                 store.journal.append(&records).map_err(Interrupted::Store)?;
             }
             self.computed += done.len() as u64;
             let is_whole = done.len() == part.len();
-            self.known.extend(done);
+            self.known
+                .extend(done.into_iter().map(|one| (one.key, one.numbers)));
             so_far += part.len();
             if let Some((stage, ..)) = asked.first() {
                 (self.progress)(*stage, so_far, missing.len());
@@ -205,52 +197,62 @@ impl<'a> Evaluations<'a> {
         }
         Ok(())
     }
-
-    fn key(&self, (stage, unit, is_refined): &Asked<'_>) -> PointDigest {
-        let mut hasher = blake3::Hasher::new();
-        let mut add = |text: &str| {
-            hasher.update(&(text.len() as u64).to_le_bytes());
-            hasher.update(text.as_bytes());
-        };
-        add("opshock match 1");
-        add(&format!(
-            "{PHYSICS_STRUCTURE} {PHYSICS_HEAD} {} {is_refined}",
-            stage.as_str()
-        ));
-        add(&self.problem.study.digest_hex());
-        for argument in self.problem.arguments(*stage, unit) {
-            add(&argument.key);
-            add(&argument.text);
-        }
-        for one in self.problem.observations.iter() {
-            match one.stage == *stage {
-                true => add(&words(&one.quantity)),
-                false => add(""),
-            }
-        }
-        PointDigest(*hasher.finalize().as_bytes())
-    }
 }
 
-/// A panic leaves a parameter set without numbers.
-fn guarded(
+/// Numbers of one parameter set.
+struct Computed {
+    key: PointDigest,
+    numbers: Vec<Known>,
+    /// What a study file that cannot be read or a panic leave is computed again by the next run.
+    is_lasting: bool,
+}
+
+/// The study of a parameter set, and what finds its numbers again.
+fn read(
     problem: &MatchProblem,
-    printed: &dyn Printed,
-    stage: Stage,
-    unit: &[f64],
-    is_refined: bool,
-) -> Vec<Known> {
-    let call = || outputs::numbers(problem, printed, stage, unit, is_refined);
-    std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).unwrap_or_else(|_| {
-        let of_stage = problem
-            .observations
-            .iter()
-            .map(|one| match one.stage == stage {
-                true => Known::Missing,
-                false => Known::NotAsked,
-            });
-        of_stage.collect()
-    })
+    (stage, unit, is_refined): &Asked<'_>,
+) -> (PointDigest, Result<Study, StudyErrors>) {
+    let study = problem.study_of(*stage, unit);
+    let mut hasher = blake3::Hasher::new();
+    let mut add = |text: &str| {
+        hasher.update(&(text.len() as u64).to_le_bytes());
+        hasher.update(text.as_bytes());
+    };
+    add("opshock match 2");
+    let levels = match is_refined {
+        true => "every level finer",
+        false => "false",
+    };
+    add(&format!(
+        "{PHYSICS_STRUCTURE} {PHYSICS_HEAD} {} {levels}",
+        stage.as_str()
+    ));
+    match &study {
+        Ok(study) => add(&study.digest_hex()),
+        Err(refused) => add(&refused.to_string()),
+    }
+    for one in problem.observations.iter() {
+        match one.stage == *stage {
+            true => add(&words(&one.quantity)),
+            false => add(""),
+        }
+    }
+    (PointDigest(*hasher.finalize().as_bytes()), study)
+}
+
+/// A set that the study refuses has no numbers, nor one whose simulation panics.
+fn compute(problem: &MatchProblem, printed: &dyn Printed, asked: &Asked<'_>) -> Computed {
+    let (key, study) = read(problem, asked);
+    let (stage, _, is_refined) = *asked;
+    let numbers = study.ok().and_then(|study| {
+        let call = || outputs::numbers(problem, printed, &study, stage, is_refined);
+        std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).ok()
+    });
+    Computed {
+        key,
+        is_lasting: numbers.is_some(),
+        numbers: numbers.unwrap_or_else(|| outputs::missing(problem, stage)),
+    }
 }
 
 /// What a quantity is, for telling equal ones.

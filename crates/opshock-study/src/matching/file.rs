@@ -53,6 +53,8 @@ pub struct Effort {
     pub refinement: u64,
     /// Starts of the refinement.
     pub starts: u32,
+    /// Parameter each of whose choices is refined by itself, by its place.
+    pub each: Option<usize>,
     /// Parameter sets at which the numerical uncertainty is measured.
     pub probes: u64,
 }
@@ -74,6 +76,7 @@ const TOP: &[&str] = &[
 ];
 /// Draws of the prior by stage unless the file says otherwise.
 const DRAWS: [u64; 3] = [2000, 300, 30];
+const REFINEMENT: &[&str] = &["evaluations", "starts", "each"];
 /// No more of anything.
 const MOST: u64 = 100_000_000;
 
@@ -132,6 +135,10 @@ impl MatchProblem {
             Some(study) => parameters::read(&fields, study, &mut faults),
             None => Vec::new(),
         };
+        let effort = Effort {
+            each: each(&fields, &parameters, &mut faults),
+            ..effort
+        };
         let observations = observed::read(&fields, &folder, &mut faults);
         if fields.get("parameter").is_none() {
             fields.missing("parameter", "[[parameter]], one or more", &mut faults);
@@ -177,6 +184,21 @@ impl MatchProblem {
     /// Independent draws of the prior that a stage gets.
     pub fn draws(&self, stage: Stage) -> u64 {
         self.effort.draws[stage as usize]
+    }
+
+    /// Values at which the refinement keeps a parameter, by its place and cumulative probability: one search each.
+    pub(super) fn held_values(&self) -> Vec<Option<(usize, f64)>> {
+        let Some(place) = self.effort.each else {
+            return vec![None];
+        };
+        let count = self.parameters[place].choices().len();
+        let middle = |k: usize| (k as f64 + 0.5) / count as f64;
+        (0..count).map(|k| Some((place, middle(k)))).collect()
+    }
+
+    /// Searches of the refinement.
+    pub(super) fn searches(&self) -> u64 {
+        u64::from(self.effort.starts) * self.held_values().len() as u64
     }
 
     /// `--set` and `--unset` arguments of a parameter set at a stage.
@@ -290,6 +312,7 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
         samples: 100,
         refinement: 200,
         starts: 2,
+        each: None,
         probes: 6,
     };
     if let Some(draws) = draws {
@@ -315,7 +338,7 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
             .count("samples", [1, MOST], faults)
             .unwrap_or(effort.samples);
     }
-    if let Some(refinement) = table("refinement", &["evaluations", "starts"], faults) {
+    if let Some(refinement) = table("refinement", REFINEMENT, faults) {
         let evaluations = refinement.count("evaluations", [0, MOST], faults);
         effort.refinement = evaluations.unwrap_or(effort.refinement);
         let starts = refinement.count("starts", [1, 1000], faults);
@@ -327,6 +350,32 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
             .unwrap_or(effort.probes);
     }
     effort
+}
+
+/// The parameter that `refinement.each` names.
+fn each(fields: &Fields<'_>, parameters: &[Parameter], faults: &mut Faults) -> Option<usize> {
+    // Its other faults are told with the rest of the table.
+    let refinement = Fields::of(
+        fields.get("refinement")?,
+        "refinement",
+        REFINEMENT,
+        &mut Faults::new(),
+    )?;
+    let name = refinement.text("each", faults)?;
+    let is_named = |one: &Parameter| one.name == name && !one.choices().is_empty();
+    let found = parameters.iter().position(is_named);
+    // Faults of the parameters themselves come first.
+    if found.is_none() && !parameters.is_empty() {
+        let with_choices = parameters.iter().filter(|one| !one.choices().is_empty());
+        let names: Vec<&str> = with_choices.map(|one| one.name.as_str()).collect();
+        let allowed = match names.is_empty() {
+            true => "the name of a parameter with choices; there is none".to_owned(),
+            false => names.join(", "),
+        };
+        let fault = refinement.fault_of("E193", "each", "is no parameter with choices");
+        faults.push(fault.allowed(allowed));
+    }
+    found
 }
 
 fn settings(fields: &Fields<'_>, faults: &mut Faults) -> [Vec<String>; 3] {

@@ -34,7 +34,9 @@ pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost>
         let timed = TIMED.min(problem.draws(stage));
         for index in 0..timed {
             let unit = draw(problem.seed, index, problem.parameters.len());
-            outputs::numbers(problem, printed, stage, &unit, false);
+            if let Ok(study) = problem.study_of(stage, &unit) {
+                outputs::numbers(problem, printed, &study, stage, false);
+            }
         }
         let seconds_each = began.elapsed().as_secs_f64() / timed as f64;
         let probes = match stage {
@@ -44,7 +46,7 @@ pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost>
         let least = problem.draws(stage) + probes;
         let promoted = match effort.refinement {
             0 => 0,
-            _ => u64::from(effort.starts) * population(problem) as u64,
+            _ => (u64::from(effort.starts) + problem.searches()) * population(problem) as u64,
         };
         let waves = (u64::from(effort.waves) + 1) * effort.samples;
         let most = least + waves + promoted + effort.refinement;

@@ -27,7 +27,7 @@ mod sample;
 mod search;
 mod share;
 
-pub use answer::{MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow};
+pub use answer::{BestOfEach, MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow};
 pub use conflicts::Conflict;
 pub use evaluations::{Evaluations, MatchStore};
 pub use file::{Effort, MatchProblem, is_match_file};

@@ -194,13 +194,17 @@ impl Observation {
     }
 
     /// Signed distance to the nearer end of the range in units of the numerical uncertainty `u`: infinite where nothing
-    /// bounds it, without a number, and for numbers that are exact.
+    /// bounds it, without a number, and for numbers that are exact. An end that is met to the bit is a limit of the number, as
+    /// a count or the clearance of a slider that touches, and bounds nothing.
     pub fn margin(&self, number: Known, u: f64) -> Option<f64> {
         let [low, high] = self.range?;
         let inside = match number {
             Known::NotAsked => return None,
             Known::Missing => return Some(f64::NEG_INFINITY),
-            Known::Is(value) => (value - low).min(high - value),
+            Known::Is(value) => {
+                let to = |far: f64| if far == 0.0 { f64::INFINITY } else { far };
+                to(value - low).min(to(high - value))
+            }
         };
         Some(match (u > 0.0, inside >= 0.0) {
             (true, _) => inside / u,
@@ -209,14 +213,19 @@ impl Observation {
         })
     }
 
+    /// Distance outside the range; infinite without a number.
+    pub(super) fn outside(&self, number: Known) -> Option<f64> {
+        let [low, high] = self.range?;
+        match number {
+            Known::NotAsked => None,
+            Known::Missing => Some(f64::INFINITY),
+            Known::Is(value) => Some((low - value).max(value - high).max(0.0)),
+        }
+    }
+
     /// Implausibility with a numerical uncertainty `u`.
     pub fn implausibility(&self, number: Known, u: f64) -> Option<f64> {
-        let [low, high] = self.range?;
-        let outside = match number {
-            Known::NotAsked => return None,
-            Known::Missing => return Some(f64::INFINITY),
-            Known::Is(value) => (low - value).max(value - high).max(0.0),
-        };
+        let outside = self.outside(number)?;
         let total = u.hypot(self.observed_u).hypot(self.discrepancy_u);
         Some(match outside > 0.0 {
             true => outside / total,
@@ -296,6 +305,9 @@ mod tests {
         let one = observation([10.0, 20.0]);
         assert_eq!(one.margin(Known::Is(18.0), 4.0), Some(0.5));
         assert_eq!(one.margin(Known::Is(8.0), 4.0), Some(-0.5));
+        let count = observation([3.0, 3.0]);
+        assert_eq!(count.margin(Known::Is(3.0), 1.0), Some(f64::INFINITY));
+        assert_eq!(count.margin(Known::Is(2.0), 1.0), Some(-1.0));
         // 10 outside over sqrt(4² + 3²).
         assert_eq!(one.implausibility(Known::Is(30.0), 4.0), Some(2.0));
         assert_eq!(one.implausibility(Known::Is(10.0), 4.0), Some(0.0));

@@ -115,7 +115,11 @@ fn of_claim(claim: &'static Claim) -> Observation {
     Observation {
         name: claim.id.to_owned(),
         quantity: Quantity::Statement(claim),
-        range: Some([claim.bounds.0, claim.bounds.1]),
+        range: Some(match claim.bounds {
+            // None of the numbers is negative whose bounds begin at 0.
+            (0.0, high) if high > 0.0 => [f64::NEG_INFINITY, high],
+            (low, high) => [low, high],
+        }),
         observed_u: 0.0,
         discrepancy_u: 0.0,
         numerical_u: None,
@@ -192,6 +196,11 @@ fn one(
         faults.push(fault.allowed("no shock"));
     }
     let range = table.range("range", true, faults);
+    // A distance is not negative: 0 is no end of its range.
+    let range = range.map(|[low, high]| match kind {
+        "history" | "distance_pct" if low <= 0.0 => [f64::NEG_INFINITY, high],
+        _ => [low, high],
+    });
     if own_range.is_some() && range.is_some() {
         faults.push(
             table

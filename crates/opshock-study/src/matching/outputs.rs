@@ -33,36 +33,36 @@ pub trait Printed: Sync {
     fn steady(&self, study: &Study, scene: &Scene) -> Result<Value, String>;
 }
 
-/// Numbers of every observation at `stage` for a parameter set; with every discretisation refined once where that is
-/// asked. A parameter set that the study refuses, or that has no answer, has no numbers.
+/// What is known of a parameter set that has no numbers at `stage`.
+pub(super) fn missing(problem: &MatchProblem, stage: Stage) -> Vec<Known> {
+    let known = |one: &Observation| match one.stage == stage
+        && !matches!(one.quantity, Quantity::Combined(..))
+    {
+        true => Known::Missing,
+        false => Known::NotAsked,
+    };
+    problem.observations.iter().map(known).collect()
+}
+
+/// Numbers of every observation at `stage` for the `study` of a parameter set; with every discretisation refined once
+/// where that is asked.
 pub(super) fn numbers(
     problem: &MatchProblem,
     printed: &dyn Printed,
+    study: &Study,
     stage: Stage,
-    unit: &[f64],
     is_refined: bool,
 ) -> Vec<Known> {
     let observations = &problem.observations;
-    let mut found: Vec<Known> = observations
-        .iter()
-        .map(
-            |one| match one.stage == stage && !matches!(one.quantity, Quantity::Combined(..)) {
-                true => Known::Missing,
-                false => Known::NotAsked,
-            },
-        )
-        .collect();
-    let Ok(study) = problem.study_of(stage, unit) else {
-        return found;
-    };
+    let mut found = missing(problem, stage);
     if stage == Stage::CriticalShocks {
-        critical(&study, observations, &mut found);
+        critical(study, observations, &mut found);
         return found;
     }
     let mut set = Simulations {
         problem,
         printed,
-        study: &study,
+        study,
         stage,
         is_refined,
         models: Vec::new(),
@@ -97,14 +97,14 @@ impl Simulations<'_> {
         Plan::new(outputs, Mode::Auto)
     }
 
-    /// Every discretisation of a scene one step finer, but for those that are parameters.
-    fn levels(&self, scene: &Scene) -> Levels {
+    /// Every discretisation one step finer, but for those that are parameters.
+    fn levels(&self) -> Levels {
         if !self.is_refined {
             return Levels::NONE;
         }
         let keys = self.problem.parameters.iter().flat_map(|one| &one.keys);
         let is_sought = |name: &str| keys.clone().any(|(key, _)| key == name);
-        let knobs = scene.knobs().into_iter().filter(|knob| match knob {
+        let knobs = Knob::ALL.into_iter().filter(|knob| match knob {
             Knob::DiskModes => !is_sought("solver.disk_cut_khz"),
             Knob::SuspensionModes => !is_sought("solver.suspension_modes"),
             Knob::FilmGrid => !is_sought("solver.film_cells"),
@@ -126,11 +126,11 @@ impl Simulations<'_> {
                 _ => None,
             })
             .collect();
-        let Some(point) = self.study.points.first().filter(|_| !asked.is_empty()) else {
+        if asked.is_empty() {
             return;
-        };
+        }
         let plan = self.plan().past_touch();
-        let Ok(tasks) = Shocks::planned(self.study, &plan, self.levels(&point.scene)) else {
+        let Ok(tasks) = Shocks::planned(self.study, &plan, self.levels()) else {
             return;
         };
         let cases = tasks
@@ -197,7 +197,7 @@ impl Simulations<'_> {
             amplitude_g: shock.amplitude_g,
         };
         let shot = self.study.select(&choice).ok()?;
-        let scene = shot.point.scene.at_levels(self.levels(&shot.point.scene));
+        let scene = shot.point.scene.at_levels(self.levels());
         let model = Model::assemble(&scene, &self.plan(), self.models.iter()).ok()?;
         let request = Request {
             amplitude_m_per_s2: shot.point.factor() * m_per_s2_from_g(shot.amplitude_g),
@@ -218,7 +218,7 @@ impl Simulations<'_> {
             if one.stage != self.stage {
                 continue;
             }
-            let scene = || point.scene.at_levels(self.levels(&point.scene));
+            let scene = || point.scene.at_levels(self.levels());
             let (json, path) = match &one.quantity {
                 Quantity::Modes(path) => (
                     modes.get_or_insert_with(|| self.printed.modes(self.study, &scene())),

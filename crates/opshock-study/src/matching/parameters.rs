@@ -175,9 +175,7 @@ fn distribution(table: &Fields<'_>, faults: &mut Faults) -> Option<Distribution>
             let mut texts = Vec::new();
             for (node, path) in &entries {
                 match node.value {
-                    Value::Table(_) | Value::Date => {
-                        faults.push(wrong_kind(node, path, "a word, number or flag"))
-                    }
+                    Value::Date => faults.push(wrong_kind(node, path, "a word, number or flag")),
                     _ => texts.push(plain(node)),
                 }
             }

@@ -76,6 +76,14 @@ impl Parameter {
         })
     }
 
+    /// The list it is one of, as TOML; empty for numbers, and for one that may be absent.
+    pub fn choices(&self) -> &[String] {
+        match &self.distribution {
+            Distribution::Choices(list) if self.unset_share == 0.0 => list,
+            _ => &[],
+        }
+    }
+
     /// `--set` and `--unset` arguments: key and text, which is absent where the key is taken away.
     pub fn settings(&self, probability: f64) -> Vec<(String, Option<String>)> {
         let value = self.value(probability);

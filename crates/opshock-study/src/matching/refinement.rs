@@ -17,9 +17,7 @@ impl Run<'_, '_> {
         let effort = &self.problem.effort;
         let samples = &self.found.samples;
         let part = samples.iter().filter(|one| !one.is_whole());
-        let mut all: Vec<(f64, &Sample)> = part
-            .map(|one| (one.score(&self.problem.observations), one))
-            .collect();
+        let mut all: Vec<(f64, &Sample)> = part.map(|one| (self.score(one), one)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.truncate(effort.starts as usize * population(self.problem));
         let mut on: Vec<Sample> = all
@@ -35,34 +33,55 @@ impl Run<'_, '_> {
         evaluated
     }
 
-    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341) from the best sets, `start` of them
-    /// left out in front.
-    pub(super) fn refine(&mut self, start: u32) -> Result<(), Interrupted> {
+    fn score(&self, sample: &Sample) -> f64 {
+        sample.score(&self.problem.observations, &self.found.scales)
+    }
+
+    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341) from the best sets, each start from
+    /// others of them; `search` is its place among all, `held` a parameter that keeps one value.
+    pub(super) fn refine(
+        &mut self,
+        search: u32,
+        start: u32,
+        held: Option<(usize, f64)>,
+    ) -> Result<(), Interrupted> {
         let problem = self.problem;
-        let most = problem.effort.refinement / u64::from(problem.effort.starts);
+        let most = problem.effort.refinement / problem.searches();
         let size = population(problem);
         let whole = self.found.samples.iter().filter(|one| one.is_whole());
-        let mut all: Vec<(f64, &Sample)> = whole
-            .map(|one| (one.score(&self.problem.observations), one))
-            .collect();
+        let mut all: Vec<(f64, &Sample)> = whole.map(|one| (self.score(one), one)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.dedup_by(|a, b| a.1.unit == b.1.unit);
         // Every start its own part of the best, so that they are different ones.
         let stride = problem.effort.starts as usize;
         let part = all.iter().skip(start as usize).step_by(stride).take(size);
-        let mut population: Vec<(f64, Sample)> =
-            part.map(|(score, one)| (*score, (*one).clone())).collect();
+        let mut first: Vec<Sample> = part.map(|(_, one)| (*one).clone()).collect();
+        if let Some((place, p)) = held {
+            for one in &mut first {
+                let mut unit = one.unit.clone();
+                unit[place] = p;
+                *one = self.fresh(unit, None);
+            }
+            let mut stages = problem.stages();
+            stages.try_for_each(|stage| self.evaluate(stage, &mut first))?;
+        }
+        let score = |one: Sample| (self.score(&one), one);
+        let mut population: Vec<(f64, Sample)> = first.into_iter().map(score).collect();
         if population.len() < 4 || most == 0 {
             return Ok(());
         }
-        let before = population[0].0;
+        let best = |population: &[(f64, Sample)]| {
+            let scores = population.iter().map(|(score, _)| *score);
+            scores.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let before = best(&population);
         let (mut tried, mut generation) = (0, 0);
         let mut interrupted = Ok(());
         while tried < most {
             let mut children: Vec<Sample> = Vec::new();
             let n = (population.len() as u64).min(most - tried) as usize;
             for k in 0..n {
-                children.push(self.child(&population, k, start, generation));
+                children.push(self.child(&population, k, search, generation, held));
             }
             interrupted = self.compete(&mut population, children);
             if interrupted.is_err() {
@@ -72,10 +91,7 @@ impl Run<'_, '_> {
             self.found.refined += n as u64;
             generation += 1;
         }
-        let best = population
-            .iter()
-            .map(|(score, _)| *score)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let after = best(&population);
         let holding = population.iter().filter(|(score, _)| *score >= 0.0).count();
         self.found.samples.extend(
             population
@@ -83,16 +99,27 @@ impl Run<'_, '_> {
                 .map(|(_, one)| Sample { wave: None, ..one }),
         );
         interrupted?;
+        let of = held.map_or_else(String::new, |(place, p)| {
+            let parameter = &problem.parameters[place];
+            format!(", {} {}", parameter.name, parameter.words(p))
+        });
         self.report(
-            &format!("refinement {}: {before:.3} to {best:.3}", start + 1),
+            &format!("refinement {}{of}: {before:.3} to {after:.3}", start + 1),
             tried,
             holding as u64,
         );
         Ok(())
     }
 
-    fn child(&self, population: &[(f64, Sample)], k: usize, start: u32, generation: u64) -> Sample {
-        let stage = 1000 + start;
+    fn child(
+        &self,
+        population: &[(f64, Sample)],
+        k: usize,
+        search: u32,
+        generation: u64,
+        held: Option<(usize, f64)>,
+    ) -> Sample {
+        let stage = 1000 + search;
         let mut random = numbers(self.problem.seed, stage, generation * 1000 + k as u64);
         let pick = |random: &mut dyn FnMut() -> f64| (random() * population.len() as f64) as usize;
         let best =
@@ -102,7 +129,7 @@ impl Run<'_, '_> {
         let (a, b) = (pick(&mut random), pick(&mut random));
         let (towards, along) = (random() * random(), 0.2 + 0.7 * random());
         let sure = (random() * own.len() as f64) as usize;
-        let moved: Vec<f64> = (0..own.len())
+        let mut moved: Vec<f64> = (0..own.len())
             .map(|d| {
                 let step = towards * (best[d] - own[d])
                     + along * (unit(a)[d] - unit(b)[d])
@@ -113,6 +140,9 @@ impl Run<'_, '_> {
                 }
             })
             .collect();
+        if let Some((place, p)) = held {
+            moved[place] = p;
+        }
         self.fresh(moved, None)
     }
 
@@ -132,12 +162,10 @@ impl Run<'_, '_> {
                 .zip(on)
                 .map(|((k, _), one)| (k, one))
                 .collect();
-            left.retain(|(k, one)| {
-                one.score(&self.problem.observations) >= population[*k].0.min(0.0)
-            });
+            left.retain(|(k, one)| self.score(one) >= population[*k].0.min(0.0));
         }
         for (k, one) in left {
-            let score = one.score(&self.problem.observations);
+            let score = self.score(&one);
             if score >= population[k].0 {
                 population[k] = (score, one);
             }

@@ -1,9 +1,13 @@
 //! A parameter set, and how it stands to the observations.
 
+use std::cmp::Ordering;
+
 use super::observation::{Known, Observation, RULED_OUT};
 
 /// Implausibility or negative margin beyond which one observation is as wrong as any.
 const FAR: f64 = 1e3;
+/// Margin that the search asks of every observation before it widens the smallest: its own numerical uncertainty.
+const SAFE: f64 = 1.0;
 
 /// A parameter set.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +68,28 @@ impl Sample {
         (0..observations.len()).filter(holds).collect()
     }
 
+    /// Places of observations whose margin is below their numerical uncertainty.
+    pub(super) fn falls_short(&self, observations: &[Observation]) -> Vec<usize> {
+        let short = self
+            .margins(observations)
+            .filter(|(_, margin)| *margin < SAFE);
+        short.map(|(place, _)| place).collect()
+    }
+
+    /// Fewest observations that do not hold first, then by [`Self::score`].
+    pub(super) fn order(
+        &self,
+        other: &Self,
+        observations: &[Observation],
+        scales: &[f64],
+    ) -> Ordering {
+        let fails = |one: &Self| one.fails(observations).len();
+        let scores = self
+            .score(observations, scales)
+            .total_cmp(&other.score(observations, scales));
+        fails(other).cmp(&fails(self)).then(scores)
+    }
+
     /// Smallest margin, and the place of the observation that has it.
     pub(super) fn smallest_margin(&self, observations: &[Observation]) -> (f64, Option<usize>) {
         let margins = self
@@ -74,18 +100,40 @@ impl Sample {
         })
     }
 
-    /// What the search makes as large as it can: the smallest margin where all hold, else what is missing, with a step for
-    /// each observation that does not hold, so that one more holds before the others come nearer.
-    pub(super) fn score(&self, observations: &[Observation]) -> f64 {
-        let missing = self
-            .margins(observations)
-            .filter(|(_, margin)| *margin < 0.0);
-        let missing: f64 = missing
-            .map(|(_, margin)| 1.0 + (-margin).min(FAR).ln_1p())
+    /// What the search makes as large as it can: the smallest margin where all reach their numerical uncertainty, else what
+    /// is missing, with a step for each observation that does not, so that one more reaches it before the others come nearer.
+    /// `scales` are distances of each number that count as half a step.
+    pub(super) fn score(&self, observations: &[Observation], scales: &[f64]) -> f64 {
+        let missing: f64 = self
+            .falls_short(observations)
+            .into_iter()
+            .map(|place| {
+                let ((known, u), scale) = (self.numbers[place], scales[place]);
+                let outside = observations[place].outside(known).unwrap_or(0.0) + SAFE * u;
+                1.0 + if outside.is_finite() {
+                    outside / (outside + scale)
+                } else {
+                    1.0
+                }
+            })
             .sum();
         match missing > 0.0 {
             true => -missing,
             false => self.smallest_margin(observations).0.min(FAR),
         }
     }
+}
+
+/// Median distance of numbers outside their range, over the samples in which they do not hold; 1 where there is none.
+pub(super) fn scales(samples: &[Sample], observations: &[Observation]) -> Vec<f64> {
+    let of = |(place, one): (usize, &Observation)| {
+        let numbers = samples.iter().map(|sample| sample.numbers[place].0);
+        let outside = numbers.filter_map(|known| one.outside(known));
+        let mut all: Vec<f64> = outside
+            .filter(|far| *far > 0.0 && far.is_finite())
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or(1.0)
+    };
+    observations.iter().enumerate().map(of).collect()
 }

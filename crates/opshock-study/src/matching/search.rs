@@ -4,7 +4,7 @@ use super::evaluations::{Asked, Evaluations, Interrupted};
 use super::file::MatchProblem;
 use super::observation::{Known, Quantity, RULED_OUT, Stage};
 use super::prior::{draw, filling, numbers};
-use super::sample::Sample;
+use super::sample::{Sample, scales};
 use crate::store::StoreError;
 
 /// Sets from which a wave starts at least; the nearest where fewer are left.
@@ -41,6 +41,8 @@ pub struct Searched {
     pub draws: usize,
     /// Measured numerical uncertainty of every observation; 0 where it is given, exact or not measured.
     pub measured_u: Vec<f64>,
+    /// Distances of each number outside its range that are usual in the prior.
+    pub(super) scales: Vec<f64>,
     /// What was done.
     pub waves: Vec<WaveReport>,
     /// Parameter sets of the refinement, over all starts.
@@ -66,6 +68,7 @@ pub fn search(
             samples: Vec::new(),
             draws: 0,
             measured_u: vec![0.0; problem.observations.len()],
+            scales: vec![1.0; problem.observations.len()],
             waves: Vec::new(),
             refined: 0,
             ended: Ended::Complete,
@@ -131,8 +134,12 @@ impl Run<'_, '_> {
         if self.problem.effort.refinement > 0 {
             self.promote()?;
         }
+        let mut search = 0;
         for start in 0..self.problem.effort.starts {
-            self.refine(start)?;
+            for held in self.problem.held_values() {
+                self.refine(search, start, held)?;
+                search += 1;
+            }
         }
         Ok(())
     }
@@ -193,6 +200,7 @@ impl Run<'_, '_> {
                 return evaluated;
             }
         }
+        self.found.scales = scales(&samples, &problem.observations);
         // What is not ruled out goes on to the later stages.
         let mut left: Vec<usize> = (0..samples.len())
             .filter(|k| {

@@ -9,11 +9,11 @@ use super::files::json;
 use super::html::escaped;
 use super::match_tables::{Table, maybe, summary, tables, words};
 use super::table::csv_line;
-use crate::matching::{Known, MatchAnswer, MatchProblem, MatchingSet, Searched};
+use crate::matching::{BestOfEach, Known, MatchAnswer, MatchProblem, MatchingSet, Searched};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 
-/// `match.md`, `match.html`, `match.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`, `ranges.png` and
-/// `matching-1.toml` and on, one study for each set of the gallery: names and bytes.
+/// `match.md`, `match.html`, `match.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`, `ranges.png`,
+/// `choices.svg` and `choices.png` where the refinement has a search for each choice, and `matching-1.toml` and on, one study for each set of the gallery: names and bytes.
 ///
 /// # Errors
 ///
@@ -58,6 +58,11 @@ pub fn match_files(
         ("ranges.svg".to_owned(), figure.svg().into_bytes()),
         ("ranges.png".to_owned(), figure.png()?),
     ];
+    if let Some(each) = &answer.best_of_each {
+        let figure = choices(answer, each);
+        files.push(("choices.svg".to_owned(), figure.svg().into_bytes()));
+        files.push(("choices.png".to_owned(), figure.png()?));
+    }
     let sets = answer.matching.iter().chain(&answer.nearest).enumerate();
     for (place, set) in sets {
         let name = match set.fails.is_empty() {
@@ -180,6 +185,65 @@ fn ranges(answer: &MatchAnswer) -> Figure {
             x: axis.between(0.5, n + 0.5),
             y: Axis::linear("Cumulative probability before").between(-0.05, 1.05),
             series: vec![ends(0.0), ends(1.0), left],
+            rules: Vec::new(),
+            shaded: None,
+        }],
+    }
+}
+
+/// Observations that hold with the best set of each choice.
+fn choices(answer: &MatchAnswer, each: &BestOfEach) -> Figure {
+    let count = |short: fn(&MatchingSet) -> &Vec<String>| {
+        let places = each.choices.iter().enumerate();
+        let found = places.filter_map(|(place, (.., best))| Some((place, best.as_ref()?)));
+        let sample = |(place, best): (usize, &MatchingSet)| {
+            let y = (answer.ranged() - short(best).len()) as f64;
+            Sample {
+                x: place as f64 + 1.0,
+                value: Value::Known { y, low: y, high: y },
+                open: false,
+                note: short(best).join(", "),
+            }
+        };
+        found.map(sample).collect::<Vec<_>>()
+    };
+    let held = Series::marked(
+        "hold",
+        colour::BLUE,
+        None,
+        (Marker::Circle, Fill::Open),
+        count(|best| &best.fails),
+    );
+    let safe = Series::marked(
+        "hold by their numerical uncertainty",
+        colour::BLUE,
+        None,
+        (Marker::Circle, Fill::Full),
+        count(|best| &best.falls_short),
+    );
+    let names = each.choices.iter().enumerate();
+    let axis = Axis::linear(&each.parameter)
+        .named(names.map(|(place, (value, ..))| (place as f64 + 1.0, value.clone())));
+    let (n, all) = (each.choices.len() as f64, answer.ranged() as f64);
+    let every = Series::curve(
+        "all",
+        colour::GREY,
+        Dash::Dashed,
+        vec![(0.5, all), (n + 0.5, all)],
+    );
+    Figure {
+        title: answer.name.clone(),
+        subtitle: format!(
+            "observations that hold with the best set, {}",
+            each.parameter
+        ),
+        columns: 1,
+        panel_px: (140.0 + 70.0 * n, 340.0),
+        panels: vec![Panel {
+            title: String::new(),
+            x: axis.between(0.5, n + 0.5),
+            y: Axis::linear("Observations").between(0.0, all + 1.0),
+            series: vec![every, held, safe],
             rules: Vec::new(),
             shaded: None,
         }],

@@ -194,6 +194,39 @@ pub(super) fn tables(answer: &MatchAnswer) -> Vec<Table> {
             rows: sets.iter().enumerate().map(row).collect(),
         });
     }
+    if let Some(each) = &answer.best_of_each {
+        let row = |(value, tried, best): &(String, u64, Option<MatchingSet>)| {
+            let count = |short: fn(&MatchingSet) -> &Vec<String>| {
+                best.as_ref().map_or_else(
+                    || "-".to_owned(),
+                    |best| (answer.ranged() - short(best).len()).to_string(),
+                )
+            };
+            let lacking = best.as_ref().map(|best| best.falls_short.join(", "));
+            vec![
+                value.clone(),
+                tried.to_string(),
+                count(|best| &best.fails),
+                count(|best| &best.falls_short),
+                lacking.unwrap_or_default(),
+            ]
+        };
+        all.push(Table {
+            title: "The best set of each choice",
+            words: format!(
+                "A search of its own for each choice of {}: observations that hold, and that hold by their numerical uncertainty.",
+                each.parameter
+            ),
+            head: vec![
+                each.parameter.clone(),
+                "sets tried".to_owned(),
+                "hold".to_owned(),
+                "by their numerical uncertainty".to_owned(),
+                "all but".to_owned(),
+            ],
+            rows: each.choices.iter().map(row).collect(),
+        });
+    }
     if !answer.conflicts.is_empty() {
         all.push(Table {
             title: "Conflicts",
