@@ -184,6 +184,7 @@ fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
             "[{ frequency_hz = 900.0, mass_mg = 50.0, participation = 0.2 }]".to_string()
         }
         "solver.leave_out" => return None,
+        "solver.not_refined" => "[\"disk_modes\"]".to_string(),
         // Ways to read files; what they hold takes their place.
         path if path.starts_with("ramp.deformable.mesh.")
             || path.starts_with("suspension.imported.")
@@ -296,6 +297,7 @@ fn an_identity_depends_on_the_scene_and_on_nothing_else() {
         "outputs=[\"min_clearance\"]",
         "search.tolerance_pct=2",
         "output.checkpoint_s=60",
+        "solver.not_refined=[\"disk_modes\"]",
         "pulse.start_ms=1",
         "ramp.clearance_top_um=100",
         "gas.altitude_m=0",
@@ -313,6 +315,31 @@ fn an_identity_depends_on_the_scene_and_on_nothing_else() {
     ids.sort();
     ids.dedup();
     assert_eq!(ids.len(), 4);
+}
+
+#[test]
+fn a_value_of_the_model_is_not_refined() {
+    use opshock_solver::scene::knob::{Knob, Levels};
+    let sets = [
+        "solver.not_refined=[\"disk_modes\"]",
+        "solver.disk_cut_khz=40",
+    ];
+    let study = read(SHORT, &sets).unwrap();
+    let scene = &study.points[0].scene;
+    assert!(!scene.knobs().contains(&Knob::DiskModes));
+    assert!(scene.knobs().contains(&Knob::StructureStep));
+    let finer = Levels::NONE
+        .turned(Knob::DiskModes, 1)
+        .turned(Knob::StructureStep, 1);
+    let finer = scene.at_levels(finer);
+    assert_eq!(finer.disk_resolution, scene.disk_resolution);
+    let step_s = scene.structure_resolution.step_s;
+    assert_eq!(finer.structure_resolution.step_s, 0.5 * step_s);
+    let values = "values of the model, not refined: disk modes to 40 kHz";
+    assert_eq!(study.not_refined().as_deref(), Some(values));
+    assert_eq!(read(SHORT, &sets[1..]).unwrap().not_refined(), None);
+    let unknown = read(SHORT, &["solver.not_refined=[\"disk\"]"]).unwrap_err();
+    assert!(unknown.to_string().contains("disk_modes"), "{unknown}");
 }
 
 #[test]

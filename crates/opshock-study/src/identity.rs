@@ -141,6 +141,7 @@ impl Digester {
             fail_below_m: _,
             film_resolution: _,
             head_resolution: _,
+            not_refined: _,
         } = scene;
         self.pulse(pulse);
         if let Some(ObliqueShock {
@@ -227,6 +228,7 @@ impl Digester {
             ramp: _,
             disk_resolution: _,
             structure_resolution: _,
+            not_refined: _,
         } = scene;
         self.slider(slider);
         self.suspension(suspension);

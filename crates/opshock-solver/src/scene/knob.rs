@@ -157,20 +157,24 @@ impl Levels {
 }
 
 impl Scene {
-    /// The knobs that can change this scene's answer: without a ramp nothing excites what the
-    /// disk's modes and the structure's step resolve.
+    /// The discretisation parameters whose refinement can change this scene's answer: without a ramp nothing excites what
+    /// the disk's modes and the structure's step resolve, and a value of the model is not refined.
     pub fn knobs(&self) -> Vec<Knob> {
         let has_ramp = self.ramp.model != RampModel::None;
         Knob::ALL
             .into_iter()
             .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))
+            .filter(|knob| !self.not_refined.contains(knob))
             .collect()
     }
 
-    /// The same scene with its knobs turned; see the module's table.
+    /// The same scene with its knobs turned, but for values of the model; see the module's table.
     #[must_use]
-    pub fn at_levels(&self, levels: Levels) -> Scene {
+    pub fn at_levels(&self, mut levels: Levels) -> Scene {
         let mut scene = self.clone();
+        for knob in &self.not_refined {
+            levels.0[knob.place()] = 0;
+        }
         let power = |base: f64, knob: Knob| base.powi(i32::from(levels.of(knob)));
         let scaled = |count: usize, factor: f64, least: usize| {
             ((count as f64 * factor).round() as usize).max(least)

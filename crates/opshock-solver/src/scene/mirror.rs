@@ -53,6 +53,7 @@ impl Scene {
             structure_resolution,
             film_resolution,
             head_resolution,
+            not_refined,
         } = self;
         Self {
             pulse: pulse.clone(),
@@ -72,6 +73,7 @@ impl Scene {
             structure_resolution: structure_resolution.clone(),
             film_resolution: film_resolution.clone(),
             head_resolution: head_resolution.clone(),
+            not_refined: not_refined.clone(),
         }
     }
 }

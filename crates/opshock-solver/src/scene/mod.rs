@@ -6,6 +6,7 @@ mod mirror;
 pub mod plan;
 mod refine;
 
+use self::knob::Knob;
 use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, SurfaceForces};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
@@ -54,6 +55,9 @@ pub struct Scene {
     pub film_resolution: FilmResolution,
     /// Resolution of the head.
     pub head_resolution: HeadResolution,
+    /// Discretisation parameters that are values of the model, as the highest frequency of a finite-element disk: no
+    /// refinement changes them.
+    pub not_refined: Vec<Knob>,
 }
 
 impl Scene {

@@ -188,13 +188,16 @@ impl Runner {
         // The histories of all stay.
         let models = all.map(|task| task.demand().steps).sum();
         memory::check("the shocks", Demand { models, ..demand }, self.threads)?;
-        let own = self.run(&own, &[]).map_err(shock_failure)?;
+        let cases = self.run(&own, &[]).map_err(shock_failure)?;
+        // What is not refined is the same scene.
+        let scenes = own.iter().map(|task| task.scene().clone());
+        let known: Vec<_> = scenes.zip(cases.iter().cloned()).collect();
         let mut finer = Vec::new();
         for (knob, tasks) in all_finer {
-            let cases = self.run(&tasks, &[]).map_err(shock_failure)?;
+            let cases = self.run(&tasks, &known).map_err(shock_failure)?;
             finer.push((knob.as_str(), Shocks::of(cases)));
         }
-        Ok((Shocks::of(own), finer))
+        Ok((Shocks::of(cases), finer))
     }
 
     /// `None` when a signal stopped it. Without a folder to keep them in there are no searches.

@@ -146,6 +146,9 @@ pub fn run(
         None if arguments.plot => console.result(&terminal_plot(&stored.summary))?,
         None => {
             console.result(&table::terminal(&stored.summary))?;
+            if let Some(values) = source.not_refined() {
+                console.tell(&values);
+            }
             for crossing in &crossings {
                 console.tell(&crossing.line());
             }

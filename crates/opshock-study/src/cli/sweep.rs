@@ -159,6 +159,9 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         console.result_json(&Told::of(&stored::read(&source, console)?))?;
     } else {
         console.result(&table::terminal(&summary))?;
+        if let Some(values) = study.not_refined() {
+            console.tell(&values);
+        }
     }
     match end.ending {
         Ending::Complete => Ok(audited.map_or_else(

@@ -7,6 +7,7 @@
 //! Sources of the default drive: disk, ramp place, ramp clearance: sample data of the CMLAir 8.01
 //! user manual (Mardan and Bogy, 2011). Suspension and air-bearing surface: opshock's own designs.
 
+use opshock_solver::scene::knob::Knob;
 use std::sync::LazyLock;
 
 use super::key::{ABOVE_ZERO, ANY, Choice, FROM_ZERO, Key, Kind, above, below, closed, open};
@@ -65,6 +66,16 @@ pub const MESH_UNITS: &[&str] = &["mm", "um", "m", "inch"];
 pub const MATRIX_UNITS: &[&str] = &["si", "mm_mn", "mm_n"];
 /// Named surfaces.
 pub const SURFACES: &[&str] = &["femto-2.5in"];
+
+/// Discretisation parameters of a scene.
+pub const DISCRETISATION: &[&str] = &[
+    Knob::FilmGrid.as_str(),
+    Knob::DiskModes.as_str(),
+    Knob::SuspensionModes.as_str(),
+    Knob::StructureStep.as_str(),
+    Knob::HeadTolerance.as_str(),
+    Knob::CouplingTolerance.as_str(),
+];
 
 const RATIO: Kind = Number(FROM_ZERO);
 const LENGTH: Kind = Number(ABOVE_ZERO);
@@ -340,6 +351,7 @@ static TABLE: &[Key] = &[
     Key::or("solver.fail_below_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0),
     Key::rung("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided."),
     Key::rung("solver.disk_cut_khz", LENGTH, "30.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0),
+    Key::optional("solver.not_refined", Words(DISCRETISATION), "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: no error bar counts them, no refinement changes them."),
     Key::rung("solver.disk_harmonics", Integer(1, 2000), "40", "Largest number of nodal diameters."),
     Key::rung("solver.disk_elements", Integer(2, 5000), "40", "Radial finite elements of the disk."),
     Key::rung("solver.static_correction", Flag, "true", "Adds the residual flexibility of the ramp point."),

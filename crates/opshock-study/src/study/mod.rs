@@ -63,6 +63,7 @@ pub use set_arg::{SetArg, SetSyntaxError};
 pub use words::{Certify, Effects, Faces, KeepHistories, Ramp, Sign, coupling_word, rung_word};
 
 use included::Location;
+use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use read::Reader;
 use settings::{Settings, View};
@@ -289,6 +290,26 @@ impl Study {
             .iter()
             .map(|byte| format!("{byte:02x}"))
             .collect()
+    }
+
+    /// Which discretisation parameters are values of the model; `None` where all are refined.
+    pub fn not_refined(&self) -> Option<String> {
+        let scene = &self.points.first()?.scene;
+        let value = |knob: &Knob| match knob {
+            Knob::FilmGrid => format!("{} film cells", scene.film_resolution.cells),
+            Knob::DiskModes => {
+                let cut_khz = scene.disk_resolution.cut_hz / 1e3;
+                format!("disk modes to {cut_khz} kHz")
+            }
+            Knob::SuspensionModes => {
+                let count = scene.head_resolution.suspension_modes;
+                format!("{count} suspension modes")
+            }
+            other => other.as_str().to_owned(),
+        };
+        let values: Vec<String> = scene.not_refined.iter().map(value).collect();
+        let are_some = !values.is_empty();
+        are_some.then(|| format!("values of the model, not refined: {}", values.join(", ")))
     }
 
     /// Whether `output` is asked for.

@@ -9,6 +9,7 @@ use opshock_solver::ramp::{
     ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
 };
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
+use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
@@ -71,7 +72,14 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         structure_resolution: structure,
         film_resolution: film,
         head_resolution: head,
+        not_refined: not_refined(view),
     }
+}
+
+/// Discretisation parameters that are values of the model.
+fn not_refined(view: &View<'_>) -> Vec<Knob> {
+    let words = view.words("solver.not_refined").iter();
+    words.filter_map(|word| Knob::from_word(word)).collect()
 }
 
 /// Coupling tolerance as a share of the head's, unless the study sets it.

@@ -20,6 +20,7 @@ use super::table;
 use crate::accuracy::Accuracy;
 use crate::store::Audit;
 use crate::store::summary::{Flag, PointSummary, Status, Summary};
+use crate::study::Study;
 use std::fmt::Write as _;
 
 /// What a report is made from.
@@ -64,12 +65,26 @@ impl<'a> ReportSource<'a> {
         }
     }
 
+    /// Discretisation parameters that are values of the study's model, in words.
+    pub fn not_refined(&self) -> Option<String> {
+        Study::from_text(self.resolved_study?, &[])
+            .ok()?
+            .not_refined()
+    }
+
     /// The line under a table: program, study, audit.
     pub fn provenance(&self) -> String {
         let audit = self
             .audit
             .map_or(String::new(), |audit| format!("; {}", audit.sentence()));
-        let mut text = format!("{}, study {}{audit}", self.program, self.summary.digest);
+        let mut text = self
+            .not_refined()
+            .map_or(String::new(), |values| values + "\n\n");
+        let _ = write!(
+            text,
+            "{}, study {}{audit}",
+            self.program, self.summary.digest
+        );
         for line in savings::lines(self.savings) {
             text.push_str("\n\n");
             text.push_str(&line);
@@ -426,6 +441,9 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("program", source.program);
     entry("study", &summary.study);
     entry("digest", &summary.digest);
+    if let Some(values) = source.not_refined() {
+        entry("error bars", &values);
+    }
     if let Some(audit) = source.audit {
         let mut told = vec![audit.sentence()];
         told.extend(audit.differences.iter().map(ToString::to_string));
