@@ -12,7 +12,7 @@ use crate::matching::{
     forecast, search,
 };
 use crate::provenance;
-use crate::report::{RunJson, match_files, match_text};
+use crate::report::{RunJson, STUDY_OF_A_MATCH, match_files, match_text};
 use crate::store::aside;
 use crate::study::Study;
 use crate::study::memory::Demand;
@@ -92,6 +92,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
         let files = match_files(&problem, &answer, &found, &provenance::program())
             .context("cannot draw a figure")?;
         let written = aside::write_all(folder, files)?;
+        remove_studies_of_before(&problem, folder, &written)?;
         console.tell(&format!(
             "wrote {} files into {}",
             written.len(),
@@ -114,6 +115,35 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     ));
     let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
     Ok(signal.map_or(Exit::Budget, Exit::Signal))
+}
+
+/// Removes the studies that a former match wrote into `folder` and this one did not; not the match's own study.
+fn remove_studies_of_before(
+    problem: &MatchProblem,
+    folder: &Path,
+    written: &[PathBuf],
+) -> anyhow::Result<()> {
+    let is_of_match = |name: &str| {
+        let number = name
+            .strip_prefix("matching-")
+            .and_then(|rest| rest.strip_suffix(".toml"));
+        name == "nearest.toml" || number.is_some_and(|number| number.parse::<u32>().is_ok())
+    };
+    let own = std::fs::canonicalize(&problem.study.path).ok();
+    for entry in std::fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let path = entry.with_context(|| folder.display().to_string())?.path();
+        let name = path.file_name().and_then(|name| name.to_str());
+        let is_named = name.is_some_and(is_of_match) && path.is_file();
+        if !is_named || written.contains(&path) || std::fs::canonicalize(&path).ok() == own {
+            continue;
+        }
+        // A file of this name that no match wrote is somebody's own.
+        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        if text.starts_with(STUDY_OF_A_MATCH) {
+            std::fs::remove_file(&path).with_context(|| path.display().to_string())?;
+        }
+    }
+    Ok(())
 }
 
 /// `opshock plan` of a match file.
@@ -151,6 +181,13 @@ pub(super) fn plan(file: &Path, global: &GlobalArgs, console: &Console) -> Resul
         sum(0),
         sum(1)
     );
+    if let Some(stage) = stages.first().filter(|stage| stage.sets_a_conflict > 0) {
+        let _ = write!(
+            text,
+            "\nand up to {} parameter sets for each group of observations that conflict",
+            stage.sets_a_conflict
+        );
+    }
     console.result(&text)?;
     Ok(Exit::Complete)
 }

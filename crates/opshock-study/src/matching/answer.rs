@@ -1,6 +1,6 @@
 //! What a search says: matching sets, shares of the prior, conflicts, ranges, and what to measure next.
 
-use super::conflicts::{Conflict, conflicts};
+use super::conflicts::{Conflict, groups};
 use super::file::MatchProblem;
 use super::observation::{Known, RULED_OUT};
 use super::prior::ParameterValue;
@@ -10,6 +10,8 @@ use super::share::Share;
 use serde::Serialize;
 use std::collections::HashSet;
 
+/// Groups of observations that conflict, listed at most.
+const MOST_GROUPS: usize = 200;
 /// Sets of the gallery.
 const GALLERY: usize = 12;
 /// Plausible sets for every parameter and one from which ranges are told.
@@ -182,7 +184,11 @@ impl MatchAnswer {
                 .effort
                 .each
                 .map(|place| told.best_of_each(place, &whole)),
-            conflicts: conflicts(problem, found),
+            conflicts: groups(problem, found)
+                .into_iter()
+                .map(|(_, one)| one)
+                .take(MOST_GROUPS)
+                .collect(),
             next: told.next(&whole),
             tried: found.waves.iter().map(|wave| wave.tried).sum(),
             waves: found.waves.clone(),
@@ -250,11 +256,13 @@ impl Told<'_> {
             .collect();
         let d = self.problem.parameters.len();
         let ends = hull(left.iter().copied(), d);
-        let lacking = (left.len() as f64).powf(-2.0 / (d as f64 + 1.0));
+        // A refinement's sets lie close together: they may widen the hull, but make it no denser.
+        let n = whole.iter().filter(|one| self.is_explored(one)).count();
+        let lacking = (n as f64).powf(-2.0 / (d as f64 + 1.0));
         let rows = self.problem.parameters.iter().zip(ends);
         rows.map(|(parameter, [low, high])| {
             let by = lacking * (high - low);
-            let after = (left.len() >= SETS_A_DIMENSION * (d + 1))
+            let after = (n >= SETS_A_DIMENSION * (d + 1))
                 .then(|| [(low - by).max(0.0), (high + by).min(1.0)]);
             ParameterRow {
                 name: parameter.name.clone(),
@@ -266,6 +274,11 @@ impl Told<'_> {
             }
         })
         .collect()
+    }
+
+    /// A plausible set of the draws or of a wave.
+    fn is_explored(&self, sample: &Sample) -> bool {
+        sample.wave.is_some() && !sample.is_ruled_out(&self.problem.observations)
     }
 
     fn set(&self, sample: &Sample) -> MatchingSet {
@@ -315,7 +328,7 @@ impl Told<'_> {
     fn next(&self, whole: &[&Sample]) -> Vec<Narrowing> {
         let left = whole
             .iter()
-            .filter(|one| !one.is_ruled_out(&self.problem.observations))
+            .filter(|one| self.is_explored(one))
             .take(MOST_PAIRED);
         let left: Vec<&Sample> = left.copied().collect();
         if left.len() < 2 {

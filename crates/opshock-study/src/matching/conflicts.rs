@@ -9,8 +9,6 @@ use serde::Serialize;
 
 /// Largest group of observations that is looked at.
 const LARGEST_GROUP: usize = 4;
-/// Groups listed at most.
-const MOST_GROUPS: usize = 200;
 
 /// Observations that no set satisfies together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,10 +19,14 @@ pub struct Conflict {
     pub tried: u64,
     /// Independent draws among these, none of which satisfies all.
     pub share: Share,
+    /// Searches for a set that satisfies them, and the sets they tried; 0 where none was asked for.
+    pub searches: u64,
+    /// Sets these searches tried.
+    pub searched: u64,
 }
 
-/// Smallest groups of observations that no set satisfies together.
-pub(super) fn conflicts(problem: &MatchProblem, found: &Searched) -> Vec<Conflict> {
+/// Smallest groups of observations that no set satisfies together, by their places; the smallest first.
+pub(super) fn groups(problem: &MatchProblem, found: &Searched) -> Vec<(Vec<usize>, Conflict)> {
     let ranged: Vec<usize> = (0..problem.observations.len())
         .filter(|k| problem.observations[*k].range.is_some())
         .collect();
@@ -88,16 +90,19 @@ pub(super) fn conflicts(problem: &MatchProblem, found: &Searched) -> Vec<Conflic
             };
             counts[1] += u64::from((all & mask).count_ones());
         }
-        Conflict {
-            observations: group
+        let places: Vec<usize> = group.iter().map(|k| ranged[*k]).collect();
+        let searched = found.contradicted.iter().find(|one| one.group == places);
+        let conflict = Conflict {
+            observations: places
                 .iter()
-                .map(|k| problem.observations[ranged[*k]].name.clone())
+                .map(|place| problem.observations[*place].name.clone())
                 .collect(),
             tried: counts[0],
             share: Share::of(0, counts[1]),
-        }
+            searches: searched.map_or(0, |one| one.searches),
+            searched: searched.map_or(0, |one| one.tried),
+        };
+        (places, conflict)
     });
-    let mut conflicts: Vec<Conflict> = conflicts.filter(|one| one.tried > 0).collect();
-    conflicts.truncate(MOST_GROUPS);
-    conflicts
+    conflicts.filter(|(_, one)| one.tried > 0).collect()
 }

@@ -55,6 +55,10 @@ pub struct Effort {
     pub starts: u32,
     /// Parameter each of whose choices is refined by itself, by its place.
     pub each: Option<usize>,
+    /// Searches for a set that disproves a conflict.
+    pub conflict_searches: u64,
+    /// Sets that each of them tries at most.
+    pub conflict_evaluations: u64,
     /// Parameter sets at which the numerical uncertainty is measured.
     pub probes: u64,
 }
@@ -68,6 +72,7 @@ const TOP: &[&str] = &[
     "draws",
     "waves",
     "refinement",
+    "conflicts",
     "settings",
     "numerics",
     "parameter",
@@ -76,7 +81,7 @@ const TOP: &[&str] = &[
 ];
 /// Draws of the prior by stage unless the file says otherwise.
 const DRAWS: [u64; 3] = [2000, 300, 30];
-const REFINEMENT: &[&str] = &["evaluations", "starts", "each"];
+const REFINEMENT: &[&str] = &["evaluations", "starts", "each", "weights"];
 /// No more of anything.
 const MOST: u64 = 100_000_000;
 
@@ -139,7 +144,13 @@ impl MatchProblem {
             each: each(&fields, &parameters, &mut faults),
             ..effort
         };
-        let observations = observed::read(&fields, &folder, &mut faults);
+        let mut observed_faults = Faults::new();
+        let mut observations = observed::read(&fields, &folder, &mut observed_faults);
+        // Weights of observations that cannot be read would be told as unknown.
+        if observed_faults.is_empty() {
+            weigh(&fields, &mut observations, &mut faults);
+        }
+        faults.append(&mut observed_faults);
         if fields.get("parameter").is_none() {
             fields.missing("parameter", "[[parameter]], one or more", &mut faults);
         }
@@ -186,19 +197,20 @@ impl MatchProblem {
         self.effort.draws[stage as usize]
     }
 
-    /// Values at which the refinement keeps a parameter, by its place and cumulative probability: one search each.
-    pub(super) fn held_values(&self) -> Vec<Option<(usize, f64)>> {
+    /// Searches of each start of the refinement: the value at which one keeps a parameter, by its place and cumulative
+    /// probability, and the sets it tries. The first keeps none, and has half of them where others follow.
+    pub(super) fn searches(&self) -> Vec<(Option<(usize, f64)>, u64)> {
+        let all = self.effort.refinement / u64::from(self.effort.starts);
         let Some(place) = self.effort.each else {
-            return vec![None];
+            return vec![(None, all)];
         };
         let count = self.parameters[place].choices().len();
         let middle = |k: usize| (k as f64 + 0.5) / count as f64;
-        (0..count).map(|k| Some((place, middle(k)))).collect()
-    }
-
-    /// Searches of the refinement.
-    pub(super) fn searches(&self) -> u64 {
-        u64::from(self.effort.starts) * self.held_values().len() as u64
+        let each = all / 2 / count as u64;
+        let held = (0..count).map(|k| (Some((place, middle(k))), each));
+        std::iter::once((None, all - each * count as u64))
+            .chain(held)
+            .collect()
     }
 
     /// `--set` and `--unset` arguments of a parameter set at a stage.
@@ -313,6 +325,8 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
         refinement: 200,
         starts: 2,
         each: None,
+        conflict_searches: 0,
+        conflict_evaluations: 2000,
         probes: 6,
     };
     if let Some(draws) = draws {
@@ -344,6 +358,12 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
         let starts = refinement.count("starts", [1, 1000], faults);
         effort.starts = starts.map_or(effort.starts, |starts| starts as u32);
     }
+    if let Some(conflicts) = table("conflicts", &["searches", "evaluations"], faults) {
+        let searches = conflicts.count("searches", [0, 1000], faults);
+        effort.conflict_searches = searches.unwrap_or(effort.conflict_searches);
+        let evaluations = conflicts.count("evaluations", [1, MOST], faults);
+        effort.conflict_evaluations = evaluations.unwrap_or(effort.conflict_evaluations);
+    }
     if let Some(numerics) = table("numerics", &["probes"], faults) {
         effort.probes = numerics
             .count("probes", [0, 1000], faults)
@@ -352,15 +372,40 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
     effort
 }
 
+/// The table `refinement`; its unknown keys are told with the effort.
+fn refinement<'a>(fields: &Fields<'a>) -> Option<Fields<'a>> {
+    let node = fields.get("refinement")?;
+    Fields::of(node, "refinement", REFINEMENT, &mut Faults::new())
+}
+
+/// Gives observations the weights that `refinement.weights` says.
+fn weigh(fields: &Fields<'_>, observations: &mut [Observation], faults: &mut Faults) {
+    let Some(node) = refinement(fields).and_then(|table| table.get("weights")) else {
+        return;
+    };
+    let names: Vec<&str> = observations.iter().map(|one| one.name.as_str()).collect();
+    let Some(table) = Fields::of(node, "refinement.weights", &names, faults) else {
+        return;
+    };
+    for one in observations {
+        match table.positive(&one.name, faults) {
+            Some(_) if one.range.is_none() => {
+                let fault = table.fault_of("E193", &one.name, "has no range to hold within");
+                faults.push(fault.allowed("an observation with a range"));
+            }
+            Some(weight) if weight > 0.0 => one.weight = weight,
+            Some(_) => {
+                let fault = table.fault_of("E193", &one.name, "counts for nothing");
+                faults.push(fault.allowed("a number above 0"));
+            }
+            None => {}
+        }
+    }
+}
+
 /// The parameter that `refinement.each` names.
 fn each(fields: &Fields<'_>, parameters: &[Parameter], faults: &mut Faults) -> Option<usize> {
-    // Its other faults are told with the rest of the table.
-    let refinement = Fields::of(
-        fields.get("refinement")?,
-        "refinement",
-        REFINEMENT,
-        &mut Faults::new(),
-    )?;
+    let refinement = refinement(fields)?;
     let name = refinement.text("each", faults)?;
     let is_named = |one: &Parameter| one.name == name && !one.choices().is_empty();
     let found = parameters.iter().position(is_named);

@@ -6,7 +6,7 @@ use super::file::MatchProblem;
 use super::observation::Stage;
 use super::outputs::{self, Printed};
 use super::prior::draw;
-use super::refinement::population;
+use super::refinement::population_size;
 use serde::Serialize;
 
 /// Parameter sets that are timed.
@@ -24,6 +24,8 @@ pub struct StageCost {
     pub sets: [u64; 2],
     /// Core-hours of both.
     pub core_h: [f64; 2],
+    /// Parameter sets of the searches of one group of observations that conflict, on top for each such group.
+    pub sets_a_conflict: u64,
 }
 
 /// Times a few parameter sets of every stage that is asked for.
@@ -46,7 +48,7 @@ pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost>
         let least = problem.draws(stage) + probes;
         let promoted = match effort.refinement {
             0 => 0,
-            _ => (u64::from(effort.starts) + problem.searches()) * population(problem) as u64,
+            _ => u64::from(effort.starts) * population_size(problem) as u64,
         };
         let waves = (u64::from(effort.waves) + 1) * effort.samples;
         let most = least + waves + promoted + effort.refinement;
@@ -55,6 +57,8 @@ pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost>
             stage: stage.words(),
             seconds_each,
             sets,
+            sets_a_conflict: effort.conflict_searches
+                * (effort.conflict_evaluations + population_size(problem) as u64),
             core_h: sets.map(|count| count as f64 * seconds_each / 3600.0),
         }
     };

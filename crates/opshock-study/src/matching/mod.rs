@@ -12,6 +12,8 @@
 
 mod answer;
 mod conflicts;
+mod contradiction;
+mod emulator;
 mod evaluations;
 mod fields;
 mod file;

@@ -14,6 +14,9 @@ use crate::study::{Ramp, Sign};
 /// Implausibility from which a parameter set is ruled out.
 pub const RULED_OUT: f64 = 3.0;
 
+/// Margin that the search asks of every observation before it widens the smallest: its own numerical uncertainty.
+pub(super) const SAFE: f64 = 1.0;
+
 /// How much has to be simulated for a number; in the order of cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
@@ -165,6 +168,8 @@ pub struct Observation {
     pub discrepancy_u: f64,
     /// Numerical uncertainty where the file gives it.
     pub numerical_u: Option<f64>,
+    /// What it counts in the search, 1 unless the file says otherwise.
+    pub weight: f64,
     /// What has to be simulated.
     pub stage: Stage,
     /// Where it comes from.
@@ -195,14 +200,16 @@ impl Observation {
 
     /// Signed distance to the nearer end of the range in units of the numerical uncertainty `u`: infinite where nothing
     /// bounds it, without a number, and for numbers that are exact. An end that is met to the bit is a limit of the number, as
-    /// a count or the clearance of a slider that touches, and bounds nothing.
+    /// a count or the clearance of a slider that touches, and bounds nothing; two critical shocks that a search found equal are
+    /// no such limit.
     pub fn margin(&self, number: Known, u: f64) -> Option<f64> {
         let [low, high] = self.range?;
         let inside = match number {
             Known::NotAsked => return None,
             Known::Missing => return Some(f64::NEG_INFINITY),
             Known::Is(value) => {
-                let to = |far: f64| if far == 0.0 { f64::INFINITY } else { far };
+                let is_limit = |far: f64| far == 0.0 && self.stage != Stage::CriticalShocks;
+                let to = |far: f64| if is_limit(far) { f64::INFINITY } else { far };
                 to(value - low).min(to(high - value))
             }
         };
@@ -221,6 +228,20 @@ impl Observation {
             Known::Missing => Some(f64::INFINITY),
             Known::Is(value) => Some((low - value).max(value - high).max(0.0)),
         }
+    }
+
+    /// What a number lacks of its numerical uncertainty `u`, from 1 to 2 times the weight, and 0 where it reaches it; `None`
+    /// where it is not known or bounds nothing. `scale` is the distance that counts as half a step.
+    pub(super) fn missing(&self, number: Known, u: f64, scale: f64) -> Option<f64> {
+        if self.margin(number, u)? >= SAFE {
+            return Some(0.0);
+        }
+        let outside = self.outside(number).unwrap_or(0.0) + SAFE * u;
+        let far = match outside.is_finite() {
+            true => outside / (outside + scale),
+            false => 1.0,
+        };
+        Some(self.weight * (1.0 + far))
     }
 
     /// Implausibility with a numerical uncertainty `u`.
@@ -293,6 +314,7 @@ mod tests {
             quantity: Quantity::Modes(Vec::new()),
             range: Some(range),
             observed_u: 3.0,
+            weight: 1.0,
             discrepancy_u: 0.0,
             numerical_u: None,
             stage: Stage::DiskAndRamp,
@@ -308,6 +330,11 @@ mod tests {
         let count = observation([3.0, 3.0]);
         assert_eq!(count.margin(Known::Is(3.0), 1.0), Some(f64::INFINITY));
         assert_eq!(count.margin(Known::Is(2.0), 1.0), Some(-1.0));
+        let ratio = Observation {
+            stage: Stage::CriticalShocks,
+            ..observation([1.0, f64::INFINITY])
+        };
+        assert_eq!(ratio.margin(Known::Is(1.0), 0.02), Some(0.0));
         // 10 outside over sqrt(4² + 3²).
         assert_eq!(one.implausibility(Known::Is(30.0), 4.0), Some(2.0));
         assert_eq!(one.implausibility(Known::Is(10.0), 4.0), Some(0.0));

@@ -121,6 +121,7 @@ fn of_claim(claim: &'static Claim) -> Observation {
             (low, high) => [low, high],
         }),
         observed_u: 0.0,
+        weight: 1.0,
         discrepancy_u: 0.0,
         numerical_u: None,
         stage: match claim.source {
@@ -212,6 +213,7 @@ fn one(
         name: name?,
         quantity,
         range: range.or(own_range),
+        weight: 1.0,
         observed_u: table.positive("uncertainty", faults).unwrap_or(0.0),
         discrepancy_u: table.positive("discrepancy", faults).unwrap_or(0.0),
         numerical_u: table.positive("numerical_uncertainty", faults),

@@ -15,6 +15,7 @@ const PARAMETER: &[&str] = &[
     "normal",
     "choices",
     "unset_share",
+    "guess",
     "source",
 ];
 const DISTRIBUTIONS: &[&str] = &["uniform", "log_uniform", "normal", "choices"];
@@ -66,8 +67,10 @@ fn parameter(table: &Fields<'_>, resolved: &toml::Table, faults: &mut Faults) ->
     }
     let is_relative = table.flag("relative", faults).unwrap_or(false);
     let mut with_own = Vec::new();
+    let mut values = Vec::new();
     for key in keys {
         let own = parameter_value(resolved, &key);
+        values.push(own);
         if is_relative && own.is_none() {
             let fault = table.fault_of("E193", "keys", format!("{key} has no number in the study"));
             faults.push(
@@ -98,12 +101,28 @@ fn parameter(table: &Fields<'_>, resolved: &toml::Table, faults: &mut Faults) ->
     if source.is_none() && table.get("source").is_none() {
         table.missing("source", "a text: where the range comes from", faults);
     }
-    (faults.len() == before).then(|| Parameter {
+    let guess = table.number("guess", faults);
+    if let (Some(guess), Some(distribution)) = (guess, &distribution)
+        && !distribution.has(guess)
+    {
+        let fault = table.fault_of("E193", "guess", "is no value of the parameter");
+        faults.push(fault.allowed("a number of its range or choices"));
+    }
+    let distribution = distribution.filter(|_| faults.len() == before)?;
+    // The study's own value is absent, or 1 where values are relative to it.
+    let own = values.first().copied().flatten();
+    let own = if is_relative { Some(1.0) } else { own };
+    let start = match guess.or(own) {
+        None if unset_share > 0.0 => 0.5 * unset_share,
+        value => unset_share + (1.0 - unset_share) * distribution.probability(value),
+    };
+    Some(Parameter {
         name,
         keys: with_own,
-        distribution: distribution.expect("without a fault there is one"),
+        distribution,
         unset_share,
         source: source.unwrap_or_default(),
+        start,
     })
 }
 

@@ -20,6 +20,9 @@ pub struct Parameter {
     pub unset_share: f64,
     /// Where the range comes from.
     pub source: String,
+    /// Cumulative probability from which the refinement starts: of the guess, or of the study's own value (the nearer end where
+    /// that is outside of the range, the first choice where it is none of them).
+    pub start: f64,
 }
 
 /// What is known of a parameter before anything was observed.
@@ -53,6 +56,48 @@ pub enum ParameterValue {
     Unset,
 }
 
+impl Distribution {
+    /// Whether a number is a value of it.
+    pub(super) fn has(&self, value: f64) -> bool {
+        match self {
+            Distribution::Uniform([low, high])
+            | Distribution::LogUniform([low, high])
+            | Distribution::Normal {
+                range: [low, high], ..
+            } => (*low..=*high).contains(&value),
+            Distribution::Choices(list) => list.iter().any(|text| text.parse() == Ok(value)),
+        }
+    }
+
+    /// Cumulative probability of a value; of a choice, the middle of the probabilities that give it.
+    pub(super) fn probability(&self, value: Option<f64>) -> f64 {
+        let share =
+            |low: f64, high: f64| ((value.unwrap_or(low) - low) / (high - low)).clamp(0.0, 1.0);
+        match self {
+            Distribution::Uniform([low, high]) => share(*low, *high),
+            Distribution::LogUniform([low, high]) => {
+                let of = value.unwrap_or(*low).max(*low);
+                ((of / low).ln() / (high / low).ln()).clamp(0.0, 1.0)
+            }
+            Distribution::Normal { mean, sd, range } => {
+                let normal = Normal::new(*mean, *sd).expect("checked when read");
+                let [below, above] = range.map(|end| normal.cdf(end));
+                let at = normal.cdf(value.unwrap_or(*mean));
+                ((at - below) / (above - below)).clamp(0.0, 1.0)
+            }
+            Distribution::Choices(list) => {
+                let is_own = |text: &String| {
+                    text.parse::<f64>()
+                        .ok()
+                        .is_some_and(|one| Some(one) == value)
+                };
+                let place = list.iter().position(is_own).unwrap_or(0);
+                (place as f64 + 0.5) / list.len() as f64
+            }
+        }
+    }
+}
+
 impl Parameter {
     /// The value at a cumulative probability.
     pub fn value(&self, probability: f64) -> ParameterValue {
@@ -81,6 +126,17 @@ impl Parameter {
         match &self.distribution {
             Distribution::Choices(list) if self.unset_share == 0.0 => list,
             _ => &[],
+        }
+    }
+
+    /// The middle of the probabilities that give the same choice; a number's probability stays.
+    pub fn middle_of_choice(&self, probability: f64) -> f64 {
+        match self.choices().len() {
+            0 => probability,
+            count => {
+                let place = ((probability * count as f64) as usize).min(count - 1);
+                (place as f64 + 0.5) / count as f64
+            }
         }
     }
 
@@ -149,7 +205,37 @@ mod tests {
             distribution,
             unset_share,
             source: String::new(),
+            start: 0.5,
         }
+    }
+
+    #[test]
+    fn the_probability_of_a_value_gives_it_back() {
+        let normal = Distribution::Normal {
+            mean: 3.0,
+            sd: 1.0,
+            range: [2.0, 5.0],
+        };
+        let (even, ratios) = (
+            Distribution::Uniform([2.0, 5.0]),
+            Distribution::LogUniform([2.0, 5.0]),
+        );
+        for distribution in [normal, even, ratios] {
+            let p = distribution.probability(Some(2.6));
+            let ParameterValue::Number(value) = parameter(distribution.clone(), 0.0).value(p)
+            else {
+                panic!("a number");
+            };
+            assert!((value - 2.6).abs() < 1e-9, "{distribution:?}: {value}");
+            // Outside of the range, its nearer end.
+            assert_eq!(
+                [1.0, 9.0].map(|one| distribution.probability(Some(one))),
+                [0.0, 1.0]
+            );
+        }
+        let choices = Distribution::Choices(vec!["20".into(), "40".into()]);
+        assert_eq!(choices.probability(Some(40.0)), 0.75);
+        assert_eq!(choices.probability(None), 0.25);
     }
 
     #[test]

@@ -1,25 +1,67 @@
 //! The refinement: the smallest margin made as large as it can be, by differential evolution.
 
+use super::emulator::predicted;
 use super::evaluations::Interrupted;
 use super::file::MatchProblem;
+use super::observation::{Known, Observation, Stage};
 use super::prior::numbers;
 use super::sample::Sample;
 use super::search::{Run, reflected};
+use rayon::prelude::*;
+
+/// Children from which a prediction chooses one.
+const CHILDREN: usize = 200;
+/// Share of them with some coordinates drawn anew.
+const ANEW: f64 = 0.4;
+/// Share of a generation's children that go on from a stage to the next.
+const GO_ON: f64 = 0.6;
 
 /// Sets that evolve together in a refinement.
-pub(super) fn population(problem: &MatchProblem) -> usize {
-    (2 * problem.parameters.len()).clamp(6, 30)
+pub(super) fn population_size(problem: &MatchProblem) -> usize {
+    problem.parameters.len().clamp(6, 30)
+}
+
+/// What one differential evolution is to do.
+pub(super) struct Evolution<'e> {
+    /// Its place among all: it has random numbers of its own.
+    pub(super) search: u32,
+    /// A parameter that keeps its value.
+    pub(super) held: Option<(usize, f64)>,
+    /// The observations of the problem, those that do not count without a range.
+    pub(super) seen: &'e [Observation],
+    /// Stages that those need.
+    pub(super) stages: Vec<Stage>,
+    /// Sets that are tried before any children.
+    pub(super) joining: Vec<Vec<f64>>,
+    /// Sets tried at most.
+    pub(super) most: u64,
+    /// Places of observations; one set with which they all hold is enough.
+    pub(super) ends_with: Option<&'e [usize]>,
+}
+
+/// How a differential evolution ended.
+pub(super) struct Evolved {
+    /// The sets it ended with.
+    pub(super) population: Vec<Sample>,
+    /// Sets tried.
+    pub(super) tried: u64,
+    /// A set was found with which all hold that it ends with.
+    pub(super) is_had: bool,
+    /// Whether it was interrupted.
+    pub(super) ended: Result<(), Interrupted>,
 }
 
 impl Run<'_, '_> {
     /// Takes the best of the sets that did not come through all stages through them: what rules out a set early may be little.
+    /// The guesses, with every choice of the parameter that has a search for each, go with them.
     pub(super) fn promote(&mut self) -> Result<(), Interrupted> {
         let effort = &self.problem.effort;
+        let seen = &self.problem.observations;
         let samples = &self.found.samples;
         let part = samples.iter().filter(|one| !one.is_whole());
-        let mut all: Vec<(f64, &Sample)> = part.map(|one| (self.score(one), one)).collect();
+        let mut all: Vec<(f64, &Sample)> = part.map(|one| (self.score(one, seen), one)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all.truncate(effort.starts as usize * population(self.problem));
+        all.truncate(effort.starts as usize * population_size(self.problem));
         let mut on: Vec<Sample> = all
             .into_iter()
             .map(|(_, one)| Sample {
@@ -27,149 +69,285 @@ impl Run<'_, '_> {
                 ..one.clone()
             })
             .collect();
+        let guessed = self.problem.parameters.iter().map(|one| one.start);
+        let guessed: Vec<f64> = guessed.collect();
+        for (held, _) in self.problem.searches() {
+            let mut unit = guessed.clone();
+            held.into_iter().for_each(|(place, p)| unit[place] = p);
+            on.push(self.fresh(unit, None));
+        }
         let mut stages = self.problem.stages().collect::<Vec<_>>().into_iter();
         let evaluated = stages.try_for_each(|stage| self.evaluate(stage, &mut on));
         self.found.samples.extend(on);
         evaluated
     }
 
-    fn score(&self, sample: &Sample) -> f64 {
-        sample.score(&self.problem.observations, &self.found.scales)
+    fn score(&self, sample: &Sample, seen: &[Observation]) -> f64 {
+        sample.score(seen, &self.found.scales)
     }
 
-    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341) from the best sets, each start from
-    /// others of them; `search` is its place among all, `held` a parameter that keeps one value.
+    /// Differential evolution from the best sets, each start from others of them; `search` is its place among all. Where a
+    /// parameter is held, from the best sets with its value, which meet the best of all with that value in theirs' place.
     pub(super) fn refine(
         &mut self,
-        search: u32,
-        start: u32,
+        [search, start]: [u32; 2],
         held: Option<(usize, f64)>,
+        most: u64,
     ) -> Result<(), Interrupted> {
         let problem = self.problem;
-        let most = problem.effort.refinement / problem.searches();
-        let size = population(problem);
+        let seen = &problem.observations;
+        let size = population_size(problem);
         let whole = self.found.samples.iter().filter(|one| one.is_whole());
-        let mut all: Vec<(f64, &Sample)> = whole.map(|one| (self.score(one), one)).collect();
+        let mut all: Vec<(f64, &Sample)> = whole.map(|one| (self.score(one, seen), one)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.dedup_by(|a, b| a.1.unit == b.1.unit);
         // Every start its own part of the best, so that they are different ones.
         let stride = problem.effort.starts as usize;
-        let part = all.iter().skip(start as usize).step_by(stride).take(size);
-        let mut first: Vec<Sample> = part.map(|(_, one)| (*one).clone()).collect();
-        if let Some((place, p)) = held {
-            for one in &mut first {
-                let mut unit = one.unit.clone();
-                unit[place] = p;
-                *one = self.fresh(unit, None);
-            }
-            let mut stages = problem.stages();
-            stages.try_for_each(|stage| self.evaluate(stage, &mut first))?;
-        }
-        let score = |one: Sample| (self.score(&one), one);
-        let mut population: Vec<(f64, Sample)> = first.into_iter().map(score).collect();
-        if population.len() < 4 || most == 0 {
-            return Ok(());
-        }
-        let best = |population: &[(f64, Sample)]| {
-            let scores = population.iter().map(|(score, _)| *score);
-            scores.fold(f64::NEG_INFINITY, f64::max)
+        let has_value = |one: &Sample| {
+            held.is_none_or(|(place, p)| {
+                let parameter = &problem.parameters[place];
+                parameter.value(one.unit[place]) == parameter.value(p)
+            })
         };
-        let before = best(&population);
-        let (mut tried, mut generation) = (0, 0);
-        let mut interrupted = Ok(());
-        while tried < most {
-            let mut children: Vec<Sample> = Vec::new();
-            let n = (population.len() as u64).min(most - tried) as usize;
-            for k in 0..n {
-                children.push(self.child(&population, k, search, generation, held));
-            }
-            interrupted = self.compete(&mut population, children);
-            if interrupted.is_err() {
-                break;
-            }
-            tried += n as u64;
-            self.found.refined += n as u64;
-            generation += 1;
-        }
-        let after = best(&population);
-        let holding = population.iter().filter(|(score, _)| *score >= 0.0).count();
-        self.found.samples.extend(
-            population
-                .into_iter()
-                .map(|(_, one)| Sample { wave: None, ..one }),
-        );
-        interrupted?;
+        let best = |has: bool| {
+            let those = all.iter().map(|(_, one)| *one);
+            let those = those.filter(move |one| has_value(one) == has);
+            let those = those.skip(start as usize).step_by(stride).take(size);
+            those.cloned().collect::<Vec<Sample>>()
+        };
+        let first = best(true);
+        let joining = held.map_or_else(Vec::new, |(place, p)| {
+            let moved = best(false).into_iter().map(|one| {
+                let mut unit = one.unit;
+                unit[place] = p;
+                unit
+            });
+            moved.collect()
+        });
+        let scores = first.iter().map(|one| self.score(one, seen));
+        let before = scores.fold(f64::NEG_INFINITY, f64::max);
+        let evolution = Evolution {
+            search,
+            held,
+            seen,
+            stages: problem.stages().collect(),
+            joining,
+            most,
+            ends_with: None,
+        };
+        let evolved = self.evolve(first, &evolution);
+        self.found.refined += evolved.tried;
+        let scores = || evolved.population.iter().map(|one| self.score(one, seen));
+        let after = scores().fold(f64::NEG_INFINITY, f64::max);
+        let holding = scores().filter(|score| *score >= 0.0).count();
         let of = held.map_or_else(String::new, |(place, p)| {
             let parameter = &problem.parameters[place];
             format!(", {} {}", parameter.name, parameter.words(p))
         });
         self.report(
             &format!("refinement {}{of}: {before:.3} to {after:.3}", start + 1),
-            tried,
+            evolved.tried,
             holding as u64,
         );
-        Ok(())
+        evolved.ended
     }
 
-    fn child(
+    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341). Every set it tries is kept among all.
+    pub(super) fn evolve(&mut self, first: Vec<Sample>, of: &Evolution<'_>) -> Evolved {
+        let has_all = |samples: &[Sample]| {
+            of.ends_with
+                .is_some_and(|group| samples.iter().any(|one| one.holds_all(group, of.seen)))
+        };
+        let mut is_had = has_all(&first);
+        let score = |one: Sample| (self.score(&one, of.seen), one);
+        let mut population: Vec<(f64, Sample)> = first.into_iter().map(score).collect();
+        best_first(&mut population);
+        let (mut tried, mut generation) = (0, 0);
+        let mut ended = Ok(());
+        let size = population_size(self.problem) as u64;
+        while population.len() >= 4 && tried < of.most && !is_had {
+            let n = size.min(of.most - tried) as usize;
+            let children = match (generation, of.joining.is_empty()) {
+                (0, false) => {
+                    let worst = population.len() - 1;
+                    let joining = of.joining.iter().take(n);
+                    joining
+                        .map(|unit| (worst, self.fresh(unit.clone(), None)))
+                        .collect()
+                }
+                _ => self.children(&population, n, generation, of),
+            };
+            let n = children.len();
+            let before = self.found.samples.len();
+            ended = self.compete(&mut population, children, of);
+            is_had = has_all(&self.found.samples[before..]);
+            if ended.is_err() {
+                break;
+            }
+            tried += n as u64;
+            generation += 1;
+        }
+        Evolved {
+            population: population.into_iter().map(|(_, one)| one).collect(),
+            tried,
+            is_had,
+            ended,
+        }
+    }
+
+    /// `n` children, more of the better sets, each with its parent's place: of some that are drawn, that which lacks least by
+    /// what was simulated so far.
+    fn children(
         &self,
         population: &[(f64, Sample)],
-        k: usize,
-        search: u32,
+        n: usize,
         generation: u64,
-        held: Option<(usize, f64)>,
-    ) -> Sample {
-        let stage = 1000 + search;
-        let mut random = numbers(self.problem.seed, stage, generation * 1000 + k as u64);
-        let pick = |random: &mut dyn FnMut() -> f64| (random() * population.len() as f64) as usize;
-        let best =
-            (0..population.len()).max_by(|a, b| population[*a].0.total_cmp(&population[*b].0));
-        let unit = |k: usize| &population[k].1.unit;
-        let (own, best) = (unit(k), unit(best.unwrap_or(k)));
-        let (a, b) = (pick(&mut random), pick(&mut random));
-        let (towards, along) = (random() * random(), 0.2 + 0.7 * random());
-        let sure = (random() * own.len() as f64) as usize;
-        let mut moved: Vec<f64> = (0..own.len())
-            .map(|d| {
-                let step = towards * (best[d] - own[d])
-                    + along * (unit(a)[d] - unit(b)[d])
-                    + 0.01 * (random() - 0.5);
-                match d == sure || random() < 0.8 {
-                    true => reflected(own[d] + step),
-                    false => own[d],
+        of: &Evolution<'_>,
+    ) -> Vec<(usize, Sample)> {
+        let parameters = &self.problem.parameters;
+        let parent = |k: usize| k * k / n * population.len() / n;
+        let drawn = |k: usize| {
+            let index = generation * 1000 + k as u64;
+            let mut random = numbers(self.problem.seed, 1000 + of.search, index);
+            let mut drawn = Vec::with_capacity(CHILDREN);
+            let mut left = 10 * CHILDREN;
+            while drawn.len() < CHILDREN {
+                left = left.saturating_sub(1);
+                let mut unit = child(population, parent(k), of.held, &mut random);
+                let all = unit.iter_mut().zip(parameters);
+                all.for_each(|(p, parameter)| *p = parameter.middle_of_choice(*p));
+                // A child that changes nothing is simulated already; where choices are few there may be no other.
+                if left == 0 || population.iter().all(|(_, one)| one.unit != unit) {
+                    drawn.push(unit);
                 }
-            })
-            .collect();
-        if let Some((place, p)) = held {
-            moved[place] = p;
-        }
-        self.fresh(moved, None)
+            }
+            drawn
+        };
+        let drawn: Vec<Vec<f64>> = (0..n).into_par_iter().flat_map_iter(drawn).collect();
+        let places: Vec<usize> = (0..of.seen.len()).collect();
+        let lacks = predicted(&self.found, of.seen, &places, self.problem.seed, &drawn);
+        let least = |k: usize| {
+            let places = k * CHILDREN..(k + 1) * CHILDREN;
+            places.min_by(|a, b| lacks[*a].total_cmp(&lacks[*b]))
+        };
+        let chosen = (0..n).filter_map(|k| Some((k, least(k)?)));
+        chosen
+            .map(|(k, place)| (parent(k), self.fresh(drawn[place].clone(), None)))
+            .collect()
     }
 
-    /// A child takes its parent's place where it is better. Stage by stage: one that is worse by what is known of it is not
-    /// simulated on.
+    /// Those that lack least by what is known of them and what is predicted of the rest go on to the next stage.
+    fn most_promising(
+        &mut self,
+        children: Vec<(usize, Sample)>,
+        of: &Evolution<'_>,
+    ) -> Vec<(usize, Sample)> {
+        let is_unknown = |place: &usize| {
+            let mut all = children.iter();
+            all.any(|(_, one)| one.numbers[*place].0 == Known::NotAsked)
+        };
+        let unknown: Vec<usize> = (0..of.seen.len()).filter(is_unknown).collect();
+        let units: Vec<Vec<f64>> = children.iter().map(|(_, one)| one.unit.clone()).collect();
+        let later = predicted(&self.found, of.seen, &unknown, self.problem.seed, &units);
+        let mut all: Vec<(f64, (usize, Sample))> = children
+            .into_iter()
+            .zip(later)
+            .map(|(child, later)| (later - self.score(&child.1, of.seen).min(0.0), child))
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let go_on = (GO_ON * all.len() as f64).ceil() as usize;
+        let rest = all.split_off(go_on);
+        let rest = rest.into_iter().map(|(_, (_, one))| one);
+        self.found.samples.extend(rest);
+        all.into_iter().map(|(_, child)| child).collect()
+    }
+
+    /// Children that are no worse than their parents join, and the best stay. Stage by stage: one that is worse by what is known
+    /// of it is not simulated on, nor those that promise least.
     fn compete(
         &mut self,
-        population: &mut [(f64, Sample)],
-        children: Vec<Sample>,
+        population: &mut Vec<(f64, Sample)>,
+        children: Vec<(usize, Sample)>,
+        of: &Evolution<'_>,
     ) -> Result<(), Interrupted> {
-        let mut left: Vec<(usize, Sample)> = children.into_iter().enumerate().collect();
-        for stage in self.problem.stages().collect::<Vec<_>>() {
+        let mut left = children;
+        for (place, stage) in of.stages.iter().copied().enumerate() {
+            if place > 0 {
+                left = self.most_promising(left, of);
+            }
             let mut on: Vec<Sample> = left.iter().map(|(_, one)| one.clone()).collect();
             self.evaluate(stage, &mut on)?;
-            left = left
-                .into_iter()
-                .zip(on)
-                .map(|((k, _), one)| (k, one))
-                .collect();
-            left.retain(|(k, one)| self.score(one) >= population[*k].0.min(0.0));
+            let known = left.iter().map(|(k, _)| *k).zip(on);
+            let is_left =
+                |(k, one): &(usize, Sample)| self.score(one, of.seen) >= population[*k].0.min(0.0);
+            let (on, worse): (Vec<_>, Vec<_>) = known.partition(is_left);
+            left = on;
+            self.found
+                .samples
+                .extend(worse.into_iter().map(|(_, one)| one));
         }
-        for (k, one) in left {
-            let score = self.score(&one);
-            if score >= population[k].0 {
-                population[k] = (score, one);
-            }
+        let size = population_size(self.problem).max(population.len());
+        for (_, one) in left {
+            self.found.samples.push(one.clone());
+            population.push((self.score(&one, of.seen), one));
         }
+        best_first(population);
+        // Sets that differ by less than the search resolves are one; parents come first.
+        let all = std::mem::take(population);
+        let (again, once): (Vec<_>, Vec<_>) = {
+            let mut last = None;
+            all.into_iter()
+                .partition(|(score, _)| last.replace(score.to_bits()) == Some(score.to_bits()))
+        };
+        population.extend(once.into_iter().chain(again).take(size));
+        best_first(population);
         Ok(())
     }
+}
+
+fn best_first(population: &mut [(f64, Sample)]) {
+    population.sort_by(|a, b| b.0.total_cmp(&a.0));
+}
+
+/// One step of differential evolution from place `k` of a population, the best first.
+fn child(
+    population: &[(f64, Sample)],
+    k: usize,
+    held: Option<(usize, f64)>,
+    random: &mut dyn FnMut() -> f64,
+) -> Vec<f64> {
+    let pick = |random: &mut dyn FnMut() -> f64| (random() * population.len() as f64) as usize;
+    let unit = |k: usize| &population[k].1.unit;
+    let (own, best) = (unit(k), unit(0));
+    let (a, mut b) = (pick(random), pick(random));
+    if a == b {
+        b = (b + 1) % population.len();
+    }
+    // Steps of every size along differences, which shrink with the population, and beside them; of one coordinate up to all,
+    // as observations depend on some parameters alone. Or some coordinates anew, anywhere.
+    let (towards, along) = (random() * random(), 0.9 * 10_f64.powf(-1.5 * random()));
+    let size = 0.2 * 10_f64.powf(-3.0 * random());
+    let (is_anew, share) = (random() < ANEW, random());
+    let share = if is_anew { share * share } else { share };
+    let (place, held) = held.map_or((own.len(), None), |(place, p)| (place, Some(p)));
+    let free = own.len() - usize::from(held.is_some());
+    let sure = (random() * free as f64) as usize;
+    let sure = sure + usize::from(sure >= place);
+    let mut moved: Vec<f64> = (0..own.len())
+        .map(|d| {
+            let step = towards * (best[d] - own[d])
+                + along * (unit(a)[d] - unit(b)[d])
+                + size * (random() - 0.5);
+            let anew = random();
+            match (d == sure || random() < share, is_anew) {
+                (false, _) => own[d],
+                (true, false) => reflected(own[d] + step),
+                (true, true) => anew,
+            }
+        })
+        .collect();
+    if let Some(p) = held {
+        moved[place] = p;
+    }
+    moved
 }

@@ -2,13 +2,10 @@
 
 use std::cmp::Ordering;
 
-use super::observation::{Known, Observation, RULED_OUT};
+use super::observation::{Known, Observation, RULED_OUT, SAFE};
 
 /// Implausibility or negative margin beyond which one observation is as wrong as any.
 const FAR: f64 = 1e3;
-/// Margin that the search asks of every observation before it widens the smallest: its own numerical uncertainty.
-const SAFE: f64 = 1.0;
-
 /// A parameter set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
@@ -68,6 +65,12 @@ impl Sample {
         (0..observations.len()).filter(holds).collect()
     }
 
+    /// All of some observations hold, by their places.
+    pub(super) fn holds_all(&self, places: &[usize], observations: &[Observation]) -> bool {
+        let holds = |place: &usize| observations[*place].holds(self.numbers[*place].0);
+        places.iter().all(|place| holds(place) == Some(true))
+    }
+
     /// Places of observations whose margin is below their numerical uncertainty.
     pub(super) fn falls_short(&self, observations: &[Observation]) -> Vec<usize> {
         let short = self
@@ -76,18 +79,19 @@ impl Sample {
         short.map(|(place, _)| place).collect()
     }
 
-    /// Fewest observations that do not hold first, then by [`Self::score`].
+    /// Least weight of observations that do not hold first, then by [`Self::score`].
     pub(super) fn order(
         &self,
         other: &Self,
         observations: &[Observation],
         scales: &[f64],
     ) -> Ordering {
-        let fails = |one: &Self| one.fails(observations).len();
+        let weight = |place: usize| observations[place].weight;
+        let fails = |one: &Self| one.fails(observations).into_iter().map(weight).sum::<f64>();
         let scores = self
             .score(observations, scales)
             .total_cmp(&other.score(observations, scales));
-        fails(other).cmp(&fails(self)).then(scores)
+        fails(other).total_cmp(&fails(self)).then(scores)
     }
 
     /// Smallest margin, and the place of the observation that has it.
@@ -104,18 +108,9 @@ impl Sample {
     /// is missing, with a step for each observation that does not, so that one more reaches it before the others come nearer.
     /// `scales` are distances of each number that count as half a step.
     pub(super) fn score(&self, observations: &[Observation], scales: &[f64]) -> f64 {
-        let missing: f64 = self
-            .falls_short(observations)
-            .into_iter()
-            .map(|place| {
-                let ((known, u), scale) = (self.numbers[place], scales[place]);
-                let outside = observations[place].outside(known).unwrap_or(0.0) + SAFE * u;
-                1.0 + if outside.is_finite() {
-                    outside / (outside + scale)
-                } else {
-                    1.0
-                }
-            })
+        let pairs = observations.iter().zip(&self.numbers).zip(scales);
+        let missing: f64 = pairs
+            .filter_map(|((one, (known, u)), scale)| one.missing(*known, *u, *scale))
             .sum();
         match missing > 0.0 {
             true => -missing,

@@ -1,5 +1,6 @@
 //! The search: independent draws of the prior, waves that explore what is left, refinement of the smallest margin.
 
+use super::contradiction::Contradicted;
 use super::evaluations::{Asked, Evaluations, Interrupted};
 use super::file::MatchProblem;
 use super::observation::{Known, Quantity, RULED_OUT, Stage};
@@ -47,8 +48,26 @@ pub struct Searched {
     pub waves: Vec<WaveReport>,
     /// Parameter sets of the refinement, over all starts.
     pub refined: u64,
+    /// Groups of observations that were searched in vain.
+    pub(super) contradicted: Vec<Contradicted>,
     /// Why it ended.
     pub ended: Ended,
+}
+
+impl Searched {
+    /// Before anything was done.
+    pub(super) fn nothing(observations: usize) -> Self {
+        Self {
+            samples: Vec::new(),
+            draws: 0,
+            measured_u: vec![0.0; observations],
+            scales: vec![1.0; observations],
+            waves: Vec::new(),
+            refined: 0,
+            contradicted: Vec::new(),
+            ended: Ended::Complete,
+        }
+    }
 }
 
 /// Searches for parameter sets; `tell` hears of every wave.
@@ -64,15 +83,7 @@ pub fn search(
         problem,
         evaluations,
         tell,
-        found: Searched {
-            samples: Vec::new(),
-            draws: 0,
-            measured_u: vec![0.0; problem.observations.len()],
-            scales: vec![1.0; problem.observations.len()],
-            waves: Vec::new(),
-            refined: 0,
-            ended: Ended::Complete,
-        },
+        found: Searched::nothing(problem.observations.len()),
     };
     match run.all() {
         Ok(()) => {}
@@ -133,15 +144,15 @@ impl Run<'_, '_> {
         }
         if self.problem.effort.refinement > 0 {
             self.promote()?;
-        }
-        let mut search = 0;
-        for start in 0..self.problem.effort.starts {
-            for held in self.problem.held_values() {
-                self.refine(search, start, held)?;
-                search += 1;
+            let mut search = 0;
+            for start in 0..self.problem.effort.starts {
+                for (held, most) in self.problem.searches() {
+                    self.refine([search, start], held, most)?;
+                    search += 1;
+                }
             }
         }
-        Ok(())
+        self.contradict()
     }
 
     /// Measures the numerical uncertainty: the largest change of a number when every discretisation is refined once.
@@ -176,7 +187,7 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    fn draw(&self, index: u64) -> Vec<f64> {
+    pub(super) fn draw(&self, index: u64) -> Vec<f64> {
         draw(self.problem.seed, index, self.problem.parameters.len())
     }
 
@@ -196,7 +207,13 @@ impl Run<'_, '_> {
             let part = problem.draws(stage) as usize;
             let evaluated = self.evaluate(stage, &mut samples[..part]);
             if evaluated.is_err() {
+                let is_tried = |one: &&Sample| {
+                    let mut numbers = one.numbers.iter();
+                    numbers.any(|(known, _)| *known != Known::NotAsked)
+                };
+                let tried = samples.iter().filter(is_tried).count() as u64;
                 self.found.samples = samples;
+                self.report("prior", tried, 0);
                 return evaluated;
             }
         }

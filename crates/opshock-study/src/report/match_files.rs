@@ -12,6 +12,9 @@ use super::table::csv_line;
 use crate::matching::{BestOfEach, Known, MatchAnswer, MatchProblem, MatchingSet, Searched};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 
+/// How a study that a match wrote begins.
+pub const STUDY_OF_A_MATCH: &str = "# match \"";
+
 /// `match.md`, `match.html`, `match.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`, `ranges.png`,
 /// `choices.svg` and `choices.png` where the refinement has a search for each choice, and `matching-1.toml` and on, one study for each set of the gallery: names and bytes.
 ///

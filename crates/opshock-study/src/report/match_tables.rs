@@ -231,14 +231,21 @@ pub(super) fn tables(answer: &MatchAnswer) -> Vec<Table> {
         all.push(Table {
             title: "Conflicts",
             words: "Smallest groups of observations that no set satisfies together; the bound is for independent draws of the \
-                    prior."
+                    prior, for a group that was thought of before. Searches are those for the group alone, none of which found \
+                    a set."
                 .to_owned(),
-            head: words(&["observations", "sets tried", "share of the prior"]),
+            head: words(&["observations", "sets tried", "share of the prior", "searches"]),
             rows: answer
                 .conflicts
                 .iter()
                 .take(SHOWN)
-                .map(|one| vec![one.observations.join(", "), one.tried.to_string(), share(&one.share)])
+                .map(|one| {
+                    let searches = match one.searches {
+                        0 => "none".to_owned(),
+                        n => format!("{n}, {} sets", one.searched),
+                    };
+                    vec![one.observations.join(", "), one.tried.to_string(), share(&one.share), searches]
+                })
                 .collect(),
         });
     }

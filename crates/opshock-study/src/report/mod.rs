@@ -32,7 +32,7 @@ pub use files::{ReportError, report_files};
 pub use html::ReportSource;
 pub use html::ShockFilm;
 pub use margin_curves::margin_curves;
-pub use match_files::match_files;
+pub use match_files::{STUDY_OF_A_MATCH, match_files};
 pub use match_tables::match_text;
 pub use outcome_map::{RunDot, outcome_map};
 pub use run_json::{RunJson, verdict_word};
