@@ -108,9 +108,12 @@ fn results_are_of_todays_physics() {
             .unwrap_or_default();
         let stem = stem.split('-').next().unwrap_or_default();
         let of_figures = stem.starts_with("fig") && (speaks("figures.md") || speaks("table.md"));
+        let of_match = ["observations", "parameters", "samples", "ranges", "choices"]
+            .contains(&stem)
+            && speaks("match.md");
         let tells = name.ends_with(".txt")
             || ["times.csv", "accuracy/coverage.csv"].contains(&name.as_str());
-        if !(tells || of_figures || speaks(&format!("{stem}.md"))) {
+        if !(tells || of_figures || of_match || speaks(&format!("{stem}.md"))) {
             faults.push(format!(
                 "results/{name}: no Markdown file says its program and physics"
             ));
