@@ -138,8 +138,8 @@ fn remove_studies_of_before(
             continue;
         }
         // A file of this name that no match wrote is somebody's own.
-        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        if text.starts_with(STUDY_OF_A_MATCH) {
+        let text = std::fs::read(&path).with_context(|| path.display().to_string())?;
+        if text.starts_with(STUDY_OF_A_MATCH.as_bytes()) {
             std::fs::remove_file(&path).with_context(|| path.display().to_string())?;
         }
     }

@@ -87,7 +87,7 @@ impl Run<'_, '_> {
     }
 
     /// Differential evolution from the best sets, each start from others of them; `search` is its place among all. Where a
-    /// parameter is held, from the best sets with its value, which meet the best of all with that value in theirs' place.
+    /// parameter is held, from the best sets with its value; the best of all join them, with that value in place of their own.
     pub(super) fn refine(
         &mut self,
         [search, start]: [u32; 2],
@@ -165,7 +165,7 @@ impl Run<'_, '_> {
         let (mut tried, mut generation) = (0, 0);
         let mut ended = Ok(());
         let size = population_size(self.problem) as u64;
-        while population.len() >= 4 && tried < of.most && !is_had {
+        while !population.is_empty() && tried < of.most && !is_had {
             let n = size.min(of.most - tried) as usize;
             let children = match (generation, of.joining.is_empty()) {
                 (0, false) => {
