@@ -87,7 +87,7 @@ impl Flying {
 
 fn kernels(c: &mut Criterion) {
     faer::set_global_parallelism(Par::Seq);
-    let scene = scenes::scene("fig13", "none", 0.5, &[]);
+    let scene = scenes::scene("fig13-stiffness", "none", 0.5, &[]);
     let mut flying = Flying::of(&scene, scene.film_resolution.cells);
     let n = flying.film.n_cells();
     let band = flying.lin.by_psi.band();
@@ -159,7 +159,7 @@ fn column(rhs: &[f64]) -> Mat<f64> {
 /// What the kernels cost as the grid grows, faer beside them; exponents between the ends.
 fn against_size(_: &mut Criterion) {
     faer::set_global_parallelism(Par::Seq);
-    let scene = scenes::scene("fig13", "none", 0.5, &[]);
+    let scene = scenes::scene("fig13-stiffness", "none", 0.5, &[]);
     let klu = Klu::load();
     println!(
         "| cells | residual, us | factor, us | solve, us | faer factor + solve, us | ratio | \

@@ -68,7 +68,7 @@ fn times(scene: &Scene, plan: &Plan, amplitude_g: f64) -> ([f64; 2], Outcome) {
 }
 
 fn compare(question: &str, ramp: &str, output: Output, amplitude_g: f64) {
-    let scene = scenes::scene("fig13", ramp, 0.5, &[]);
+    let scene = scenes::scene("fig13-stiffness", ramp, 0.5, &[]);
     let plans = [Mode::Auto, Mode::Full].map(|mode| Plan::new(&[output], mode));
     let mut all: [[Vec<f64>; 2]; 2] = Default::default();
     let mut disks = Vec::new();
@@ -171,7 +171,7 @@ fn swept(sets: &[(&str, &str)]) -> SweepEnd {
         ("search.error_bars", "false"),
     ];
     all.extend_from_slice(sets);
-    let study = scenes::study("fig13", &all);
+    let study = scenes::study("fig13-stiffness", &all);
     let input = SweepInput::of(&study).expect("points");
     let folder = tempfile::tempdir().expect("a folder");
     let store = folder.path().join("s.opshock");
@@ -224,7 +224,7 @@ fn designs() {
         for design in 0..20 {
             let crown = format!("{}", 10 + design);
             let scene = scenes::scene(
-                "fig13",
+                "fig13-stiffness",
                 "rigid",
                 0.5,
                 &[("slider.surface.crown_nm", &crown)],

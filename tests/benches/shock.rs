@@ -17,19 +17,24 @@ const REQUEST: Request = Request {
 };
 
 fn shock(c: &mut Criterion) {
-    let scene = scenes::scene("fig13", "deformable", 0.5, &[]);
+    let scene = scenes::scene("fig13-stiffness", "deformable", 0.5, &[]);
     let full = Model::build(&scene, Scope::Full, None).expect("the scene builds");
-    let coarse = scenes::scene("fig13", "deformable", 0.5, &[("solver.accuracy", "\"5%\"")]);
+    let coarse = scenes::scene(
+        "fig13-stiffness",
+        "deformable",
+        0.5,
+        &[("solver.accuracy", "\"5%\"")],
+    );
     let coarse = Model::build(&coarse, Scope::Full, None).expect("the scene builds");
     let structure = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
     let rigid = Model::build(
-        &scenes::scene("fig13", "rigid", 0.5, &[]),
+        &scenes::scene("fig13-stiffness", "rigid", 0.5, &[]),
         Scope::Structure,
         None,
     )
     .expect("the scene builds");
     let none = Model::build(
-        &scenes::scene("fig13", "none", 0.5, &[]),
+        &scenes::scene("fig13-stiffness", "none", 0.5, &[]),
         Scope::Structure,
         None,
     )

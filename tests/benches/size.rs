@@ -36,7 +36,7 @@ fn modes(_: &mut Criterion) {
     };
     let (mut builds, mut runs) = (Vec::new(), Vec::new());
     for cut_hz in CUTS_HZ {
-        let mut scene = scenes::scene("fig13", "deformable", 0.5, &[]);
+        let mut scene = scenes::scene("fig13-stiffness", "deformable", 0.5, &[]);
         scene.disk_resolution.cut_hz = cut_hz;
         let build = median_of(5, || {
             let model = Model::build(&scene, Scope::Structure, None).expect("builds");

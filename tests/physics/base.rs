@@ -404,7 +404,7 @@ fn a_base_that_moves_as_one_is_another_shock_for_the_whole_drive() {
         ramp_per_sqrt_kg: 1.6e-3,
         pivot_per_sqrt_kg: 1.6e-3,
     };
-    let mut scene = coarse(scenes::scene("fig13", "rigid", 0.5, &[]));
+    let mut scene = coarse(scenes::scene("fig13-stiffness", "rigid", 0.5, &[]));
     scene.base = vec![alike];
     scene.head_resolution.tolerance = 1e-3;
     let model = Model::assemble(
@@ -497,7 +497,7 @@ fn struck(time_s: f64) -> [f64; 2] {
 /// A blow, for which there is no load, is told as one of 10 ns.
 #[test]
 fn a_pivot_that_moves_is_a_load_and_a_jump_of_its_velocity_a_short_one() {
-    let mut scene = coarse(scenes::scene("fig13", "none", 0.5, &[]));
+    let mut scene = coarse(scenes::scene("fig13-stiffness", "none", 0.5, &[]));
     scene.head_resolution.tolerance = 1e-3;
     let plan = Plan::new(&[Output::MinClearance], Mode::Auto);
     let model = Model::assemble(&scene, &plan, None).expect("builds");

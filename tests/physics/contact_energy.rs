@@ -15,7 +15,12 @@ const PULSE_MS: f64 = 0.5;
 
 /// Figure 13's disk and ramp alone at 1 % for `window_ms`, without damping but the contact's own.
 fn undamped(ramp: &str, stiffness: Option<f64>, window_ms: &str) -> Scene {
-    let mut scene = scene("fig13", ramp, PULSE_MS, &[("pulse.window_ms", window_ms)]);
+    let mut scene = scene(
+        "fig13-stiffness",
+        ramp,
+        PULSE_MS,
+        &[("pulse.window_ms", window_ms)],
+    );
     scene.ramp.contact_stiffness_n_per_m = stiffness;
     scene.disk.damping = DiskDamping::ModalRatio(0.0);
     if let RampModel::Deformable { top, bottom } = &mut scene.ramp.model {

@@ -13,7 +13,7 @@ fn small(ramp: &str, step_us: &str) -> Scene {
         ("solver.film_cells", "200"),
         ("solver.disk_cut_khz", "10"),
     ];
-    let mut scene = scene("fig13", ramp, 0.5, &sets);
+    let mut scene = scene("fig13-stiffness", ramp, 0.5, &sets);
     // Hard: the half-step rule does not resolve the spring of a contact at these steps.
     scene.ramp.contact_stiffness_n_per_m = None;
     scene

@@ -10,7 +10,7 @@ use opshock_tests::scenes::scene;
 fn paper(ramp: &str, pulse_ms: f64, sets: &[(&str, &str)]) -> Scene {
     let window = [("pulse.window_ms", "2.0")];
     let all: Vec<(&str, &str)> = window.iter().chain(sets).copied().collect();
-    scene("fig13", ramp, pulse_ms, &all)
+    scene("fig13-stiffness", ramp, pulse_ms, &all)
 }
 
 fn outcome(scene: &Scene, amplitude_g: f64) -> Outcome {

@@ -11,7 +11,7 @@ use opshock_tests::pairs::{
 };
 use opshock_tests::{scenes, seeded};
 
-const STUDIES: [&str; 3] = ["fig13", "paper-cases", "drive-2.5in"];
+const STUDIES: [&str; 3] = ["fig13-stiffness", "paper-cases", "drive-2.5in"];
 
 /// A point of every ramp model of every study that comes with opshock.
 #[test]
@@ -215,7 +215,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
     } in POISONS
     {
         let plan = Plan::new(&[asked], Mode::Auto);
-        let scene = coarse(scenes::scene("fig13", ramp, 0.5, &[]));
+        let scene = coarse(scenes::scene("fig13-stiffness", ramp, 0.5, &[]));
         let is_off = |e: &Effect| e.name == effect && e.state == State::Off;
         assert!(
             plan.effects(&scene, &Touch::default()).iter().any(is_off),
@@ -234,7 +234,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
     }
     // Every effect that some plan leaves out is above.
     for ramp in ["none", "rigid", "deformable"] {
-        let scene = scenes::scene("fig13", ramp, 0.5, &[]);
+        let scene = scenes::scene("fig13-stiffness", ramp, 0.5, &[]);
         for output in Output::ALL {
             let plan = Plan::new(&[output], Mode::Auto);
             for effect in plan.effects(&scene, &Touch::default()) {
@@ -259,7 +259,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
 /// R1 to R10, in order, with their findings.
 #[test]
 fn effects_every_rule_is_decided() {
-    let scene = coarse(scenes::scene("fig13", "rigid", 0.5, &[]));
+    let scene = coarse(scenes::scene("fig13-stiffness", "rigid", 0.5, &[]));
     let plan = Plan::new(&[Output::ContactForce], Mode::Auto);
     let model = Model::assemble(&scene, &plan, None).expect("builds");
     let limit = model
@@ -295,7 +295,7 @@ fn effects_every_rule_is_decided() {
 /// missing, and with the declared part it is there.
 #[test]
 fn effects_every_declared_dependency_is_needed() {
-    let scene = coarse(scenes::scene("fig13", "none", 0.5, &[]));
+    let scene = coarse(scenes::scene("fig13-stiffness", "none", 0.5, &[]));
     let answers = |needs: Needs| {
         let plan = Plan {
             needs,

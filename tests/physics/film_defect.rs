@@ -9,7 +9,12 @@ use opshock_tests::scenes::scene;
 
 /// Figure 13 without a ramp, 1.5 ms, on about `cells` film cells corrected by the rung's reference.
 fn corrected(cells: usize) -> Scene {
-    let mut scene = scene("fig13", "none", 1.5, &[("pulse.window_ms", "2.0")]);
+    let mut scene = scene(
+        "fig13-stiffness",
+        "none",
+        1.5,
+        &[("pulse.window_ms", "2.0")],
+    );
     scene.film_resolution.cells = cells;
     scene
 }

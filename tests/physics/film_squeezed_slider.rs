@@ -15,7 +15,7 @@ use opshock_tests::scenes::scene;
 /// Figure 13 without a ramp, 1.5 ms, on about `cells` film cells; 2 ms hold the squeeze.
 fn squeezed(cells: usize) -> Scene {
     let sets = [("pulse.window_ms", "2.0")];
-    let mut scene = scene("fig13", "none", 1.5, &sets);
+    let mut scene = scene("fig13-stiffness", "none", 1.5, &sets);
     scene.film_resolution.cells = cells;
     scene.film_resolution.reference_cells = 0;
     scene

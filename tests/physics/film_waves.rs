@@ -77,7 +77,7 @@ fn storage_loses_no_gas() {
 /// of 3000 cells with every cell cut in two.
 #[test]
 fn rates_of_a_squeezed_film_on_the_rungs_grid() {
-    let mut scene = scene("fig13", "none", 1.5, &[]);
+    let mut scene = scene("fig13-stiffness", "none", 1.5, &[]);
     scene.film_resolution.reference_cells = 0;
     let films = [1000, 3000].map(|cells| scene.with_film_cells(cells).film().expect("film"));
     let finest = scene.film_cut_in_two(&films[1]).expect("film");

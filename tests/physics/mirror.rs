@@ -23,7 +23,12 @@ fn arm(frequency_hz: f64, participation: f64) -> ArmMode {
 
 /// The drive of Fig. 13 with gaps of 80 um above and 60 um below, 2 ms of it.
 fn drive(model: RampModel, hub: HubParameters) -> Scene {
-    let mut scene = scenes::scene("fig13", "rigid", 0.5, &[("solver.accuracy", "5%")]);
+    let mut scene = scenes::scene(
+        "fig13-stiffness",
+        "rigid",
+        0.5,
+        &[("solver.accuracy", "5%")],
+    );
     scene.window = Window::Fixed { length_s: 2e-3 };
     scene.disk_resolution.cut_hz = 12e3;
     scene.disk.hub = Some(hub);

@@ -246,7 +246,12 @@ fn the_drive_disk_has_its_documented_frequencies() {
 /// far above the first modes have wave numbers pi / (outer - inner) apart, whatever holds the edges.
 #[test]
 fn the_finest_disk_a_climb_asks_for_is_built_and_carries_waves_to_its_cut() {
-    let named = scene("fig13", "rigid", 3.0, &[("solver.accuracy", "0.1%")]);
+    let named = scene(
+        "fig13-stiffness",
+        "rigid",
+        3.0,
+        &[("solver.accuracy", "0.1%")],
+    );
     let mut finest = named.at_levels(Levels::NONE.turned(Knob::DiskModes, 4));
     finest.disk_resolution.n_harmonics = 1;
     let disk = DiskParameters {

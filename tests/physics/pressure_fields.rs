@@ -11,7 +11,7 @@ use opshock_tests::pairs::coarse;
 use opshock_tests::scenes;
 
 fn scene(cells: usize, tolerance: f64) -> Scene {
-    let mut scene = coarse(scenes::scene("fig13", "none", 0.5, &[]));
+    let mut scene = coarse(scenes::scene("fig13-stiffness", "none", 0.5, &[]));
     scene.film_resolution.cells = cells;
     scene.head_resolution.tolerance = tolerance;
     scene

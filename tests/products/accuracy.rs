@@ -10,7 +10,7 @@ use super::cli::{Done, study};
 #[test]
 fn a_ladder_is_held_against_its_reference() {
     let mut scene = scene(
-        "fig13",
+        "fig13-stiffness",
         "rigid",
         0.5,
         &[
@@ -54,7 +54,7 @@ fn a_ladder_is_held_against_its_reference() {
 #[test]
 fn the_clearance_of_a_shock_is_within_a_tenth_of_the_heads_tolerance() {
     let sets = [("solver.film_cells", "800"), ("pulse.window_ms", "0.8")];
-    let scene = scene("fig13", "none", 0.5, &sets);
+    let scene = scene("fig13-stiffness", "none", 0.5, &sets);
     for (ladder, near_g) in [("head_tolerance", 300.0), ("coupling_tolerance", 200.0)] {
         let settings = ladders(&scene).into_iter();
         let measured: Vec<_> = settings
@@ -83,7 +83,7 @@ fn the_clearance_of_a_shock_is_within_a_tenth_of_the_heads_tolerance() {
 #[test]
 fn a_point_is_named_as_ramp_width_sign() {
     let folder = tempfile::tempdir().expect("folder");
-    let path = study("fig13");
+    let path = study("fig13-stiffness");
     let path = path.to_str().expect("a path");
     let bad = Done::of(folder.path(), &["accuracy", path, "--at", "rigid:2.0"]);
     assert_eq!(bad.code, 2, "{}", bad.stderr);

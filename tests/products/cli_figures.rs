@@ -1,6 +1,7 @@
 //! `figures`: what is drawn is what the runs computed and what the scene says, and always the same.
 
 use super::cli::{COARSE, Done, files, study};
+use opshock_study::study::Study;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -122,7 +123,7 @@ fn every_figure_is_written_the_same_twice_and_holds_the_histories() {
         head("head/min_clearance_m")
     );
 
-    // The drawings: disk and slider of the manual's drive, 100 um between disk and contact points.
+    // The drawings: the manual's disk, the slider where the study says, 100 um between disk and contact points.
     let largest = |points: &[(f64, f64)]| points.iter().fold(0.0f64, |m, p| m.max(p.0.hypot(p.1)));
     let plan = at("a/fig01.csv");
     assert!((largest(&corners(&plan, "disk")) - 32.5e-3).abs() < 1e-12);
@@ -130,8 +131,10 @@ fn every_figure_is_written_the_same_twice_and_holds_the_histories() {
     let centre = slider
         .iter()
         .fold((0.0, 0.0), |c, p| (c.0 + 0.25 * p.0, c.1 + 0.25 * p.1));
-    assert!((centre.0.hypot(centre.1) - 22.215e-3).abs() < 1e-12);
-    assert!((centre.1.atan2(centre.0).to_degrees() - 7.0).abs() < 1e-9);
+    let read = Study::from_path(&study("paper-cases"), &[]).expect("a study");
+    let place = &read.points[0].scene.slider;
+    assert!((centre.0.hypot(centre.1) - place.radius_m).abs() < 1e-12);
+    assert!((centre.1.atan2(centre.0) - place.angle_rad).abs() < 1e-11);
     for section in ["a/fig02.csv", "a/fig03.csv"] {
         let disk = corners(&at(section), "disk");
         let contact = corners(&at(section), "contact point");

@@ -18,7 +18,7 @@ fn of(ramp: &str, window: &[(&str, &str)]) -> Study {
         ("solver.disk_cut_khz", "20"),
     ];
     sets.extend(window);
-    study("fig13", &sets)
+    study("fig13-stiffness", &sets)
 }
 
 /// One shock in the study's window and in twice that window.

@@ -91,7 +91,7 @@ fn planted(seed: u64, has_head: bool, effort: &str) -> Planted {
         [0.5, seeded.between(180.0, 260.0)],
     ];
     let settings = ["solver.accuracy=\"5%\"", "ramp.models=[\"deformable\"]"];
-    let own = Study::from_path(&shipped("paper-cases"), &[]).expect("a study");
+    let own = Study::from_path(&shipped("fig13-stiffness"), &[]).expect("a study");
     let resolved: toml::Table = own.resolved_toml().parse().expect("TOML");
     let mut sets: Vec<SetArg> = settings
         .iter()
@@ -100,7 +100,7 @@ fn planted(seed: u64, has_head: bool, effort: &str) -> Planted {
     let mut text = format!(
         "match_format = 1\nname = \"planted {seed}\"\nstudy = {:?}\nseed = {seed}\n{effort}\n[settings]\n\
          disk_and_ramp = {settings:?}\nsingle_shocks = {settings:?}\n",
-        shipped("paper-cases")
+        shipped("fig13-stiffness")
     );
     for (k, u) in chosen.iter().zip(&truth) {
         let (name, key, [low, high]) = PARAMETERS[*k];
@@ -110,7 +110,7 @@ fn planted(seed: u64, has_head: bool, effort: &str) -> Planted {
         let value = number(&resolved, key) * (low + u * (high - low));
         sets.push(SetArg::parse(&format!("{key}={value:?}")).expect("a setting"));
     }
-    let study = Study::from_path(&shipped("paper-cases"), &sets).expect("a study");
+    let study = Study::from_path(&shipped("fig13-stiffness"), &sets).expect("a study");
     for (place, [pulse_ms, amplitude_g]) in shocks.into_iter().enumerate() {
         let json = refined(&study, pulse_ms, amplitude_g, has_head);
         for (path, needs_head, share) in OUTPUTS {

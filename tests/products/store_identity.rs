@@ -8,7 +8,7 @@ use opshock_study::study::{SetArg, Study};
 use opshock_tests::coarse;
 use serde_json::Value;
 
-/// One point, half a second: the drive of `fig13` with a disk of this thickness, as a file that needs no
+/// One point, half a second: the drive of `fig13-stiffness` with a disk of this thickness, as a file that needs no
 /// other.
 fn drive(thickness_mm: f64) -> String {
     let mut sets: Vec<String> = coarse::TWO_POINTS.map(String::from).to_vec();
@@ -18,7 +18,7 @@ fn drive(thickness_mm: f64) -> String {
         format!("disk.thickness_mm={thickness_mm:?}"),
     ]);
     let sets: Vec<SetArg> = sets.iter().map(|set| set.parse().unwrap()).collect();
-    Study::from_path(&study("fig13"), &sets)
+    Study::from_path(&study("fig13-stiffness"), &sets)
         .unwrap()
         .resolved_toml()
 }

@@ -43,7 +43,14 @@ fn every_study_is_clean_and_documented() {
         }
         names.push(name);
     }
-    for expected in ["fig13", "paper-cases", "drive-2.5in", "clearance"] {
+    for expected in [
+        "fig13",
+        "fig13-converged",
+        "fig13-stiffness",
+        "paper-cases",
+        "drive-2.5in",
+        "clearance",
+    ] {
         assert!(
             names.iter().any(|name| name == expected),
             "studies/{expected} is missing"
@@ -56,6 +63,8 @@ fn comments_do_not_repeat_key_names() {
     for name in [
         "fig13/study.toml",
         "fig13/surface.toml",
+        "fig13-converged/study.toml",
+        "fig13-stiffness/study.toml",
         "paper-cases/study.toml",
         "drive-2.5in/study.toml",
     ] {
@@ -103,7 +112,7 @@ fn fig13_has_the_points_of_the_figure_in_canonical_order() {
         .collect();
     assert_eq!(widths, [0.5, 3.0, 1.0, 0.75, 1.5, 2.0]);
     let scene = &study.points[4].scene;
-    assert_eq!(scene.suspension.gram_load_n, 0.948 * 9.80665e-3);
+    assert_eq!(scene.suspension.gram_load_n, 0.89 * 9.80665e-3);
     let rails = &scene.slider.surface.rails;
     assert_eq!(rails.len(), 8);
 }
@@ -115,9 +124,12 @@ fn read_with(name: &str, set: &str) -> Study {
 }
 
 #[test]
-fn clearance_and_geometry_have_the_drive_of_fig13_but_for_what_they_ask() {
+fn clearance_and_geometry_have_the_drive_of_fig13_stiffness_but_for_what_they_ask() {
     let geometry = read("fig13-geometry");
-    let (coarse, figure) = (read_with("fig13", "solver.accuracy=5%"), read("fig13"));
+    let (coarse, figure) = (
+        read_with("fig13-stiffness", "solver.accuracy=5%"),
+        read("fig13-stiffness"),
+    );
     let cases = [(&coarse, read("clearance"), 144), (&figure, geometry, 16)];
     for (figure, study, points) in &cases {
         assert_eq!(study.points.len(), *points);
@@ -143,6 +155,23 @@ fn twin<'a>(figure: &'a Study, point: &Point) -> &'a Point {
     let of = |point: &Point| (point.ramp, point.sign, point.pulse_ms);
     let mut points = figure.points.iter();
     points.find(|other| of(other) == of(point)).unwrap()
+}
+
+#[test]
+fn converged_disk_modes_are_all_that_differs_from_fig13() {
+    let (figure, converged) = (read("fig13"), read("fig13-converged"));
+    assert_eq!(converged.points.len(), 36);
+    for point in &converged.points {
+        let twin = &twin(&figure, point).scene;
+        assert_eq!(twin.disk_resolution.cut_hz, 80e3);
+        assert_eq!(point.scene.disk_resolution.cut_hz, 240e3);
+        assert_eq!(point.scene.not_refined, []);
+        let mut scene = point.scene.clone();
+        scene.disk_resolution.cut_hz = twin.disk_resolution.cut_hz;
+        scene.not_refined = twin.not_refined.clone();
+        assert_eq!(scene, *twin, "{}", point.label());
+        assert_eq!(scene.ramp.contact_stiffness_n_per_m, None);
+    }
 }
 
 #[test]

@@ -142,7 +142,13 @@ fn results_are_of_todays_studies_and_of_the_committed_table() {
             ));
         }
     };
-    for study in ["fig13", "fig13-geometry", "clearance"] {
+    for study in [
+        "fig13",
+        "fig13-converged",
+        "fig13-stiffness",
+        "fig13-geometry",
+        "clearance",
+    ] {
         holds(&format!("results/{study}/table.md"), &digest(study));
     }
     for name in ["figures.md", "claims.md", "sensitivity.md"] {

@@ -26,7 +26,7 @@ const RADIUS_MM: [f64; 2] = [14.0, 31.0];
 /// mirror image across the slider's middle.
 pub fn drive(seed: u64, gas_model: &str) -> Scene {
     let mut seeded = Seeded::new(seed);
-    let study = *seeded.one_of(&["drive-2.5in", "fig13"]);
+    let study = *seeded.one_of(&["drive-2.5in", "fig13-stiffness"]);
     let load = seeded.log_between(LOAD_GF[0], LOAD_GF[1]);
     let rpm = seeded.between(RPM[0], RPM[1]);
     let pressure = seeded.between(PRESSURE_PA[0], PRESSURE_PA[1]);

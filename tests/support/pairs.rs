@@ -220,7 +220,7 @@ pub fn coarse(mut scene: Scene) -> Scene {
 
 /// The scene that random ones come from.
 pub fn base() -> Scene {
-    let mut scene = coarse(scenes::scene("fig13", "rigid", 0.5, &[]));
+    let mut scene = coarse(scenes::scene("fig13-stiffness", "rigid", 0.5, &[]));
     scene.film_resolution.cells = 100;
     scene
 }

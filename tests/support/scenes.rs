@@ -50,7 +50,7 @@ pub fn scene(name: &str, ramp: &str, pulse_ms: f64, sets: &[(&str, &str)]) -> Sc
 /// # Panics
 /// When the study has faults.
 pub fn paper_deformable(width_s: f64, window_s: f64, cells: usize) -> Scene {
-    let mut scene = scene("fig13", "deformable", 1e3 * width_s, &[]);
+    let mut scene = scene("fig13-stiffness", "deformable", 1e3 * width_s, &[]);
     scene.window = opshock_solver::scene::Window::Fixed { length_s: window_s };
     scene.film_resolution.cells = cells;
     scene

@@ -218,7 +218,7 @@ fn a_retry_of_a_turned_scene_keeps_its_knobs_and_takes_finer_steps() {
         ("pulse.window_ms", "1.0"),
         ("solver.film_cells", "240"),
     ];
-    let study = study("fig13", &sets);
+    let study = study("fig13-stiffness", &sets);
     let physics = Physics::of(&study);
     let cost = |film: i8, retry: Retry| {
         let probe = Probe {
@@ -297,7 +297,7 @@ fn what_a_ramp_is_remeshed_from_is_content_of_its_points() {
 /// Only a deformable ramp from geometry has a mesh to turn.
 #[test]
 fn the_mesh_is_a_knob_of_ramps_from_geometry_alone() {
-    for (name, has_mesh) in [("fig13", false), ("fig13-geometry", true)] {
+    for (name, has_mesh) in [("fig13-stiffness", false), ("fig13-geometry", true)] {
         let study = study(name, &[]);
         let input = SweepInput::of(&study).expect("a sweep");
         for (place, point) in study.table_order().into_iter().zip(&input.points) {
@@ -349,7 +349,7 @@ fn held_films_answer_alike_with_and_without_the_shock_before() {
         ("ramp.models", "[\"none\"]"),
         ("solver.film_cells", "500"),
     ];
-    let study = study("fig13", &sets);
+    let study = study("fig13-stiffness", &sets);
     let minus = study
         .table_order()
         .into_iter()

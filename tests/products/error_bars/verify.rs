@@ -322,7 +322,7 @@ fn small_study(kind: &str, seed: u64) -> Study {
         ("output.keep_histories", "\"none\"".to_owned()),
     ];
     let sets: Vec<(&str, &str)> = sets.iter().map(|(k, v)| (*k, v.as_str())).collect();
-    study("fig13", &sets)
+    study("fig13-stiffness", &sets)
 }
 
 /// Disk and ramp alone: fails when the impulse of the contacts or the travel of the disk under the
