@@ -23,13 +23,11 @@ results: build ## every committed result anew, in order, with its time in result
 OR_OPEN := || test $$? -eq 4
 
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
-	$(OPSHOCK) sweep studies/fig13/study.toml --store results/fig13/fig13.opshock -j $(JOBS) $(OR_OPEN)
-	$(OPSHOCK) report results/fig13/fig13.opshock --out results/fig13 $(OR_OPEN)
+	@$(MAKE) --no-print-directory study NAME=fig13
 
 .PHONY: fig13-converged
 fig13-converged: build ## Fig. 13 with converged disk modes, and the paper's statements judged by it, in results/fig13-converged/
-	$(OPSHOCK) sweep studies/fig13-converged/study.toml --store results/fig13-converged/fig13-converged.opshock -j $(JOBS) $(OR_OPEN)
-	$(OPSHOCK) report results/fig13-converged/fig13-converged.opshock --out results/fig13-converged $(OR_OPEN)
+	@$(MAKE) --no-print-directory study NAME=fig13-converged
 	$(OPSHOCK) claims studies/fig13-converged/study.toml --critical results/fig13-converged/table.csv --out results/fig13-converged --quiet -j $(JOBS) > /dev/null
 
 accuracy: build ## what accuracy costs on fig13-stiffness: ladders, plots and table in results/accuracy/

@@ -11,7 +11,7 @@ use opshock_tests::pairs::{
 };
 use opshock_tests::{scenes, seeded};
 
-const STUDIES: [&str; 3] = ["fig13-stiffness", "paper-cases", "drive-2.5in"];
+const STUDIES: [&str; 4] = ["fig13", "fig13-stiffness", "paper-cases", "drive-2.5in"];
 
 /// A point of every ramp model of every study that comes with opshock.
 #[test]
