@@ -7,33 +7,24 @@
 //! Sources of the default drive: disk, ramp place, ramp clearance: sample data of the CMLAir 8.01
 //! user manual (Mardan and Bogy, 2011). Suspension and air-bearing surface: opshock's own designs.
 
+use opshock_import::matrix::units::Units;
 use opshock_solver::scene::knob::Knob;
 use std::sync::LazyLock;
 
 use super::key::{ABOVE_ZERO, ANY, Choice, FROM_ZERO, Key, Kind, above, below, closed, open};
+use super::words::{self, Ramp, Sign, names};
 use Kind::{
     Axis, Flag, Integer, Number, NumberOrWord, Numbers, Pair, Points, Tables, Text, Word, Words,
 };
 
-/// Pulse shapes.
-pub const SHAPES: &[&str] = &[
-    "half_sine",
-    "haversine",
-    "square",
-    "trapezoid",
-    "damped_sine",
-    "table",
-];
 /// Ramp models, in canonical order.
-pub const RAMPS: &[&str] = &["none", "rigid", "deformable"];
+pub const RAMPS: &[&str] = &[
+    Ramp::None.as_str(),
+    Ramp::Rigid.as_str(),
+    Ramp::Deformable.as_str(),
+];
 /// Signs, in canonical order.
-pub const SIGNS: &[&str] = &["+", "-"];
-/// Accuracy rungs.
-pub const RUNGS: &[&str] = &["5%", "1%", "0.1%"];
-/// Rarefaction models.
-pub const FLOWS: &[&str] = &["fukui_kaneko", "continuum", "slip_1", "slip_2"];
-/// Coupling schemes.
-pub const COUPLINGS: &[&str] = &["monolithic", "fixed_point", "aitken", "anderson"];
+pub const SIGNS: &[&str] = &[Sign::Plus.as_str(), Sign::Minus.as_str()];
 /// Outputs that disk and ramp alone give.
 pub const STRUCTURE_OUTPUTS: &[&str] = &[
     "disk_displacement",
@@ -60,10 +51,6 @@ pub const OUTPUTS: &[&str] = &[
 pub const LEAVE_OUT: &[&str] = &["air_bearing"];
 /// Named materials of a ramp.
 pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
-/// Units of length of a ramp's mesh.
-pub const MESH_UNITS: &[&str] = &["mm", "um", "m", "inch"];
-/// Units of matrices of other programs.
-pub const MATRIX_UNITS: &[&str] = &["si", "mm_mn", "mm_n"];
 /// Named surfaces.
 pub const SURFACES: &[&str] = &["femto-2.5in"];
 
@@ -79,11 +66,6 @@ pub const DISCRETISATION: &[&str] = &[
 
 const RATIO: Kind = Number(FROM_ZERO);
 const LENGTH: Kind = Number(ABOVE_ZERO);
-
-/// What the run-out of the disk does to the ramp's gaps.
-pub const RUN_OUT: &[&str] = &["none", "lowest_gap"];
-/// The disk's faces: over it heads face down, under it they face up.
-pub const FACES: &[&str] = &["down", "up"];
 
 /// A head's name, behind which stand the keys that it may have of its own.
 const NAME_OF_A_HEAD: &str = "heads[].head";
@@ -125,7 +107,7 @@ static TABLE: &[Key] = &[
     Key::optional("heads", Tables, "one head", "[{ head = \"0 up\", slider.radius_mm = 21.0 }, { head = \"0 down\", slider.radius_mm = 21.0, suspension.gram_load_gf = 2.3 }]", "Heads of a drive, each with its slider, suspension, disk and gap of the ramp: an axis of the study. What an entry leaves out is the study's.").code("E191"),
     Key::required(NAME_OF_A_HEAD, Text, "\"0 up\"", "Name of the head, as tables show it.").code("E191"),
     // pulse
-    Key::or("pulse.shape", Word(SHAPES), "\"half_sine\"", "Shape of the acceleration pulse."),
+    Key::or("pulse.shape", Word(&names(&words::SHAPES)), "\"half_sine\"", "Shape of the acceleration pulse."),
     Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.").usual(0.05, 100.0).code("E150"),
     Key::or("pulse.signs", Words(SIGNS), "[\"+\", \"-\"]", "Signs of the shock: + moves the disk towards the slider first."),
     Key::or("pulse.start_ms", Number(FROM_ZERO), "0.5", "Onset of the pulse on the time axis of every output.").usual(0.0, 1000.0).code("E150"),
@@ -183,7 +165,7 @@ static TABLE: &[Key] = &[
     Key::optional("base.imported.stiffness", Text, "modes, or a rigid base", "\"base.sti\"", "Its stiffness matrix."),
     Key::optional("base.imported.freedoms", Text, "places", "\"base.dof\"", "Freedoms of the rows, a line node.direction each."),
     Key::optional("base.imported.places", Text, "freedoms", "\"base_cords.dat\"", "Places and kinds of the rows, a line x y z type each, mm."),
-    Key::optional("base.imported.units", Word(MATRIX_UNITS), "si", "\"mm_n\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
+    Key::optional("base.imported.units", Word(&names(&Units::WORDS)), "si", "\"mm_n\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
     Key::optional("base.imported.spindle", Integer(1, 1_000_000_000), "modes, or a rigid base", "12", "Node of the spindle; its displacement z is along the disk's axis."),
     Key::optional("base.imported.ramp", Integer(1, 1_000_000_000), "modes, or a rigid base", "34", "Node of the ramp's mount."),
     Key::optional("base.imported.pivot", Integer(1, 1_000_000_000), "modes, or a rigid base", "56", "Node of the actuator's pivot."),
@@ -195,7 +177,7 @@ static TABLE: &[Key] = &[
     Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143"),
     Key::optional("ramp.clearance_top_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance above the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
     Key::optional("ramp.clearance_bottom_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance below the disk, when unequal.").usual(10.0, 1000.0).code("E143"),
-    Key::optional("ramp.run_out", Word(RUN_OUT), "none", "\"lowest_gap\"", "lowest_gap takes the run-out of the disk at the ramp off the gaps above and below it: the lowest gap of a revolution.").code("E143"),
+    Key::optional("ramp.run_out", Word(&names(&words::RUN_OUT)), "none", "\"lowest_gap\"", "lowest_gap takes the run-out of the disk at the ramp off the gaps above and below it: the lowest gap of a revolution.").code("E143"),
     Key::or("ramp.radius_mm", LENGTH, "32.15", "Radius of the contact points.").usual(5.0, 70.0).code("E141"),
     Key::or("ramp.angle_deg", Number(closed(-360.0, 360.0)), "0.0", "Angle of the contact points in the disk's sense of rotation."),
     Key::or("ramp.restitution", Number(closed(0.0, 1.0)), "0.0", "Coefficient of restitution of an impact; 0 with a contact stiffness.").code("E136"),
@@ -235,7 +217,7 @@ static TABLE: &[Key] = &[
     Key::optional("ramp.deformable.geometry.cut_khz", LENGTH, "100.0", "100.0", "Modes with the contact points held, below this frequency, are kept; responses are good to half of it.").usual(5.0, 1000.0).code("E174"),
     Key::optional("ramp.deformable.mesh.file", Text, "a ramp given by modes", "\"ramp.msh\"", "Gmsh mesh (.msh 4.1) of the ramp with physical surfaces mount, top and bottom; z is the disk's axis."),
     Key::optional("ramp.deformable.mesh.material", Word(RAMP_MATERIALS), "a ramp given by modes", "\"POM\"", "Material of the mesh."),
-    Key::optional("ramp.deformable.mesh.unit", Word(MESH_UNITS), "mm", "\"mm\"", "Unit of length of the file."),
+    Key::optional("ramp.deformable.mesh.unit", Word(&names(&words::LENGTH_UNITS)), "mm", "\"mm\"", "Unit of length of the file."),
     Key::optional("ramp.deformable.mesh.youngs_modulus_gpa", LENGTH, "the material's", "2.85", "Young's modulus, instead of the material's.").usual(0.5, 700.0),
     Key::optional("ramp.deformable.mesh.poisson", Number(open(-1.0, 0.5)), "the material's", "0.37", "Poisson's ratio, instead of the material's.").usual(0.0, 0.45).code("E131"),
     Key::optional("ramp.deformable.mesh.density_kg_per_m3", LENGTH, "the material's", "1410.0", "Density, instead of the material's.").usual(500.0, 12000.0),
@@ -253,7 +235,7 @@ static TABLE: &[Key] = &[
     Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0),
     Key::or("slider.angle_deg", Number(closed(-360.0, 360.0)), "7.0", "Angle of the slider's centre in the disk's sense of rotation, measured as the ramp's."),
     Key::or("slider.skew_deg", Number(open(-90.0, 90.0)), "0.0", "Angle between the disk's velocity and the slider's length, positive towards the outer side.").usual(-30.0, 30.0),
-    Key::optional("slider.faces", Word(FACES), "down", "\"up\"", "Way the slider faces: down, over the disk, or up, under it, where the shock has the other sign and the ramp's bottom arm is on the slider's side."),
+    Key::optional("slider.faces", Word(&names(&words::FACES)), "down", "\"up\"", "Way the slider faces: down, over the disk, or up, under it, where the shock has the other sign and the ramp's bottom arm is on the slider's side."),
     Key::or("slider.length_mm", LENGTH, "0.85", "Length, leading to trailing edge.").usual(0.2, 5.0),
     Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0),
     Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5),
@@ -267,7 +249,7 @@ static TABLE: &[Key] = &[
     Key::or("slider.surface.taper_length_um", Number(FROM_ZERO), "0.0", "Length of the taper at the leading edge; 0 for none.").usual(0.0, 1000.0).code("E145"),
     Key::or("slider.surface.taper_angle_deg", Number(below(0.0, 45.0)), "0.0", "Angle of the taper at the leading edge.").usual(0.0, 5.0).code("E145"),
     Key::optional("slider.surface.rail", Tables, "the rails of preset or file", "[{ kind = \"rect\", x_um = [20, 170], y_um = [30, 670], recess_um = 0.25 }]", "Rails; later ones overwrite earlier ones.").code("E135"),
-    Key::required("slider.surface.rail[].kind", Word(&["rect", "polygon"]), "\"rect\"", "Shape of the rail's outline."),
+    Key::required("slider.surface.rail[].kind", Word(&names(&words::RAIL_KINDS)), "\"rect\"", "Shape of the rail's outline."),
     Key::optional("slider.surface.rail[].x_um", Pair(ANY), "a polygon", "[20, 170]", "Range along the length, from the leading edge.").code("E144"),
     Key::optional("slider.surface.rail[].y_um", Pair(ANY), "a polygon", "[30, 670]", "Range across, from the inner edge.").code("E144"),
     Key::optional("slider.surface.rail[].points_um", Points, "a rectangle", "[[20, 30], [170, 30], [170, 670]]", "Corners of a polygon.").code("E144"),
@@ -310,7 +292,7 @@ static TABLE: &[Key] = &[
     Key::optional("suspension.imported.stiffness", Text, "a suspension by its geometry", "\"susp_K.dat\"", "Its stiffness matrix."),
     Key::optional("suspension.imported.freedoms", Text, "places", "\"susp.dof\"", "Freedoms of the rows, a line node.direction each."),
     Key::optional("suspension.imported.places", Text, "freedoms", "\"susp_cords.dat\"", "Places and kinds of the rows, a line x y z type each, mm."),
-    Key::optional("suspension.imported.units", Word(MATRIX_UNITS), "si", "\"mm_mn\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
+    Key::optional("suspension.imported.units", Word(&names(&Units::WORDS)), "si", "\"mm_mn\"", "Units of the matrices: N, m, kg; mN, mm, kg; N, mm, t."),
     Key::optional("suspension.imported.dimple", Integer(1, 1_000_000_000), "a suspension by its geometry", "29", "Node of the dimple: z, roll about x and slope about y."),
     Key::optional("suspension.imported.base", Numbers(ABOVE_ZERO), "the base is not in the matrices", "[1]", "Nodes that the base holds; their mass loads the others."),
     Key::optional("suspension.imported.cut_khz", LENGTH, "1000.0", "1000.0", "Modes with the dimple held, below this frequency, are kept of matrices of more than 300 rows.").usual(20.0, 10_000.0).code("E174"),
@@ -326,7 +308,7 @@ static TABLE: &[Key] = &[
     Key::optional("gas.temperature_c", Number(open(-100.0, 500.0)), "18.45 degrees, where the viscosity is 1.806e-5 Pa s", "25.0", "Temperature: viscosity by Sutherland's law, and mean free path.").usual(-40.0, 100.0),
     Key::optional("gas.viscosity_pa_s", LENGTH, "from the temperature", "1.806e-5", "Dynamic viscosity.").usual(1e-6, 1e-4),
     Key::optional("gas.mean_free_path_nm", LENGTH, "63.5 nm scaled with viscosity, pressure and temperature", "63.5", "Mean free path at the ambient pressure.").usual(5.0, 500.0),
-    Key::or("gas.model", Word(FLOWS), "\"fukui_kaneko\"", "Rarefaction model of the film."),
+    Key::or("gas.model", Word(&names(&words::FLOWS)), "\"fukui_kaneko\"", "Rarefaction model of the film."),
     // surface forces
     Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125"),
     Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125"),
@@ -335,7 +317,7 @@ static TABLE: &[Key] = &[
     Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156"),
     Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156"),
     Key::or("search.tolerance_pct", Number(closed(1e-6, 50.0)), "1.0", "Width of the final bracket.").usual(0.01, 20.0).code("E156"),
-    Key::or("search.certify", Word(&["staggered", "off", "full"]), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
+    Key::or("search.certify", Word(&names(&words::CERTIFY)), "\"staggered\"", "How far the evidence below the lowest failure reaches."),
     Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156"),
     Key::or("search.error_bars", Flag, "true", "Adds to each critical shock what the resolution contributes to its error."),
     Key::or("search.climbs", Integer(0, 100), "3", "Times that a point whose error bar exceeds the accuracy is answered anew on finer knobs."),
@@ -344,10 +326,10 @@ static TABLE: &[Key] = &[
     Key::optional("search.refine.closest_pct", Number(above(0.0, 100.0)), "2", "2.0", "No widths are added closer than this.").usual(0.5, 50.0).code("E156"),
     Key::optional("search.refine.most_points", Integer(1, 100_000), "60", "60", "Points added at most."),
     // solver
-    Key::or("solver.accuracy", Word(RUNGS), "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157"),
-    Key::or("solver.effects", Word(&["auto", "full"]), "\"auto\"", "auto simulates only what the outputs need."),
+    Key::or("solver.accuracy", Word(&names(&words::RUNGS)), "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157"),
+    Key::or("solver.effects", Word(&names(&words::EFFECTS)), "\"auto\"", "auto simulates only what the outputs need."),
     Key::or("solver.leave_out", Words(LEAVE_OUT), "[]", "Effects left out by hand; refused when an output needs them."),
-    Key::rung("solver.coupling", Word(COUPLINGS), "\"monolithic\"", "How film and slider are solved together."),
+    Key::rung("solver.coupling", Word(&names(&words::COUPLINGS)), "\"monolithic\"", "How film and slider are solved together."),
     Key::or("solver.fail_below_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0),
     Key::rung("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided."),
     Key::rung("solver.disk_cut_khz", LENGTH, "30.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0),
@@ -366,7 +348,7 @@ static TABLE: &[Key] = &[
     // fields
     Key::optional("fields.times_ms", Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152"),
     // output
-    Key::or("output.keep_histories", Word(&["bracket", "none", "all"]), "\"bracket\"", "Which time histories are stored."),
+    Key::or("output.keep_histories", Word(&names(&words::KEEP_HISTORIES)), "\"bracket\"", "Which time histories are stored."),
     Key::or("output.checkpoint_s", Number(above(0.0, 86_400.0)), "30", "Time between two refreshes of results.h5.").usual(1.0, 3600.0),
 ];
 

@@ -44,9 +44,8 @@ pub fn held(view: &View<'_>, table: &str, nodes: &str, folder: &Path) -> Result<
     let freedoms = freedoms(dof.as_deref(), places.as_deref())?;
     let stiffness = matrix(&path("stiffness"), freedoms.as_ref(), true)?;
     let mass = matrix(&path("mass"), freedoms.as_ref(), true)?;
-    let word = view.word(&format!("{table}.units"));
-    let units = Units::WORDS.iter().find(|(name, _)| *name == word);
-    let units = units.map_or(Units::WORDS[0].1, |(_, units)| *units);
+    let units = view.chosen(&format!("{table}.units"), &Units::WORDS);
+    let units = units.unwrap_or(Units::Si);
     let system = System::of(mass, stiffness, None, freedoms, units)?;
     let held = view.numbers(&format!("{table}.{nodes}"));
     let held: Vec<u64> = held.iter().map(|number| *number as u64).collect();

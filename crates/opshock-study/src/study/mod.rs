@@ -242,27 +242,23 @@ impl Study {
                 amplitude_min_g: view.number("search.amplitude_g.min"),
                 amplitude_max_g: view.number("search.amplitude_g.max"),
                 tolerance_pct: view.number("search.tolerance_pct"),
-                certify: Certify::from_word(view.word("search.certify")),
+                certify: scene::given(&view, "search.certify", &words::CERTIFY),
                 max_gap_pct: view.number("search.max_gap_pct"),
                 error_bars: view.maybe_flag("search.error_bars").unwrap_or(true),
                 climbs: view.maybe_integer("search.climbs").unwrap_or(0) as u8,
                 refine: refine(&view),
             },
             output: OutputSettings {
-                keep_histories: match view.word("output.keep_histories") {
-                    "none" => KeepHistories::None,
-                    "all" => KeepHistories::All,
-                    _ => KeepHistories::Bracket,
-                },
+                keep_histories: scene::given(
+                    &view,
+                    "output.keep_histories",
+                    &words::KEEP_HISTORIES,
+                ),
                 checkpoint_s: view.si("output.checkpoint_s"),
             },
             start_s: view.si("pulse.start_ms"),
             field_times_s: scene::field_times_s(&view),
-            effects: if view.word("solver.effects") == "full" {
-                Effects::Full
-            } else {
-                Effects::Auto
-            },
+            effects: scene::given(&view, "solver.effects", &words::EFFECTS),
             leave_out: view.words("solver.leave_out").to_vec(),
             digest: resolved::digest(&settings),
             remarks,

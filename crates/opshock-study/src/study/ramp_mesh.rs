@@ -24,15 +24,12 @@ use super::ramp_solid::RampSolid;
 use super::read::Reader;
 use super::settings::View;
 use super::source::{Origin, Source};
-use super::tree;
+use super::{tree, words};
 
 /// Table of the mesh.
 pub const TABLE: &str = "ramp.deformable.mesh";
 /// List that takes its place.
 pub const MODES: &str = "ramp.deformable.coupled_modes";
-/// Units of length of a file, in m; the first is the default.
-pub const LENGTH_UNITS: [(&str, f64); 4] =
-    [("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("inch", 0.0254)];
 /// Nodes at most: two gigabytes and a quarter of a minute.
 const MOST_NODES: usize = 25_000;
 /// Longest edge of the box around a ramp, m.
@@ -205,9 +202,8 @@ fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64)
 
 /// Length of the file's unit, m.
 fn metres(view: &View<'_>) -> f64 {
-    let unit = view.word(&format!("{TABLE}.unit"));
-    let metres = LENGTH_UNITS.iter().find(|(name, _)| *name == unit);
-    metres.map_or(LENGTH_UNITS[0].1, |(_, metres)| *metres)
+    let metres = view.chosen(&format!("{TABLE}.unit"), &words::LENGTH_UNITS);
+    metres.unwrap_or(words::LENGTH_UNITS[0].1)
 }
 
 fn cut_hz(view: &View<'_>) -> f64 {

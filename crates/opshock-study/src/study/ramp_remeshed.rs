@@ -3,7 +3,7 @@
 use super::ramp_geometry;
 use super::scene::FACES;
 use super::settings::View;
-use super::words::{Faces, Ramp};
+use super::words::{self, Faces, Ramp};
 use opshock_solid::ramp::SolidRamp;
 use opshock_solver::ramp::CoupledMode;
 
@@ -23,7 +23,7 @@ impl RemeshedRamp {
         is_solid.then(|| Self {
             solid: ramp_geometry::solid_ramp(view),
             damping_ratio: view.si("ramp.deformable.damping_ratio"),
-            faces: Faces::from_word(view.word(FACES)),
+            faces: view.chosen(FACES, &words::FACES).unwrap_or_default(),
         })
     }
 

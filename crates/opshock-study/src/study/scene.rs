@@ -2,7 +2,7 @@
 //!
 //! Every number passes [`View::si`] here and nowhere else.
 
-use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
+use opshock_solver::air_bearing::{FilmResolution, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{
@@ -10,7 +10,7 @@ use opshock_solver::ramp::{
 };
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::knob::Knob;
-use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
+use opshock_solver::scene::{HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_solver::structure::StructureResolution;
@@ -20,7 +20,7 @@ use opshock_solver::suspension::{
 
 use super::settings::{Datum, View};
 use super::unit;
-use super::words::{self, Faces, Ramp};
+use super::words::{self, Faces, Ramp, Shape};
 use super::{imported_suspension, ramp_geometry, ramp_mesh};
 
 /// Key of the times of pressure fields.
@@ -34,7 +34,7 @@ pub const FACES: &str = "slider.faces";
 /// Builds the scene of one point as its head sees it, and the way this faces. `width_ms` is its pulse width.
 pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> (Scene, Faces) {
     let scene = drive(view, ramp, width_ms);
-    let faces = Faces::from_word(view.word(FACES));
+    let faces = view.chosen(FACES, &words::FACES).unwrap_or_default();
     match faces {
         Faces::Down => (scene, faces),
         Faces::Up => (scene.mirrored(), faces),
@@ -60,12 +60,7 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         slider: slider(view),
         suspension: suspension(view),
         gas: gas_parameters(view),
-        flow: match view.word("gas.model") {
-            "continuum" => FlowModel::Continuum,
-            "slip_1" => FlowModel::Slip1,
-            "slip_2" => FlowModel::Slip2,
-            _ => FlowModel::FukuiKaneko,
-        },
+        flow: given(view, "gas.model", &words::FLOWS),
         surface_forces: surface_forces(view),
         fail_below_m: view.si("solver.fail_below_nm"),
         disk_resolution: disk,
@@ -87,7 +82,13 @@ const COUPLING_SHARE: f64 = 0.01;
 
 /// Accuracy asked for at a point.
 pub fn rung(view: &View<'_>) -> Rung {
-    words::rung(view.word("solver.accuracy"))
+    given(view, "solver.accuracy", &words::RUNGS)
+}
+
+/// Value of a word that every study has, by its default if not by itself.
+pub fn given<T: Copy>(view: &View<'_>, path: &str, list: &[(&str, T)]) -> T {
+    let value = view.chosen(path, list);
+    value.expect("the table of keys has a default for it")
 }
 
 /// The rung's resolutions with what the study sets itself.
@@ -139,13 +140,9 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
             tolerance: number("solver.head_tolerance", base.head.tolerance),
             approach_share: number("solver.approach_share", base.head.approach_share),
             suspension_modes: count("solver.suspension_modes", base.head.suspension_modes),
-            coupling: match view.word("solver.coupling") {
-                "fixed_point" => Coupling::FixedPoint,
-                "aitken" => Coupling::Aitken,
-                "anderson" => Coupling::Anderson,
-                "monolithic" => Coupling::Monolithic,
-                _ => base.head.coupling,
-            },
+            coupling: view
+                .chosen("solver.coupling", &words::COUPLINGS)
+                .unwrap_or(base.head.coupling),
             coupling_tolerance: number("solver.coupling_tolerance", coupling_tolerance),
             max_steps: view
                 .maybe_integer("solver.max_steps")
@@ -154,32 +151,34 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
     }
 }
 
+/// Stretched to the width, scaled to a largest magnitude of 1.
+fn table(view: &View<'_>, width_s: f64) -> PulseShape {
+    let times = view.numbers("pulse.table_time_ms");
+    let relative = view.numbers("pulse.table_relative");
+    let last = times.last().copied().unwrap_or(1.0);
+    let largest = relative
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    PulseShape::Table {
+        time_s: times.iter().map(|time| width_s * (time / last)).collect(),
+        relative: relative.iter().map(|value| value / largest).collect(),
+    }
+}
+
 fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
     let width_s = unit::si("pulse.widths_ms", width_ms);
-    let shape = match view.word("pulse.shape") {
-        "haversine" => PulseShape::Haversine,
-        "square" => PulseShape::Square,
-        "trapezoid" => PulseShape::Trapezoid {
+    let shape = match given(view, "pulse.shape", &words::SHAPES) {
+        Shape::HalfSine => PulseShape::HalfSine,
+        Shape::Haversine => PulseShape::Haversine,
+        Shape::Square => PulseShape::Square,
+        Shape::Trapezoid => PulseShape::Trapezoid {
             rise_share: view.si("pulse.rise_share"),
         },
-        "damped_sine" => PulseShape::DampedSine {
+        Shape::DampedSine => PulseShape::DampedSine {
             frequency_hz: view.si("pulse.frequency_hz"),
             decay_per_s: view.si("pulse.decay_per_s"),
         },
-        "table" => {
-            // Stretched to the width, scaled to a largest magnitude of 1.
-            let times = view.numbers("pulse.table_time_ms");
-            let relative = view.numbers("pulse.table_relative");
-            let last = times.last().copied().unwrap_or(1.0);
-            let largest = relative
-                .iter()
-                .fold(0.0_f64, |most, value| most.max(value.abs()));
-            PulseShape::Table {
-                time_s: times.iter().map(|time| width_s * (time / last)).collect(),
-                relative: relative.iter().map(|value| value / largest).collect(),
-            }
-        }
-        _ => PulseShape::HalfSine,
+        Shape::Table => table(view, width_s),
     };
     Pulse { shape, width_s }
 }
@@ -278,7 +277,7 @@ fn run_out(view: &View<'_>) -> Vec<Wave> {
 
 /// What the running-out disk takes of the ramp's gaps at its highest and lowest, m; 0 unless asked for.
 pub fn gap_taken_m(view: &View<'_>) -> f64 {
-    if view.word("ramp.run_out") != "lowest_gap" {
+    if view.chosen("ramp.run_out", &words::RUN_OUT) != Some(true) {
         return 0.0;
     }
     let share = view.si("ramp.radius_mm") / view.si("disk.outer_radius_mm");
@@ -412,8 +411,9 @@ fn rail(view: &View<'_>, position: usize) -> Rail {
         Some(Datum::Pair(ends)) => ends.map(|end| unit::si(name, end)),
         _ => [0.0; 2],
     };
+    let is_polygon = view.chosen(&member("kind"), &words::RAIL_KINDS) == Some(true);
     let outline = match view.get(&member("points_um")) {
-        Some(Datum::Points(points)) if view.word(&member("kind")) == "polygon" => {
+        Some(Datum::Points(points)) if is_polygon => {
             let mut points_m: Vec<[f64; 2]> = points
                 .iter()
                 .map(|corner| corner.map(|value| unit::si("points_um", value)))

@@ -372,6 +372,21 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Value of the word in a list that the table of keys takes for `path`, if the study has one.
+    ///
+    /// # Panics
+    /// When the table of keys takes another list; a programming error.
+    pub fn chosen<T: Copy>(&self, path: &str, list: &[(&str, T)]) -> Option<T> {
+        let Some(Datum::Word(word)) = self.get(path) else {
+            return None;
+        };
+        let found = list.iter().find(|(name, _)| name == word);
+        let Some((_, value)) = found else {
+            panic!("{path} has the word {word}, which its list lacks");
+        };
+        Some(*value)
+    }
+
     /// Words; empty when there are none.
     pub fn words(&self, path: &str) -> &'a [String] {
         match self.get(path) {

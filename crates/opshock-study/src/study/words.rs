@@ -1,6 +1,92 @@
-//! The words of a study as types.
+//! The words of a study as values.
+//!
+//! Each list of words stands once, with the value of each: the table of keys takes the words from here ([`names`]),
+//! [`View::chosen`](super::View::chosen) the values. A word without a value cannot be written down.
 
+use opshock_solver::air_bearing::FlowModel;
+use opshock_solver::scene::Coupling;
 use opshock_solver::scene::accuracy::Rung;
+
+/// The words of a list.
+pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
+    let mut names = [""; N];
+    let mut at = 0;
+    while at < N {
+        names[at] = list[at].0;
+        at += 1;
+    }
+    names
+}
+
+/// `pulse.shape`.
+pub const SHAPES: [(&str, Shape); 6] = [
+    ("half_sine", Shape::HalfSine),
+    ("haversine", Shape::Haversine),
+    ("square", Shape::Square),
+    ("trapezoid", Shape::Trapezoid),
+    ("damped_sine", Shape::DampedSine),
+    ("table", Shape::Table),
+];
+/// Units of length of a ramp's mesh, in m; the first is the default.
+pub const LENGTH_UNITS: [(&str, f64); 4] =
+    [("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("inch", 0.0254)];
+/// `gas.model`.
+pub const FLOWS: [(&str, FlowModel); 4] = [
+    ("fukui_kaneko", FlowModel::FukuiKaneko),
+    ("continuum", FlowModel::Continuum),
+    ("slip_1", FlowModel::Slip1),
+    ("slip_2", FlowModel::Slip2),
+];
+/// `solver.coupling`.
+pub const COUPLINGS: [(&str, Coupling); 4] = [
+    ("monolithic", Coupling::Monolithic),
+    ("fixed_point", Coupling::FixedPoint),
+    ("aitken", Coupling::Aitken),
+    ("anderson", Coupling::Anderson),
+];
+/// `solver.accuracy`.
+pub const RUNGS: [(&str, Rung); 3] = [
+    ("5%", Rung::FivePercent),
+    ("1%", Rung::OnePercent),
+    ("0.1%", Rung::TenthPercent),
+];
+/// `slider.faces`.
+pub const FACES: [(&str, Faces); 2] = [("down", Faces::Down), ("up", Faces::Up)];
+/// `search.certify`.
+pub const CERTIFY: [(&str, Certify); 3] = [
+    ("staggered", Certify::Staggered),
+    ("off", Certify::Off),
+    ("full", Certify::Full),
+];
+/// `solver.effects`.
+pub const EFFECTS: [(&str, Effects); 2] = [("auto", Effects::Auto), ("full", Effects::Full)];
+/// `output.keep_histories`.
+pub const KEEP_HISTORIES: [(&str, KeepHistories); 3] = [
+    ("bracket", KeepHistories::Bracket),
+    ("none", KeepHistories::None),
+    ("all", KeepHistories::All),
+];
+/// `ramp.run_out`: whether the run-out of the disk takes of the ramp's gaps.
+pub const RUN_OUT: [(&str, bool); 2] = [("none", false), ("lowest_gap", true)];
+/// `slider.surface.rail[].kind`: whether the outline is a polygon.
+pub const RAIL_KINDS: [(&str, bool); 2] = [("rect", false), ("polygon", true)];
+
+/// Shape of the acceleration pulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// sin(pi t/T).
+    HalfSine,
+    /// sin^2(pi t/T).
+    Haversine,
+    /// 1.
+    Square,
+    /// With linear flanks.
+    Trapezoid,
+    /// A decaying oscillation.
+    DampedSine,
+    /// Through points.
+    Table,
+}
 
 /// Which ramp stands at the rim. The order is the canonical one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -18,7 +104,7 @@ impl Ramp {
     pub const ALL: [Self; 3] = [Self::None, Self::Rigid, Self::Deformable];
 
     /// The word in study files and tables.
-    pub fn as_str(self) -> &'static str {
+    pub const fn as_str(self) -> &'static str {
         match self {
             Self::None => "none",
             Self::Rigid => "rigid",
@@ -49,14 +135,6 @@ pub enum Faces {
 }
 
 impl Faces {
-    /// The way of a word; a head faces down where nothing is said.
-    pub fn from_word(word: &str) -> Self {
-        match word {
-            "up" => Self::Up,
-            _ => Self::Down,
-        }
-    }
-
     /// Sign of the drive's axis along the head's, which points from the disk to the head.
     pub fn factor(self) -> f64 {
         match self {
@@ -80,7 +158,7 @@ impl Sign {
     pub const ALL: [Self; 2] = [Self::Plus, Self::Minus];
 
     /// The word in study files and tables.
-    pub fn as_str(self) -> &'static str {
+    pub const fn as_str(self) -> &'static str {
         match self {
             Self::Plus => "+",
             Self::Minus => "-",
@@ -121,19 +199,7 @@ pub enum Certify {
 impl Certify {
     /// The word in study files.
     pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Staggered => "staggered",
-            Self::Full => "full",
-        }
-    }
-
-    pub(super) fn from_word(word: &str) -> Self {
-        match word {
-            "off" => Self::Off,
-            "full" => Self::Full,
-            _ => Self::Staggered,
-        }
+        word_of(&CERTIFY, &self)
     }
 }
 
@@ -149,10 +215,7 @@ pub enum Effects {
 impl Effects {
     /// The word in study files.
     pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Full => "full",
-        }
+        word_of(&EFFECTS, &self)
     }
 }
 
@@ -170,39 +233,22 @@ pub enum KeepHistories {
 impl KeepHistories {
     /// The word in study files.
     pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Bracket => "bracket",
-            Self::None => "none",
-            Self::All => "all",
-        }
+        word_of(&KEEP_HISTORIES, &self)
     }
 }
 
-/// Rung of a word.
-pub(super) fn rung(word: &str) -> Rung {
-    match word {
-        "5%" => Rung::FivePercent,
-        "0.1%" => Rung::TenthPercent,
-        _ => Rung::OnePercent,
-    }
+/// The word of a value.
+fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str {
+    let found = list.iter().find(|(_, one)| one == value);
+    found.expect("every value has a word").0
 }
 
 /// Word of a rung.
 pub fn rung_word(rung: Rung) -> &'static str {
-    match rung {
-        Rung::FivePercent => "5%",
-        Rung::OnePercent => "1%",
-        Rung::TenthPercent => "0.1%",
-    }
+    word_of(&RUNGS, &rung)
 }
 
 /// Word of a coupling scheme.
-pub fn coupling_word(coupling: opshock_solver::scene::Coupling) -> &'static str {
-    use opshock_solver::scene::Coupling;
-    match coupling {
-        Coupling::Monolithic => "monolithic",
-        Coupling::FixedPoint => "fixed_point",
-        Coupling::Aitken => "aitken",
-        Coupling::Anderson => "anderson",
-    }
+pub fn coupling_word(coupling: Coupling) -> &'static str {
+    word_of(&COUPLINGS, &coupling)
 }

@@ -1,7 +1,7 @@
 //! The gap at the ramp that a disk leaves which runs out.
 
 use super::{Check, trim};
-use crate::study::scene;
+use crate::study::{scene, words};
 
 const RUN_OUT: &str = "ramp.run_out";
 const GAP: &str = "ramp.clearance_um";
@@ -20,7 +20,7 @@ impl Check<'_, '_> {
             SIDES[1],
             RUN_OUT,
         ];
-        if self.view.word(RUN_OUT) != "lowest_gap" || !self.sound(&looked_at) {
+        if self.view.chosen(RUN_OUT, &words::RUN_OUT) != Some(true) || !self.sound(&looked_at) {
             return;
         }
         let taken_m = scene::gap_taken_m(self.view);

@@ -3,8 +3,8 @@
 use opshock_solver::quantity;
 
 use super::{Check, trim};
-use crate::study::polygon;
 use crate::study::settings::Datum;
+use crate::study::{polygon, words};
 
 impl Check<'_, '_> {
     pub(super) fn rails(&mut self) {
@@ -31,7 +31,7 @@ impl Check<'_, '_> {
             if !self.sound(&[&rail]) {
                 continue;
             }
-            if self.view.word(&member("kind")) == "polygon" {
+            if self.view.chosen(&member("kind"), &words::RAIL_KINDS) == Some(true) {
                 if let Some(Datum::Points(points)) = self.view.get(&member("points_um")) {
                     self.polygon(&member("points_um"), points, &inside, &allowed);
                 }

@@ -3,6 +3,7 @@
 use super::{Check, needs_head};
 use crate::study::settings::Datum;
 use crate::study::source::Origin;
+use crate::study::words::{self, Effects};
 use crate::study::{imported_suspension, keys};
 
 impl Check<'_, '_> {
@@ -63,7 +64,8 @@ impl Check<'_, '_> {
             );
             fault.hint = format!("remove {output} from outputs, or do not leave air_bearing out");
         }
-        let full = self.view.word("solver.effects") == "full" && !left_out;
+        let full =
+            self.view.chosen("solver.effects", &words::EFFECTS) == Some(Effects::Full) && !left_out;
         let asker = asks.map_or("effects = \"full\"", String::as_str);
         if (asks.is_some() || full)
             && self.sound(&["disk.rpm"])
