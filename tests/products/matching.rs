@@ -7,6 +7,7 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::Levels;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
+use opshock_study::claims::Paper;
 use opshock_study::matching::{Evaluations, MatchAnswer, MatchProblem, Printed, RULED_OUT, search};
 use opshock_study::report::RunJson;
 use opshock_study::study::{Choice, Ramp, SetArg, Sign, Study};
@@ -142,7 +143,7 @@ fn planted(seed: u64, has_head: bool, effort: &str) -> Planted {
 }
 
 fn number(table: &toml::Table, key: &str) -> f64 {
-    opshock_study::claims::parameter_value(table, key).expect("a number of the study")
+    opshock_study::study::number_at(table, key).expect("a number of the study")
 }
 
 /// `run --json` with every discretisation refined once.
@@ -186,7 +187,7 @@ fn refined(study: &Study, pulse_ms: f64, amplitude_g: f64, has_head: bool) -> Va
 /// Whether the truth is never ruled out and lies in every final range; the width that is left of the ranges, on average, all of
 /// it where none is told.
 fn is_kept(planted: &Planted) -> (bool, f64) {
-    let problem = MatchProblem::from_path(&planted.file, &[]).expect("a match problem");
+    let problem = MatchProblem::from_path(&planted.file, &[], &Paper).expect("a match problem");
     let mut evaluations = Evaluations::new(&problem, &Json, None, &|| false, &|_, _, _| {});
     let found = search(&problem, &mut evaluations, &mut |_| {}).expect("nothing is written");
     let answer = MatchAnswer::of(&problem, &found);

@@ -77,11 +77,11 @@ const STUDY: &[(&str, u8)] = &[
     ("store", 2),
     ("sweep", 3),
     ("accuracy", 3),
-    ("claims", 3),
     ("matching", 4),
     ("hard_cases", 4),
-    ("report", 5),
-    ("cli", 6),
+    ("claims", 5),
+    ("report", 6),
+    ("cli", 7),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

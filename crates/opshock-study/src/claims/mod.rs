@@ -16,6 +16,7 @@ mod answer;
 mod catalogue;
 mod critical;
 mod finding;
+mod observations;
 mod parameter;
 mod sensitivity;
 mod shock_numbers;
@@ -24,7 +25,8 @@ mod shocks;
 pub use answer::{Answer, ClaimRow, rows, tally};
 pub use catalogue::{CLAIMS, Claim, Source};
 pub use finding::{Finding, Part, Spread, findings, of_parts};
-pub use parameter::{Changed, Parameter, number as parameter_value, parameters};
+pub use observations::Paper;
+pub use parameter::{Changed, Parameter, parameters};
 pub use sensitivity::{
     Found, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
     with_sets,

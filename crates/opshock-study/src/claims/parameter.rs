@@ -3,7 +3,7 @@
 //! Lengths and loads of a suspension are known to a few per cent once one has the part; here the
 //! part itself is unknown, so the ranges are those among parts of 2.5-inch drives, not tolerances.
 
-use crate::study::Study;
+use crate::study::{Study, number_at};
 
 /// How far a parameter moves, downwards and upwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +114,7 @@ impl Parameter {
     /// Value of the first key in `study`, whose every setting is written out; `None` when the study
     /// has no such key.
     pub fn value(&self, resolved: &toml::Table) -> Option<f64> {
-        number(resolved, self.keys.first()?)
+        number_at(resolved, self.keys.first()?)
     }
 
     /// The lower and the upper end of the range; `None` when a key is missing.
@@ -123,7 +123,7 @@ impl Parameter {
             let values = self
                 .keys
                 .iter()
-                .map(|key| Some(self.range.of(number(resolved, key)?, is_upper)))
+                .map(|key| Some(self.range.of(number_at(resolved, key)?, is_upper)))
                 .collect::<Option<Vec<f64>>>()?;
             Some(Changed {
                 sets: self
@@ -150,26 +150,6 @@ impl Range {
         };
         format!("{end:.3e}").parse().unwrap_or(end)
     }
-}
-
-/// The number at a dotted path with list positions.
-pub fn number(table: &toml::Table, path: &str) -> Option<f64> {
-    let mut here = toml::Value::Table(table.clone());
-    for word in path.split('.') {
-        let (name, position) = match word.split_once('[') {
-            Some((name, rest)) => (
-                name,
-                Some(rest.trim_end_matches(']').parse::<usize>().ok()?),
-            ),
-            None => (word, None),
-        };
-        here = here.get(name)?.clone();
-        if let Some(position) = position {
-            here = here.get(position)?.clone();
-        }
-    }
-    here.as_float()
-        .or_else(|| here.as_integer().map(|n| n as f64))
 }
 
 /// Every setting of a study, as written out with its defaults.

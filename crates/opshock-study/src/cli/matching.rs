@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::stored;
 use super::sweep::{duration, quoted, settings};
 use super::{memory, modes, steady, study_file};
+use crate::claims::Paper;
 use crate::matching::{
     Ended, Evaluations, MatchAnswer, MatchProblem, MatchStore, Printed, Stage, WaveReport,
     forecast, search,
@@ -45,7 +46,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 /// Runs the command.
 pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
-    let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?)?;
+    let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?, &Paper)?;
     check_memory(&problem, global)?;
     let folder = stored::folder_of_study(&arguments.file, global);
     let store = MatchStore::open(&folder, &problem)?;
@@ -152,7 +153,7 @@ fn remove_studies_of_before(
 ///
 /// As [`run`], before anything is simulated.
 pub(super) fn plan(file: &Path, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
-    let problem = MatchProblem::from_path(file, &study_file::sets(global)?)?;
+    let problem = MatchProblem::from_path(file, &study_file::sets(global)?, &Paper)?;
     check_memory(&problem, global)?;
     let stages = forecast(&problem, &Commands);
     let threads = global.threads() as f64;

@@ -279,7 +279,7 @@ fn words(quantity: &Quantity) -> String {
         Quantity::Modes(path) => format!("modes {path:?}"),
         Quantity::Steady(path) => format!("steady {path:?}"),
         Quantity::Critical(of) => format!("critical {}", shock(of)),
-        Quantity::Statement(claim) => format!("statement {}", claim.id),
+        Quantity::Statement { id, .. } => format!("statement {id}"),
         Quantity::Combined(..) => "combined".to_owned(),
     }
 }

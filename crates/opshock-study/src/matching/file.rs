@@ -9,6 +9,7 @@ use super::observation::{Observation, Stage};
 use super::observed;
 use super::parameters;
 use super::prior::Parameter;
+use super::statements::Statements;
 use crate::study::source::{self, Origin, Source};
 use crate::study::tree;
 use crate::study::{SetArg, Study, StudyError, StudyErrors};
@@ -30,6 +31,8 @@ pub struct MatchProblem {
     pub parameters: Vec<Parameter>,
     /// What was observed; those without a range are only reported.
     pub observations: Vec<Observation>,
+    /// The statements among them are of these.
+    pub(super) statements: &'static dyn Statements,
     /// Settings laid over the study for each stage.
     pub settings: [Vec<String>; 3],
     /// How much is computed.
@@ -86,11 +89,16 @@ const REFINEMENT: &[&str] = &["evaluations", "starts", "each", "weights"];
 const MOST: u64 = 100_000_000;
 
 impl MatchProblem {
-    /// Reads a match file, the study it names, and every file that it names; `sets` are laid over the study.
+    /// Reads a match file, the study it names, and every file that it names; `sets` are laid over the study,
+    /// and `statements` are those that the file may name.
     ///
     /// # Errors
     /// Every fault of the match file, or of the study.
-    pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
+    pub fn from_path(
+        path: &Path,
+        sets: &[SetArg],
+        statements: &'static dyn Statements,
+    ) -> Result<Self, StudyErrors> {
         let text = source::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
         let source = Source::new(path.display().to_string(), text.clone());
         let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
@@ -145,7 +153,7 @@ impl MatchProblem {
             ..effort
         };
         let mut observed_faults = Faults::new();
-        let mut observations = observed::read(&fields, &folder, &mut observed_faults);
+        let mut observations = observed::read(&fields, &folder, statements, &mut observed_faults);
         // Weights of observations that cannot be read would be told as unknown.
         if observed_faults.is_empty() {
             weigh(&fields, &mut observations, &mut faults);
@@ -173,6 +181,7 @@ impl MatchProblem {
                 seed,
                 parameters,
                 observations,
+                statements,
                 settings,
                 effort,
             },

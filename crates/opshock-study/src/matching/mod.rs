@@ -28,6 +28,7 @@ mod refinement;
 mod sample;
 mod search;
 mod share;
+mod statements;
 
 pub use answer::{BestOfEach, MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow};
 pub use conflicts::Conflict;
@@ -42,3 +43,4 @@ pub use prior::{Distribution, Parameter, ParameterValue};
 pub use sample::Sample;
 pub use search::{Ended, Searched, WaveReport, search};
 pub use share::Share;
+pub use statements::Statements;

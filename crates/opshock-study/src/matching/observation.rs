@@ -8,7 +8,6 @@
 //! u is the numerical uncertainty of the number. I is the implausibility of Craig et al. (1997); 3 is Pukelsheim's
 //! (1994, Am. Stat. 48, 88) bound: 95 % of any unimodal distribution lie within three standard deviations.
 
-use crate::claims::Claim;
 use crate::study::{Ramp, Sign};
 
 /// Implausibility from which a parameter set is ruled out.
@@ -147,8 +146,13 @@ pub enum Quantity {
     Steady(Vec<String>),
     /// A critical shock, G.
     Critical(ShockChoice),
-    /// The number of a statement of the paper.
-    Statement(&'static Claim),
+    /// The number of a statement that is built into the program.
+    Statement {
+        /// Name of the statement.
+        id: &'static str,
+        /// Unit; empty for ratios and counts.
+        unit: &'static str,
+    },
     /// A number of other observations, by their places.
     Combined(Combination, Vec<usize>),
 }

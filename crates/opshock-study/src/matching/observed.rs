@@ -7,7 +7,7 @@ use super::measured::measured;
 use super::observation::{
     COLUMNS, Combination, Measure, Observation, Quantity, Scalar, ShockChoice, Stage,
 };
-use crate::claims::{CLAIMS, Claim, Source};
+use super::statements::Statements;
 use crate::study::tree::Value;
 use crate::study::{Ramp, Sign};
 
@@ -65,14 +65,19 @@ const OF_THE_DISK: &[&str] = &[
 ];
 
 /// Reads every `[[observation]]`, then the statements asked for by `statements`.
-pub(super) fn read(fields: &Fields<'_>, folder: &Path, faults: &mut Faults) -> Vec<Observation> {
+pub(super) fn read(
+    fields: &Fields<'_>,
+    folder: &Path,
+    built_in: &dyn Statements,
+    faults: &mut Faults,
+) -> Vec<Observation> {
     let mut all: Vec<Observation> = Vec::new();
     for (node, path) in fields.list("observation", faults) {
         let Some(table) = Fields::of(node, &path, OBSERVATION, faults) else {
             continue;
         };
         let before = faults.len();
-        let read = one(&table, folder, &all, faults);
+        let read = one(&table, folder, &all, built_in, faults);
         let Some(read) = read.filter(|_| faults.len() == before) else {
             continue;
         };
@@ -86,72 +91,55 @@ pub(super) fn read(fields: &Fields<'_>, folder: &Path, faults: &mut Faults) -> V
         all.push(read);
     }
     let statements = match fields.get("statements").map(|node| &node.value) {
-        Some(Value::Text(word)) if word == "paper" => CLAIMS.iter().collect(),
+        Some(Value::Text(word)) if word == built_in.name() => built_in.observations(),
         Some(_) => {
             let ids = fields.texts("statements", faults);
-            let found: Vec<&'static Claim> = ids
-                .iter()
-                .filter_map(|id| statement(fields, "statements", id, faults))
-                .collect();
-            found
+            ids.iter()
+                .filter_map(|id| statement(fields, "statements", id, built_in, faults))
+                .collect()
         }
         None => Vec::new(),
     };
-    for claim in statements {
-        if all.iter().any(|known| known.name == claim.id) {
-            let message = format!("{} is an observation above, too", claim.id);
+    for one in statements {
+        if all.iter().any(|known| known.name == one.name) {
+            let message = format!("{} is an observation above, too", one.name);
             faults.push(
                 fields
                     .fault_of("E193", "statements", message)
                     .allowed("each once"),
             );
         }
-        all.push(of_claim(claim));
+        all.push(one);
     }
     all
-}
-
-fn of_claim(claim: &'static Claim) -> Observation {
-    Observation {
-        name: claim.id.to_owned(),
-        quantity: Quantity::Statement(claim),
-        range: Some(match claim.bounds {
-            // None of the numbers is negative whose bounds begin at 0.
-            (0.0, high) if high > 0.0 => [f64::NEG_INFINITY, high],
-            (low, high) => [low, high],
-        }),
-        observed_u: 0.0,
-        weight: 1.0,
-        discrepancy_u: 0.0,
-        numerical_u: None,
-        stage: match claim.source {
-            Source::DiskAndRamp(_) => Stage::DiskAndRamp,
-            Source::Shocks(_) => Stage::SingleShocks,
-            Source::Critical(_) => Stage::CriticalShocks,
-        },
-        source: format!("the paper, {}: {}", claim.place, claim.words),
-    }
 }
 
 fn statement(
     fields: &Fields<'_>,
     name: &str,
     id: &str,
+    built_in: &dyn Statements,
     faults: &mut Faults,
-) -> Option<&'static Claim> {
-    let found = CLAIMS.iter().find(|claim| claim.id == id);
-    if found.is_none() {
-        let ids: Vec<&str> = CLAIMS.iter().map(|claim| claim.id).collect();
-        let fault = fields.fault_of("E193", name, format!("{id:?} is no statement of the paper"));
-        faults.push(fault.allowed(ids.join(", ")));
-    }
-    found
+) -> Option<Observation> {
+    let mut all = built_in.observations();
+    let Some(place) = all.iter().position(|one| one.name == id) else {
+        let message = format!("{id:?} is no statement of the {}", built_in.name());
+        let ids: Vec<&str> = all.iter().map(|one| one.name.as_str()).collect();
+        faults.push(
+            fields
+                .fault_of("E193", name, message)
+                .allowed(ids.join(", ")),
+        );
+        return None;
+    };
+    Some(all.swap_remove(place))
 }
 
 fn one(
     table: &Fields<'_>,
     folder: &Path,
     known: &[Observation],
+    built_in: &dyn Statements,
     faults: &mut Faults,
 ) -> Option<Observation> {
     let name = table.text("name", faults);
@@ -182,8 +170,7 @@ fn one(
         }
         "statement" => {
             let id = table.text(kind, faults)?;
-            let claim = statement(table, kind, &id, faults)?;
-            let of = of_claim(claim);
+            let of = statement(table, kind, &id, built_in, faults)?;
             (of.quantity, of.stage, of.range)
         }
         _ => combined(table, kind, known, faults)?,

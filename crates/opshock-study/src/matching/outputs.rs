@@ -2,7 +2,6 @@
 
 use super::file::MatchProblem;
 use super::observation::{Known, Measure, Observation, Quantity, Scalar, ShockChoice, Stage};
-use crate::claims::{Claim, Shocks, Source, Task, of_parts};
 use crate::search::Sign as SearchSign;
 use crate::store::history::root_columns;
 use crate::store::summary::{Status, Summary};
@@ -53,10 +52,9 @@ pub(super) fn numbers(
     stage: Stage,
     is_refined: bool,
 ) -> Vec<Known> {
-    let observations = &problem.observations;
     let mut found = missing(problem, stage);
     if stage == Stage::CriticalShocks {
-        critical(study, observations, &mut found);
+        critical(problem, study, &mut found);
         return found;
     }
     let mut set = Simulations {
@@ -115,35 +113,22 @@ impl Simulations<'_> {
     }
 
     fn statements(&mut self, found: &mut [Known]) {
-        let asked: Vec<(usize, &'static Claim)> = self
-            .problem
-            .observations
-            .iter()
-            .enumerate()
+        let observations = self.problem.observations.iter().enumerate();
+        let (places, ids): (Vec<usize>, Vec<&str>) = observations
             .filter(|(_, one)| one.stage == self.stage)
             .filter_map(|(place, one)| match one.quantity {
-                Quantity::Statement(claim) => Some((place, claim)),
+                Quantity::Statement { id, .. } => Some((place, id)),
                 _ => None,
             })
-            .collect();
-        if asked.is_empty() {
+            .unzip();
+        if ids.is_empty() {
             return;
         }
-        let plan = self.plan().past_touch();
-        let Ok(tasks) = Shocks::planned(self.study, &plan, self.levels()) else {
-            return;
-        };
-        let cases = tasks
-            .iter()
-            .map(|task: &Task| task.run_after(&mut self.models).map(std::sync::Arc::new));
-        let Ok(cases) = cases.collect::<Result<Vec<_>, _>>() else {
-            return;
-        };
-        let shocks = Shocks::of(cases);
-        for (place, claim) in asked {
-            if let Source::DiskAndRamp(number) | Source::Shocks(number) = claim.source {
-                found[place] = is(number(&shocks).0);
-            }
+        let (plan, levels) = (self.plan().past_touch(), self.levels());
+        let built_in = self.problem.statements;
+        let numbers = built_in.of_shocks(&ids, self.study, &plan, levels, &mut self.models);
+        for (place, number) in places.into_iter().zip(numbers) {
+            found[place] = is(number);
         }
     }
 
@@ -314,18 +299,16 @@ fn distance(
     }))
 }
 
-fn critical(study: &Study, observations: &[Observation], found: &mut [Known]) {
+fn critical(problem: &MatchProblem, study: &Study, found: &mut [Known]) {
     let Ok(input) = SweepInput::of(study) else {
         return;
     };
     let summary = unkept(&input, &Physics::of(study));
-    for (one, found) in observations.iter().zip(found) {
+    for (one, found) in problem.observations.iter().zip(found) {
         match &one.quantity {
             Quantity::Critical(shock) => *found = is(critical_g(study, &summary, shock)),
-            Quantity::Statement(claim) => {
-                if let Source::Critical(parts) = claim.source {
-                    *found = is(of_parts(claim, parts(&summary)).and_then(|finding| finding.value));
-                }
+            Quantity::Statement { id, .. } if one.stage == Stage::CriticalShocks => {
+                *found = is(problem.statements.of_critical_shocks(id, &summary))
             }
             _ => {}
         }
@@ -367,7 +350,7 @@ impl MatchProblem {
         match one.quantity {
             Quantity::Critical(_) => share * value.abs(),
             // Of differences in per cent, and of ratios.
-            Quantity::Statement(claim) if claim.unit == "%" => 200.0 * share,
+            Quantity::Statement { unit: "%", .. } => 200.0 * share,
             _ => 2.0 * share * value.abs(),
         }
     }

@@ -2,9 +2,8 @@
 
 use super::fields::{Faults, Fields, wrong_kind};
 use super::prior::{Distribution, Parameter};
-use crate::claims::parameter_value;
 use crate::study::tree::{Node, Value};
-use crate::study::{SetArg, Study};
+use crate::study::{SetArg, Study, number_at};
 
 const PARAMETER: &[&str] = &[
     "name",
@@ -69,7 +68,7 @@ fn parameter(table: &Fields<'_>, resolved: &toml::Table, faults: &mut Faults) ->
     let mut with_own = Vec::new();
     let mut values = Vec::new();
     for key in keys {
-        let own = parameter_value(resolved, &key);
+        let own = number_at(resolved, &key);
         values.push(own);
         if is_relative && own.is_none() {
             let fault = table.fault_of("E193", "keys", format!("{key} has no number in the study"));

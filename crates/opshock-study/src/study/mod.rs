@@ -57,7 +57,7 @@ pub use overlay::Override;
 pub use points::{Axis, AxisValue, Point};
 pub use ramp_remeshed::RemeshedRamp;
 pub use ramp_solid::RampSolid;
-pub use resolved::digest_of;
+pub use resolved::{digest_of, number_at};
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
 pub use set_arg::{SetArg, SetSyntaxError};
 pub use words::{Certify, Effects, Faces, KeepHistories, Ramp, Sign, coupling_word, rung_word};

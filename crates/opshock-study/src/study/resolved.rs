@@ -65,6 +65,26 @@ pub fn text(settings: &Settings) -> String {
     out
 }
 
+/// The number at a dotted path with list positions.
+pub fn number_at(table: &toml::Table, path: &str) -> Option<f64> {
+    let mut here = toml::Value::Table(table.clone());
+    for word in path.split('.') {
+        let (name, position) = match word.split_once('[') {
+            Some((name, rest)) => (
+                name,
+                Some(rest.trim_end_matches(']').parse::<usize>().ok()?),
+            ),
+            None => (word, None),
+        };
+        here = here.get(name)?.clone();
+        if let Some(position) = position {
+            here = here.get(position)?.clone();
+        }
+    }
+    here.as_float()
+        .or_else(|| here.as_integer().map(|n| n as f64))
+}
+
 /// Whether another key stands for this one once the study is read.
 fn is_replaced(path: &str) -> bool {
     REPLACED.contains(&path) || REPLACED_BELOW.iter().any(|below| path.starts_with(below))
