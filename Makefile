@@ -13,7 +13,7 @@ bootstrap: ## install what the machine lacks (apt; --verify adds outside checks)
 	@scripts/bootstrap
 
 build: bootstrap ## build the optimised program
-	cargo build --release --locked -p opshock-study
+	cargo build --release --locked -p opshock
 
 .PHONY: results
 results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance paper match-paper accuracy bench rungs finest" (needs python3)

@@ -9,9 +9,8 @@ fn main() {
             println!("cargo::rerun-if-changed={path}");
         }
     }
-    for sources in ["build.rs", "src", "../opshock-solver/src"] {
-        println!("cargo::rerun-if-changed={sources}");
-    }
+    // A change of any crate is one of the program.
+    println!("cargo::rerun-if-changed=..");
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".into());
     let changed = git(&[
         "status",

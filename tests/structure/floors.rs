@@ -81,7 +81,6 @@ const STUDY: &[(&str, u8)] = &[
     ("hard_cases", 4),
     ("claims", 5),
     ("report", 6),
-    ("cli", 7),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

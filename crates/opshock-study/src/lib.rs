@@ -6,7 +6,6 @@
 
 pub mod accuracy;
 pub mod claims;
-pub mod cli;
 pub mod hard_cases;
 pub mod identity;
 pub mod matching;

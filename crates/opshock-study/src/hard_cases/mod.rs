@@ -85,7 +85,8 @@ impl Case {
     }
 }
 
-pub(crate) const fn case(id: &'static str, name: &'static str, run: fn() -> Vec<Check>) -> Case {
+/// A case by its letter and number.
+pub const fn case(id: &'static str, name: &'static str, run: fn() -> Vec<Check>) -> Case {
     Case { id, name, run }
 }
 

@@ -14,13 +14,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Direction of the disk's axis.
-pub const Z: u8 = 2;
+pub(super) const Z: u8 = 2;
 
 /// Rows of a piece up to which all of its modes are computed at once.
-pub const SMALL: usize = 300;
+pub(super) const SMALL: usize = 300;
 
 /// Matrices in SI whose held nodes are taken out.
-pub struct Held {
+pub(super) struct Held {
     /// What is left.
     pub system: System,
     /// Its load by a unit inertia load per mass along the disk's axis, kg.
@@ -34,7 +34,12 @@ pub struct Held {
 ///
 /// # Errors
 /// What is wrong with the files, and motions without stiffness.
-pub fn held(view: &View<'_>, table: &str, nodes: &str, folder: &Path) -> Result<Held, Faults> {
+pub(super) fn held(
+    view: &View<'_>,
+    table: &str,
+    nodes: &str,
+    folder: &Path,
+) -> Result<Held, Faults> {
     let file = |name: &str| {
         let word = view.word(&format!("{table}.{name}"));
         (!word.is_empty()).then(|| folder.join(word))

@@ -25,7 +25,7 @@ pub mod imported_suspension;
 mod included;
 pub mod key;
 pub mod keys;
-pub(crate) mod matrices;
+pub mod matrices;
 pub mod memory;
 mod overlay;
 mod points;

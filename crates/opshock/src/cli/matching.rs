@@ -1,0 +1,236 @@
+//! `opshock match`: parameters of a study that make a set of observations true.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::stored;
+use super::sweep::{duration, quoted, settings};
+use super::{memory, modes, steady, study_file};
+use anyhow::Context as _;
+use clap::Args;
+use opshock_solver::scene::Scene;
+use opshock_solver::simulation::Outcome;
+use opshock_study::claims::Paper;
+use opshock_study::matching::{
+    Ended, Evaluations, MatchAnswer, MatchProblem, MatchStore, Printed, Stage, WaveReport,
+    forecast, search,
+};
+use opshock_study::provenance;
+use opshock_study::report::{RunJson, STUDY_OF_A_MATCH, match_files, match_text};
+use opshock_study::store::aside;
+use opshock_study::study::Study;
+use opshock_study::study::memory::Demand;
+use opshock_study::sweep::StopFlag;
+use serde_json::{Value, json};
+use std::cell::Cell;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Find parameters of a study that make a set of observations true; run again, it resumes
+#[derive(Args, Debug)]
+pub struct MatchArgs {
+    /// Match file
+    file: PathBuf,
+    /// Start nothing new after this time, save and end with exit code 5, as 7h30m
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    budget: Option<Duration>,
+    /// Write matching studies, tables and plots into a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Time between two lines of progress within a wave.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+/// Runs the command.
+pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?, &Paper)?;
+    check_memory(&problem, global)?;
+    let folder = stored::folder_of_study(&arguments.file, global);
+    let store = MatchStore::open(&folder, &problem)?;
+    for note in &store.notes {
+        console.tell(&format!("warning: {note}"));
+    }
+    let stop = StopFlag::default();
+    stop.listen().context("cannot listen to signals")?;
+    let began = Instant::now();
+    let is_over = || {
+        arguments
+            .budget
+            .is_some_and(|budget| began.elapsed() >= budget)
+    };
+    let asked_to_stop = || stop.is_asked() || is_over();
+    let told = Cell::new(began);
+    let progress = |stage: Stage, done: usize, of: usize| {
+        if told.get().elapsed() >= BETWEEN_LINES && !console.quiet {
+            told.set(Instant::now());
+            console.tell(&format!("{}: {done} of {of} parameter sets", stage.words()));
+        }
+    };
+    // All of this process: the search itself runs on this thread.
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(global.threads())
+        .build_global()
+        .context("cannot start threads")?;
+    let mut evaluations =
+        Evaluations::new(&problem, &Commands, Some(store), &asked_to_stop, &progress);
+    let names: Vec<&str> = problem
+        .parameters
+        .iter()
+        .map(|one| one.name.as_str())
+        .collect();
+    let mut tell = |wave: &WaveReport| console.tell(&wave_words(wave, &names));
+    let found = search(&problem, &mut evaluations, &mut tell)?;
+    let answer = MatchAnswer::of(&problem, &found);
+    console.tell(&format!(
+        "{} simulated sets of numbers, {} s",
+        evaluations.computed,
+        began.elapsed().as_secs()
+    ));
+    if let Some(folder) = &arguments.out {
+        let files = match_files(&problem, &answer, &found, &provenance::program())
+            .context("cannot draw a figure")?;
+        let written = aside::write_all(folder, files)?;
+        remove_studies_of_before(&problem, folder, &written)?;
+        console.tell(&format!(
+            "wrote {} files into {}",
+            written.len(),
+            folder.display()
+        ));
+    }
+    if console.json {
+        console.result_json(&answer)?;
+    } else {
+        console.result(&match_text(&answer))?;
+    }
+    if found.ended == Ended::Complete {
+        return Ok(Exit::Complete);
+    }
+    console.tell(&format!(
+        "saved; resume with: opshock match {} --store {}{}",
+        quoted(&arguments.file.display().to_string()),
+        quoted(&folder.display().to_string()),
+        settings(global)
+    ));
+    let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
+    Ok(signal.map_or(Exit::Budget, Exit::Signal))
+}
+
+/// Removes the studies that a former match wrote into `folder` and this one did not; not the match's own study.
+fn remove_studies_of_before(
+    problem: &MatchProblem,
+    folder: &Path,
+    written: &[PathBuf],
+) -> anyhow::Result<()> {
+    let is_of_match = |name: &str| {
+        let number = name
+            .strip_prefix("matching-")
+            .and_then(|rest| rest.strip_suffix(".toml"));
+        name == "nearest.toml" || number.is_some_and(|number| number.parse::<u32>().is_ok())
+    };
+    let own = std::fs::canonicalize(&problem.study.path).ok();
+    for entry in std::fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let path = entry.with_context(|| folder.display().to_string())?.path();
+        let name = path.file_name().and_then(|name| name.to_str());
+        let is_named = name.is_some_and(is_of_match) && path.is_file();
+        if !is_named || written.contains(&path) || std::fs::canonicalize(&path).ok() == own {
+            continue;
+        }
+        // A file of this name that no match wrote is somebody's own.
+        let text = std::fs::read(&path).with_context(|| path.display().to_string())?;
+        if text.starts_with(STUDY_OF_A_MATCH.as_bytes()) {
+            std::fs::remove_file(&path).with_context(|| path.display().to_string())?;
+        }
+    }
+    Ok(())
+}
+
+/// `opshock plan` of a match file.
+///
+/// # Errors
+///
+/// As [`run`], before anything is simulated.
+pub(super) fn plan(file: &Path, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let problem = MatchProblem::from_path(file, &study_file::sets(global)?, &Paper)?;
+    check_memory(&problem, global)?;
+    let stages = forecast(&problem, &Commands);
+    let threads = global.threads() as f64;
+    let sum = |end: usize| stages.iter().map(|stage| stage.core_h[end]).sum::<f64>() / threads;
+    if console.json {
+        console.result_json(
+            &json!({ "stages": stages, "threads": threads, "hours": [sum(0), sum(1)] }),
+        )?;
+        return Ok(Exit::Complete);
+    }
+    let mut text = String::from("stage            s each  parameter sets       core-hours\n");
+    for stage in &stages {
+        let [least, most] = stage.sets;
+        let [low, high] = stage.core_h;
+        let _ = writeln!(
+            text,
+            "{:<15}  {:>6.3}  {:<19}  {low:.2} to {high:.2}",
+            stage.stage,
+            stage.seconds_each,
+            format!("{least} to {most}")
+        );
+    }
+    let _ = write!(
+        text,
+        "{:.2} to {:.2} hours on {threads} threads, by how much is ruled out early",
+        sum(0),
+        sum(1)
+    );
+    if let Some(stage) = stages.first().filter(|stage| stage.sets_a_conflict > 0) {
+        let _ = write!(
+            text,
+            "\nand up to {} parameter sets for each group of observations that conflict",
+            stage.sets_a_conflict
+        );
+    }
+    console.result(&text)?;
+    Ok(Exit::Complete)
+}
+
+/// The largest of what a thread simulates at a time.
+fn check_memory(problem: &MatchProblem, global: &GlobalArgs) -> Result<(), Failure> {
+    let plan = problem.study.plan();
+    let points = problem.study.points.iter();
+    let demand = points
+        .map(|point| Demand::run(&point.scene, &plan, true))
+        .fold(Demand::default(), Demand::max);
+    memory::check("the match", demand, global.threads())
+}
+
+fn wave_words(wave: &WaveReport, names: &[&str]) -> String {
+    let mut words = format!("{}: {} tried, {} kept", wave.name, wave.tried, wave.kept);
+    if !wave.left.is_empty() {
+        let left = names
+            .iter()
+            .zip(&wave.left)
+            .map(|(name, share)| format!("{name} {:.0} %", 100.0 * share));
+        words.push_str(&format!(
+            "; left of {}",
+            left.collect::<Vec<_>>().join(", ")
+        ));
+    }
+    words
+}
+
+/// The JSON of this program's commands.
+pub(super) struct Commands;
+
+impl Printed for Commands {
+    fn run(&self, outcome: &Outcome, start_s: f64) -> Value {
+        serde_json::to_value(RunJson::new(outcome, start_s, 0.0)).unwrap_or_default()
+    }
+
+    fn modes(&self, study: &Study, scene: &Scene) -> Result<Value, String> {
+        modes::json_of(study, scene).map_err(|failure| failure.text())
+    }
+
+    fn steady(&self, study: &Study, scene: &Scene) -> Result<Value, String> {
+        steady::json_of(study, scene).map_err(|failure| failure.text())
+    }
+}

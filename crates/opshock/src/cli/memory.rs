@@ -1,0 +1,71 @@
+//! Whether what a command is about to do fits into the memory of this machine.
+
+use super::failure::Failure;
+use opshock_study::search::bar::most_film_steps;
+use opshock_study::study::Study;
+use opshock_study::study::memory::Demand;
+use std::path::Path;
+
+/// Refuses what needs more memory than this process may still take. `what` names it.
+///
+/// # Errors
+/// E186.
+pub fn check(what: &str, demand: Demand, workers: usize) -> Result<(), Failure> {
+    Ok(demand.check(what, workers, available_bytes())?)
+}
+
+/// What a sweep needs, the finest films that its points may climb to included.
+pub fn of_sweep(study: &Study) -> Demand {
+    let search = &study.search;
+    let climbs = if search.error_bars { search.climbs } else { 0 };
+    Demand::sweep(study, f64::from(most_film_steps(climbs)).exp2())
+}
+
+/// What Linux says is available, or what a control group or a limit of this process leaves if that is less; without
+/// bound where the system does not tell.
+pub fn available_bytes() -> f64 {
+    let machine =
+        number_behind("/proc/meminfo", "MemAvailable:").map(|kilobytes| 1024.0 * kilobytes);
+    let limits = [
+        ("Max address space", "VmSize:"),
+        ("Max data size", "VmData:"),
+    ];
+    let limits = limits.into_iter().filter_map(|(limit, used)| {
+        let most = number_behind("/proc/self/limits", limit)?;
+        Some(most - 1024.0 * number_behind("/proc/self/status", used)?)
+    });
+    let all = limits.chain(machine).chain(group_bytes());
+    all.fold(f64::INFINITY, f64::min).max(0.0)
+}
+
+/// What the control group of this process, and those around it, leave.
+fn group_bytes() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/cgroup").ok()?;
+    let own = text.lines().find_map(|line| line.strip_prefix("0::/"))?;
+    let root = Path::new("/sys/fs/cgroup");
+    let left = root
+        .join(own)
+        .ancestors()
+        .take_while(|folder| folder.starts_with(root))
+        .filter_map(|folder| {
+            let number = |file: &str| -> Option<f64> {
+                std::fs::read_to_string(folder.join(file))
+                    .ok()?
+                    .trim()
+                    .parse()
+                    .ok()
+            };
+            // Files that were read and not used of late are given up first.
+            let cached = number_behind(folder.join("memory.stat"), "inactive_file").unwrap_or(0.0);
+            Some(number("memory.max")? - number("memory.current")? + cached)
+        })
+        .fold(f64::INFINITY, f64::min);
+    Some(left)
+}
+
+/// The first number behind a word at the start of a line.
+fn number_behind(path: impl AsRef<Path>, word: &str) -> Option<f64> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let rest = text.lines().find_map(|line| line.strip_prefix(word))?;
+    rest.split_whitespace().next()?.parse().ok()
+}

@@ -1,0 +1,264 @@
+//! Command line: a file per command. Results go to stdout, messages to stderr; see [`Exit`] for
+//! the exit codes.
+
+mod accuracy;
+mod check;
+mod claims;
+mod compare;
+mod completions;
+mod console;
+mod doctor;
+mod exit;
+mod explain;
+mod export;
+mod export_suspension;
+mod export_vtu;
+mod failure;
+mod figures;
+mod hard_cases;
+mod import;
+mod matching;
+mod memory;
+mod merge;
+mod mode_shapes;
+mod modes;
+mod new;
+mod plan;
+mod report;
+mod responses;
+mod run;
+mod schema;
+mod selection;
+mod slurm;
+mod status;
+mod steady;
+mod stored;
+mod study_file;
+mod sweep;
+mod thresholds;
+
+pub use exit::Exit;
+
+use anyhow::Context as _;
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
+use console::Console;
+use failure::{Failure, Fault};
+use opshock_study::provenance;
+use opshock_study::sweep::ProgressKind;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Simulates a hard disk drive's head-disk interface under operational shock and finds the
+/// amplitude it survives.
+#[derive(Parser, Debug)]
+#[command(
+    name = "opshock",
+    version = provenance::long_version(),
+    disable_help_subcommand = true,
+    disable_version_flag = true,
+    after_help = "Exit codes: 0 complete, 1 internal, 2 command line, 3 study invalid, 4 complete \
+                  with open points, 5 ended by a budget, 6 store damaged, locked or newer, \
+                  7 differences beyond limits, 129/130/143 signals"
+)]
+struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Options of every command.
+#[derive(Args, Debug)]
+struct GlobalArgs {
+    /// Print version, commit and physics versions
+    #[arg(short = 'V', long, action = ArgAction::Version)]
+    version: Option<bool>,
+    /// Worker threads [default: all cores]
+    #[arg(short, long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Results, and errors, as JSON
+    #[arg(long, global = true)]
+    json: bool,
+    /// No messages but errors and warnings
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Set a key of the study; may be repeated
+    #[arg(
+        long,
+        global = true,
+        value_name = "KEY=VALUE",
+        allow_hyphen_values = true
+    )]
+    set: Vec<String>,
+    /// Take a key, a section or an entry of a list away from the study; may be repeated
+    #[arg(long, global = true, value_name = "KEY")]
+    unset: Vec<String>,
+    /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
+    #[arg(long, global = true, value_name = "DIR")]
+    store: Option<PathBuf>,
+    /// How progress is shown
+    #[arg(long, global = true, value_name = "HOW", value_enum, default_value_t)]
+    progress: ProgressChoice,
+    /// Codes of warnings that need not stop the command, as W201,W305
+    #[arg(long, global = true, value_name = "CODES", value_delimiter = ',')]
+    accept: Vec<String>,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ProgressChoice {
+    /// A live table on a terminal, lines elsewhere
+    #[default]
+    Auto,
+    /// A live table
+    Bar,
+    /// Lines
+    Lines,
+    /// Nothing
+    None,
+}
+
+impl From<ProgressChoice> for ProgressKind {
+    fn from(choice: ProgressChoice) -> Self {
+        match choice {
+            ProgressChoice::Auto => ProgressKind::Auto,
+            ProgressChoice::Bar => ProgressKind::Bar,
+            ProgressChoice::Lines => ProgressKind::Lines,
+            ProgressChoice::None => ProgressKind::None,
+        }
+    }
+}
+
+impl GlobalArgs {
+    /// Worker threads: `-j`, else one for each core.
+    fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.jobs.map_or_else(cores, usize::from)
+    }
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    New(new::NewArgs),
+    Check(check::CheckArgs),
+    Run(run::RunArgs),
+    Modes(modes::ModesArgs),
+    Steady(steady::SteadyArgs),
+    Explain(explain::ExplainArgs),
+    Plan(plan::PlanArgs),
+    Sweep(sweep::SweepArgs),
+    Match(matching::MatchArgs),
+    Merge(merge::MergeArgs),
+    Report(report::ReportArgs),
+    Figures(figures::FiguresArgs),
+    Claims(claims::ClaimsArgs),
+    Accuracy(accuracy::AccuracyArgs),
+    Status(status::StatusArgs),
+    Compare(compare::CompareArgs),
+    Export(export::ExportArgs),
+    Import(import::ImportArgs),
+    Doctor(doctor::DoctorArgs),
+    Schema(schema::SchemaArgs),
+    Completions(completions::CompletionsArgs),
+}
+
+/// Runs the program with the process's arguments.
+pub fn main() -> ExitCode {
+    tame_signals();
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    // A mistake in the arguments must be told in JSON too, before they are understood.
+    let json = arguments
+        .iter()
+        .skip(1)
+        .any(|argument| argument == "--json");
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let console = Console { json, quiet: false };
+            let exit = misunderstood(&error, &console).unwrap_or_else(|failure| {
+                console.fail(&failure);
+                failure.exit()
+            });
+            return exit.into();
+        }
+    };
+    let console = Console {
+        json: cli.global.json,
+        quiet: cli.global.quiet,
+    };
+    match run(&cli, &console) {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            console.fail(&failure);
+            failure.exit().into()
+        }
+    }
+}
+
+/// A write past a file-size limit fails with its error instead of ending the process by SIGXFSZ. Memory that
+/// the machine refuses is told by the standard library, which then aborts: that ends with
+/// [`Exit::Internal`].
+fn tame_signals() {
+    use signal_hook::consts::{SIGABRT, SIGXFSZ};
+    use signal_hook::flag;
+    // Both are refused only for signals that no program may handle.
+    let _ = flag::register(SIGXFSZ, Arc::default());
+    let always = Arc::new(AtomicBool::new(true));
+    let _ = flag::register_conditional_shutdown(SIGABRT, Exit::Internal.code().into(), always);
+}
+
+fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
+    match &cli.command {
+        Command::New(arguments) => new::run(arguments, console),
+        Command::Check(arguments) => check::run(arguments, &cli.global, console),
+        Command::Run(arguments) => run::run(arguments, &cli.global, console),
+        Command::Modes(arguments) => modes::run(arguments, &cli.global, console),
+        Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
+        Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
+        Command::Plan(arguments) => plan::run(arguments, &cli.global, console),
+        Command::Merge(arguments) => merge::run(arguments, &cli.global, console),
+        Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
+        Command::Match(arguments) => matching::run(arguments, &cli.global, console),
+        Command::Report(arguments) => report::run(arguments, &cli.global, console),
+        Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
+        Command::Claims(arguments) => claims::run(arguments, &cli.global, console),
+        Command::Accuracy(arguments) => accuracy::run(arguments, &cli.global, console),
+        Command::Status(arguments) => status::run(arguments, &cli.global, console),
+        Command::Compare(arguments) => compare::run(arguments, &cli.global, console),
+        Command::Export(arguments) => export::run(arguments, &cli.global, console),
+        Command::Import(arguments) => import::run(arguments, &cli.global, console),
+        Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
+        Command::Schema(arguments) => schema::run(arguments, console),
+        Command::Completions(arguments) => completions::run(arguments, console),
+    }
+}
+
+/// Help and version are results; the rest is a mistake on the command line.
+fn misunderstood(error: &clap::Error, console: &Console) -> Result<Exit, Failure> {
+    if !error.use_stderr() {
+        error.print().context("cannot write to standard output")?;
+        console.result("")?;
+        return Ok(Exit::Complete);
+    }
+    if !console.json {
+        // Nobody to tell is no reason to end otherwise.
+        let _ = error.print();
+        return Ok(Exit::Usage);
+    }
+    let message = error.render().to_string();
+    let message = message.lines().next().unwrap_or_default();
+    let fault = Fault {
+        key: context(error, clap::error::ContextKind::InvalidArg),
+        value: context(error, clap::error::ContextKind::InvalidValue),
+        allowed: context(error, clap::error::ContextKind::ValidValue),
+        ..Fault::new("usage", message.trim_start_matches("error: "))
+    };
+    Err(Failure::Usage(vec![fault]))
+}
+
+fn context(error: &clap::Error, kind: clap::error::ContextKind) -> Option<String> {
+    error.get(kind).map(ToString::to_string)
+}

@@ -1,0 +1,192 @@
+//! `opshock report`: the table of a store, and its files.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::{Failure, Fault};
+use super::stored::{self, Stored};
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use opshock_study::accuracy::Accuracy;
+use opshock_study::report::{
+    CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
+};
+use opshock_study::store::folder::RESULTS_FILE;
+use opshock_study::store::{Audit, Status, Summary, aside, results};
+use opshock_study::study::Study;
+use opshock_study::sweep::refine;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Show the critical shocks of a store; write table, figure and HTML page
+#[derive(Args, Debug)]
+pub struct ReportArgs {
+    /// Store, or study file
+    #[arg(value_name = "STORE|STUDY")]
+    source: PathBuf,
+    /// Format of the table on standard output
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<TableFormat>,
+    /// Plot the critical shocks as text
+    #[arg(long, conflicts_with = "format")]
+    plot: bool,
+    /// Folder for table.md, table.csv, fig13.svg, fig13.png, report.html and results.h5
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// accuracy.json of `opshock accuracy`, shown in report.html
+    #[arg(long, value_name = "FILE", requires = "out")]
+    accuracy: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TableFormat {
+    Csv,
+    Md,
+    Json,
+}
+
+/// The table as JSON, with the audit when there was one and what the rules saved.
+#[derive(Serialize)]
+pub(super) struct Told<'a> {
+    #[serde(flatten)]
+    summary: &'a Summary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    audit: Option<&'a Audit>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    savings: &'a [Saving],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    crossings: Vec<CrossingRow>,
+}
+
+/// Crossings of a store's curves, if its study asks for them.
+fn crossings(stored: &Stored) -> Vec<CrossingRow> {
+    let study = stored.resolved_study.as_deref();
+    let Some(study) = study.and_then(|text| Study::from_text(text, &[]).ok()) else {
+        return Vec::new();
+    };
+    let found = refine::crossings(&study, &stored.summary);
+    found.iter().map(CrossingRow::of).collect()
+}
+
+impl<'a> Told<'a> {
+    /// Of what a store holds.
+    pub(super) fn of(stored: &'a Stored) -> Self {
+        Self {
+            summary: &stored.summary,
+            audit: stored.audit.as_ref(),
+            savings: &stored.savings,
+            crossings: crossings(stored),
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(
+    arguments: &ReportArgs,
+    global: &GlobalArgs,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let source = stored::source(&arguments.source, global)?;
+    let (results, study) = stored::load(&source, console)?;
+    let stored = Stored::of(&source.folder, &results, study);
+    let folder = source.folder;
+    // Not this one: it may be newer than the numbers.
+    let program = results.session.program();
+    let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;
+    let shown = stored.resolved_study.as_deref();
+    let film = match shown.filter(|_| arguments.out.is_some()) {
+        Some(study) => stored::film(&folder, &results, study)?,
+        None => None,
+    };
+    let crossings = crossings(&stored);
+    let source = ReportSource {
+        summary: &stored.summary,
+        runs: &stored.runs,
+        program: &program,
+        resolved_study: stored.resolved_study.as_deref(),
+        audit: stored.audit.as_ref(),
+        savings: &stored.savings,
+        crossings: &crossings,
+        accuracy: accuracy.as_ref(),
+        plan: &stored.plan,
+        film: film.as_ref(),
+    };
+    if let Some(out) = arguments
+        .out
+        .as_ref()
+        .filter(|out| out.join("journal").exists())
+    {
+        return Err(Failure::Usage(vec![Fault {
+            key: Some("--out".into()),
+            value: Some(out.display().to_string()),
+            allowed: Some("a folder that is no store".into()),
+            ..Fault::new(
+                "usage",
+                format!(
+                    "{} is a store: the report would replace its results",
+                    out.display()
+                ),
+            )
+        }]));
+    }
+    if let Some(out) = &arguments.out {
+        let mut files = report_files(&source).context("cannot draw the report")?;
+        // What the table shows, whatever became of the store's own file.
+        let bytes = results::bytes(&out.join(RESULTS_FILE), &results)?;
+        files.push((RESULTS_FILE, bytes));
+        for path in aside::write_all(out, files)? {
+            console.tell(&format!("wrote {}", path.display()));
+        }
+    }
+    let format = match arguments.format {
+        None if console.json => Some(TableFormat::Json),
+        format => format,
+    };
+    match format {
+        None if arguments.plot => console.result(&terminal_plot(&stored.summary))?,
+        None => {
+            console.result(&table::terminal(&stored.summary))?;
+            if let Some(values) = source.not_refined() {
+                console.tell(&values);
+            }
+            for crossing in &crossings {
+                console.tell(&crossing.line());
+            }
+            for line in savings::lines(&stored.savings) {
+                console.tell(&line);
+            }
+        }
+        Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,
+        Some(TableFormat::Md) => {
+            console.result(&table::markdown(&stored.summary, &source.provenance()))?;
+        }
+        Some(TableFormat::Json) => console.result_json(&Told::of(&stored))?,
+    }
+    Ok(exit_of(&stored.summary))
+}
+
+/// What `opshock accuracy` wrote.
+fn measured(path: &Path) -> Result<Accuracy, Failure> {
+    let told = |what: String| {
+        Failure::Usage(vec![Fault::new(
+            "accuracy",
+            format!("{}: {what}", path.display()),
+        )])
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| told(error.to_string()))?;
+    serde_json::from_str(&text)
+        .map_err(|error| told(format!("not an accuracy.json of this program: {error}")))
+}
+
+/// Complete, or complete but for open points.
+pub fn exit_of(summary: &Summary) -> Exit {
+    if summary
+        .points
+        .iter()
+        .all(|point| point.status == Status::Ok)
+    {
+        Exit::Complete
+    } else {
+        Exit::Open
+    }
+}

@@ -1,0 +1,244 @@
+//! `opshock run`: one shock in full.
+
+use super::GlobalArgs;
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::{Failure, Fault};
+use super::selection::ShockArgs;
+use super::{memory, study_file};
+use clap::Args;
+use opshock_solver::ramp::RampModel;
+use opshock_solver::scene::Scene;
+use opshock_solver::scene::plan::Output;
+use opshock_solver::shock::PulseShape;
+use opshock_solver::simulation::{History, Model, Outcome, Request, Verdict, Workspace, simulate};
+use opshock_study::provenance;
+use opshock_study::report::{
+    RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures,
+};
+use opshock_study::store::history::{HistoryHeader, fields_path, write_csv, write_hdf5};
+use opshock_study::study::memory::Demand;
+use opshock_study::study::{Shot, Study};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Simulate one shock: verdict, clearance, contacts, energy
+#[derive(Args, Debug)]
+pub struct RunArgs {
+    /// Study file
+    study: PathBuf,
+    #[command(flatten)]
+    shock: ShockArgs,
+    /// Write the histories, as HDF5 or CSV by the ending
+    #[arg(long, value_name = "FILE.h5|FILE.csv")]
+    history: Option<PathBuf>,
+    /// Write plots as SVG, PNG and CSV into a folder
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+}
+
+/// Format of a history file.
+#[derive(Clone, Copy)]
+enum HistoryFormat {
+    Hdf5,
+    Csv,
+}
+
+/// Runs the command.
+pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    // What cannot be written is said before anything is computed.
+    let format = arguments
+        .history
+        .as_deref()
+        .map(history_format)
+        .transpose()?;
+    let study = study_file::read(&arguments.study, global, console)?;
+    let shot = study.select(&arguments.shock.choice())?;
+    let record = format.is_some() || arguments.plots.is_some();
+
+    let started = Instant::now();
+    let outcome = simulated(&study, &shot, record)?;
+    let wall_s = started.elapsed().as_secs_f64();
+
+    for warning in &outcome.warnings {
+        console.tell(&format!("warning: {}: {}", warning.code, warning.message));
+    }
+    if study.asks_for(Output::PressureField) && format.is_none() {
+        console.tell("pressure fields are kept with --history FILE");
+    }
+    if let Some(history) = &outcome.history {
+        if let (Some(path), Some(format)) = (&arguments.history, format) {
+            write_history(path, format, history, &study, &shot, &outcome)?;
+            console.tell(&format!("wrote {}", path.display()));
+            tell_fields(path, format, history, &study, console);
+        }
+        if let Some(folder) = &arguments.plots {
+            let figures = run_figures(history, &caption(&study, &shot, &outcome));
+            let written = write_figures(folder, &figures)?;
+            console.tell(&format!(
+                "wrote {} files into {}",
+                written.len(),
+                folder.display()
+            ));
+        }
+    }
+    let answer = RunJson::new(&outcome, study.start_s, wall_s);
+    if console.json {
+        console.result_json(&answer)?;
+    } else {
+        console.result(&run_text(&shock_words(&shot), &answer))?;
+    }
+    Ok(match outcome.verdict {
+        Verdict::Survives | Verdict::Fails { .. } => Exit::Complete,
+        Verdict::Undecided { .. } => Exit::Open,
+    })
+}
+
+/// Runs the shock by the study's plan.
+pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
+    let plan = study.plan();
+    memory::check("the run", Demand::run(&shot.point.scene, &plan, record), 1)?;
+    let model = Model::assemble(&shot.point.scene, &plan, None)
+        .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
+    let request = Request {
+        amplitude_m_per_s2: shot.amplitude_m_per_s2,
+        record,
+    };
+    Ok(simulate(&model, &request, &mut Workspace::default()))
+}
+
+/// What became of the pressure fields asked for: where they are, and which the run did not reach.
+fn tell_fields(
+    path: &Path,
+    format: HistoryFormat,
+    history: &History,
+    study: &Study,
+    console: &Console,
+) {
+    let Some(fields) = &history.fields else {
+        return;
+    };
+    let place = match format {
+        HistoryFormat::Hdf5 => format!("{}, group fields", path.display()),
+        HistoryFormat::Csv => fields_path(path).display().to_string(),
+    };
+    let (kept, asked) = (fields.time_s.len(), study.field_times_s.len());
+    console.tell(&format!("{kept} of {asked} pressure fields in {place}"));
+    if kept < asked {
+        console.tell("the head's run ended before the others");
+    }
+}
+
+fn history_format(path: &Path) -> Result<HistoryFormat, Failure> {
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("h5" | "hdf5") => Ok(HistoryFormat::Hdf5),
+        Some("csv") => Ok(HistoryFormat::Csv),
+        _ => Err(Failure::Usage(vec![Fault {
+            key: Some("--history".into()),
+            value: Some(path.display().to_string()),
+            allowed: Some("a name that ends in .h5 or .csv".into()),
+            ..Fault::new(
+                "usage",
+                format!("--history {}: unknown format", path.display()),
+            )
+        }])),
+    }
+}
+
+fn write_history(
+    path: &Path,
+    format: HistoryFormat,
+    history: &History,
+    study: &Study,
+    shot: &Shot,
+    outcome: &Outcome,
+) -> Result<(), Failure> {
+    match format {
+        HistoryFormat::Csv => write_csv(path, history, study.start_s)?,
+        HistoryFormat::Hdf5 => write_hdf5(path, history, &header(study, shot, outcome))?,
+    }
+    Ok(())
+}
+
+fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
+    let point = &shot.point;
+    let mut coordinates = vec![
+        ("ramp".to_owned(), point.ramp.to_string()),
+        ("pulse_ms".to_owned(), point.pulse_ms.to_string()),
+        ("sign".to_owned(), point.sign.to_string()),
+    ];
+    coordinates.extend(
+        point
+            .axes
+            .iter()
+            .map(|(name, value)| (name.clone(), value.to_string())),
+    );
+    HistoryHeader {
+        study: study.name.clone(),
+        digest: study.digest_hex(),
+        program_version: provenance::VERSION.to_owned(),
+        commit: provenance::COMMIT.to_owned(),
+        point: coordinates,
+        amplitude_g: shot.amplitude_g,
+        start_s: study.start_s,
+        verdict: outcome.answer().map_or("none", verdict_word).to_owned(),
+        t_fail_s: t_fail_s(study, outcome),
+        effects: outcome
+            .effects
+            .iter()
+            .map(|effect| (*effect).to_owned())
+            .collect(),
+        run: String::new(),
+    }
+}
+
+/// What the pictures say about a run.
+pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCaption {
+    let scene: &Scene = &shot.point.scene;
+    RunCaption {
+        shock: shock_words(shot),
+        start_s: study.start_s,
+        width_s: scene.pulse.width_s,
+        t_fail_s: t_fail_s(study, outcome),
+        ramp_clearance_m: match scene.ramp.model {
+            RampModel::None => None,
+            _ => Some((scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m)),
+        },
+        fail_below_m: scene.fail_below_m,
+    }
+}
+
+fn t_fail_s(study: &Study, outcome: &Outcome) -> Option<f64> {
+    match outcome.verdict {
+        Verdict::Fails { t_fail_s, .. } => Some(t_fail_s + study.start_s),
+        Verdict::Survives | Verdict::Undecided { .. } => None,
+    }
+}
+
+/// `rigid ramp, 400 G, 2 ms half-sine, sign +`, and the further axes.
+fn shock_words(shot: &Shot) -> String {
+    let point = &shot.point;
+    let ramp = match point.ramp.as_str() {
+        "none" => "no ramp".to_owned(),
+        ramp => format!("{ramp} ramp"),
+    };
+    let shape = match point.scene.pulse.shape {
+        PulseShape::HalfSine => "half-sine",
+        PulseShape::Haversine => "haversine",
+        PulseShape::Square => "square pulse",
+        PulseShape::Trapezoid { .. } => "trapezoid",
+        PulseShape::DampedSine { .. } => "damped sine",
+        PulseShape::Table { .. } => "sampled pulse",
+    };
+    let mut words = format!(
+        "{ramp}, {} G, {} ms {shape}, sign {}",
+        shot.amplitude_g, point.pulse_ms, point.sign
+    );
+    for (name, value) in &point.axes {
+        words.push_str(&format!(", {name} = {value}"));
+    }
+    words
+}

@@ -1,0 +1,3 @@
+//! The command line of opshock, which its program and its tests start.
+
+pub mod cli;

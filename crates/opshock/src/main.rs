@@ -1,0 +1,5 @@
+//! The `opshock` program.
+
+fn main() -> std::process::ExitCode {
+    opshock::cli::main()
+}
