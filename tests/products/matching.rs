@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::OPSHOCK;
+use opshock_paper::claims::Paper;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::Levels;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
-use opshock_study::claims::Paper;
 use opshock_study::matching::{Evaluations, MatchAnswer, MatchProblem, Printed, RULED_OUT, search};
 use opshock_study::report::RunJson;
 use opshock_study::study::{Choice, Ramp, SetArg, Sign, Study};

@@ -5,7 +5,6 @@
 //! only what was saved.
 
 pub mod accuracy;
-pub mod claims;
 pub mod hard_cases;
 pub mod identity;
 pub mod matching;

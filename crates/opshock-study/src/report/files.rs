@@ -35,7 +35,7 @@ pub fn report_files(source: &ReportSource<'_>) -> Result<Vec<(&'static str, Vec<
 }
 
 /// A value as the bytes of a JSON file.
-pub(super) fn json(value: &impl serde::Serialize) -> Vec<u8> {
+pub fn json(value: &impl serde::Serialize) -> Vec<u8> {
     let text = serde_json::to_string_pretty(value).expect("a report serialises");
     (text + "\n").into_bytes()
 }

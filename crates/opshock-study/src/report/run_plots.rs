@@ -159,7 +159,7 @@ impl Drawing<'_> {
             figure: self.one_panel(title, y, series),
             table: std::iter::once("time_s")
                 .chain(curves.iter().map(|curve| curve.0))
-                .map(|name| find(columns, name).clone())
+                .map(|name| column_named(columns, name).clone())
                 .collect(),
         }
     }
@@ -311,7 +311,7 @@ impl Drawing<'_> {
             name,
             figure: self.one_panel(title, "Angle (µrad)", vec![of_disk, of_slider]),
             table: ["time_s", disk, slider]
-                .map(|name| find(root, name).clone())
+                .map(|name| column_named(root, name).clone())
                 .to_vec(),
         }
     }
@@ -333,8 +333,8 @@ impl Drawing<'_> {
 }
 
 fn series(columns: &[Column], (column, name, factor, colour, dash): Curve<'_>) -> Series {
-    let time = &find(columns, "time_s").values;
-    let values = &find(columns, column).values;
+    let time = &column_named(columns, "time_s").values;
+    let values = &column_named(columns, column).values;
     let curve = time
         .iter()
         .zip(values)
@@ -343,8 +343,12 @@ fn series(columns: &[Column], (column, name, factor, colour, dash): Curve<'_>) -
     Series::curve(name, colour, dash, curve)
 }
 
-/// Column of a history by its name, which must be one of it.
-pub(super) fn find<'a>(columns: &'a [Column], name: &str) -> &'a Column {
+/// Column of a history by its name.
+///
+/// # Panics
+///
+/// Where the history has none of this name.
+pub fn column_named<'a>(columns: &'a [Column], name: &str) -> &'a Column {
     columns
         .iter()
         .find(|column| column.name == name)
@@ -366,7 +370,11 @@ pub fn write_figures(folder: &Path, figures: &[NamedFigure]) -> Result<Vec<PathB
 }
 
 /// `NAME.png`, `NAME.svg` and `NAME.csv`: names and bytes.
-pub(super) fn picture(
+///
+/// # Errors
+///
+/// A figure that cannot be encoded.
+pub fn picture(
     name: &str,
     figure: &Figure,
     table: String,

@@ -48,7 +48,7 @@ pub fn csv(summary: &Summary) -> String {
 }
 
 /// A line of CSV (RFC 4180: a cell with comma, quote or line break is quoted).
-pub(super) fn csv_line(cells: &[String]) -> String {
+pub fn csv_line(cells: &[String]) -> String {
     let quoted: Vec<String> = cells
         .iter()
         .map(|cell| {

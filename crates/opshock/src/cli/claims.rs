@@ -8,14 +8,13 @@ use super::figures::{critical_shocks, swept};
 use super::{memory, study_file};
 use anyhow::Context as _;
 use clap::Args;
+use opshock_paper::claims::{
+    Case, ClaimTable, Finding, Sensitivity, ShockError, Shocks, Task, Variant, coarse_sets,
+    findings, merged, rows, shock_sets, touched_ramps, with_sets, write_claims, write_sensitivity,
+};
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::{Knob, Levels};
-use opshock_study::claims::{
-    Case, Finding, Sensitivity, ShockError, Shocks, Task, Variant, coarse_sets, findings, merged,
-    rows, shock_sets, touched_ramps, with_sets,
-};
 use opshock_study::provenance;
-use opshock_study::report::{ClaimTable, write_claims, write_sensitivity};
 use opshock_study::store::Summary;
 use opshock_study::study::memory::Demand;
 use opshock_study::study::{Ramp, Study};

@@ -7,14 +7,14 @@ use super::failure::{Failure, Fault};
 use super::run::{caption, simulated};
 use super::{stored, study_file};
 use clap::Args;
+use opshock_paper::figures::{
+    PaperCase, PaperFigure, critical_figure, deformable_ramp_drawing, long_shock_figures,
+    plan_drawing, pulse_figure, rigid_ramp_drawing, short_shock_figures, write_paper_figures,
+};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::Verdict;
 use opshock_study::provenance;
-use opshock_study::report::paper::{
-    PaperCase, PaperFigure, critical_figure, deformable_ramp_drawing, long_shock_figures,
-    plan_drawing, pulse_figure, read_table, rigid_ramp_drawing, short_shock_figures,
-    write_paper_figures,
-};
+use opshock_study::report::read_table;
 use opshock_study::store::{StoreError, Summary};
 use opshock_study::study::{Choice, Ramp, Sign, Study};
 use std::path::{Path, PathBuf};

@@ -9,9 +9,9 @@ use super::sweep::{duration, quoted, settings};
 use super::{memory, modes, steady, study_file};
 use anyhow::Context as _;
 use clap::Args;
+use opshock_paper::claims::Paper;
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::Outcome;
-use opshock_study::claims::Paper;
 use opshock_study::matching::{
     Ended, Evaluations, MatchAnswer, MatchProblem, MatchStore, Printed, Stage, WaveReport,
     forecast, search,

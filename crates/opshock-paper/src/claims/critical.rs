@@ -4,8 +4,8 @@
 //! and in opposite directions.
 
 use super::catalogue::{Parts, Place};
-use crate::search::Sign;
-use crate::store::summary::{PointSummary, Status, Summary};
+use opshock_study::search::Sign;
+use opshock_study::store::summary::{PointSummary, Status, Summary};
 
 /// From this width on a pulse counts as long, ms: the paper's section 4.2 calls 0.5 ms small.
 const LONG_FROM_MS: f64 = 1.0;

@@ -3,11 +3,13 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour};
-use super::files::{ReportError, json};
-use super::table::csv_line;
 use crate::claims::{Answer, ClaimRow, Found, Row, Sensitivity, tally};
-use crate::store::aside::write_all;
+use opshock_study::report::chart::{
+    Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour,
+};
+use opshock_study::report::table::csv_line;
+use opshock_study::report::{ReportError, json};
+use opshock_study::store::aside::write_all;
 use serde::Serialize;
 
 /// The table with where it comes from.
@@ -373,7 +375,7 @@ fn sensitivity_csv(all: &Sensitivity) -> String {
 /// A panel for each statement that any parameter moves: bars from the number at the lower to that
 /// at the upper end of a range, the longest on top; dashed: the study's own number and the bounds
 /// between which the statement holds.
-pub fn tornado(all: &Sensitivity) -> Figure {
+fn tornado(all: &Sensitivity) -> Figure {
     let panels: Vec<Panel> = all.rows.iter().filter_map(tornado_panel).collect();
     Figure {
         title: "What the paper's statements rest on".into(),

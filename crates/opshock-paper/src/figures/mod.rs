@@ -6,20 +6,16 @@
 //! | 4 to 12 | the histories of two shocks, a long and a short one, with every ramp model |
 //! | 13 | a table of critical shocks |
 
-mod critical_table;
 mod curves;
 mod drawings;
 
-pub use critical_table::{TableError, read_table};
 pub use curves::{PaperCase, long_shock_figures, pulse_figure, short_shock_figures};
 pub use drawings::{deformable_ramp_drawing, plan_drawing, rigid_ramp_drawing};
 
-use super::chart::Figure;
-use super::files::ReportError;
-use super::run_plots::picture;
-use super::{critical_shock::critical_shock_figure, table};
-use crate::store::aside::write_all;
-use crate::store::summary::Summary;
+use opshock_study::report::chart::Figure;
+use opshock_study::report::{ReportError, critical_shock_figure, picture, table};
+use opshock_study::store::aside::write_all;
+use opshock_study::store::summary::Summary;
 use std::path::{Path, PathBuf};
 
 /// A figure of the paper with the table it was drawn from.

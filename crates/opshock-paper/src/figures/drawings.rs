@@ -4,13 +4,13 @@
 //! and frame around the contact points are schematic.
 
 use super::PaperFigure;
-use crate::report::chart::{
-    Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour,
-};
 use opshock_solver::disk::DiskParameters;
 use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
 use opshock_solver::scene::Scene;
 use opshock_solver::slider::SliderParameters;
+use opshock_study::report::chart::{
+    Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour,
+};
 use std::f64::consts::TAU;
 
 /// A named outline; the table of a drawing lists the corners of all of them.

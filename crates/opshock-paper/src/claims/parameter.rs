@@ -3,7 +3,7 @@
 //! Lengths and loads of a suspension are known to a few per cent once one has the part; here the
 //! part itself is unknown, so the ranges are those among parts of 2.5-inch drives, not tolerances.
 
-use crate::study::{Study, number_at};
+use opshock_study::study::{Study, number_at};
 
 /// How far a parameter moves, downwards and upwards.
 #[derive(Clone, Copy, Debug, PartialEq)]

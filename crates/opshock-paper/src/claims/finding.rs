@@ -2,7 +2,7 @@
 
 use super::catalogue::{CLAIMS, Claim, Parts, Source};
 use super::shocks::Shocks;
-use crate::store::summary::Summary;
+use opshock_study::store::summary::Summary;
 use serde::{Deserialize, Serialize};
 
 /// One place a statement about critical shocks is tested at.

@@ -8,9 +8,9 @@ use super::catalogue::{CLAIMS, Claim};
 use super::finding::{Finding, findings};
 use super::parameter::{parameters, resolved};
 use super::shocks::Shocks;
-use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
-use crate::store::summary::{PointSummary, Summary};
-use crate::study::{Ramp, SetArg, Study, StudyErrors};
+use opshock_study::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use opshock_study::store::summary::{PointSummary, Summary};
+use opshock_study::study::{Ramp, SetArg, Study, StudyErrors};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -3,7 +3,7 @@
 use super::critical;
 use super::shock_numbers as shock;
 use super::shocks::Shocks;
-use crate::store::summary::Summary;
+use opshock_study::store::summary::Summary;
 
 /// One number of a statement about many critical shocks: place, number, bounds by the error bars.
 pub type Place = (String, f64, Option<[f64; 2]>);

@@ -1,7 +1,5 @@
 //! The paper's two shocks with its three ramp models.
 
-use crate::study::memory::Demand;
-use crate::study::{Choice, ChoiceError, Point, Ramp, Sign, Study};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::Levels;
@@ -10,6 +8,8 @@ use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Workspace, simulate,
 };
 use opshock_solver::structure::modes;
+use opshock_study::study::memory::Demand;
+use opshock_study::study::{Choice, ChoiceError, Point, Ramp, Sign, Study};
 use std::sync::Arc;
 
 /// Width, ms, and amplitude, G, of a shock of the paper.

@@ -15,6 +15,7 @@
 mod answer;
 mod catalogue;
 mod critical;
+mod files;
 mod finding;
 mod observations;
 mod parameter;
@@ -24,14 +25,14 @@ mod shocks;
 
 pub use answer::{Answer, ClaimRow, rows, tally};
 pub use catalogue::{CLAIMS, Claim, Source};
-pub use finding::{Finding, Part, Spread, findings, of_parts};
+pub use files::{ClaimTable, write_claims, write_sensitivity};
+pub use finding::{Finding, Part, Spread, findings};
 pub use observations::Paper;
-pub use parameter::{Changed, Parameter, parameters};
 pub use sensitivity::{
     Found, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
     with_sets,
 };
-pub use shocks::{Case, LONG, PaperShock, SHORT, ShockError, Shocks, Task, Three};
+pub use shocks::{Case, ShockError, Shocks, Task, Three};
 
 #[cfg(doc)]
-use crate::store::summary::Summary;
+use opshock_study::store::summary::Summary;

@@ -1,6 +1,6 @@
 //! A committed `table.csv` of critical shocks read back, for a figure without its store.
 
-use super::super::table::{AFTER_AXES, BEFORE_AXES};
+use super::table::{AFTER_AXES, BEFORE_AXES};
 use crate::search::Sign;
 use crate::store::summary::{AxisValue, Flag, PointSummary, Status, Summary, Totals};
 use std::path::Path;

@@ -1,11 +1,11 @@
 //! Fig. 4 to 12: histories of a long and a short shock, a panel for each ramp model.
 
 use super::PaperFigure;
-use crate::report::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
-use crate::report::run_plots::{RunCaption, find};
-use crate::store::history::{Column, head_columns, structure_columns};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::simulation::History;
+use opshock_study::report::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
+use opshock_study::report::{RunCaption, column_named};
+use opshock_study::store::history::{Column, head_columns, structure_columns};
 
 /// Spacing of the rows of disk and ramp in the tables, s: a tenth of the 20 us mean of the contact
 /// force, the fastest curve among them.
@@ -53,7 +53,7 @@ impl PaperCase {
 
     /// Drawn times: from 0 of the study's axis to the end of the window, ms.
     fn window_ms(&self) -> (f64, f64) {
-        let last = find(&self.disk, "time_s").values.last();
+        let last = column_named(&self.disk, "time_s").values.last();
         (0.0, 1e3 * last.copied().unwrap_or(self.caption.start_s))
     }
 }
@@ -452,8 +452,8 @@ fn subtitle(number: u8, pulse: &str, program: &str) -> String {
 
 fn series(case: &PaperCase, curve: &Curve) -> Series {
     let columns = case.columns(curve.clock);
-    let time = &find(columns, "time_s").values;
-    let values = &find(columns, curve.column).values;
+    let time = &column_named(columns, "time_s").values;
+    let values = &column_named(columns, curve.column).values;
     let points = time
         .iter()
         .zip(values)
@@ -494,7 +494,7 @@ fn table(cases: &[(String, &PaperCase)], curves: &[Curve], zoom_ms: Option<(f64,
         let mut shared: Option<&[f64]> = None;
         for (name, case) in cases {
             let source = case.columns(clock);
-            let time = find(source, "time_s").values.as_slice();
+            let time = column_named(source, "time_s").values.as_slice();
             let rows = rows(time, clock, zoom_ms);
             let taken = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
             if clock == Clock::Head {
@@ -506,7 +506,7 @@ fn table(cases: &[(String, &PaperCase)], curves: &[Curve], zoom_ms: Option<(f64,
                 columns.push((format!("{name}_time_s"), taken(time)));
             }
             for curve in &of_clock {
-                let values = taken(&find(source, curve.column).values);
+                let values = taken(&column_named(source, curve.column).values);
                 columns.push((format!("{name}_{}", curve.column), values));
             }
         }

@@ -3,12 +3,12 @@
 use super::catalogue::{CLAIMS, Claim, Source};
 use super::finding::of_parts;
 use super::shocks::{ShockError, Shocks};
-use crate::matching::{Observation, Quantity, Stage, Statements};
-use crate::store::summary::Summary;
-use crate::study::Study;
 use opshock_solver::scene::knob::Levels;
 use opshock_solver::scene::plan::Plan;
 use opshock_solver::simulation::Model;
+use opshock_study::matching::{Observation, Quantity, Stage, Statements};
+use opshock_study::store::summary::Summary;
+use opshock_study::study::Study;
 use std::sync::Arc;
 
 /// The paper's statements, for a match file that asks for them.
