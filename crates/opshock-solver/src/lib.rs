@@ -1,9 +1,10 @@
-//! Physics of a hard disk drive's head-disk interface under operational shock.
+#![doc = include_str!("../README.md")]
+//!
+//! # From data to an answer
 //!
 //! A [`scene::Scene`] (plain SI data) is built once into an immutable [`simulation::Model`];
 //! [`simulation::simulate`] runs one shock of a signed amplitude through it and returns an
-//! [`simulation::Outcome`]. The crate opens no file, reads no clock or environment, prints
-//! nothing and starts no thread.
+//! [`simulation::Outcome`]; [`simulation::critical_shock`] finds the amplitude at which the verdict changes.
 //!
 //! Conventions used everywhere (design reference, section 2):
 //!

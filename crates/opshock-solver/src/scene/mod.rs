@@ -1,6 +1,7 @@
 //! A scene: everything one simulation needs, in SI, as plain data.
 
 pub mod accuracy;
+mod default_drive;
 pub mod knob;
 mod mirror;
 pub mod plan;

@@ -8,12 +8,14 @@
 //! the structure runs first, by itself, over the whole window; its history then drives the head, up to
 //! its first touch or, when the plan says so, to the end of the window too.
 
+mod critical;
 pub mod held;
 mod model;
 mod outcome;
 mod run;
 
 pub use crate::head::HeadState;
+pub use critical::{CriticalShock, CriticalShockError, critical_shock};
 pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;
 pub use run::{

@@ -125,6 +125,14 @@ pub struct Model {
 }
 
 impl Model {
+    /// Disk, ramp and head of `scene`: [`Model::build`] with nothing to share.
+    ///
+    /// # Errors
+    /// [`BuildError`] names the part and the quantity.
+    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        Self::build(scene, Scope::Full, None)
+    }
+
     /// Builds what `scope` needs of `scene`; see [`Model::assemble`].
     ///
     /// # Errors

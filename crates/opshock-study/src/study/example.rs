@@ -37,3 +37,18 @@ tolerance_pct = 1.0
 "#
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Ramp, Study};
+    use opshock_solver::scene::Scene;
+
+    #[test]
+    fn the_defaults_are_the_default_drive_of_the_solver() {
+        let study = Study::from_text(&super::text("defaults"), &[]).expect("valid");
+        let is_it = |ramp, width_ms| ramp == Ramp::Deformable && width_ms == 1.0;
+        let mut points = study.points.iter();
+        let point = points.find(|point| is_it(point.ramp, point.pulse_ms));
+        assert_eq!(point.expect("a point").scene, Scene::default_drive());
+    }
+}
