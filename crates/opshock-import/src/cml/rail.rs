@@ -16,7 +16,7 @@
 //!
 //! x runs from the leading edge, y from the inner edge; later rails overwrite earlier ones.
 
-use super::{Reader, short};
+use super::reader::{MAX_COUNT, Reader, real, short};
 use crate::fault::{Fault, Faults};
 use crate::text::Source;
 use std::fmt::Write as _;
@@ -176,7 +176,7 @@ fn rail(reader: &mut Reader<'_>, k: usize, n_walls: usize) -> Result<Rail, Fault
             );
         };
         corners_m.push([(x, "x"), (y, "y")].map(|(word, name)| {
-            super::real(
+            real(
                 reader.file,
                 &word,
                 &format!("{name} of {what}"),
@@ -222,7 +222,7 @@ fn walls(reader: &mut Reader<'_>, n: usize) -> Result<Vec<Wall>, Faults> {
     if counts.len() < n
         || counts[..n]
             .iter()
-            .any(|count| !(2..=super::MAX_COUNT).contains(count))
+            .any(|count| !(2..=MAX_COUNT).contains(count))
     {
         return Err(
             Fault::of("E175", reader.file, "not the points of the wall profiles")
@@ -234,7 +234,7 @@ fn walls(reader: &mut Reader<'_>, n: usize) -> Result<Vec<Wall>, Faults> {
                         .collect::<Vec<_>>()
                         .join(" "),
                 )
-                .allowed(format!("{n} whole numbers from 2 to {}", super::MAX_COUNT))
+                .allowed(format!("{n} whole numbers from 2 to {}", MAX_COUNT))
                 .into(),
         );
     }
@@ -263,7 +263,7 @@ fn list(reader: &mut Reader<'_>, what: &str, n: usize) -> Result<Vec<f64>, Fault
                 .into(),
         );
     }
-    let value = |word| super::real(reader.file, word, what, &mut reader.faults);
+    let value = |word| real(reader.file, word, what, &mut reader.faults);
     Ok(words.iter().map(value).collect())
 }
 

@@ -8,7 +8,7 @@
 //!
 //! `A` and `B` are short enough to be anything's names: they are read beside `icmodel` alone.
 
-use super::{Reader, within};
+use super::reader::{Reader, within};
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Source, Word};
 use std::collections::HashMap;

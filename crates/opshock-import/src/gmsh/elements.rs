@@ -1,6 +1,6 @@
 //! Gmsh's types of elements and the order of their nodes.
 
-use super::Solid;
+use super::mesh::Solid;
 
 /// What an element of a file is here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The sections of a `.msh` file.
 
 use super::elements::{Kind, kind};
-use super::{BODY, Face, MeshFile, Solid};
+use super::mesh::{BODY, Face, MeshFile, Solid};
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Source, Word};
 use std::collections::{BTreeMap, HashMap, HashSet};

@@ -1,7 +1,9 @@
 //! Meshes that Gmsh itself wrote.
 
+use super::mesh::key;
 use super::*;
 use crate::text::Source;
+use std::collections::HashMap;
 
 fn mesh(name: &str) -> MeshFile {
     let folder =

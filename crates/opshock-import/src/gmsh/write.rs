@@ -1,7 +1,7 @@
 //! A mesh as Gmsh writes it.
 
 use super::elements::{HEXAHEDRON, TETRAHEDRON};
-use super::{BODY, MeshFile, Solid};
+use super::mesh::{BODY, MeshFile, Solid};
 use std::collections::HashSet;
 use std::fmt::Write as _;
 

@@ -5,7 +5,8 @@
 //! are whatever the model was written in, most often N, mm, s, t.
 
 use super::dof::Freedoms;
-use super::{Listed, Matrix, Stored, refuse_large};
+use super::entries::{Listed, Stored, refuse_large};
+use super::sparse::Matrix;
 use crate::fault::{Fault, Faults};
 use crate::text::{Source, Word};
 

@@ -6,9 +6,10 @@
 //! between, a rigid motion is told from a soft spring beside stiff ones by its forces: they cancel in every
 //! row.
 
+use super::entries::place;
 use super::envelope::{Envelope, Factors, MAX_ENVELOPE};
+use super::sparse::Matrix;
 use super::system::System;
-use super::{Matrix, place};
 use crate::fault::{Fault, Faults};
 
 /// Asymmetry that is averaged, relative to the diagonals of row and column.

@@ -3,7 +3,8 @@
 //! displacements along and rotations about x, y, z.
 
 use super::dof::{Direction, Freedom, Freedoms};
-use super::{Entry, Matrix, place, real, refuse_large};
+use super::entries::{place, real, refuse_large};
+use super::sparse::{Entry, Matrix};
 use crate::fault::{Fault, Faults};
 use crate::text::{NotANumber, Source, Word};
 

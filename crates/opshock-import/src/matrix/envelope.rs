@@ -7,7 +7,7 @@
 //! The signs of D are those of the eigenvalues of A (Sylvester). No pivots are chosen: the order P
 //! is that of Cuthill and McKee, reversed, which keeps the envelope small.
 
-use super::Matrix;
+use super::sparse::Matrix;
 use std::collections::VecDeque;
 
 /// Numbers of the largest envelope, 0.8 GB.

@@ -1,7 +1,8 @@
 //! Matrices and maps of freedoms by the endings of their files.
 
 use super::dof::{self, Freedoms};
-use super::{Matrix, calculix, dense, market};
+use super::sparse::Matrix;
+use super::{calculix, dense, market};
 use crate::fault::{Fault, Faults};
 use crate::text::Source;
 use std::path::Path;

@@ -11,7 +11,8 @@
 //! # Source
 //! R. F. Boisvert, R. Pozo, K. Remington: The Matrix Market Exchange Formats, NISTIR 5935 (1996).
 
-use super::{Entry, Listed, Matrix, Stored, place, real, refuse_large};
+use super::entries::{Listed, Stored, place, real, refuse_large};
+use super::sparse::{Entry, Matrix};
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, Source, Word};
 

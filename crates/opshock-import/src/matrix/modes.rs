@@ -4,8 +4,9 @@
 //! ΦᵀM Φ = 1,   ΦᵀK Φ = diag((2 π f)²)
 //! ```
 
+use super::entries::{place, real};
+use super::sparse::Matrix;
 use super::system::System;
-use super::{Matrix, place, real};
 use crate::fault::{Fault, Faults};
 use crate::text::Source;
 

@@ -1,8 +1,8 @@
 //! A structure's matrices with the freedoms of their rows, in SI units.
 
 use super::dof::{Direction, Freedoms};
+use super::sparse::{Entry, Matrix};
 use super::units::Units;
-use super::{Entry, Matrix};
 use crate::fault::{Fault, Faults};
 
 /// M and K, and what goes with them.

@@ -3,8 +3,8 @@
 //! With lengths in L metres and forces in F newtons, a row of a displacement counts as 1 and a row
 //! of a rotation as L: K_SI = (F/L) s_i s_j K, and the same for M, as all use seconds.
 
-use super::Matrix;
 use super::dof::Freedoms;
+use super::sparse::Matrix;
 
 /// A consistent set of units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Shape functions of the 20-node hexahedron, 3 × 3 × 3 Gauss points.
 
-use super::{GAUSS_3, MAX_FACE_NODES, MAX_NODES, Station};
+use super::quadrature::{GAUSS_3, MAX_FACE_NODES, MAX_NODES, Station};
 
 /// Nodes on the cube (−1, 1)³.
 pub const NODES: [[f64; 3]; 20] = [

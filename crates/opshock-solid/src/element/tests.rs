@@ -1,6 +1,8 @@
 //! Elements alone: shape functions, volumes, rigid motion, energy of uniform strain.
 
+use super::integrals::matrices;
 use super::*;
+use crate::material::Material;
 
 const SHAPES: [Shape; 2] = [Shape::Hexahedron20, Shape::Tetrahedron10];
 const STEEL: Material = Material {

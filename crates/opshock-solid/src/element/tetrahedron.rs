@@ -4,7 +4,7 @@
 //! tetrahedron: degree 5 and more, weights above 0, exact for stiffness and mass of straight edges
 //! (Stroud, *Approximate Calculation of Multiple Integrals*, 1971, section 2.4).
 
-use super::{GAUSS_4, MAX_FACE_NODES, MAX_NODES, Station};
+use super::quadrature::{GAUSS_4, MAX_FACE_NODES, MAX_NODES, Station};
 
 /// Corners of each edge with a node in its middle.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];

@@ -3,7 +3,8 @@
 //! They are the modes of the reduced ramp put back onto the mesh, φᵀ M φ = 1: those below the cut, where
 //! they are the full mesh's.
 
-use super::{Mount, RampMesh, SolidRampError, contact_columns, positive};
+use super::mesh::RampMesh;
+use super::oscillators::{Mount, SolidRampError, contact_columns, positive};
 use crate::material::Material;
 use crate::reduction::{PointMode, reduce};
 

@@ -2,7 +2,7 @@
 //!
 //! A section is known by its place in the order, and where its names are known, by them too.
 
-use super::super::Reader;
+use super::super::reader::Reader;
 use super::super::run::is_numeric;
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, Word};

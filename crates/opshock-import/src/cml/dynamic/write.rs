@@ -1,7 +1,7 @@
 //! A dynamic run as `DynLULS.def`: what is read here, every digit, in 19 sections.
 
+use super::contents::{DynamicFile, FUKUI_KANEKO, SHAPES};
 use super::layout::{self, SECTIONS};
-use super::{DynamicFile, FUKUI_KANEKO, SHAPES};
 use std::fmt::Write as _;
 
 /// The file. Sections that are not read hold a name and a zero; names that opshock does not know are its own.
