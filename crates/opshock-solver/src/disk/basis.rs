@@ -10,10 +10,12 @@
 //!
 //! Shapes are scaled to modal mass 1 kg.
 
+use super::error::DiskError;
 use super::harmonic::{HarmonicFamily, RadialMesh};
-use super::{DiskDamping, DiskParameters, DiskResolution, MembraneStress};
+use super::membrane::MembraneStress;
+use super::parameters::{DiskDamping, DiskParameters, DiskResolution};
 use crate::linalg::dense::dot;
-use crate::linalg::{DenseError, lowest};
+use crate::linalg::lowest;
 
 /// Most radial elements of a disk: 18 a bending wave of an aluminium platter at 7.7 MHz, where a wave is hardly longer
 /// than the disk is thick. With more, rounding in the stiffness (its condition grows with the fourth power) gains on
@@ -23,56 +25,6 @@ pub const MOST_ELEMENTS: usize = 400;
 pub const MIN_SYMMETRIC_MODES: usize = 8;
 /// Modes of n = 0 are kept up to this multiple of the cut.
 pub const SYMMETRIC_CUT_FACTOR: f64 = 4.0;
-
-/// What is wrong with a disk, its resolution or a place on it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DiskError {
-    /// A parameter is outside its range.
-    #[error("disk parameter {name} = {value:e} is outside its range ({allowed})")]
-    Parameter {
-        /// Name of the field.
-        name: &'static str,
-        /// Value found.
-        value: f64,
-        /// Allowed range in words.
-        allowed: &'static str,
-    },
-    /// A place lies off the free annulus.
-    #[error(
-        "{place} at radius {radius_m} m is not between the clamp at {inner_m} m and the rim at {outer_m} m"
-    )]
-    OffTheDisk {
-        /// What stands there.
-        place: &'static str,
-        /// Its radius, m.
-        radius_m: f64,
-        /// Clamp radius, m.
-        inner_m: f64,
-        /// Outer radius, m.
-        outer_m: f64,
-    },
-    /// The modes of a harmonic on its hub cannot be taken apart.
-    #[error(
-        "modes of nodal-diameter number {nodal_diameters} on the hub: two of them coincide; change \
-         the bearing's stiffness or damping a little"
-    )]
-    Hub {
-        /// Harmonic.
-        nodal_diameters: usize,
-        /// Cause.
-        #[source]
-        source: DenseError,
-    },
-    /// The eigenvalue problem of a harmonic failed.
-    #[error("modes of nodal-diameter number {nodal_diameters}")]
-    Modes {
-        /// Harmonic.
-        nodal_diameters: usize,
-        /// Cause.
-        #[source]
-        source: DenseError,
-    },
-}
 
 /// One mode of the disk.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,8 @@
 //! Cubic Hermite elements (unknowns φ and φ′ at the nodes), eigenvalues converge with order 4 in
 //! the element length; φ = φ′ = 0 at the clamp.
 
-use super::{DiskParameters, MembraneStress};
+use super::membrane::MembraneStress;
+use super::parameters::DiskParameters;
 use crate::linalg::SymmetricBand;
 
 /// Points and weights of the Gauss rule on (0, 1) used in every element.

@@ -21,7 +21,7 @@
 //! Jintanawan, Shen and Tanaka, Vibration analysis of fluid dynamic bearing spindles with rotating-shaft
 //! design, IEEE Trans. Magn. 37 (2001) (bearing matrices of a drive's spindle).
 
-use super::DiskError;
+use super::error::DiskError;
 
 /// Hub with its bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]

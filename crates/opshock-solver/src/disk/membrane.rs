@@ -10,7 +10,7 @@
 //! and are steady in it. Source: Timoshenko and Goodier, Theory of Elasticity (1970), art. 32,
 //! with the inner edge held instead of free.
 
-use super::DiskParameters;
+use super::parameters::DiskParameters;
 
 /// Steady membrane stress as a function of the radius.
 #[derive(Clone, Copy, Debug, PartialEq)]

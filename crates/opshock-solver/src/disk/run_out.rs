@@ -16,7 +16,7 @@
 //! | Ω | `spin_rad_per_s` | rad/s |
 //! | b | `outer_radius_m` | m |
 
-use super::{DiskMotion, DiskPose};
+use super::motion::{DiskMotion, DiskPose};
 use nalgebra::Complex;
 
 /// One wave around the disk.

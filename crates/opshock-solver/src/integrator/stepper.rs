@@ -1,7 +1,7 @@
 //! One trial step of an ESDIRK scheme on any system that can solve its stage equation.
 
-use super::Tableau;
 use super::extrapolation::{self, KNOWN};
+use super::tableau::Tableau;
 use crate::lanes::{add_scaled, combine, rate_between};
 
 /// A stiff system y' = f(t, y) that solves its own implicit stages.

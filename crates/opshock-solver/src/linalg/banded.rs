@@ -15,7 +15,7 @@
 //! Four pivots are eliminated together from four rows below: numbers of those rows are read and written once
 //! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
 
-use super::diagonals::Diagonals;
+use super::diagonals::{Band, Diagonals};
 pub use super::triangles::Entry;
 use super::triangles::Triangles;
 use crate::lanes::{Simd, WithSimd, widest};
@@ -48,38 +48,6 @@ pub enum BandedError {
         /// Largest multiplier.
         largest: f64,
     },
-}
-
-/// How far a matrix reaches on either side of its diagonal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Band {
-    /// Entries of a row before the diagonal.
-    pub below: usize,
-    /// Entries of a row behind the diagonal.
-    pub above: usize,
-}
-
-impl Band {
-    /// As far on either side.
-    pub fn even(half_bandwidth: usize) -> Self {
-        Self {
-            below: half_bandwidth,
-            above: half_bandwidth,
-        }
-    }
-
-    /// As far to the other side.
-    fn reversed(self) -> Self {
-        Self {
-            below: self.above,
-            above: self.below,
-        }
-    }
-
-    /// Entries of a row.
-    pub(super) fn width(self) -> usize {
-        self.below + 1 + self.above
-    }
 }
 
 /// LU factors of a matrix of few diagonals plus one more, in storage allocated once. They are found and kept as

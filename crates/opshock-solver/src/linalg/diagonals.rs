@@ -1,6 +1,36 @@
 //! Square matrices of few diagonals, as a balance over a grid of cells has them.
 
-use super::banded::Band;
+/// How far a matrix reaches on either side of its diagonal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Band {
+    /// Entries of a row before the diagonal.
+    pub below: usize,
+    /// Entries of a row behind the diagonal.
+    pub above: usize,
+}
+
+impl Band {
+    /// As far on either side.
+    pub fn even(half_bandwidth: usize) -> Self {
+        Self {
+            below: half_bandwidth,
+            above: half_bandwidth,
+        }
+    }
+
+    /// As far to the other side.
+    pub(super) fn reversed(self) -> Self {
+        Self {
+            below: self.above,
+            above: self.below,
+        }
+    }
+
+    /// Entries of a row.
+    pub(super) fn width(self) -> usize {
+        self.below + 1 + self.above
+    }
+}
 
 /// Square matrix that is zero beside a few diagonals; each is a column of numbers, by row.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Eigenvalues of small general matrices, with what takes a vector apart into its eigenvectors.
 
-use super::DenseError;
+use super::dense::DenseError;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Eigen};
 use nalgebra::Complex;

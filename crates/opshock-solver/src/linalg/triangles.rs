@@ -14,7 +14,7 @@
 //!
 //! What a solution costs is the reading of the factors, so they may be single ([`Entry`]).
 
-use super::banded::Band;
+use super::diagonals::Band;
 use crate::lanes::{Simd, WithSimd, widest};
 
 /// Rows solved together.

@@ -3,7 +3,7 @@
 //! Every column is padded with resting modes to a multiple of [`LANES`], so that loops run on
 //! whole chunks and sums have one fixed order.
 
-use super::{Flow, Oscillator};
+use super::oscillator::{Flow, Oscillator};
 use crate::lanes::{self, Kernel, SUMS};
 use nalgebra::Complex;
 

@@ -18,8 +18,8 @@
 //! Source: Meirovitch, Analytical Methods in Vibrations (1967), ch. 9 (state space of damped systems);
 //! Ewins, Modal Testing (2000), 2.7 and 2.8 (viscous damping, rotating structures).
 
-use super::Phase;
 use super::bank::{Readout, padded};
+use super::forcing::Phase;
 use super::oscillator::{GAUSS_8, phi1, phi2};
 use crate::linalg::dense::modes_of_free_body;
 use crate::linalg::general::general_eigen;

@@ -3,9 +3,8 @@
 //! The same formulas as [`super::oscillator`] in columns, without a call per mode; and the loss meanwhile by Gauss
 //! quadrature on them. Modes with damping fixed in space or beyond critical damping are left to the oscillator.
 
-use super::bank::{ChunkFlow, LANES, chunks};
-use super::oscillator::GAUSS_8;
-use super::{BankFlow, ModalState, Oscillator};
+use super::bank::{BankFlow, ChunkFlow, LANES, ModalState, chunks};
+use super::oscillator::{GAUSS_8, Oscillator};
 use crate::elementary::{exp_m1, sin_cos};
 use crate::lanes::{self, Kernel};
 

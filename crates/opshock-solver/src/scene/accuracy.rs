@@ -3,9 +3,9 @@
 //! A rung fixes every knob that trades time for accuracy. The values come from work-precision
 //! runs on the critical shock; a scene may override each of them.
 
-use super::{Coupling, HeadResolution};
 use crate::air_bearing::FilmResolution;
 use crate::disk::DiskResolution;
+use crate::head::{Coupling, HeadResolution};
 use crate::structure::{ContactMethod, StructureResolution};
 
 /// A named accuracy of the critical shock.

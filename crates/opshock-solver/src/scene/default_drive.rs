@@ -3,8 +3,8 @@
 //! Disk, place and clearance of the ramp are sample data of the CMLAir 8.01 user manual (Mardan and Bogy, 2011). Ramp arms,
 //! suspension and air-bearing surface are opshock's own designs. Studies have the same values as defaults.
 
-use super::Scene;
 use super::accuracy::{Rung, resolutions};
+use super::description::Scene;
 use crate::air_bearing::FlowModel;
 use crate::disk::{DiskDamping, DiskParameters};
 use crate::gas::{self, GasParameters};

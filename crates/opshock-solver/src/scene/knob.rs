@@ -15,17 +15,12 @@
 //! | `ramp_mesh` | half the size of the ramp's elements | 2 | stress without bound at inner edges |
 //!
 //! A ramp comes to a scene as oscillators. Whoever made them of a geometry makes them of another mesh
-//! too; [`Scene::at_levels`] leaves them as they are, and `ramp_mesh` is none of [`Knob::ALL`]. Oscillators that
+//! too; [`Scene::at_levels`](super::Scene::at_levels) leaves them as they are, and `ramp_mesh` is none of [`Knob::ALL`]. Oscillators that
 //! the study itself gives are the model: no knob turns them.
 //!
 //! [`Knob::HeldFilm`] is no knob of a scene either. It asks of a shock what its smallest clearance would be on
 //! another film held still at the lowest attitude ([`crate::simulation::held`]): one step finer, the film with
 //! every cell cut in two, continued to infinitely many; a step coarser, one of half the cells.
-
-use super::Scene;
-use crate::disk::MOST_ELEMENTS;
-use crate::ramp::RampModel;
-use crate::suspension::ReducedSuspension;
 
 /// Something that trades time for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -96,14 +91,14 @@ impl Knob {
         }
     }
 
-    fn place(self) -> usize {
+    pub(super) fn place(self) -> usize {
         self as usize
     }
 }
 
 /// Steps by which each knob is turned; positive is finer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Levels([i8; EVERY.len()]);
+pub struct Levels(pub(super) [i8; EVERY.len()]);
 
 impl Levels {
     /// The scene as it is.
@@ -153,55 +148,6 @@ impl Levels {
             levels.0[Knob::from_word(name)?.place()] = steps.parse().ok()?;
         }
         Some(levels)
-    }
-}
-
-impl Scene {
-    /// The discretisation parameters whose refinement can change this scene's answer: without a ramp nothing excites what
-    /// the disk's modes and the structure's step resolve, and a value of the model is not refined.
-    pub fn knobs(&self) -> Vec<Knob> {
-        let has_ramp = self.ramp.model != RampModel::None;
-        Knob::ALL
-            .into_iter()
-            .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))
-            .filter(|knob| !self.not_refined.contains(knob))
-            .collect()
-    }
-
-    /// The same scene with its knobs turned, but for values of the model; see the module's table.
-    #[must_use]
-    pub fn at_levels(&self, mut levels: Levels) -> Scene {
-        let mut scene = self.clone();
-        for knob in &self.not_refined {
-            levels.0[knob.place()] = 0;
-        }
-        let power = |base: f64, knob: Knob| base.powi(i32::from(levels.of(knob)));
-        let scaled = |count: usize, factor: f64, least: usize| {
-            ((count as f64 * factor).round() as usize).max(least)
-        };
-        let film = power(2.0, Knob::FilmGrid);
-        scene.film_resolution.cells = scaled(self.film_resolution.cells, film, 16);
-        let disk = power(2.0, Knob::DiskModes);
-        scene.disk_resolution.cut_hz *= disk;
-        // Frequencies of a plate grow with the square of its wave numbers.
-        let waves = disk.sqrt();
-        scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
-        // Beyond what a disk may have none is added; one that has too many by itself stays so, and is told.
-        let elements = self.disk_resolution.n_elements;
-        let most = elements.max(MOST_ELEMENTS);
-        scene.disk_resolution.n_elements = scaled(elements, waves, 2).min(most);
-        if levels.of(Knob::SuspensionModes) != 0 {
-            let modes = power(2.0, Knob::SuspensionModes);
-            let wanted = scaled(self.head_resolution.suspension_modes, modes, 1);
-            // A beam has no more; with all of them nothing is cut.
-            let most = ReducedSuspension::most_bending_modes(&self.suspension);
-            scene.head_resolution.suspension_modes = wanted.min(most.unwrap_or(wanted));
-        }
-        scene.structure_resolution.step_s /= power(2.0, Knob::StructureStep);
-        scene.head_resolution.tolerance /= power(8.0, Knob::HeadTolerance);
-        scene.head_resolution.approach_share /= power(2.0, Knob::HeadTolerance);
-        scene.head_resolution.coupling_tolerance /= power(8.0, Knob::CouplingTolerance);
-        scene
     }
 }
 

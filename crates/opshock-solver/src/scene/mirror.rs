@@ -24,7 +24,7 @@
 
 use std::f64::consts::PI;
 
-use super::Scene;
+use super::description::Scene;
 use crate::disk::{DiskParameters, HubParameters, Wave};
 use crate::ramp::{CoupledMode, RampModel, RampParameters};
 use crate::shock::ObliqueShock;

@@ -26,7 +26,7 @@
 //! R1 rests on the film's force on the disk being neglected beside the disk's inertia. An oblique shock on
 //! a hub drives n = 1 from the onset: R2 and R3 then speak of n ≥ 2.
 
-use super::Scene;
+use super::description::Scene;
 use crate::disk::Harmonics;
 use crate::mutant;
 use crate::quantity::STANDARD_GRAVITY_M_PER_S2;

@@ -1,6 +1,13 @@
-//! The same scene on other steps, another coupling, contact method or window: what retries and checks run.
+//! The same scene on other steps, another coupling, contact method or window, or with its knobs turned: what retries,
+//! checks and ladders run.
 
-use super::{ContactMethod, Coupling, Scene, Window};
+use super::description::Scene;
+use super::knob::{Knob, Levels};
+use crate::disk::MOST_ELEMENTS;
+use crate::head::Coupling;
+use crate::ramp::RampModel;
+use crate::structure::{ContactMethod, Window};
+use crate::suspension::ReducedSuspension;
 
 impl Scene {
     /// Every time step divided by `divisor` (> 1): the structure's grid directly, the head through
@@ -54,5 +61,52 @@ impl Scene {
             },
         };
         longer
+    }
+
+    /// The discretisation parameters whose refinement can change this scene's answer: without a ramp nothing excites what
+    /// the disk's modes and the structure's step resolve, and a value of the model is not refined.
+    pub fn knobs(&self) -> Vec<Knob> {
+        let has_ramp = self.ramp.model != RampModel::None;
+        Knob::ALL
+            .into_iter()
+            .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))
+            .filter(|knob| !self.not_refined.contains(knob))
+            .collect()
+    }
+
+    /// The same scene with its knobs turned, but for values of the model; see the table of [`super::knob`].
+    #[must_use]
+    pub fn at_levels(&self, mut levels: Levels) -> Scene {
+        let mut scene = self.clone();
+        for knob in &self.not_refined {
+            levels.0[knob.place()] = 0;
+        }
+        let power = |base: f64, knob: Knob| base.powi(i32::from(levels.of(knob)));
+        let scaled = |count: usize, factor: f64, least: usize| {
+            ((count as f64 * factor).round() as usize).max(least)
+        };
+        let film = power(2.0, Knob::FilmGrid);
+        scene.film_resolution.cells = scaled(self.film_resolution.cells, film, 16);
+        let disk = power(2.0, Knob::DiskModes);
+        scene.disk_resolution.cut_hz *= disk;
+        // Frequencies of a plate grow with the square of its wave numbers.
+        let waves = disk.sqrt();
+        scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
+        // Beyond what a disk may have none is added; one that has too many by itself stays so, and is told.
+        let elements = self.disk_resolution.n_elements;
+        let most = elements.max(MOST_ELEMENTS);
+        scene.disk_resolution.n_elements = scaled(elements, waves, 2).min(most);
+        if levels.of(Knob::SuspensionModes) != 0 {
+            let modes = power(2.0, Knob::SuspensionModes);
+            let wanted = scaled(self.head_resolution.suspension_modes, modes, 1);
+            // A beam has no more; with all of them nothing is cut.
+            let most = ReducedSuspension::most_bending_modes(&self.suspension);
+            scene.head_resolution.suspension_modes = wanted.min(most.unwrap_or(wanted));
+        }
+        scene.structure_resolution.step_s /= power(2.0, Knob::StructureStep);
+        scene.head_resolution.tolerance /= power(8.0, Knob::HeadTolerance);
+        scene.head_resolution.approach_share /= power(2.0, Knob::HeadTolerance);
+        scene.head_resolution.coupling_tolerance /= power(8.0, Knob::CouplingTolerance);
+        scene
     }
 }

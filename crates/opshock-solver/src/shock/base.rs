@@ -14,7 +14,7 @@
 
 use nalgebra::Complex;
 
-use super::Stretch;
+use super::pulse::Stretch;
 use crate::modal::{CoupledState, Phase, PointReadout, Readout};
 
 /// Relative distance of a mode's rate from the pulse's below which the mode is moved.

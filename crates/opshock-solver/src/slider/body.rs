@@ -4,7 +4,7 @@
 //! m = ρ L W T,   J_pitch = m (L² + T²)/12,   J_roll = m (W² + T²)/12
 //! ```
 
-use super::SliderParameters;
+use super::parameters::SliderParameters;
 
 /// Mass and moments of inertia in the order heave, pitch, roll.
 #[derive(Clone, Copy, Debug, PartialEq)]

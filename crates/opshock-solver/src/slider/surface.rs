@@ -9,7 +9,7 @@
 //! The form is measured from the middle of the surface: with a positive crown the ends lie
 //! farther from the disk than the middle by that amount. x_c and y_c are the middle of the slider.
 
-use super::{Rail, RailOutline, SliderParameters};
+use super::parameters::{Rail, RailOutline, SliderParameters};
 
 impl RailOutline {
     /// Whether the point lies inside or on the outline.

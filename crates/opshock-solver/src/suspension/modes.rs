@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::SuspensionError;
+use super::error::SuspensionError;
 
 /// An oscillator of unit mass.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,8 +23,10 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-use super::modes::{self, Clamped};
-use super::{BeamMatrices, SuspensionError, SuspensionMode, SuspensionParameters};
+use super::beam::BeamMatrices;
+use super::error::SuspensionError;
+use super::modes::{self, Clamped, SuspensionMode};
+use super::parameters::SuspensionParameters;
 
 /// Share of a static shape's mass below which modes hold all of it.
 const HELD: f64 = 1e-20;

@@ -19,7 +19,7 @@
 //! dimple, three free and two pinned torsion frequencies: all within 0.25 %); with the same
 //! factors the second parameter set's torsion frequencies come out within 0.2 %.
 
-use super::SuspensionParameters;
+use super::parameters::SuspensionParameters;
 
 /// Ratio of the flanged section's torsion constant to Σ b t³/3.
 pub const FLANGED_TORSION_FACTOR: f64 = 6.0;

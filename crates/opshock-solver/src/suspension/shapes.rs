@@ -9,9 +9,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beam::hermite;
+use super::beam::{BeamMatrices, hermite};
+use super::error::SuspensionError;
+use super::parameters::SuspensionParameters;
 use super::reduction::lowest_modes;
-use super::{BeamMatrices, Section, SuspensionError, SuspensionParameters};
+use super::section::Section;
 
 /// Parts of an element between drawn points.
 const PARTS: usize = 4;

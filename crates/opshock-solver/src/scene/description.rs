@@ -1,0 +1,130 @@
+//! Everything one simulation needs but the amplitude.
+
+use super::knob::Knob;
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, SurfaceForces};
+use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
+use crate::gas::GasParameters;
+use crate::head::HeadResolution;
+use crate::ramp::RampParameters;
+use crate::shock::{BaseMode, ObliqueShock, Pulse};
+use crate::slider::SliderParameters;
+use crate::structure::{StructureResolution, Window};
+use crate::suspension::SuspensionParameters;
+
+/// Everything one simulation needs but the amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Unit pulse.
+    pub pulse: Pulse,
+    /// What else shakes the base in step with it; `None`: a straight shock.
+    pub oblique: Option<ObliqueShock>,
+    /// Modes of base plate and housing; none: the base is rigid.
+    pub base: Vec<BaseMode>,
+    /// Simulated time after the onset.
+    pub window: Window,
+    /// Disk.
+    pub disk: DiskParameters,
+    /// Waves of the disk's surface that turn with it under the slider; none: a plane disk.
+    pub run_out: Vec<Wave>,
+    /// Ramp.
+    pub ramp: RampParameters,
+    /// Slider.
+    pub slider: SliderParameters,
+    /// Suspension.
+    pub suspension: SuspensionParameters,
+    /// Gas.
+    pub gas: GasParameters,
+    /// Rarefaction model.
+    pub flow: FlowModel,
+    /// Forces between slider and disk beside the air; `None`: the air alone.
+    pub surface_forces: Option<SurfaceForces>,
+    /// Clearance below which the head-disk interface has failed, m.
+    pub fail_below_m: f64,
+    /// Resolution of the disk.
+    pub disk_resolution: DiskResolution,
+    /// Resolution of the structure.
+    pub structure_resolution: StructureResolution,
+    /// Resolution of the film.
+    pub film_resolution: FilmResolution,
+    /// Resolution of the head.
+    pub head_resolution: HeadResolution,
+    /// Discretisation parameters that are values of the model, as the highest frequency of a finite-element disk: no
+    /// refinement changes them.
+    pub not_refined: Vec<Knob>,
+}
+
+impl Scene {
+    /// Motion of the disk's surface under the slider; `None` of a plane disk.
+    pub fn surface_motion(&self) -> Option<SurfaceMotion> {
+        let track = Track {
+            radius_m: self.slider.radius_m,
+            angle_rad: self.slider.angle_rad,
+            skew_rad: self.slider.skew_rad,
+            outer_radius_m: self.disk.outer_radius_m,
+            spin_rad_per_s: self.disk.spin_rad_per_s,
+        };
+        (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
+    }
+
+    /// The film under the slider, over the disk at its speed, and surface forces beside it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::build`].
+    pub fn film(&self) -> Result<Film, FilmError> {
+        let film = Film::build(
+            &self.slider,
+            &self.gas,
+            self.flow,
+            self.disk.spin_rad_per_s,
+            &self.film_resolution,
+        )?;
+        Ok(self.with_surface_forces(film))
+    }
+
+    /// The same scene on a film of about so many cells.
+    #[must_use]
+    pub fn with_film_cells(&self, cells: usize) -> Scene {
+        let mut scene = self.clone();
+        scene.film_resolution.cells = cells;
+        scene
+    }
+
+    /// The same film on given grid lines, along x and along y.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::on_grid`].
+    pub fn film_on(&self, lines_m: [&[f64]; 2]) -> Result<Film, FilmError> {
+        let film = Film::on_grid(
+            &self.slider,
+            &self.gas,
+            self.flow,
+            self.disk.spin_rad_per_s,
+            self.film_resolution.floor_m,
+            lines_m,
+        )?;
+        Ok(self.with_surface_forces(film))
+    }
+
+    /// `film`, a film of this scene, with every cell cut in two along both directions.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::on_grid`].
+    pub fn film_cut_in_two(&self, film: &Film) -> Result<Film, FilmError> {
+        let halved = |lines_m: &[f64]| -> Vec<f64> {
+            let between = lines_m.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+            between.chain(lines_m.last().copied()).collect()
+        };
+        let [x, y] = film.lines_m().map(halved);
+        self.film_on([&x, &y])
+    }
+
+    fn with_surface_forces(&self, film: Film) -> Film {
+        match self.surface_forces {
+            Some(forces) => film.with_surface_forces(&self.slider, forces),
+            None => film,
+        }
+    }
+}
