@@ -8,7 +8,7 @@
     reason = "many columns are walked in step, which an index says plainest"
 )]
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::exponential::growth;
 use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
 use super::film::Film;

@@ -11,9 +11,10 @@
 //! is let down under a load that is a little larger, by the overdamped motion of [`super::steady`]: where that comes to rest
 //! above the minimum height, flights are followed on from there. Where it does not, the last one carries the most.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::film::Film;
-use super::steady::{Flight, FlightsEnd, Found, Search, SteadyError};
+use super::search::{Flight, Found, Search};
+use super::steady_error::{FlightsEnd, SteadyError};
 use nalgebra::Vector3;
 
 /// First and smallest step in the share that grows.

@@ -7,7 +7,7 @@
 //! A face has an up side, from which the wind comes, and a down side; without wind the up side is
 //! the cell with the smaller number.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::mesh::{EdgeFace, Face, Mesh, Place, Side};
 
 /// Faces a kernel handles together: two registers of the widest, so that what a pass keeps stays in registers.

@@ -23,10 +23,22 @@
 //! every binade of ψ is cut into equal intervals and the interval follows from the bits of ψ,
 //! without a logarithm; in an interval G is the cubic Hermite interpolant of G and G′.
 
-use super::FlowModel;
 use crate::elementary::polynomial;
 
 use std::f64::consts::PI;
+
+/// Rarefaction model of the flow factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlowModel {
+    /// Continuum.
+    Continuum,
+    /// First-order slip (Burgdorfer).
+    Slip1,
+    /// Second-order slip (Hsia and Domoto).
+    Slip2,
+    /// Fukui-Kaneko, three-range fit with blended branches.
+    FukuiKaneko,
+}
 
 /// c₀ and c₁ of the near-free-molecular expansion of Q_P.
 const FREE_MOLECULAR: [f64; 2] = [0.376_261, -1.632_81];

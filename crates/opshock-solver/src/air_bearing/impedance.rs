@@ -9,7 +9,7 @@
 //! moves as exp(s t) where det(Z(s) + s² J) = 0; Z varies slowly with s, so each root follows from
 //! a few eigenvalue problems of size three.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::film::Film;
 use crate::linalg::banded::{BandedError, BandedLu};
 use crate::linalg::diagonals::Diagonals;

@@ -25,7 +25,7 @@
 //! Two neighbouring cells differ by a third in size at most: where a corner makes the pressure
 //! singular, long thin cells a little further out spoil what the corner's own faces do right.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::film::Film;
 use super::flux::HalfCell;
 use super::newton::Newton;

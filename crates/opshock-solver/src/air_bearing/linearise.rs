@@ -9,7 +9,7 @@
     reason = "many columns are walked in step, which an index says plainest"
 )]
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::balance::{Moments, any_steep, net};
 use super::derivatives::{Arms, FaceDerivatives, edge, height_by_attitude, still, windy};
 use super::faces::{BLOCK, Block, Columns, Interior, block};

@@ -4,7 +4,7 @@
 //! the cells is as wide as a column of them. Fluxes along x reach one cell further upstream where
 //! the wind carries them, a column more on that side of the band.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::corner::{Widths, conductance_factors};
 use crate::grid::Lines;
 use crate::slider::surface::Surface;

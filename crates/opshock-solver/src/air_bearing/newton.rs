@@ -10,10 +10,11 @@
 //! K is the quasi-static stiffness of the flying slider. A step never takes more than a set share
 //! of a cell's ψ or of the clearance.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::film::Film;
-use super::steady::SteadyError;
-use super::{FilmLinearisation, FilmScratch};
+use super::linearise::FilmLinearisation;
+use super::state::FilmScratch;
+use super::steady_error::SteadyError;
 use crate::lanes::product;
 use crate::linalg::banded::{BandedError, BandedLu, Entry};
 use crate::linalg::diagonals::Diagonals;

@@ -27,7 +27,7 @@
 //! through zero and multipliers grow. The solution itself has no such ratios. M/τ adds to the diagonal alone: short steps
 //! have a dominant diagonal whatever A is.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::newton::{NEAR, Newton};
 use crate::linalg::banded::Entry;
 use crate::linalg::diagonals::Diagonals;

@@ -1,6 +1,6 @@
 //! State of a film as columns, padded so that every block of faces finds blocks of cells.
 
-use super::Attitude;
+use super::attitude::Attitude;
 use super::faces::{BLOCK, Block, Sides, block};
 use super::film::Film;
 use super::flow_factor::PickedRows;

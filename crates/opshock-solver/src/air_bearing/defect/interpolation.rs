@@ -20,7 +20,7 @@ const STRETCH: [f64; 3] = [1.0, 0.5, 1.0];
 
 /// Three functions with the same places.
 #[derive(Clone, Debug)]
-pub(super) struct Interpolation {
+pub(in crate::air_bearing) struct Interpolation {
     /// Places, stretched and padded to whole registers.
     places: [Vec<f64>; 3],
     /// c of every function, padded with zeros.
@@ -31,7 +31,7 @@ pub(super) struct Interpolation {
 
 impl Interpolation {
     /// Through `values` at `places`, which do not all lie in one plane.
-    pub(super) fn through(places: Vec<[f64; 3]>, values: &[[f64; 3]]) -> Self {
+    pub(in crate::air_bearing) fn through(places: Vec<[f64; 3]>, values: &[[f64; 3]]) -> Self {
         let n = places.len();
         let at: Vec<[f64; 3]> = places.iter().map(stretched).collect();
         let tail = |x: &[f64; 3]| [1.0, x[0], x[1], x[2]];

@@ -11,52 +11,33 @@
 //! An attitude out of range counts as the nearest one in it. Where wind across the slider rolls it, the range of
 //! ½ (h₁ − h₂) lies about what that is in equilibrium, too.
 
-use crate::air_bearing::Attitude;
-use crate::air_bearing::film::Film;
-use crate::air_bearing::steady::{Flight, fly_near};
-
-/// Loads of equilibria that tell θ_eq, in those of steady flight; the second ones where the film does not carry the first.
-const LOADS: [[f64; 3]; 2] = [[0.6, 1.0, 2.5], [0.25, 0.5, 1.0]];
+use crate::air_bearing::attitude::Attitude;
 
 /// Most by which the two points' heights differ in equilibrium, as a share of their sum.
 const MOST_LEAN: f64 = 0.8;
 
-/// Mean height of the two points, in that of steady flight.
-const HEIGHTS: [f64; 2] = [0.05, 1.5];
-
-/// Pitch about θ_eq and largest roll, in the pitch of steady flight: what survivors of the study of Fig. 13 show
-/// below 4 nm, nineteen times of twenty.
-const PITCH: f64 = 0.18;
-const ROLL: f64 = 0.12;
-
-/// Pitch in equilibrium at the ends of those heights, in that of steady flight, beyond which it is not believed.
-const PITCHES: [f64; 2] = [0.3, 3.0];
-
-/// Least distance of the two points, in the slider's width.
-const APART: f64 = 0.02;
-
 /// Attitudes that samples fill.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Range {
+pub(in crate::air_bearing) struct Range {
     /// The film's floor h₀, m.
-    floor_m: f64,
+    pub(in crate::air_bearing) floor_m: f64,
     /// Heights of the two points: at zero attitude, m, and derivatives by (h_c, pitch, roll).
-    points: [(f64, [f64; 3]); 2],
+    pub(in crate::air_bearing) points: [(f64, [f64; 3]); 2],
     /// Lowest and highest mean height of the points, m.
-    heights_m: [f64; 2],
+    pub(in crate::air_bearing) heights_m: [f64; 2],
     /// Largest half difference of their heights, m.
-    lean_m: f64,
+    pub(in crate::air_bearing) lean_m: f64,
     /// θ_eq at three logarithms of the mean height, rad.
-    equilibrium: Parabola,
+    pub(in crate::air_bearing) equilibrium: Parabola,
     /// The half difference of the points' heights in equilibrium, m; nothing without wind across.
-    leaning: Parabola,
+    pub(in crate::air_bearing) leaning: Parabola,
     /// Largest distance of pitch from θ_eq, rad.
-    pitch_rad: f64,
+    pub(in crate::air_bearing) pitch_rad: f64,
 }
 
 /// A number with its derivatives by (h_c, pitch, roll).
 #[derive(Clone, Copy)]
-pub(super) struct Varying(pub f64, pub [f64; 3]);
+pub(in crate::air_bearing) struct Varying(pub f64, pub [f64; 3]);
 
 impl Varying {
     /// f of this one, given f and f'.
@@ -84,92 +65,6 @@ impl Varying {
 }
 
 impl Range {
-    /// The range about a steady `flight` of `film`.
-    pub(super) fn around(film: &Film, flight: &Flight) -> Self {
-        let floor_m = film.floor_m();
-        let steady = flight.attitude;
-        // A slider that flies level has the range of one with a hundredth of the usual pitch.
-        let usual = film.usual_attitude().pitch_rad.abs();
-        let scale = steady.pitch_rad.abs().max(0.01 * usual);
-        let [length, width] = film.extent_m();
-        // Mirrored flights of a mirrored film have mirrored samples.
-        let side = if film.blows_inwards() { -1.0 } else { 1.0 };
-        let mut points = [side, -side].map(|sense| {
-            let mut rolled = steady;
-            rolled.roll_rad += sense * ROLL * scale;
-            let closest = film.min_clearance(&rolled);
-            let arms = [1.0, 0.5 * length - closest.x_m, closest.y_m - 0.5 * width];
-            // What the height is without attitude: recess and form of the surface.
-            let form_m = closest.value_m - height(&rolled, &arms);
-            (form_m, arms)
-        });
-        let apart = points[1].1[2] - points[0].1[2];
-        let sense = if apart == 0.0 { side } else { apart };
-        let missing = 0.5 * (APART * width - apart.abs()).max(0.0).copysign(sense);
-        points[0].1[2] -= missing;
-        points[1].1[2] += missing;
-        let mean = |attitude: &Attitude| {
-            0.5 * points
-                .iter()
-                .map(|(form_m, arms)| form_m + height(attitude, arms))
-                .sum::<f64>()
-        };
-        let mean_m = mean(&steady);
-        let lean = |attitude: &Attitude| {
-            let [first, second] = points.map(|(form_m, arms)| form_m + height(attitude, &arms));
-            0.5 * (first - second)
-        };
-        let load_n = flight.lift_n + flight.suction_n;
-        let flown = |loads: [f64; 3]| {
-            let found = loads.map(|share| match share {
-                1.0 => Some(steady),
-                _ => {
-                    let load = [share * load_n, 0.0, 0.0];
-                    Some(fly_near(film, load, &steady).ok()?.attitude)
-                }
-            });
-            let [a, b, c] = found;
-            Some([a?, b?, c?])
-        };
-        let along = |flown: [Attitude; 3], value: &dyn Fn(&Attitude) -> f64| {
-            Parabola::through(flown.map(|q| ((mean(&q) + floor_m).ln(), value(&q))))
-        };
-        let pitch = |q: &Attitude| q.pitch_rad;
-        let [usual, light] = LOADS;
-        let (equilibrium, leaning) = match flown(usual).or_else(|| flown(light)) {
-            Some(flown) => (along(flown, &pitch), along(flown, &lean).inside()),
-            // Without neighbours steady flight is taken for all heights.
-            None => (
-                Parabola::level(pitch(&steady)),
-                Parabola::level(lean(&steady)),
-            ),
-        };
-        // Far from the flights a parabola through them may lead anywhere.
-        let is_sound = HEIGHTS.iter().all(|height| {
-            let (end, _) = equilibrium.at((height * mean_m + floor_m).ln());
-            let share = end / steady.pitch_rad;
-            (PITCHES[0]..PITCHES[1]).contains(&share)
-        });
-        let equilibrium = match is_sound {
-            true => equilibrium,
-            false => equilibrium.inside(),
-        };
-        let leaning = match film.blows_across() {
-            true => leaning,
-            false => Parabola::level(0.0),
-        };
-        let half_m = 0.5 * (points[1].1[2] - points[0].1[2]).abs();
-        Self {
-            floor_m,
-            points,
-            heights_m: HEIGHTS.map(|share| share * mean_m),
-            lean_m: ROLL * scale * half_m,
-            equilibrium,
-            leaning,
-            pitch_rad: PITCH * scale,
-        }
-    }
-
     /// Smallest and largest half difference of the points' heights at a mean height: neither point lies in the disk.
     fn leans(&self, mean: Varying) -> [Varying; 2] {
         let above_floor = Varying(mean.0 + self.floor_m, mean.1);
@@ -189,7 +84,7 @@ impl Range {
     }
 
     /// The attitude at shares from -1 to 1 of the ranges of height, pitch and roll.
-    pub(super) fn attitude(&self, [high, up, aside]: [f64; 3]) -> Attitude {
+    pub(in crate::air_bearing) fn attitude(&self, [high, up, aside]: [f64; 3]) -> Attitude {
         let [low_m, high_m] = self.heights_m.map(|h| (h + self.floor_m).ln());
         let logarithm = 0.5 * ((low_m + high_m) + high * (high_m - low_m));
         let mean_m = logarithm.exp() - self.floor_m;
@@ -208,7 +103,7 @@ impl Range {
     }
 
     /// Variables of the polynomial, of the order of 1, at the nearest attitude in the range.
-    pub(super) fn variables(&self, attitude: &Attitude) -> [Varying; 3] {
+    pub(in crate::air_bearing) fn variables(&self, attitude: &Attitude) -> [Varying; 3] {
         let heights = self
             .points
             .map(|(form_m, arms)| Varying(form_m + height(attitude, &arms), arms));
@@ -245,13 +140,16 @@ impl Range {
 }
 
 /// Height of the reference plane at a point with these derivatives by (h_c, pitch, roll), m.
-fn height(attitude: &Attitude, [by_h, by_pitch, by_roll]: &[f64; 3]) -> f64 {
+pub(in crate::air_bearing) fn height(
+    attitude: &Attitude,
+    [by_h, by_pitch, by_roll]: &[f64; 3],
+) -> f64 {
     by_h * attitude.centre_height_m + by_pitch * attitude.pitch_rad + by_roll * attitude.roll_rad
 }
 
 /// A parabola by places and divided differences, level outside of some.
 #[derive(Clone, Debug, PartialEq)]
-struct Parabola {
+pub(in crate::air_bearing) struct Parabola {
     places: [f64; 3],
     differences: [f64; 3],
     inside: [f64; 2],
@@ -259,7 +157,7 @@ struct Parabola {
 
 impl Parabola {
     /// Through three points.
-    fn through([a, b, c]: [(f64, f64); 3]) -> Self {
+    pub(in crate::air_bearing) fn through([a, b, c]: [(f64, f64); 3]) -> Self {
         let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (q.0 - p.0);
         let bend = (slope(b, c) - slope(a, b)) / (c.0 - a.0);
         Self {
@@ -270,7 +168,7 @@ impl Parabola {
     }
 
     /// The same everywhere.
-    fn level(value: f64) -> Self {
+    pub(in crate::air_bearing) fn level(value: f64) -> Self {
         Self {
             places: [0.0, 1.0, 2.0],
             differences: [value, 0.0, 0.0],
@@ -279,14 +177,14 @@ impl Parabola {
     }
 
     /// Level outside of its points.
-    fn inside(self) -> Self {
+    pub(in crate::air_bearing) fn inside(self) -> Self {
         let [a, b, c] = self.places;
         let inside = [a.min(b).min(c), a.max(b).max(c)];
         Self { inside, ..self }
     }
 
     /// Value and derivative at a place.
-    fn at(&self, x: f64) -> (f64, f64) {
+    pub(in crate::air_bearing) fn at(&self, x: f64) -> (f64, f64) {
         let [least, most] = self.inside;
         let level = x < least || x > most;
         let x = x.clamp(least, most);
