@@ -10,32 +10,9 @@
 //! run (touch, or the window) has no field.
 
 use super::model::HeadModel;
+use super::outcome::PressureFields;
 use crate::disk::DiskMotion;
 use crate::integrator::hermite;
-
-/// Film pressure and height at the asked times that a run reached.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PressureFields {
-    /// Grid lines along the slider from its leading edge, m.
-    pub x_lines_m: Vec<f64>,
-    /// Grid lines across the slider from its inner edge, m.
-    pub y_lines_m: Vec<f64>,
-    /// Times, s.
-    pub time_s: Vec<f64>,
-    /// Absolute pressure in the middle of every cell, Pa: time, then y, then x, which runs fastest.
-    pub pressure_pa: Vec<f64>,
-    /// Height of the slider's surface over the disk there, m, in the same order. The film sees it
-    /// above its floor.
-    pub gap_m: Vec<f64>,
-}
-
-impl PressureFields {
-    /// Cells of one field.
-    pub fn n_cells(&self) -> usize {
-        let cells = |lines: &[f64]| lines.len().saturating_sub(1);
-        cells(&self.x_lines_m) * cells(&self.y_lines_m)
-    }
-}
 
 /// The fields of one run, room for all of them made at its start.
 pub(super) struct FieldRecord<'a> {

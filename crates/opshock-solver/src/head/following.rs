@@ -3,20 +3,13 @@
 //! The state is steady flight with the linear answer to every wave on top. What is of second order
 //! in the waves dies out within the film's own times.
 
-use super::model::{HeadError, HeadModel};
+use super::model::{Following, HeadError, HeadModel};
 use super::response::{Drive, HeadResponse};
 use crate::disk::run_out::SurfaceMotion;
 use nalgebra::Complex;
 
 /// Share of a cell's gas that all waves together may move.
 const LARGEST_SHARE: f64 = 0.5;
-
-/// The surface's motion and the state at the onset: ψ, coordinates, velocities.
-#[derive(Clone, Debug)]
-pub(super) struct Following {
-    pub surface: SurfaceMotion,
-    pub start: Vec<f64>,
-}
 
 impl HeadModel {
     /// The same head over a disk whose surface moves by itself.

@@ -4,13 +4,12 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use super::HeadResolution;
-use super::following::Following;
 use super::mechanics::Mechanics;
 use super::outcome::Place;
+use super::resolution::HeadResolution;
 use crate::air_bearing::steady::Flight;
 use crate::air_bearing::{Attitude, Film};
-use crate::disk::DiskPose;
+use crate::disk::{DiskPose, SurfaceMotion};
 use crate::integrator::{TR_BDF2, Tableau};
 use crate::shock::{BaseMotion, Pulse};
 use crate::slider::SliderParameters;
@@ -135,6 +134,13 @@ pub struct HeadModel {
     pub(super) field_times_s: Vec<f64>,
     /// The disk's surface where it moves by itself; none by default.
     pub(super) following: Option<Following>,
+}
+
+/// The surface's motion and the state at the onset: ψ, coordinates, velocities.
+#[derive(Clone, Debug)]
+pub(super) struct Following {
+    pub surface: SurfaceMotion,
+    pub start: Vec<f64>,
 }
 
 impl HeadModel {

@@ -1,6 +1,5 @@
 //! What the head answers about one shock. Times are seconds after the onset of the pulse.
 
-use super::fields::PressureFields;
 use crate::air_bearing::Attitude;
 
 /// Survival is decided, or it is not; a number that is not a number never decides it.
@@ -209,4 +208,28 @@ pub struct HeadRun {
     pub fields: Option<PressureFields>,
     /// Cost.
     pub cost: HeadCost,
+}
+
+/// Film pressure and height at the asked times that a run reached.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PressureFields {
+    /// Grid lines along the slider from its leading edge, m.
+    pub x_lines_m: Vec<f64>,
+    /// Grid lines across the slider from its inner edge, m.
+    pub y_lines_m: Vec<f64>,
+    /// Times, s.
+    pub time_s: Vec<f64>,
+    /// Absolute pressure in the middle of every cell, Pa: time, then y, then x, which runs fastest.
+    pub pressure_pa: Vec<f64>,
+    /// Height of the slider's surface over the disk there, m, in the same order. The film sees it
+    /// above its floor.
+    pub gap_m: Vec<f64>,
+}
+
+impl PressureFields {
+    /// Cells of one field.
+    pub fn n_cells(&self) -> usize {
+        let cells = |lines: &[f64]| lines.len().saturating_sub(1);
+        cells(&self.x_lines_m) * cells(&self.y_lines_m)
+    }
 }

@@ -5,7 +5,7 @@
 //! it does so only while d² k/m of the film stays below one, and a stage that does not converge
 //! cuts the step.
 
-use super::Coupling;
+use super::resolution::Coupling;
 use super::stage::{Instant, MechanicalIterate, StageFailure, Stages};
 use crate::fixed_point::{Ending, FixedPoint, Method};
 use crate::lanes::sum;

@@ -16,10 +16,9 @@
 //! Renewing the Jacobian at every iterate below half a nanometre was tried and bought nothing: the
 //! iteration counts stayed, a run that touches took three times as long.
 
-use super::HeadModel;
-use super::ShockLoad;
 use super::film_passes::{add_storage, correct_film};
 use super::mechanics::StageState;
+use super::model::{HeadModel, ShockLoad};
 use super::stage_matrix::StageMatrix;
 use super::stops::Closed;
 use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};

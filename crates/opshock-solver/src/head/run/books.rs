@@ -1,6 +1,6 @@
 //! What is kept of a run: records, columns, fields.
 
-use super::Run;
+use super::running::Run;
 use crate::air_bearing::Attitude;
 use crate::head::fields::StepEnds;
 

@@ -4,10 +4,12 @@
 //! length of the next step. What it does then follows from state and rate alone, so that a run from the onset and
 //! one from a kept state have the same bits behind it.
 
-use super::{HeadWorkspace, Lowest, Run, pulse_events};
+use super::running::{Lowest, Run};
+use super::workspace::{HeadWorkspace, pulse_events};
 use crate::disk::DiskMotion;
+use crate::head::model::{HeadModel, ShockLoad};
+use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
 use crate::head::stage::Counters;
-use crate::head::{DimpleRecord, HeadCost, HeadModel, ShockLoad, StopRecord};
 use crate::slider::clearance::Clearance;
 
 /// How far a head runs, and from where.

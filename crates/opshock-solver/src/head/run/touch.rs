@@ -1,8 +1,8 @@
 //! The search for touch between steps.
 
-use super::{Lowest, Run, TrialStep};
+use super::running::{Lowest, Run, TrialStep};
 use crate::air_bearing::Attitude;
-use crate::head::Place;
+use crate::head::outcome::Place;
 use crate::integrator::hermite;
 use crate::slider::clearance::Clearance;
 

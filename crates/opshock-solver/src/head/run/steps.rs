@@ -1,250 +1,31 @@
-//! One shock: the time loop, its events, the search for touch between steps, the record.
+//! The time loop: steps between events, accepted or not, up to what ends the run.
 
-mod books;
-mod resume;
-mod touch;
-
-use super::fields::FieldRecord;
-use super::film_passes::relative_size;
-use super::following::Following;
-use super::model::{HeadModel, ShockLoad};
-use super::outcome::{
-    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, StopRecord, Verdict,
-};
-use super::stage::{StageFailure, StageScratch, Stages};
-use crate::air_bearing::Attitude;
-use crate::disk::DiskMotion;
-use crate::disk::run_out::WavyDisk;
-use crate::fixed_point::FixedPoint;
-use crate::integrator::{StepControl, Stepper};
+use super::running::{Lowest, Run, TrialStep};
+use crate::head::fields::FieldRecord;
+use crate::head::film_passes::relative_size;
+use crate::head::outcome::{Cause, HeadCost, HeadRun, Place, Verdict};
+use crate::head::stage::{StageFailure, Stages};
+use crate::integrator::StepControl;
 use crate::mutant;
-use crate::shock::{Pulse, PulseShape};
-use crate::slider::clearance::Clearance;
-
-pub use self::resume::{HeadState, Stretch};
 
 /// Smallest step, s: below it a stage that does not converge leaves the run undecided.
 const SMALLEST_STEP_S: f64 = 1e-14;
+
 /// Largest step, s: a share of the shortest period in the disk's motion that matters here.
 const LARGEST_STEP_S: f64 = 10e-6;
+
 /// First step of a run, s.
 const FIRST_STEP_S: f64 = 1e-7;
 
-/// State and scratch of one run at a time, sized once for a model.
-#[derive(Clone, Debug)]
-pub struct HeadWorkspace {
-    /// ψ of every cell, coordinates, velocities.
-    y: Vec<f64>,
-    rate: Vec<f64>,
-    stepper: Stepper,
-    scratch: StageScratch,
-    exchange: Option<FixedPoint>,
-    /// Coordinates and velocities over the pivot.
-    seen: [Vec<f64>; 2],
-    pulse_events_s: Vec<f64>,
-}
-
-impl HeadWorkspace {
-    /// Storage for runs of `model`.
-    pub fn new(model: &HeadModel) -> Self {
-        let n = model.n_unknowns();
-        Self {
-            y: vec![0.0; n],
-            rate: vec![0.0; n],
-            stepper: Stepper::new(model.tableau, n),
-            scratch: StageScratch::new(model),
-            exchange: model
-                .resolution
-                .coupling
-                .method()
-                .map(|m| FixedPoint::new(m, 3)),
-            seen: [0, 1].map(|_| vec![0.0; model.mechanics.len()]),
-            pulse_events_s: Vec::new(),
-        }
-    }
-}
-
-impl HeadModel {
-    /// Runs one shock for `window_s` after its onset under `motion` of the disk.
-    ///
-    /// With `stops_at_touch` the run ends at the instant of its first touch; otherwise it goes on with
-    /// the film's floored height. Verdict, smallest clearance (then the limit) and forces are those up
-    /// to the first touch either way, with the same bits, whatever becomes of the run behind it;
-    /// histories and cost go on. `record` asks for histories.
-    ///
-    /// # Panics
-    /// When `workspace` was made for another model's sizes.
-    pub fn run(
-        &self,
-        motion: &dyn DiskMotion,
-        load: &ShockLoad<'_>,
-        window_s: f64,
-        stops_at_touch: bool,
-        record: bool,
-        workspace: &mut HeadWorkspace,
-    ) -> HeadRun {
-        let stretch = Stretch {
-            end_s: window_s,
-            ..Stretch::default()
-        };
-        self.run_stretch(motion, load, stretch, stops_at_touch, record, workspace)
-            .0
-    }
-
-    /// The same over `stretch`, with the state at its end when that is kept. A run that goes on from another
-    /// has recorded nothing before.
-    ///
-    /// # Panics
-    /// As [`HeadModel::run`], and when the state is that of another model.
-    pub fn run_stretch(
-        &self,
-        motion: &dyn DiskMotion,
-        load: &ShockLoad<'_>,
-        stretch: Stretch<'_>,
-        stops_at_touch: bool,
-        record: bool,
-        workspace: &mut HeadWorkspace,
-    ) -> (HeadRun, Option<HeadState>) {
-        assert_eq!(workspace.y.len(), self.n_unknowns());
-        let wavy;
-        let motion = match &self.following {
-            Some(Following { surface, .. }) => {
-                wavy = WavyDisk {
-                    under: motion,
-                    surface,
-                };
-                &wavy
-            }
-            None => motion,
-        };
-        let mut run = match stretch.from {
-            Some(state) => Run::resume(self, motion, *load, state, workspace),
-            None => Run::start(self, motion, *load, record, workspace),
-        };
-        let restart_s = stretch.restart_s.filter(|_| stretch.from.is_none());
-        let mut end = End::Window;
-        if let Some(restart_s) = restart_s {
-            end = run.advance(restart_s.min(stretch.end_s), stops_at_touch);
-            run.forget();
-        }
-        if matches!(end, End::Window) {
-            end = run.advance(stretch.end_s, stops_at_touch);
-        }
-        let is_whole = matches!(end, End::Window) && run.failed.is_none();
-        let state = (stretch.keeps_end && is_whole).then(|| run.state());
-        (run.finish(end), state)
-    }
-}
-
 /// Why the loop ended.
-enum End {
+pub(super) enum End {
     Window,
     Touch,
     Undecided(Cause),
 }
 
-struct Run<'a> {
-    model: &'a HeadModel,
-    motion: &'a dyn DiskMotion,
-    load: ShockLoad<'a>,
-    w: &'a mut HeadWorkspace,
-    time_s: f64,
-    clearance: Clearance,
-    smallest: Lowest,
-    /// The first touch, once it lies behind: smallest clearance, dimple and stops are told up to it.
-    failed: Option<(f64, Place)>,
-    dimple: DimpleRecord,
-    dimple_force_n: f64,
-    /// Limiters and lift tab: record, and the latest force.
-    stops: [Option<(StopRecord, f64)>; 2],
-    columns: Option<HeadColumns>,
-    fields: Option<FieldRecord<'a>>,
-    cost: HeadCost,
-}
-
-impl<'a> Run<'a> {
-    /// Puts the steady state into the workspace.
-    fn start(
-        model: &'a HeadModel,
-        motion: &'a dyn DiskMotion,
-        load: ShockLoad<'a>,
-        record: bool,
-        w: &'a mut HeadWorkspace,
-    ) -> Self {
-        let n_cells = model.film.n_cells();
-        match &model.following {
-            Some(Following { start, .. }) => w.y.copy_from_slice(start),
-            None => {
-                w.y.fill(0.0);
-                w.y[..n_cells].copy_from_slice(&model.flight.psi);
-            }
-        }
-        w.rate.fill(0.0);
-        w.scratch.reset();
-        w.stepper.forget();
-        pulse_events(load.pulse, &mut w.pulse_events_s);
-        let attitude = model.attitude(&w.y[n_cells..], &motion.pose(0.0));
-        let clearance = model.film.min_clearance(&attitude);
-        let (x, v) = w.y[n_cells..].split_at(model.mechanics.len());
-        let preload = model.mechanics.dimple_force(x, v);
-        let mut run = Self {
-            model,
-            motion,
-            load,
-            w,
-            time_s: 0.0,
-            clearance,
-            smallest: Lowest {
-                clearance,
-                time_s: 0.0,
-                attitude,
-            },
-            failed: None,
-            dimple: DimpleRecord {
-                min_force_n: preload,
-                open_s: 0.0,
-            },
-            dimple_force_n: preload,
-            stops: model.mechanics.has_stops().map(|is_there| {
-                let record = StopRecord::default();
-                is_there.then_some((record, 0.0))
-            }),
-            columns: record.then(HeadColumns::default),
-            fields: (record && !model.field_times_s.is_empty())
-                .then(|| FieldRecord::new(model, &model.field_times_s)),
-            cost: HeadCost::default(),
-        };
-        if let Some(fields) = &mut run.fields {
-            fields.keep_steady(model, motion, &run.w.y);
-        }
-        run.initial_rate(&attitude);
-        run.record(&attitude);
-        run
-    }
-
-    /// Rates at time 0 from the equations themselves; later ones come from the stages.
-    fn initial_rate(&mut self, attitude: &Attitude) {
-        let (model, w) = (self.model, &mut *self.w);
-        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
-        let psi = &w.y[..n_cells];
-        model
-            .film
-            .flux_residual(psi, attitude, &mut w.scratch.residual, &mut w.scratch.film);
-        let rate = &mut w.rate[..n_cells];
-        for (rate, r) in rate.iter_mut().zip(&w.scratch.residual) {
-            *rate = -r;
-        }
-        model.film.spread_by_storage(rate);
-        let film = model.film.force(psi, attitude, &mut w.scratch.film);
-        let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
-        let (x, v) = w.y[n_cells..].split_at(n);
-        w.rate[n_cells..n_cells + n].copy_from_slice(v);
-        let a = self.load.just_after(0.0);
-        let out = &mut w.rate[n_cells + n..];
-        model.mechanics.acceleration(a, film, x, v, out);
-    }
-
-    fn advance(&mut self, window_s: f64, stops_at_touch: bool) -> End {
+impl Run<'_> {
+    pub(super) fn advance(&mut self, window_s: f64, stops_at_touch: bool) -> End {
         let resolution = &self.model.resolution;
         let table = self.model.tableau;
         let mut control = StepControl::new(table.error_order, SMALLEST_STEP_S, LARGEST_STEP_S);
@@ -456,7 +237,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn finish(self, end: End) -> HeadRun {
+    pub(super) fn finish(self, end: End) -> HeadRun {
         let (verdict, broke_off) = match (self.failed, end) {
             (Some((t_fail_s, place)), end) => {
                 let cause = match end {
@@ -501,39 +282,4 @@ impl<'a> Run<'a> {
             },
         }
     }
-}
-
-/// Where the slider came closest to the disk so far.
-#[derive(Clone, Copy, Debug)]
-struct Lowest {
-    clearance: Clearance,
-    time_s: f64,
-    attitude: Attitude,
-}
-
-/// A step that could be taken.
-struct TrialStep {
-    /// Error over tolerance.
-    error: f64,
-    /// Relative approach over its share.
-    approach: f64,
-    attitude: Attitude,
-    clearance: Clearance,
-}
-
-/// Instants at which the pulse jumps or kinks.
-fn pulse_events(pulse: &Pulse, out: &mut Vec<f64>) {
-    out.clear();
-    match &pulse.shape {
-        PulseShape::Trapezoid { rise_share } => {
-            let rise = rise_share * pulse.width_s;
-            out.extend([rise, pulse.width_s - rise]);
-        }
-        PulseShape::Table { time_s, .. } => out.extend_from_slice(time_s),
-        PulseShape::HalfSine
-        | PulseShape::Haversine
-        | PulseShape::Square
-        | PulseShape::DampedSine { .. } => {}
-    }
-    out.push(pulse.width_s);
 }

@@ -1,0 +1,31 @@
+//! How finely a head is integrated, and how film and slider are solved together.
+
+/// How film and slider are solved together at a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// One Newton iteration on everything at once (Schur complement).
+    Monolithic,
+    /// The paper's fixed-point iteration.
+    FixedPoint,
+    /// Fixed point with Aitken's relaxation.
+    Aitken,
+    /// Anderson acceleration (interface Newton).
+    Anderson,
+}
+
+/// Resolution and limits of the head's time integration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadResolution {
+    /// Relative local error allowed in the clearance per step.
+    pub tolerance: f64,
+    /// Largest share by which a step may change the minimum clearance.
+    pub approach_share: f64,
+    /// Modes of the suspension kept above the dimple-pinned interface, bending.
+    pub suspension_modes: usize,
+    /// Coupling scheme.
+    pub coupling: Coupling,
+    /// Residual tolerance of the coupled solve relative to its scales.
+    pub coupling_tolerance: f64,
+    /// Step limit; reached = undecided.
+    pub max_steps: u64,
+}

@@ -1,0 +1,129 @@
+//! A run under way: where it stands, what it has met.
+
+use super::workspace::{HeadWorkspace, pulse_events};
+use crate::air_bearing::Attitude;
+use crate::disk::DiskMotion;
+use crate::head::fields::FieldRecord;
+use crate::head::model::{Following, HeadModel, ShockLoad};
+use crate::head::outcome::{DimpleRecord, HeadColumns, HeadCost, Place, StopRecord};
+use crate::slider::clearance::Clearance;
+
+pub(super) struct Run<'a> {
+    pub(super) model: &'a HeadModel,
+    pub(super) motion: &'a dyn DiskMotion,
+    pub(super) load: ShockLoad<'a>,
+    pub(super) w: &'a mut HeadWorkspace,
+    pub(super) time_s: f64,
+    pub(super) clearance: Clearance,
+    pub(super) smallest: Lowest,
+    /// The first touch, once it lies behind: smallest clearance, dimple and stops are told up to it.
+    pub(super) failed: Option<(f64, Place)>,
+    pub(super) dimple: DimpleRecord,
+    pub(super) dimple_force_n: f64,
+    /// Limiters and lift tab: record, and the latest force.
+    pub(super) stops: [Option<(StopRecord, f64)>; 2],
+    pub(super) columns: Option<HeadColumns>,
+    pub(super) fields: Option<FieldRecord<'a>>,
+    pub(super) cost: HeadCost,
+}
+
+/// Where the slider came closest to the disk so far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lowest {
+    pub(super) clearance: Clearance,
+    pub(super) time_s: f64,
+    pub(super) attitude: Attitude,
+}
+
+/// A step that could be taken.
+pub(super) struct TrialStep {
+    /// Error over tolerance.
+    pub(super) error: f64,
+    /// Relative approach over its share.
+    pub(super) approach: f64,
+    pub(super) attitude: Attitude,
+    pub(super) clearance: Clearance,
+}
+
+impl<'a> Run<'a> {
+    /// Puts the steady state into the workspace.
+    pub(super) fn start(
+        model: &'a HeadModel,
+        motion: &'a dyn DiskMotion,
+        load: ShockLoad<'a>,
+        record: bool,
+        w: &'a mut HeadWorkspace,
+    ) -> Self {
+        let n_cells = model.film.n_cells();
+        match &model.following {
+            Some(Following { start, .. }) => w.y.copy_from_slice(start),
+            None => {
+                w.y.fill(0.0);
+                w.y[..n_cells].copy_from_slice(&model.flight.psi);
+            }
+        }
+        w.rate.fill(0.0);
+        w.scratch.reset();
+        w.stepper.forget();
+        pulse_events(load.pulse, &mut w.pulse_events_s);
+        let attitude = model.attitude(&w.y[n_cells..], &motion.pose(0.0));
+        let clearance = model.film.min_clearance(&attitude);
+        let (x, v) = w.y[n_cells..].split_at(model.mechanics.len());
+        let preload = model.mechanics.dimple_force(x, v);
+        let mut run = Self {
+            model,
+            motion,
+            load,
+            w,
+            time_s: 0.0,
+            clearance,
+            smallest: Lowest {
+                clearance,
+                time_s: 0.0,
+                attitude,
+            },
+            failed: None,
+            dimple: DimpleRecord {
+                min_force_n: preload,
+                open_s: 0.0,
+            },
+            dimple_force_n: preload,
+            stops: model.mechanics.has_stops().map(|is_there| {
+                let record = StopRecord::default();
+                is_there.then_some((record, 0.0))
+            }),
+            columns: record.then(HeadColumns::default),
+            fields: (record && !model.field_times_s.is_empty())
+                .then(|| FieldRecord::new(model, &model.field_times_s)),
+            cost: HeadCost::default(),
+        };
+        if let Some(fields) = &mut run.fields {
+            fields.keep_steady(model, motion, &run.w.y);
+        }
+        run.initial_rate(&attitude);
+        run.record(&attitude);
+        run
+    }
+
+    /// Rates at time 0 from the equations themselves; later ones come from the stages.
+    fn initial_rate(&mut self, attitude: &Attitude) {
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let psi = &w.y[..n_cells];
+        model
+            .film
+            .flux_residual(psi, attitude, &mut w.scratch.residual, &mut w.scratch.film);
+        let rate = &mut w.rate[..n_cells];
+        for (rate, r) in rate.iter_mut().zip(&w.scratch.residual) {
+            *rate = -r;
+        }
+        model.film.spread_by_storage(rate);
+        let film = model.film.force(psi, attitude, &mut w.scratch.film);
+        let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
+        let (x, v) = w.y[n_cells..].split_at(n);
+        w.rate[n_cells..n_cells + n].copy_from_slice(v);
+        let a = self.load.just_after(0.0);
+        let out = &mut w.rate[n_cells + n..];
+        model.mechanics.acceleration(a, film, x, v, out);
+    }
+}
