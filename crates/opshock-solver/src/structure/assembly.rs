@@ -1,12 +1,15 @@
 //! How a structural model is put together.
 
-use super::bank::{Bank, Spring};
-use super::driven::{Arm, Driven};
+use super::bank::{Arm, Bank, Spring};
+use super::driven::Driven;
+use super::error::StructureError;
 use super::free_motion::FreeMotion;
-use super::model::{StructureError, StructureModel, StructureParameters, StructureWarning};
+use super::model::StructureModel;
+use super::outcome::StructureWarning;
+use super::parameters::{ContactMethod, SliderPlace, StructureParameters};
 use super::rotor::{Rotor, is_carried};
 use super::shared::{Asleep, Shared};
-use super::{ContactMethod, SliderPlace, Window};
+use super::time_grid::{check_times, count_steps};
 use crate::complementarity::ImpactLaw;
 use crate::disk::{
     self, DiskBasis, DiskMode, DiskModes, DiskParameters, DiskResolution, Harmonics,
@@ -26,9 +29,6 @@ const MAX_IMPACTS_PER_STEP: u32 = 8;
 const FASTEST_DISK_ANGLE: f64 = 3.0;
 /// Most modes of a base.
 const MOST_BASE_MODES: usize = 16;
-/// Most steps of a grid.
-const MAX_STEPS: f64 = 2e7;
-
 impl StructureModel {
     /// Builds the modes of n = 0 and the unit response. What only contact drives, the harmonics n >= 1 and
     /// the tables of one step, is built by the first run that touches (see [`Self::wake_up`]).
@@ -189,13 +189,6 @@ impl Assembly {
     }
 }
 
-fn window_length(window: Window) -> f64 {
-    match window {
-        Window::Fixed { length_s } => length_s,
-        Window::UntilDecayed { max_s, .. } => max_s,
-    }
-}
-
 fn check_direction(
     oblique: Option<&ObliqueShock>,
     disk: &DiskParameters,
@@ -212,47 +205,6 @@ fn check_base(base: &[BaseMode], oblique: Option<&ObliqueShock>) -> Result<(), S
         true => Ok(()),
         false => Err(StructureError::Base),
     }
-}
-
-fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
-    let positive = "finite and above 0";
-    let above_0 = |x: f64| x.is_finite() && x > 0.0;
-    let (length, share) = match window {
-        Window::Fixed { length_s } => (length_s, 0.5),
-        Window::UntilDecayed { share, max_s } => (max_s, share),
-    };
-    for (name, value, ok, allowed) in [
-        ("window", length, above_0(length), positive),
-        ("step", step_s, above_0(step_s), positive),
-        (
-            "decay share",
-            share,
-            above_0(share) && share < 1.0,
-            "between 0 and 1",
-        ),
-    ] {
-        if !ok {
-            return Err(StructureError::Time {
-                name,
-                value,
-                allowed,
-            });
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
-    // A window that is a multiple of the step but for rounding gets no step more.
-    let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
-    if n > MAX_STEPS {
-        return Err(StructureError::Time {
-            name: "steps in the window",
-            value: n,
-            allowed: "at most 2e7",
-        });
-    }
-    Ok(n as usize)
 }
 
 /// The step divided for the modes below the cut and, should it be lower, the slowest of n = 0, which

@@ -1,14 +1,13 @@
 //! Disk and arms put together as one bank of oscillators.
 
-use super::ContactMethod;
-use super::driven::Arm;
-use super::free_motion::{ForcedModes, ForcedShapes};
-use super::model::SliderPlace;
+use super::forced_modes::{ForcedModes, ForcedShapes};
+use super::parameters::{ContactMethod, SliderPlace};
 use super::rotor::RidingMode;
 use crate::disk::{DiskMode, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
 use crate::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use std::ops::Range;
 
 /// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
 const FASTEST_ARM_ANGLE: f64 = 1.5;
@@ -48,6 +47,12 @@ impl Spring {
 /// Fastest mode of an arm that steps resolve, Hz.
 fn fastest_arm_hz(step_s: f64) -> f64 {
     FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s)
+}
+
+/// One arm in the bank of oscillators.
+pub(super) struct Arm {
+    /// Indices of its modes in the bank.
+    pub modes: Range<usize>,
 }
 
 /// Columns over all oscillators while they are put together.

@@ -3,13 +3,15 @@
 use super::contact_log::ContactLog;
 use super::driven::Driven;
 use super::energy::{Energies, Ledger};
+use super::error::StructureError;
 use super::history::StructuralHistory;
-use super::model::{StructureError, StructureRun};
+use super::outcome::StructureRun;
 use super::record::{
     BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, MomentumBook,
     StructureColumns,
 };
 use super::rotor::Body;
+use super::sample::BodySample;
 use super::shared::Shared;
 
 /// What a method of contact leaves behind.
@@ -31,44 +33,6 @@ pub(super) struct Closing<'a> {
     pub logs: &'a [ContactLog; 2],
     pub history: StructuralHistory,
     pub columns: Option<StructureColumns>,
-}
-
-/// Hub and base at one instant, per unit amplitude or in total. Of two: hub, base.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct BodySample {
-    /// Axial displacement of the hub over its bearing, m.
-    pub axial_m: f64,
-    /// Its tilt towards the ramp and across, rad.
-    pub tilt_rad: [f64; 2],
-    /// Displacement of spindle, ramp's mount and pivot over the rigid base, m.
-    pub mounts_m: [f64; 3],
-    /// Momentum of hub and disk, and of the base with all it carries, N s.
-    pub momentum_n_s: [f64; 2],
-    /// Impulses of what holds them so far, N s.
-    pub support_n_s: [f64; 2],
-}
-
-impl BodySample {
-    pub fn times(&self, factor: f64) -> Self {
-        Self {
-            axial_m: factor * self.axial_m,
-            tilt_rad: self.tilt_rad.map(|x| factor * x),
-            mounts_m: self.mounts_m.map(|x| factor * x),
-            momentum_n_s: self.momentum_n_s.map(|x| factor * x),
-            support_n_s: self.support_n_s.map(|x| factor * x),
-        }
-    }
-
-    pub fn plus(&self, other: &Self) -> Self {
-        let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
-        Self {
-            axial_m: self.axial_m + other.axial_m,
-            tilt_rad: sum(self.tilt_rad, other.tilt_rad),
-            mounts_m: std::array::from_fn(|k| self.mounts_m[k] + other.mounts_m[k]),
-            momentum_n_s: sum(self.momentum_n_s, other.momentum_n_s),
-            support_n_s: sum(self.support_n_s, other.support_n_s),
-        }
-    }
 }
 
 /// Hub and base along a run.

@@ -5,10 +5,10 @@
 
 use super::driven::Driven;
 use super::flight::Points;
-use super::free_motion::Sample;
 use super::history::Break;
 use super::rotor::{self, RotorState};
 use super::run_books::RunBooks;
+use super::sample::Sample;
 use crate::complementarity::{Gap, ImpulseKind, Refund, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
 use crate::lanes::abreast;

@@ -3,23 +3,16 @@
 //! Nothing moves it before the first touch, so it is built when a run first needs it. Modes that are damped
 //! sooner stand behind, so that those which an impact has moved and damping has stilled are a tail.
 
-use super::bank::Bank;
+use super::bank::{Arm, Bank};
 use super::energy::{EnergyWeights, LossWeights};
 use super::flight::Flight;
-use super::model::StructureWarning;
+use super::outcome::StructureWarning;
+use super::outlook::Outlook;
 use super::rotor::{self, Rotor};
-use super::stride::Outlook;
 use crate::complementarity::Refund;
 use crate::disk::{DiskBasis, DiskMode, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{BankFlow, LossForm, ModalState, Oscillator, PartFlows, Readout};
-use std::ops::Range;
-
-/// One arm in the bank of oscillators.
-pub(super) struct Arm {
-    /// Indices of its modes in the bank.
-    pub modes: Range<usize>,
-}
 
 /// The spring of a contact in the bank of oscillators.
 pub(super) struct DrivenSpring {

@@ -3,7 +3,7 @@
 //! Columns are padded with modes that rest and touch nothing, so that loops run on whole chunks and
 //! every sum has one order, whatever the registers.
 
-use super::free_motion::{ForcedModes, POINTS};
+use super::forced_modes::{ForcedModes, POINTS};
 use crate::lanes::{Kernel, SUMS, total, widest};
 use crate::modal::{ForcedResponse, Phase};
 use nalgebra::Complex;

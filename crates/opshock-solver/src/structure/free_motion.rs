@@ -6,89 +6,18 @@
 //! Every run, whatever its ramp, sign and amplitude, multiplies the same columns. On a hub or on a
 //! base that vibrates the disk's modes are coupled with it and carried as a `rotor`.
 
-use super::closing::BodySample;
 use super::energy::{Ledger, LongSum};
-use super::flight::FLIGHT_NODES;
 use super::forced_columns::ForcedColumns;
+use super::forced_modes::{ForcedModes, ForcedShapes};
 use super::rotor::{Rotor, RotorScratch, RotorState};
-use super::span::Span;
+use super::sample::{BodySample, Exchange, Motion, Sample};
+use super::span::{FLIGHT_NODES, Span};
 use super::stretches::{Piece, Stretches};
 use crate::modal::bank::padded;
 use crate::modal::oscillator::GAUSS_8;
 use crate::modal::{Flow, ForcedResponse, Oscillator, Phase};
 use crate::shock::{BaseMotion, Stretch};
 use nalgebra::Complex;
-
-/// Oscillators driven by the shock, modal mass 1 kg each.
-#[derive(Clone, Debug, Default)]
-pub(super) struct ForcedModes {
-    pub oscillators: Vec<Oscillator>,
-    /// Generalised force per unit a(t), kg^½.
-    pub participation: Vec<f64>,
-}
-
-/// Shapes of the forced modes at the points that matter, kg^-½ (slope: kg^-½/m).
-#[derive(Clone, Debug, Default)]
-pub(super) struct ForcedShapes {
-    pub contact: Vec<f64>,
-    pub rim: Vec<f64>,
-    pub slider: Vec<f64>,
-    pub slider_slope: Vec<f64>,
-    pub top: Vec<f64>,
-    pub bottom: Vec<f64>,
-}
-
-/// Points read, to whole registers.
-pub(super) const POINTS: usize = 8;
-
-impl ForcedShapes {
-    /// Contact, slider, its slope, top, bottom and rim of every mode, and two zeros; zero where a
-    /// point has no entry (modes of the disk come first, then those of arms).
-    fn by_mode(&self) -> Vec<[f64; POINTS]> {
-        let rows = [
-            &self.contact,
-            &self.slider,
-            &self.slider_slope,
-            &self.top,
-            &self.bottom,
-            &self.rim,
-        ];
-        let entry = |j: usize, k: usize| rows.get(k).and_then(|row| row.get(j)).copied();
-        let mode = |j: usize| std::array::from_fn(|k| entry(j, k).unwrap_or(0.0));
-        let n = rows.iter().map(|row| row.len()).max().unwrap_or(0);
-        (0..n).map(mode).collect()
-    }
-}
-
-/// Displacement and velocity of one point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Motion {
-    pub value: f64,
-    pub rate: f64,
-}
-
-/// Unit response of all points at one instant.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sample {
-    pub contact: Motion,
-    pub slider: Motion,
-    pub slider_slope: Motion,
-    pub top: Motion,
-    pub bottom: Motion,
-    pub rim: f64,
-    /// Pitch and roll of the disk under the slider, of a disk on a hub.
-    pub tilt: [Motion; 2],
-    /// Energy of disk and arms, J per (m/s²)².
-    pub energy: f64,
-    /// Its kinetic part.
-    pub kinetic: f64,
-    /// H less that energy: 0 where only n = 0 moves.
-    pub excess: f64,
-    /// Work of the shock so far, J per (m/s²)².
-    pub work: f64,
-    /// Loss by damping so far, J per (m/s²)².
-    pub loss: f64,
-}
 
 /// Displacements and velocities of the forced modes, padded.
 #[derive(Clone, Debug, Default)]
@@ -127,15 +56,6 @@ impl Checkpoints {
             state.rotor.copy_from(rotor);
         }
     }
-}
-
-/// Work of the shock and loss by damping over a time, J.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Exchange {
-    pub work: f64,
-    pub loss: f64,
-    /// Impulses of what holds hub and base, N s.
-    pub support_n_s: [f64; 2],
 }
 
 /// Response to the unit pulse on the grid, and the tables that continue it from any state.

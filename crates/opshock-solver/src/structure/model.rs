@@ -1,144 +1,18 @@
 //! What is common to all amplitudes of one scene, and the run of one amplitude.
 
-use super::assembly::count_steps;
 use super::contact_system::ContactSystem;
-use super::history::StructuralHistory;
-use super::record::{
-    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
-};
+use super::error::StructureError;
+use super::outcome::StructureRun;
+use super::parameters::{ContactMethod, Window};
 use super::rotor::Rotor;
 use super::run_books::{RunBooks, RunState};
-use super::shared::{Shared, unit_gap};
-use super::{ContactMethod, StructureResolution, Window};
+use super::sample::unit_gap;
+use super::shared::Shared;
+use super::time_grid::count_steps;
 use crate::complementarity::{self, ContactMemory, Gap};
-use crate::disk::{DiskError, DiskParameters, DiskResolution};
 use crate::mutant;
-use crate::ramp::{RampError, RampParameters};
-use crate::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseError};
+use crate::shock::BaseMotion;
 use std::sync::Arc;
-
-/// Penetration above which a run warns, m.
-const PENETRATION_WARNING_M: f64 = 1e-7;
-
-/// Where the slider stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SliderPlace {
-    /// Radius of its centre, m.
-    pub radius_m: f64,
-    /// Angle of its centre in the disk's sense of rotation, same origin as the ramp, rad.
-    pub angle_rad: f64,
-    /// Angle from the slider's x axis to the disk's velocity, positive towards +y, rad.
-    pub skew_rad: f64,
-}
-
-impl SliderPlace {
-    /// Weights of (slope outwards, slope along the disk's velocity) in pitch and in roll:
-    /// w_x = w_t cos − w_r sin, w_y = w_t sin + w_r cos; pitch = −w_x, roll = w_y.
-    pub(super) fn slopes_to_pose(&self) -> [[f64; 2]; 2] {
-        let (sine, cosine) = self.skew_rad.sin_cos();
-        [[sine, -cosine], [cosine, sine]]
-    }
-}
-
-/// Everything a structural model is built from.
-#[derive(Clone, Copy, Debug)]
-pub struct StructureParameters<'a> {
-    /// Disk.
-    pub disk: &'a DiskParameters,
-    /// Numerical resolution of the disk.
-    pub disk_resolution: &'a DiskResolution,
-    /// Ramp.
-    pub ramp: &'a RampParameters,
-    /// Slider.
-    pub slider: SliderPlace,
-    /// Unit pulse.
-    pub pulse: &'a Pulse,
-    /// What else shakes the base in step with it.
-    pub oblique: Option<&'a ObliqueShock>,
-    /// Modes of the base that everything stands on; none: it is rigid.
-    pub base: &'a [BaseMode],
-    /// Simulated time.
-    pub window: Window,
-    /// Numerical resolution in time.
-    pub resolution: &'a StructureResolution,
-}
-
-/// Why a structural model cannot be built or run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StructureError {
-    /// Disk.
-    #[error(transparent)]
-    Disk(#[from] DiskError),
-    /// Ramp.
-    #[error(transparent)]
-    Ramp(#[from] RampError),
-    /// Pulse.
-    #[error(transparent)]
-    Pulse(#[from] PulseError),
-    /// An oblique shock without a hub that it could tilt, or with shares that are no numbers.
-    #[error("an oblique shock needs a hub, on which it tilts the disk, and finite shares")]
-    Direction,
-    /// Modes of a base that cannot be, too many or too light, or under an oblique shock.
-    #[error(
-        "a vibrating base has at most 16 modes of finite numbers, a frequency above 0 and a damping ratio \
-         in [0, 1), is heavier than disk, hub and arms where they stand on it, and takes a straight shock"
-    )]
-    Base,
-    /// Step or window.
-    #[error("{name} = {value:e} is outside its range ({allowed})")]
-    Time {
-        /// Name of the quantity.
-        name: &'static str,
-        /// Value found.
-        value: f64,
-        /// Allowed range in words.
-        allowed: &'static str,
-    },
-    /// A motion that is not a finite number.
-    #[error("the structure's motion is not finite at {time_s:e} s")]
-    NotFinite {
-        /// Time, s.
-        time_s: f64,
-    },
-}
-
-/// Something a user should know about a structural run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StructureWarning {
-    /// A contact sank in by more than a tenth of a micrometre: the step is too long.
-    Penetration {
-        /// Largest penetration, m.
-        depth_m: f64,
-    },
-    /// Bounces accumulated within a step and were taken as lasting contact.
-    BouncesAccumulated {
-        /// Number of steps.
-        steps: u64,
-    },
-    /// Harmonics with modes below the cut were left out.
-    HarmonicsBounded,
-    /// Arm modes too fast for the step were slowed at constant stiffness.
-    ArmModesSlowed {
-        /// Number of modes.
-        modes: usize,
-    },
-    /// Both arms held one point: only the net force is determined.
-    BothArmsOnePoint,
-    /// The hub's bearing drives a whirl of the rotor.
-    HubInstability {
-        /// 0: axial motion, 1: tilt.
-        nodal_diameters: usize,
-        /// Growth rate, 1/s.
-        growth_per_s: f64,
-    },
-    /// The disk spins above a critical speed and air held in space drives a travelling wave.
-    PhysicalInstability {
-        /// Nodal diameters of the wave.
-        nodal_diameters: usize,
-        /// Growth rate, 1/s.
-        growth_per_s: f64,
-    },
-}
 
 /// Disk, ramp, pulse and grid, ready to run any amplitude of either sign.
 #[derive(Clone)]
@@ -165,37 +39,6 @@ pub enum Wake {
 #[derive(Default)]
 pub struct Workspace {
     state: Option<RunState>,
-}
-
-/// One amplitude through a structural model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StructureRun {
-    /// Motion of the disk under the slider, unless the model is one without motion.
-    pub history: StructuralHistory,
-    /// Columns on the grid, when recorded.
-    pub columns: Option<StructureColumns>,
-    /// Extremes of the disk's motion.
-    pub disk: DiskExtremes,
-    /// Contact with the top arm.
-    pub top: ArmContact,
-    /// Contact with the bottom arm.
-    pub bottom: ArmContact,
-    /// Energy book.
-    pub energy: EnergyBook,
-    /// Complementarity numbers.
-    pub complementarity: Complementarity,
-    /// Hub, of a disk on a bearing.
-    pub hub: Option<HubRecord>,
-    /// Base, when it vibrates.
-    pub base: Option<BaseRecord>,
-    /// First touch of either arm, s.
-    pub first_touch_s: Option<f64>,
-    /// Steps taken.
-    pub steps: u64,
-    /// End of the run, s.
-    pub end_s: f64,
-    /// Signs of trouble.
-    pub warnings: Vec<StructureWarning>,
 }
 
 impl StructureModel {
@@ -372,11 +215,5 @@ impl StructureModel {
             }
         }
         lowest
-    }
-}
-
-impl StructureRun {
-    pub(super) fn penetration_warning(depth_m: f64) -> Option<StructureWarning> {
-        (depth_m > PENETRATION_WARNING_M).then_some(StructureWarning::Penetration { depth_m })
     }
 }

@@ -1,6 +1,6 @@
 //! Tables of natural frequencies for people.
 
-use super::StructureError;
+use super::error::StructureError;
 use super::rotor::{HubModeRow, hub_modes};
 use crate::disk::{DiskBasis, DiskParameters, DiskResolution, Harmonics};
 use crate::ramp::{CoupledMode, RampModel, RampParameters};

@@ -12,15 +12,17 @@
 //! An impact takes one step, so the motion has no breaks; the step in which a contact begins is an
 //! event for the head.
 
-use super::Window;
 use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::driven::Driven;
 use super::energy::Ledger;
+use super::error::StructureError;
 use super::history::StructuralHistory;
-use super::model::{StructureError, StructureModel, StructureRun};
+use super::model::StructureModel;
 use super::node::Node;
+use super::outcome::StructureRun;
+use super::parameters::Window;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{RotorScratch, RotorState};
 use super::shared::Shared;

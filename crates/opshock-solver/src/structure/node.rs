@@ -1,8 +1,8 @@
 //! What is booked at every node of the grid, whichever method moved the structure there.
 
-use super::closing::BodySample;
 use super::energy::Energies;
 use super::record::{DiskExtremes, StructureColumns};
+use super::sample::BodySample;
 use crate::disk::DiskPose;
 
 /// The structure at one node.

@@ -9,7 +9,8 @@
 //! over those of the arms. A shock drives n = 0 and the arms by their participations. The disk stands on the
 //! base: with a hub there is no such sum.
 
-use super::model::{StructureError, StructureModel};
+use super::error::StructureError;
+use super::model::StructureModel;
 use crate::modal::Oscillator;
 use nalgebra::Complex;
 

@@ -3,20 +3,22 @@
 //! Total motion = amplitude × unit response + contact-driven motion. The second part is at rest
 //! until the first touch ([`super::contact_system`] carries it from then on).
 
-use super::Window;
 use super::closing::{BodyBook, Closing};
 use super::contact_log::ContactLog;
 use super::driven::Driven;
 use super::energy::{Energies, Ledger, LongSum};
-use super::flight::FLIGHT_NODES;
-use super::free_motion::{ForcedState, Sample};
+use super::error::StructureError;
+use super::free_motion::ForcedState;
 use super::history::StructuralHistory;
-use super::model::{StructureError, StructureRun, StructureWarning};
 use super::node::Node;
+use super::outcome::{StructureRun, StructureWarning};
+use super::outlook::Sight;
+use super::parameters::Window;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{Leap, RotorState};
+use super::sample::Sample;
 use super::shared::Shared;
-use super::stride::Sight;
+use super::span::FLIGHT_NODES;
 use crate::complementarity::Gap;
 use crate::disk::DiskPose;
 use crate::lanes::abreast;

@@ -1,13 +1,14 @@
 //! What all runs of one model share.
 
 use super::driven::Driven;
-use super::flight::FLIGHT_NODES;
-use super::free_motion::{FreeMotion, Sample};
+use super::error::StructureError;
+use super::free_motion::FreeMotion;
 use super::history::StructuralHistory;
-use super::model::{StructureError, StructureWarning};
+use super::outcome::StructureWarning;
+use super::parameters::{ContactMethod, Window};
 use super::rotor::Rotor;
-use super::span::Span;
-use super::{ContactMethod, Window};
+use super::sample::{Sample, unit_gap};
+use super::span::{FLIGHT_NODES, Span};
 use crate::complementarity::{self, Gap, ImpactLaw};
 use crate::disk::DiskPose;
 use crate::shock::Pulse;
@@ -124,18 +125,5 @@ impl Shared {
             let ahead = self.free_gap(side, amplitude, &self.free.samples[k + 1]);
             ahead.value_m < 0.0 || complementarity::advance::dips(now, ahead, self.free.step_s)
         })
-    }
-}
-
-/// Change of the gap of `side` per unit amplitude: top g = g₀ + x − w, bottom g = g₀ − x + w.
-pub(super) fn unit_gap(side: usize, sample: &Sample) -> Gap {
-    let (arm, sign) = if side == 0 {
-        (sample.top, 1.0)
-    } else {
-        (sample.bottom, -1.0)
-    };
-    Gap {
-        value_m: sign * (arm.value - sample.contact.value),
-        rate_m_per_s: sign * (arm.rate - sample.contact.rate),
     }
 }

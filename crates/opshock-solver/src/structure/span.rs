@@ -1,7 +1,9 @@
 //! Between which bounds the unit response stays over some nodes.
 
-use super::free_motion::Sample;
-use super::shared::unit_gap;
+use super::sample::{Sample, unit_gap};
+
+/// Steps of a flight. It begins at a multiple of them.
+pub(super) const FLIGHT_NODES: usize = 16;
 
 /// Bounds of a value.
 #[derive(Clone, Copy, Debug)]

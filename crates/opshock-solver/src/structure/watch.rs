@@ -1,8 +1,8 @@
 //! What is seen at the nodes inside a flight: the motion that the head reads, extremes, columns.
 
 use super::driven::Driven;
-use super::flight::FLIGHT_NODES;
 use super::run_books::RunBooks;
+use super::span::FLIGHT_NODES;
 use crate::disk::DiskPose;
 use crate::lanes::{self, Simd, WithSimd};
 use crate::modal::ModalState;

@@ -1,10 +1,12 @@
 //! Energies of the rotor, and what shock, damping and supports exchange with it.
 
-use super::{Part, Rotor, RotorScratch, RotorState};
+use super::part::Part;
+use super::state::{RotorScratch, RotorState};
+use super::whole::Rotor;
 use crate::modal::oscillator::GAUSS_8;
 use crate::modal::{Coordinates, CoupledState, Phase};
 use crate::structure::energy::Energies;
-use crate::structure::free_motion::Exchange;
+use crate::structure::sample::Exchange;
 use nalgebra::Complex;
 
 impl Rotor {

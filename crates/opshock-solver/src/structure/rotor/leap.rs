@@ -1,16 +1,9 @@
 //! Flow of the rotor over a time, and impulses in it.
 
-use super::{Rotor, RotorScratch, RotorState};
+use super::state::{Leap, RotorScratch, RotorState};
+use super::whole::Rotor;
 use crate::modal::{CoupledFlow, CoupledState, FirstOrderResponse, Phase, PointReadout};
 use nalgebra::Complex;
-
-/// Flow of every mode over one time, and its response to the pulse's wave.
-#[derive(Clone, Debug, Default)]
-pub(in crate::structure) struct Leap {
-    pub(super) h_s: f64,
-    flows: Vec<CoupledFlow>,
-    responses: Vec<Vec<FirstOrderResponse>>,
-}
 
 impl Rotor {
     /// Tables of `h_s`, with responses to a wave when its rate is given; does not allocate in tables

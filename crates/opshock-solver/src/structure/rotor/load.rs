@@ -1,6 +1,6 @@
 //! What the unit pulse drives in a part: along the axis, and the tilts of an oblique shock.
 
-use super::Places;
+use super::places::Places;
 use crate::disk::HubParameters;
 use crate::modal::oscillator::phi1;
 use crate::modal::{CoupledModes, CoupledState, PointReadout, Readout};

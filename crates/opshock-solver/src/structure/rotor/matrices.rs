@@ -2,11 +2,21 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::RidingMode;
 use crate::disk::{DiskMode, DiskParameters, HubParameters};
 use crate::linalg::SquareMatrix;
 use crate::modal::CoupledSystem;
 use crate::shock::BaseMode;
+
+/// A mode of an arm, of unit modal mass, that the base shakes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::structure) struct RidingMode {
+    pub omega_rad_per_s: f64,
+    pub half_damping_per_s: f64,
+    /// Load by a unit acceleration of the ramp's mount, √kg.
+    pub participation_sqrt_kg: f64,
+    /// Displacement of both contact points, 1/√kg.
+    pub shape_per_sqrt_kg: [f64; 2],
+}
 
 /// What a harmonic of the disk is put together with. n = 1 knows neither base nor arms.
 #[derive(Clone, Copy, Default)]
@@ -210,4 +220,9 @@ fn hub_of(n: usize, hub: &HubParameters, disk: &DiskParameters) -> HubMotion {
             damping_across: sense * hub.cross_damping_n_m_s_per_rad,
         },
     }
+}
+
+/// Modes of the clamped disk that move with a hub, or else with a base.
+pub(in crate::structure) fn is_carried(mode: &DiskMode, is_on_hub: bool) -> bool {
+    mode.nodal_diameters <= usize::from(is_on_hub) && mode.nodal_circles.is_some()
 }

@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::load::{Drive, TiltLoad};
-use super::matrices::{Layout, Matrices, Stand};
-use super::{Places, RidingMode};
+use super::matrices::{Layout, Matrices, RidingMode, Stand};
+use super::places::Places;
 use crate::disk::DiskMode;
 use crate::linalg::{DenseError, SquareMatrix};
 use crate::modal::{CoupledModes, CoupledState, Oscillator, PointReadout, Readout};

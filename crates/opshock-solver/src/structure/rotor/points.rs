@@ -1,11 +1,12 @@
 //! What is read off the rotor: contact points, slider, rim, hub, mounts.
 
-use super::{Part, Rotor, RotorState};
+use super::part::Part;
+use super::state::RotorState;
+use super::whole::Rotor;
 use crate::complementarity::Gap;
 use crate::disk::DiskPose;
 use crate::modal::{CoupledState, PointReadout};
-use crate::structure::closing::BodySample;
-use crate::structure::free_motion::{Motion, Sample};
+use crate::structure::sample::{BodySample, Motion, Sample};
 
 impl Rotor {
     pub(super) fn pairs<'a>(

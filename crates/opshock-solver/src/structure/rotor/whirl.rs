@@ -1,10 +1,9 @@
 //! Whirl of disk and hub, for people.
 
-use super::is_carried;
-use super::matrices::{Matrices, Stand};
+use super::matrices::{Matrices, Stand, is_carried};
 use crate::disk::{DiskBasis, DiskError, DiskMode, DiskParameters};
 use crate::modal::CoupledModes;
-use crate::structure::StructureError;
+use crate::structure::error::StructureError;
 use std::f64::consts::PI;
 
 /// One damped mode of disk and hub.
