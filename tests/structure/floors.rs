@@ -85,7 +85,7 @@ const STUDY: &[(&str, u8)] = &[
 /// Module of the paper's crate, its floor.
 const PAPER: &[(&str, u8)] = &[("claims", 0), ("figures", 0)];
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(next) = folders.pop() {
@@ -102,13 +102,16 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// A text without its comments.
+pub fn code(text: &str) -> String {
+    let lines = text.lines();
+    let lines = lines.filter(|line| !line.trim_start().starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 /// Names after every `crate::` in code, with comments left out; `crate::{a, b::c}` gives a and b.
 fn imported(text: &str) -> Vec<String> {
-    let code: String = text
-        .lines()
-        .filter(|line| !line.trim_start().starts_with("//"))
-        .collect::<Vec<_>>()
-        .join("\n");
+    let code = code(text);
     let mut names = Vec::new();
     for (at, _) in code.match_indices("crate::") {
         let rest = &code[at + "crate::".len()..];

@@ -1,6 +1,7 @@
-//! Floors, names, architecture page, committed results.
+//! Floors, circles, names, architecture page, committed results.
 
 mod architecture;
+mod circles;
 mod floors;
 mod results;
 mod skips;

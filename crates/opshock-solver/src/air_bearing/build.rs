@@ -24,7 +24,7 @@ pub struct FilmResolution {
     /// Height h0 of the C1 floor the film sees, m.
     pub floor_m: f64,
     /// Wanted number of cells of the reference grid from which the force that the film's own leaves out is told
-    /// ([`ReferenceForces`]); 0: the grid is taken as it is.
+    /// ([`ReferenceForces`](super::ReferenceForces)); 0: the grid is taken as it is.
     pub reference_cells: usize,
 }
 

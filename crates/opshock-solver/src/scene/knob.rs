@@ -15,8 +15,8 @@
 //! | `ramp_mesh` | half the size of the ramp's elements | 2 | stress without bound at inner edges |
 //!
 //! A ramp comes to a scene as oscillators. Whoever made them of a geometry makes them of another mesh
-//! too; [`Scene::at_levels`](super::Scene::at_levels) leaves them as they are, and `ramp_mesh` is none of [`Knob::ALL`]. Oscillators that
-//! the study itself gives are the model: no knob turns them.
+//! too; [`Scene::at_levels`](super::Scene::at_levels) leaves them as they are, and `ramp_mesh` is none of
+//! [`Knob::ALL`]. Oscillators that the study itself gives are the model: no knob turns them.
 //!
 //! [`Knob::HeldFilm`] is no knob of a scene either. It asks of a shock what its smallest clearance would be on
 //! another film held still at the lowest attitude ([`crate::simulation::held`]): one step finer, the film with

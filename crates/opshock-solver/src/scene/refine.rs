@@ -1,5 +1,5 @@
-//! The same scene on other steps, another coupling, contact method or window, or with its knobs turned: what retries,
-//! checks and ladders run.
+//! The same scene on other steps, another coupling, contact method or window, or with its discretisation parameters
+//! refined or coarsened: what retries, checks and refinement studies run.
 
 use super::description::Scene;
 use super::knob::{Knob, Levels};

@@ -22,7 +22,7 @@ pub(in crate::structure) struct Rotor {
 }
 
 impl Rotor {
-    /// What `modes` of the disk, those of [`is_carried`], move with; `None` on a rigid base without a hub.
+    /// What `modes` of the disk, those of [`super::is_carried`], move with; `None` on a rigid base without a hub.
     /// Shapes are those at contact, slider and rim.
     ///
     /// # Errors
