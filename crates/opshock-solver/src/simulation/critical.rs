@@ -1,6 +1,8 @@
 //! The critical shock of one model, by bisection.
 
-use super::{Model, Request, Verdict, Workspace, simulate};
+use super::model::Model;
+use super::outcome::Verdict;
+use super::run::{Request, Workspace, simulate};
 use thiserror::Error;
 
 /// Two amplitudes between which the verdict changes.
