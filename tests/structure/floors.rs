@@ -248,7 +248,7 @@ fn libraries_stay_in_their_place() {
         if code("faer::") && !name.contains("/linalg/") && name != "opshock-solid/src/sparse.rs" {
             wrong.push(format!("{name} names faer"));
         }
-        if name.starts_with("opshock-solver") || name.starts_with("opshock-solid/src") {
+        if name.starts_with("opshock-solver/src") || name.starts_with("opshock-solid/src") {
             for word in [
                 "std::fs",
                 "std::time",
