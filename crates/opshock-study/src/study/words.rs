@@ -1,7 +1,8 @@
 //! The words of a study as values.
 //!
 //! Each list of words stands once, with the value of each: the table of keys takes the words from here ([`names`]),
-//! [`View::chosen`](super::View::chosen) the values. A word without a value cannot be written down.
+//! [`View::chosen`](super::View::chosen) the values. A word without a value cannot be written
+//! down, and a value that is printed has a word.
 
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
@@ -39,32 +40,35 @@ pub const FLOWS: [(&str, FlowModel); 4] = [
 ];
 /// `solver.coupling`.
 pub const COUPLINGS: [(&str, Coupling); 4] = [
-    ("monolithic", Coupling::Monolithic),
-    ("fixed_point", Coupling::FixedPoint),
-    ("aitken", Coupling::Aitken),
-    ("anderson", Coupling::Anderson),
+    (coupling_word(Coupling::Monolithic), Coupling::Monolithic),
+    (coupling_word(Coupling::FixedPoint), Coupling::FixedPoint),
+    (coupling_word(Coupling::Aitken), Coupling::Aitken),
+    (coupling_word(Coupling::Anderson), Coupling::Anderson),
 ];
 /// `solver.accuracy`.
 pub const RUNGS: [(&str, Rung); 3] = [
-    ("5%", Rung::FivePercent),
-    ("1%", Rung::OnePercent),
-    ("0.1%", Rung::TenthPercent),
+    (rung_word(Rung::FivePercent), Rung::FivePercent),
+    (rung_word(Rung::OnePercent), Rung::OnePercent),
+    (rung_word(Rung::TenthPercent), Rung::TenthPercent),
 ];
 /// `slider.faces`.
 pub const FACES: [(&str, Faces); 2] = [("down", Faces::Down), ("up", Faces::Up)];
 /// `search.certify`.
 pub const CERTIFY: [(&str, Certify); 3] = [
-    ("staggered", Certify::Staggered),
-    ("off", Certify::Off),
-    ("full", Certify::Full),
+    (Certify::Staggered.as_str(), Certify::Staggered),
+    (Certify::Off.as_str(), Certify::Off),
+    (Certify::Full.as_str(), Certify::Full),
 ];
 /// `solver.effects`.
-pub const EFFECTS: [(&str, Effects); 2] = [("auto", Effects::Auto), ("full", Effects::Full)];
+pub const EFFECTS: [(&str, Effects); 2] = [
+    (Effects::Auto.as_str(), Effects::Auto),
+    (Effects::Full.as_str(), Effects::Full),
+];
 /// `output.keep_histories`.
 pub const KEEP_HISTORIES: [(&str, KeepHistories); 3] = [
-    ("bracket", KeepHistories::Bracket),
-    ("none", KeepHistories::None),
-    ("all", KeepHistories::All),
+    (KeepHistories::Bracket.as_str(), KeepHistories::Bracket),
+    (KeepHistories::None.as_str(), KeepHistories::None),
+    (KeepHistories::All.as_str(), KeepHistories::All),
 ];
 /// `ramp.run_out`: whether the run-out of the disk takes of the ramp's gaps.
 pub const RUN_OUT: [(&str, bool); 2] = [("none", false), ("lowest_gap", true)];
@@ -198,8 +202,12 @@ pub enum Certify {
 
 impl Certify {
     /// The word in study files.
-    pub fn as_str(self) -> &'static str {
-        word_of(&CERTIFY, &self)
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Staggered => "staggered",
+            Self::Full => "full",
+        }
     }
 }
 
@@ -214,8 +222,11 @@ pub enum Effects {
 
 impl Effects {
     /// The word in study files.
-    pub fn as_str(self) -> &'static str {
-        word_of(&EFFECTS, &self)
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Full => "full",
+        }
     }
 }
 
@@ -232,23 +243,30 @@ pub enum KeepHistories {
 
 impl KeepHistories {
     /// The word in study files.
-    pub fn as_str(self) -> &'static str {
-        word_of(&KEEP_HISTORIES, &self)
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Bracket => "bracket",
+            Self::None => "none",
+            Self::All => "all",
+        }
     }
 }
 
-/// The word of a value.
-fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str {
-    let found = list.iter().find(|(_, one)| one == value);
-    found.expect("every value has a word").0
-}
-
 /// Word of a rung.
-pub fn rung_word(rung: Rung) -> &'static str {
-    word_of(&RUNGS, &rung)
+pub const fn rung_word(rung: Rung) -> &'static str {
+    match rung {
+        Rung::FivePercent => "5%",
+        Rung::OnePercent => "1%",
+        Rung::TenthPercent => "0.1%",
+    }
 }
 
 /// Word of a coupling scheme.
-pub fn coupling_word(coupling: Coupling) -> &'static str {
-    word_of(&COUPLINGS, &coupling)
+pub const fn coupling_word(coupling: Coupling) -> &'static str {
+    match coupling {
+        Coupling::Monolithic => "monolithic",
+        Coupling::FixedPoint => "fixed_point",
+        Coupling::Aitken => "aitken",
+        Coupling::Anderson => "anderson",
+    }
 }
