@@ -9,53 +9,22 @@ use opshock_solver::disk::{DiskMotion, DiskPose};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::head::{Coupling, HeadModel, HeadResolution};
 use opshock_solver::quantity::rad_per_s_from_rpm;
-use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
+use opshock_solver::scene::Scene;
+use opshock_solver::slider::SliderParameters;
 
 use super::suspensions::default_suspension;
 
-/// Femto slider with the default surface at r = 21 mm.
+/// The slider of the default drive, at angle 0.
 pub fn default_slider() -> SliderParameters {
-    let rail = |x: [f64; 2], y: [f64; 2], recess_m: f64| Rail {
-        outline: RailOutline::Rectangle {
-            x_m: x.map(|v| v * 1e-6),
-            y_m: y.map(|v| v * 1e-6),
-        },
-        recess_m,
-    };
     SliderParameters {
-        radius_m: 21e-3,
         angle_rad: 0.0,
-        skew_rad: 0.0,
-        length_m: 0.85e-3,
-        width_m: 0.70e-3,
-        height_m: 0.23e-3,
-        density_kg_per_m3: 4300.0,
-        surface: SurfaceParameters {
-            base_recess_m: 1.5e-6,
-            crown_m: 15e-9,
-            camber_m: 2e-9,
-            rails: vec![
-                rail([20.0, 170.0], [30.0, 670.0], 0.25e-6),
-                rail([170.0, 240.0], [50.0, 650.0], 0.0),
-                rail([240.0, 720.0], [30.0, 100.0], 0.25e-6),
-                rail([640.0, 720.0], [30.0, 100.0], 0.0),
-                rail([240.0, 720.0], [600.0, 670.0], 0.25e-6),
-                rail([640.0, 720.0], [600.0, 670.0], 0.0),
-                rail([600.0, 710.0], [210.0, 490.0], 0.25e-6),
-                rail([710.0, 840.0], [250.0, 450.0], 0.0),
-            ],
-            ..SurfaceParameters::default()
-        },
+        ..Scene::default_drive().slider
     }
 }
 
 /// Air at one atmosphere as the reference numbers use it.
 pub fn standard_gas() -> GasParameters {
-    GasParameters {
-        pressure_pa: 101_325.0,
-        viscosity_pa_s: 1.806e-5,
-        mean_free_path_m: 63.5e-9,
-    }
+    Scene::default_drive().gas
 }
 
 /// Film of the default slider with about `cells` cells and its flight under the gram load.
