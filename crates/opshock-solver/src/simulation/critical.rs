@@ -19,6 +19,17 @@ pub struct CriticalShock {
 /// Why there is no critical shock.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CriticalShockError {
+    /// The range has no weaker and stronger amplitude of one sign, or the tolerance is not positive.
+    #[error(
+        "no range to bisect: {range_m_per_s2:?} m/s2 within {tolerance}; wanted are two amplitudes of one sign, the weaker \
+         first, and a tolerance above 0"
+    )]
+    Range {
+        /// The range given, m/s2.
+        range_m_per_s2: [f64; 2],
+        /// The tolerance given.
+        tolerance: f64,
+    },
     /// The weakest shock fails, or the strongest survives.
     #[error("no change of verdict: {amplitude_m_per_s2:e} m/s2 {verdict}")]
     NotBracketed {
@@ -51,6 +62,14 @@ pub fn critical_shock(
     tolerance: f64,
     workspace: &mut Workspace,
 ) -> Result<CriticalShock, CriticalShockError> {
+    let [mut low, mut high] = range_m_per_s2;
+    let ratio = high / low;
+    if !(ratio > 1.0 && ratio.is_finite() && tolerance > 0.0) {
+        return Err(CriticalShockError::Range {
+            range_m_per_s2,
+            tolerance,
+        });
+    }
     let mut n_runs = 0;
     let mut survives = |amplitude_m_per_s2: f64| {
         n_runs += 1;
@@ -69,7 +88,6 @@ pub fn critical_shock(
             None => Err(undecided("the model has no head".to_owned())),
         }
     };
-    let [mut low, mut high] = range_m_per_s2;
     for (end, wanted, verdict) in [(low, true, "fails"), (high, false, "survives")] {
         if survives(end)? != wanted {
             return Err(CriticalShockError::NotBracketed {
@@ -81,6 +99,9 @@ pub fn critical_shock(
     while high / low > 1.0 + tolerance {
         // The mean of the logarithms, with the sign of both.
         let middle = low * (high / low).sqrt();
+        if middle == low || middle == high {
+            break;
+        }
         match survives(middle)? {
             true => low = middle,
             false => high = middle,
@@ -91,4 +112,68 @@ pub fn critical_shock(
         fails_m_per_s2: high,
         n_runs,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::m_per_s2_from_g;
+    use crate::ramp::RampModel;
+    use crate::scene::Scene;
+    use crate::simulation::{Outcome, Scope};
+
+    fn coarse() -> Scene {
+        let mut scene = Scene::default_drive();
+        scene.ramp.model = RampModel::None;
+        scene.disk_resolution.cut_hz = 20e3;
+        scene.film_resolution.cells = 250;
+        scene.film_resolution.reference_cells = 0;
+        scene
+    }
+
+    #[test]
+    fn the_verdict_changes_between_the_ends() {
+        let model = Model::new(&coarse()).expect("a model");
+        let mut workspace = Workspace::default();
+        let range = [-20.0, -2000.0].map(m_per_s2_from_g);
+        let found = critical_shock(&model, range, 0.02, &mut workspace).expect("bracketed");
+        let mut run = |amplitude_m_per_s2| -> Outcome {
+            let request = Request {
+                amplitude_m_per_s2,
+                record: false,
+            };
+            simulate(&model, &request, &mut workspace)
+        };
+        let survivor = run(found.survives_m_per_s2);
+        assert_eq!(survivor.verdict, Verdict::Survives);
+        let failure = run(found.fails_m_per_s2).verdict;
+        assert!(matches!(failure, Verdict::Fails { .. }), "{failure:?}");
+        let ratio = found.fails_m_per_s2 / found.survives_m_per_s2;
+        assert!(ratio > 1.0 && ratio <= 1.02, "{ratio}");
+        // Two ends, and as many halvings as bring ln 100 below ln 1.02.
+        assert_eq!(found.n_runs, 2 + 8);
+    }
+
+    #[test]
+    fn what_cannot_be_bisected_is_an_error() {
+        let model = Model::build(&coarse(), Scope::Structure, None).expect("a model");
+        let of = |range, tolerance| {
+            let found = critical_shock(&model, range, tolerance, &mut Workspace::default());
+            found.expect_err("no critical shock")
+        };
+        for (range, tolerance) in [
+            ([0.0, 1e3], 0.1),
+            ([-1.0, 1e3], 0.1),
+            ([1e3, 1.0], 0.1),
+            ([1.0, 1e3], 0.0),
+        ] {
+            let error = of(range, tolerance);
+            assert!(matches!(error, CriticalShockError::Range { .. }), "{error}");
+        }
+        let error = of([1.0, 1e3], 0.1);
+        assert!(
+            matches!(error, CriticalShockError::Undecided { .. }),
+            "{error}"
+        );
+    }
 }
