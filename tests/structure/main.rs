@@ -3,6 +3,7 @@
 mod architecture;
 mod circles;
 mod floors;
+mod keys;
 mod results;
 mod skips;
 mod wording;

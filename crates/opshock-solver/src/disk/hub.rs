@@ -24,7 +24,7 @@
 use super::error::DiskError;
 
 /// Hub with its bearing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HubParameters {
     /// Mass that moves with the hub, without the free part of the disk simulated, kg.
     pub mass_kg: f64,

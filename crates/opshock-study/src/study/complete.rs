@@ -1,6 +1,8 @@
 //! Completing what a study file says: choices, defaults, and what is missing.
 
+use super::datum::Datum;
 use super::fault::StudyError;
+use super::fields;
 use super::imported_base;
 use super::imported_suspension;
 use super::included::{self, Location};
@@ -8,7 +10,6 @@ use super::key::{Key, Presence};
 use super::keys::{CHOICES, KEYS};
 use super::ramp_mesh;
 use super::read::Reader;
-use super::settings::Datum;
 use super::source::{Origin, Place};
 use super::tree::{Node, Value};
 use super::unit;
@@ -52,8 +53,11 @@ fn is_set(reader: &Reader, path: &str) -> bool {
 
 /// The general clearance from the command line replaces the special ones of the file.
 fn settle_clearances(reader: &mut Reader) {
-    if is_set(reader, "ramp.clearance_um") {
-        for side in ["ramp.clearance_top_um", "ramp.clearance_bottom_um"] {
+    if is_set(reader, fields::RAMP_CLEARANCE_UM.path()) {
+        for side in [
+            fields::RAMP_CLEARANCE_TOP_UM.path(),
+            fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
+        ] {
             if !is_set(reader, side) {
                 reader.settings.remove(side);
             }

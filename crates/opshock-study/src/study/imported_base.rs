@@ -22,8 +22,10 @@ use opshock_solid::sparse::SparseError;
 use opshock_solver::shock::BaseMode;
 
 use super::fault::StudyError;
+use super::field::Field;
+use super::fields;
 use super::included::Location;
-use super::matrices::{Held, SMALL, Z, held, solid};
+use super::matrices::{Files, Held, SMALL, Z, held, solid};
 use super::ramp_geometry::rounded;
 use super::ramp_mesh::{lonely, put, refuse_files};
 use super::read::Reader;
@@ -33,7 +35,7 @@ use super::source::Source;
 /// Table of the files.
 pub const TABLE: &str = "base.imported";
 /// List that takes their place.
-pub const MODES: &str = "base.modes";
+pub const MODES: &str = fields::BASE_MODES.path();
 /// Most modes that a base may have.
 pub const MOST: usize = 16;
 /// Default of `cut_khz`, Hz.
@@ -41,17 +43,32 @@ const CUT_HZ: f64 = 1e4;
 /// Default of `damping_ratio`.
 const DAMPING_RATIO: f64 = 0.02;
 /// What must be given of the table.
-const NEEDED: [&str; 5] = ["mass", "stiffness", "spindle", "ramp", "pivot"];
+const NEEDED: [&str; 5] = [
+    FILES.mass.path(),
+    FILES.stiffness.path(),
+    fields::BASE_IMPORTED_SPINDLE.path(),
+    fields::BASE_IMPORTED_RAMP.path(),
+    fields::BASE_IMPORTED_PIVOT.path(),
+];
+/// Keys of its matrices.
+const FILES: Files = Files {
+    mass: fields::BASE_IMPORTED_MASS,
+    stiffness: fields::BASE_IMPORTED_STIFFNESS,
+    freedoms: fields::BASE_IMPORTED_FREEDOMS,
+    places: fields::BASE_IMPORTED_PLACES,
+    units: fields::BASE_IMPORTED_UNITS,
+    held: fields::BASE_IMPORTED_HELD,
+};
 
 /// Reads the matrices a study names into the list of modes.
 pub fn read(reader: &mut Reader, location: &Location) {
-    let path = |name: &str| format!("{TABLE}.{name}");
     let view = View::of_study(&reader.settings);
-    let is_given = NEEDED.map(|name| view.get(&path(name)).is_some());
+    let is_given = NEEDED.map(|path| view.datum(path).is_some());
     if is_given == [false; NEEDED.len()] {
         // Modes of the command line leave them without their files.
         if !reader.settings.has(MODES) {
-            lonely(reader, TABLE, "matrices", &NEEDED.join(", "));
+            let names = NEEDED.map(|path| path.rsplit('.').next().unwrap_or(path));
+            lonely(reader, TABLE, "matrices", &names.join(", "));
         }
         return;
     }
@@ -80,8 +97,8 @@ pub fn read(reader: &mut Reader, location: &Location) {
 
 /// Refuses a cut with no modes below it, or with too many.
 fn refuse_number(reader: &mut Reader, number: usize) {
-    let paths = [format!("{TABLE}.cut_khz"), format!("{TABLE}.stiffness")];
-    let given = paths.iter().find_map(|path| {
+    let paths = [fields::BASE_IMPORTED_CUT_KHZ.path(), FILES.stiffness.path()];
+    let given = paths.into_iter().find_map(|path| {
         let setting = reader.settings.get(path)?;
         Some((path, setting.place.clone()))
     });
@@ -127,15 +144,19 @@ fn modes(view: &View<'_>, folder: &Path) -> Result<(Vec<BaseMode>, Vec<Fault>), 
         system,
         load_kg,
         warnings,
-    } = held(view, TABLE, "held", folder)?;
-    let row = |name: &str| {
-        let node = view.maybe_integer(&format!("{TABLE}.{name}")).unwrap_or(0);
-        system.freedoms.find(&format!("{node}.3"), name)
+    } = held(view, "", &FILES, folder)?;
+    let row = |field: &Field<Option<i64>>| {
+        let node = view.get(field).unwrap_or(0);
+        system.freedoms.find(&format!("{node}.3"), field.key.name())
     };
-    let [spindle, ramp, pivot] = [row("spindle")?, row("ramp")?, row("pivot")?];
-    let si = |name: &str| view.maybe_si(&format!("{TABLE}.{name}"));
-    let cut_hz = si("cut_khz").unwrap_or(CUT_HZ);
-    let damping_ratio = si("damping_ratio").unwrap_or(DAMPING_RATIO);
+    let [spindle, ramp, pivot] = [
+        row(&fields::BASE_IMPORTED_SPINDLE)?,
+        row(&fields::BASE_IMPORTED_RAMP)?,
+        row(&fields::BASE_IMPORTED_PIVOT)?,
+    ];
+    let cut_hz = view.get(&fields::BASE_IMPORTED_CUT_KHZ).unwrap_or(CUT_HZ);
+    let own_ratio = view.get(&fields::BASE_IMPORTED_DAMPING_RATIO);
+    let damping_ratio = own_ratio.unwrap_or(DAMPING_RATIO);
     let solid = solid(&system, Z, &load_kg);
     let columns = [spindle, ramp, pivot].map(|row| {
         let mut column = vec![0.0; system.n()];

@@ -22,8 +22,10 @@ use opshock_solver::suspension::{
 };
 
 use super::fault::StudyError;
+use super::field::Field;
+use super::fields;
 use super::included::Location;
-use super::matrices::{Held, SMALL, Z, held, solid};
+use super::matrices::{Files, Held, SMALL, Z, held, solid};
 use super::ramp_geometry::rounded;
 use super::ramp_mesh::{lonely, put, refuse_files};
 use super::read::Reader;
@@ -33,27 +35,38 @@ use super::source::Source;
 /// Table of the files.
 pub const TABLE: &str = "suspension.imported";
 /// List that takes their place.
-pub const MODES: &str = "suspension.modes";
+pub const MODES: &str = fields::SUSPENSION_MODES.path();
 /// Keys of the geometry, whose place modes take.
 pub const REPLACED: [&str; 17] = [
-    "suspension.hinge.length_mm",
-    "suspension.hinge.width_mm",
-    "suspension.hinge.thickness_um",
-    "suspension.load_beam.dimple_mm",
-    "suspension.load_beam.end_mm",
-    "suspension.load_beam.web_um",
-    "suspension.load_beam.width_root_mm",
-    "suspension.load_beam.width_dimple_mm",
-    "suspension.load_beam.tab_width_mm",
-    "suspension.flange.height_um",
-    "suspension.flange.from_mm",
-    "suspension.flange.to_mm",
-    "suspension.flexure.mass_mg",
-    "suspension.flexure.from_mm",
-    "suspension.material.youngs_modulus_gpa",
-    "suspension.material.shear_modulus_gpa",
-    "suspension.material.density_kg_per_m3",
+    fields::SUSPENSION_HINGE_LENGTH_MM.path(),
+    fields::SUSPENSION_HINGE_WIDTH_MM.path(),
+    fields::SUSPENSION_HINGE_THICKNESS_UM.path(),
+    fields::SUSPENSION_LOAD_BEAM_DIMPLE_MM.path(),
+    fields::SUSPENSION_LOAD_BEAM_END_MM.path(),
+    fields::SUSPENSION_LOAD_BEAM_WEB_UM.path(),
+    fields::SUSPENSION_LOAD_BEAM_WIDTH_ROOT_MM.path(),
+    fields::SUSPENSION_LOAD_BEAM_WIDTH_DIMPLE_MM.path(),
+    fields::SUSPENSION_LOAD_BEAM_TAB_WIDTH_MM.path(),
+    fields::SUSPENSION_FLANGE_HEIGHT_UM.path(),
+    fields::SUSPENSION_FLANGE_FROM_MM.path(),
+    fields::SUSPENSION_FLANGE_TO_MM.path(),
+    fields::SUSPENSION_FLEXURE_MASS_MG.path(),
+    fields::SUSPENSION_FLEXURE_FROM_MM.path(),
+    fields::SUSPENSION_MATERIAL_YOUNGS_MODULUS_GPA.path(),
+    fields::SUSPENSION_MATERIAL_SHEAR_MODULUS_GPA.path(),
+    fields::SUSPENSION_MATERIAL_DENSITY_KG_PER_M3.path(),
 ];
+/// Keys of its matrices.
+const FILES: Files = Files {
+    mass: fields::SUSPENSION_IMPORTED_MASS,
+    stiffness: fields::SUSPENSION_IMPORTED_STIFFNESS,
+    freedoms: fields::SUSPENSION_IMPORTED_FREEDOMS,
+    places: fields::SUSPENSION_IMPORTED_PLACES,
+    units: fields::SUSPENSION_IMPORTED_UNITS,
+    held: fields::SUSPENSION_IMPORTED_BASE,
+};
+/// Node of the dimple.
+const DIMPLE: Field<Option<i64>> = fields::SUSPENSION_IMPORTED_DIMPLE;
 /// Default of `cut_khz`, Hz.
 pub const CUT_HZ: f64 = 1e6;
 /// Share of a mode's motion, each against the largest of its kind, below which it is rounding.
@@ -63,9 +76,9 @@ const ROUNDING: f64 = 1e-6;
 /// head of its own.
 pub fn read(reader: &mut Reader, location: &Location, of: &str) {
     let table = format!("{of}{TABLE}");
-    let path = |name: &str| format!("{table}.{name}");
     let view = View::of_study(&reader.settings);
-    let is_given = ["mass", "stiffness", "dimple"].map(|name| view.get(&path(name)).is_some());
+    let needed = [FILES.mass.path(), FILES.stiffness.path(), DIMPLE.path()];
+    let is_given = needed.map(|path| view.datum(&format!("{of}{path}")).is_some());
     if is_given == [false; 3] {
         // Modes of the command line leave them without their files.
         if !reader.settings.has(&format!("{of}{MODES}")) {
@@ -77,7 +90,7 @@ pub fn read(reader: &mut Reader, location: &Location, of: &str) {
     if is_given != [true; 3] || !reader.settings.are_sound(&[&table]) {
         return;
     }
-    match modes(&view, &table, &location.folder) {
+    match modes(&view, of, &location.folder) {
         Err(faults) => refuse_files(reader, &table, faults),
         Ok((modes, warnings)) => {
             reader
@@ -109,22 +122,23 @@ fn written(modes: &[SuspensionMode]) -> String {
 /// Modes of the matrices, and what was questionable about them.
 fn modes(
     view: &View<'_>,
-    table: &str,
+    of: &str,
     folder: &Path,
 ) -> Result<(Vec<SuspensionMode>, Vec<Fault>), Faults> {
     let Held {
         system,
         load_kg,
         warnings,
-    } = held(view, table, "base", folder)?;
-    let dimple = view.maybe_integer(&format!("{table}.dimple")).unwrap_or(0);
+    } = held(view, of, &FILES, folder)?;
+    let dimple = view.get_of(of, &DIMPLE).unwrap_or(0);
     let row = |direction: u8| {
         system
             .freedoms
-            .find(&format!("{dimple}.{direction}"), "dimple")
+            .find(&format!("{dimple}.{direction}"), DIMPLE.key.name())
     };
     let [z, about_y, about_x] = [row(3)?, row(5)?, row(4)?];
-    let cut_hz = view.maybe_si(&format!("{table}.cut_khz")).unwrap_or(CUT_HZ);
+    let own_cut_hz = view.get_of(of, &fields::SUSPENSION_IMPORTED_CUT_KHZ);
+    let cut_hz = own_cut_hz.unwrap_or(CUT_HZ);
     let pieces = system.pieces();
     if pieces[z] == pieces[about_x] {
         let points = [(z, 1.0), (about_y, -1.0), (about_x, 1.0)];
@@ -232,13 +246,14 @@ fn split(reduced: &[PointMode], system: &System) -> Result<Vec<SuspensionMode>, 
 
 /// Modes of a view, in SI.
 pub fn listed(view: &View<'_>) -> Vec<SuspensionMode> {
-    view.tables(MODES, |si| SuspensionMode {
-        frequency_hz: si("frequency_hz"),
-        vertical_per_sqrt_kg: si("vertical_per_sqrt_kg"),
-        slope_per_m_sqrt_kg: si("slope_per_m_sqrt_kg"),
-        roll_per_m_sqrt_kg: si("roll_per_m_sqrt_kg"),
-        participation_sqrt_kg: si("participation_sqrt_kg"),
-    })
+    let mode = |entry| SuspensionMode {
+        frequency_hz: view.entry(entry, &fields::SUSPENSION_MODES_FREQUENCY_HZ),
+        vertical_per_sqrt_kg: view.entry(entry, &fields::SUSPENSION_MODES_VERTICAL_PER_SQRT_KG),
+        slope_per_m_sqrt_kg: view.entry(entry, &fields::SUSPENSION_MODES_SLOPE_PER_M_SQRT_KG),
+        roll_per_m_sqrt_kg: view.entry(entry, &fields::SUSPENSION_MODES_ROLL_PER_M_SQRT_KG),
+        participation_sqrt_kg: view.entry(entry, &fields::SUSPENSION_MODES_PARTICIPATION_SQRT_KG),
+    };
+    (0..view.get(&fields::SUSPENSION_MODES)).map(mode).collect()
 }
 
 /// Files of a suspension as rows of numbers in mN, mm, kg: stiffness, mass, places, and the section of

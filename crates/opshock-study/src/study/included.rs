@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::datum::Datum;
 use super::fault::StudyError;
+use super::fields;
 use super::key::{Kind, Presence};
 use super::keys::{KEYS, find};
 use super::read::Reader;
 use super::set_arg::SetArg;
-use super::settings::{Datum, Setting};
+use super::settings::Setting;
 use super::source::{self, Origin, Place, Source};
 use super::tree::{self, Node, Value};
 use super::{samples, surfaces};
@@ -172,19 +174,25 @@ fn surface(reader: &mut Reader, location: &Location, pattern: &str, prefix: &str
 
 /// Reads the file of a sampled pulse into the two lists that may also be given directly.
 pub fn pulse_table(reader: &mut Reader, location: &Location) {
-    let Some(setting) = reader.settings.get("pulse.table").cloned() else {
+    let Some(setting) = reader.settings.get(fields::PULSE_TABLE.path()).cloned() else {
         return;
     };
     let Datum::Text(file) = &setting.values[0] else {
         return;
     };
-    let Some(source) = open_named(reader, location, "pulse.table", file, &setting.place) else {
+    let Some(source) = open_named(
+        reader,
+        location,
+        fields::PULSE_TABLE.path(),
+        file,
+        &setting.place,
+    ) else {
         return;
     };
     match samples::read(&source) {
         Err(faults) => {
             reader.errors.extend(faults);
-            reader.settings.spoil("pulse.table");
+            reader.settings.spoil(fields::PULSE_TABLE.path());
         }
         Ok(samples) => {
             let place = Place {
@@ -193,8 +201,8 @@ pub fn pulse_table(reader: &mut Reader, location: &Location) {
                 origin: Origin::Included,
             };
             for (path, numbers) in [
-                ("pulse.table_time_ms", samples.time_ms),
-                ("pulse.table_relative", samples.relative),
+                (fields::PULSE_TABLE_TIME_MS.path(), samples.time_ms),
+                (fields::PULSE_TABLE_RELATIVE.path(), samples.relative),
             ] {
                 reader.settings.put(
                     path.to_string(),

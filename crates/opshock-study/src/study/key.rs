@@ -239,6 +239,8 @@ pub struct Key {
     pub help: &'static str,
     /// An example value, TOML; empty: the default is the example.
     pub example: &'static str,
+    /// Whether it has one value in a study, though others of its kind may be an axis.
+    pub is_fixed: bool,
 }
 
 impl Key {
@@ -251,6 +253,7 @@ impl Key {
             code: "E130",
             help,
             example: "",
+            is_fixed: false,
         }
     }
 
@@ -323,6 +326,12 @@ impl Key {
         self
     }
 
+    /// With one value in a study.
+    pub const fn fixed(mut self) -> Self {
+        self.is_fixed = true;
+        self
+    }
+
     /// The same key in the list of heads; what an entry leaves out is the study's.
     pub(super) fn of_a_head(&self) -> Self {
         let is_member = self.path.contains("[].");
@@ -371,14 +380,9 @@ impl Key {
             "surface_forces",
             "solver",
         ];
-        const FIXED: [&str; 3] = [
-            "pulse.start_ms",
-            "solver.effects",
-            "slider.surface.rail[].kind",
-        ];
         self.kind.is_single()
             && SCENE.contains(&self.section())
-            && !FIXED.contains(&self.path)
+            && !self.is_fixed
             // The files are read once, with the study.
             && !self.path.starts_with("ramp.deformable.mesh.")
             && !self.path.starts_with("suspension.imported.")

@@ -1,5 +1,6 @@
 //! Matrices of another program: from the files that a study names to what the solid crate reduces.
 
+use super::field::{Field, Numbers, Text};
 use super::settings::View;
 use opshock_import::matrix::Matrix;
 use opshock_import::matrix::check;
@@ -29,32 +30,46 @@ pub(super) struct Held {
     pub warnings: Vec<Fault>,
 }
 
-/// The matrices of a table of a study: `mass`, `stiffness`, `freedoms` or `places`, `units`, and the nodes
-/// that the key `nodes` has the base hold.
+/// Keys of the files of matrices.
+pub(super) struct Files {
+    /// Mass matrix.
+    pub mass: Field<Text>,
+    /// Stiffness matrix.
+    pub stiffness: Field<Text>,
+    /// Freedoms of the rows, or their places.
+    pub freedoms: Field<Text>,
+    /// Places of the rows.
+    pub places: Field<Text>,
+    /// Units; SI when absent.
+    pub units: Field<Option<Units>>,
+    /// Nodes that the base holds.
+    pub held: Field<Numbers>,
+}
+
+/// The matrices of a study; `of` is what stands before their keys, nothing or a head of its own.
 ///
 /// # Errors
 /// What is wrong with the files, and motions without stiffness.
 pub(super) fn held(
     view: &View<'_>,
-    table: &str,
-    nodes: &str,
+    of: &str,
+    files: &Files,
     folder: &Path,
 ) -> Result<Held, Faults> {
-    let file = |name: &str| {
-        let word = view.word(&format!("{table}.{name}"));
+    let file = |field: &Field<Text>| {
+        let word = view.get_of(of, field);
         (!word.is_empty()).then(|| folder.join(word))
     };
-    let path = |name: &str| file(name).unwrap_or_default();
-    let (dof, places) = (file("freedoms"), file("places"));
+    let path = |field: &Field<Text>| file(field).unwrap_or_default();
+    let (dof, places) = (file(&files.freedoms), file(&files.places));
     let freedoms = freedoms(dof.as_deref(), places.as_deref())?;
-    let stiffness = matrix(&path("stiffness"), freedoms.as_ref(), true)?;
-    let mass = matrix(&path("mass"), freedoms.as_ref(), true)?;
-    let units = view.chosen(&format!("{table}.units"), &Units::WORDS);
-    let units = units.unwrap_or(Units::Si);
+    let stiffness = matrix(&path(&files.stiffness), freedoms.as_ref(), true)?;
+    let mass = matrix(&path(&files.mass), freedoms.as_ref(), true)?;
+    let units = view.get_of(of, &files.units).unwrap_or(Units::Si);
     let system = System::of(mass, stiffness, None, freedoms, units)?;
-    let held = view.numbers(&format!("{table}.{nodes}"));
+    let held = view.get_of(of, &files.held);
     let held: Vec<u64> = held.iter().map(|number| *number as u64).collect();
-    let (system, load_kg) = system.held((nodes, &held), Z)?;
+    let (system, load_kg) = system.held((files.held.key.name(), &held), Z)?;
     let (system, found) = check::check(system, false)?;
     Ok(Held {
         system,

@@ -3,6 +3,7 @@
 //! Every number is a measured peak of resident memory less that of a program that does nothing, on x86-64 Linux;
 //! `tests/products/memory.rs` holds the estimates against such peaks.
 
+use super::fields;
 use super::{KeepHistories, Study, StudyError, StudyErrors};
 use opshock_solver::scene::plan::{Needs, Plan};
 use opshock_solver::scene::{Scene, Window};
@@ -163,11 +164,11 @@ impl Demand {
         } else if self.film > self.steps.max(self.models) {
             let hint =
                 "take fewer film_cells or film_reference_cells, or a machine with more memory";
-            ("solver.film_cells", hint.to_owned())
+            (fields::SOLVER_FILM_CELLS.path(), hint.to_owned())
         } else {
             let hint = "take a shorter window_ms, a longer structure_step_us, fewer fields.times_ms or points, \
                         or a machine with more memory";
-            ("pulse.window_ms", hint.to_owned())
+            (fields::PULSE_WINDOW_MS.path(), hint.to_owned())
         };
         let message = format!(
             "{what} needs more memory than there is: about {} for films and {} for time steps in each of {workers} \

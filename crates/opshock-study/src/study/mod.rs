@@ -17,9 +17,12 @@
 //! ```
 
 mod complete;
+mod datum;
 pub mod difference;
 mod example;
 pub mod fault;
+pub mod field;
+pub mod fields;
 mod imported_base;
 pub mod imported_suspension;
 mod included;
@@ -231,35 +234,31 @@ impl Study {
         }
         let view = View::first(&settings);
         Ok(Self {
-            name: view.word("name").to_string(),
-            outputs: view.words("outputs").to_vec(),
+            name: view.get(&fields::NAME).to_string(),
+            outputs: view.get(&fields::OUTPUTS).to_vec(),
             points,
             axes: points::axes(&settings),
             widths_ms: points::widths_ms(&settings),
             ramps: points::ramps(&settings),
             signs: points::signs(&settings),
             search: SearchSettings {
-                amplitude_min_g: view.number("search.amplitude_g.min"),
-                amplitude_max_g: view.number("search.amplitude_g.max"),
-                tolerance_pct: view.number("search.tolerance_pct"),
-                certify: scene::given(&view, "search.certify", &words::CERTIFY),
-                max_gap_pct: view.number("search.max_gap_pct"),
-                error_bars: view.maybe_flag("search.error_bars").unwrap_or(true),
-                climbs: view.maybe_integer("search.climbs").unwrap_or(0) as u8,
+                amplitude_min_g: view.number(fields::SEARCH_AMPLITUDE_G_MIN.path()),
+                amplitude_max_g: view.number(fields::SEARCH_AMPLITUDE_G_MAX.path()),
+                tolerance_pct: view.number(fields::SEARCH_TOLERANCE_PCT.path()),
+                certify: view.get(&fields::SEARCH_CERTIFY),
+                max_gap_pct: view.number(fields::SEARCH_MAX_GAP_PCT.path()),
+                error_bars: view.get(&fields::SEARCH_ERROR_BARS),
+                climbs: view.get(&fields::SEARCH_CLIMBS),
                 refine: refine(&view),
             },
             output: OutputSettings {
-                keep_histories: scene::given(
-                    &view,
-                    "output.keep_histories",
-                    &words::KEEP_HISTORIES,
-                ),
-                checkpoint_s: view.si("output.checkpoint_s"),
+                keep_histories: view.get(&fields::OUTPUT_KEEP_HISTORIES),
+                checkpoint_s: view.get(&fields::OUTPUT_CHECKPOINT_S),
             },
-            start_s: view.si("pulse.start_ms"),
+            start_s: view.get(&fields::PULSE_START_MS),
             field_times_s: scene::field_times_s(&view),
-            effects: scene::given(&view, "solver.effects", &words::EFFECTS),
-            leave_out: view.words("solver.leave_out").to_vec(),
+            effects: view.get(&fields::SOLVER_EFFECTS),
+            leave_out: view.get(&fields::SOLVER_LEAVE_OUT).to_vec(),
             digest: resolved::digest(&settings),
             remarks,
             overrides,
@@ -368,12 +367,12 @@ impl Study {
 
 /// How widths are added, if they are.
 fn refine(view: &View<'_>) -> Option<RefineSettings> {
-    let most_points = view.maybe_integer("search.refine.most_points");
+    let most_points = view.get(&fields::SEARCH_REFINE_MOST_POINTS);
     let refine = RefineSettings {
-        tolerance_pct: view.maybe_number("search.refine.tolerance_pct"),
-        crossing_pct: view.maybe_number("search.refine.crossing_pct"),
+        tolerance_pct: view.maybe_number(fields::SEARCH_REFINE_TOLERANCE_PCT.path()),
+        crossing_pct: view.maybe_number(fields::SEARCH_REFINE_CROSSING_PCT.path()),
         closest_pct: view
-            .maybe_number("search.refine.closest_pct")
+            .maybe_number(fields::SEARCH_REFINE_CLOSEST_PCT.path())
             .unwrap_or(2.0),
         most_points: most_points
             .and_then(|count| usize::try_from(count).ok())

@@ -5,11 +5,14 @@ use std::collections::HashMap;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::Rung;
 
+use super::datum::Datum;
 use super::fault::{Severity, StudyError};
+use super::fields;
+use super::keys::{self, KEYS};
 use super::ramp_remeshed::RemeshedRamp;
 use super::read::{self, MAX_POINTS};
 use super::scene;
-use super::settings::{Datum, Settings, View};
+use super::settings::{Settings, View};
 use super::unit;
 use super::validity::{Check, PointRules};
 use super::words::{Faces, Ramp, Sign};
@@ -118,9 +121,25 @@ impl Point {
     }
 }
 
+/// Paths of the axes beside widths, ramp models and signs, in the order of the table of keys:
+/// the order in which they were written is not part of a study.
+fn axis_paths(settings: &Settings) -> Vec<&str> {
+    let mut axes: Vec<&str> = settings
+        .iter()
+        .filter(|(_, setting)| setting.is_axis)
+        .map(|(path, _)| path)
+        .collect();
+    let rank = |path: &str| {
+        let pattern = keys::pattern(path);
+        KEYS.iter().position(|key| key.path == pattern)
+    };
+    axes.sort_by_key(|path| (rank(path), *path));
+    axes
+}
+
 /// The axes beside widths, ramp models and signs.
 pub fn axes(settings: &Settings) -> Vec<Axis> {
-    let paths = settings.axes();
+    let paths = axis_paths(settings);
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
     let heads = settings.heads();
     let head = (!heads.is_empty()).then(|| Axis {
@@ -158,7 +177,7 @@ pub fn axes(settings: &Settings) -> Vec<Axis> {
 
 /// Ramp models of the study, in canonical order.
 pub fn ramps(settings: &Settings) -> Vec<Ramp> {
-    let words = View::first(settings).words("ramp.models");
+    let words = View::first(settings).get(&fields::RAMP_MODELS);
     Ramp::ALL
         .into_iter()
         .filter(|ramp| words.iter().any(|word| word == ramp.as_str()))
@@ -167,7 +186,7 @@ pub fn ramps(settings: &Settings) -> Vec<Ramp> {
 
 /// Signs of the study, in canonical order.
 pub fn signs(settings: &Settings) -> Vec<Sign> {
-    let words = View::first(settings).words("pulse.signs");
+    let words = View::first(settings).get(&fields::PULSE_SIGNS);
     Sign::ALL
         .into_iter()
         .filter(|sign| words.iter().any(|word| word == sign.as_str()))
@@ -176,7 +195,7 @@ pub fn signs(settings: &Settings) -> Vec<Sign> {
 
 /// Pulse widths of the study, ms, ascending.
 pub fn widths_ms(settings: &Settings) -> Vec<f64> {
-    let mut widths = View::first(settings).numbers("pulse.widths_ms").to_vec();
+    let mut widths = View::first(settings).get(&fields::PULSE_WIDTHS_MS).to_vec();
     widths.sort_by(f64::total_cmp);
     widths
 }
@@ -217,7 +236,7 @@ pub(super) fn combinations<'a>(settings: &'a Settings, mut each: impl FnMut(&Vie
 fn combinations_while<'a>(settings: &'a Settings, mut each: impl FnMut(&View<'a>) -> bool) {
     let length = |path| settings.get(path).map_or(1, |setting| setting.values.len());
     let heads = ("heads", settings.heads().len().max(1));
-    let others = settings.axes().into_iter();
+    let others = axis_paths(settings).into_iter();
     let axes: Vec<(&'a str, usize)> = std::iter::once(heads)
         .chain(others.map(|path| (path, length(path))))
         .filter(|(_, length)| *length != 1)
@@ -248,7 +267,7 @@ pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
         faults,
     }
     .study();
-    let axes = settings.axes();
+    let axes = axis_paths(settings);
     let widths = widths_ms(settings);
     let count = axes
         .iter()
@@ -259,7 +278,10 @@ pub fn check(settings: &Settings, faults: &mut Vec<StudyError>) {
         * settings.heads().len().max(1) as f64
         * (ramps(settings).len() * signs(settings).len()) as f64;
     if count > MAX_POINTS as f64 {
-        let blamed = axes.last().copied().unwrap_or("pulse.widths_ms");
+        let blamed = axes
+            .last()
+            .copied()
+            .unwrap_or(fields::PULSE_WIDTHS_MS.path());
         if let Some(place) = settings.get(blamed).map(|setting| &setting.place) {
             faults.push(read::too_many_points(place, blamed, count));
         }
@@ -329,7 +351,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
         id: CellId::new(&scene, sign == Sign::Plus, faces == Faces::Up),
         ramp,
         pulse_ms,
-        pulse_width_s: unit::si("pulse.widths_ms", pulse_ms),
+        pulse_width_s: unit::si(fields::PULSE_WIDTHS_MS.path(), pulse_ms),
         sign,
         faces,
         gap_taken_m: scene::gap_taken_m(view),
@@ -337,7 +359,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
         axes: axes
             .iter()
             .filter_map(|axis| {
-                view.get(&axis.path)
+                view.datum(&axis.path)
                     .map(|datum| (axis.column.clone(), AxisValue::from_datum(datum)))
             })
             .collect(),
@@ -352,7 +374,7 @@ pub fn at_width(settings: &Settings, like: &Point, pulse_ms: f64, round: u32) ->
     let axes = axes(settings);
     let mut found = None;
     combinations(settings, |view| {
-        let has = |axis: &Axis| view.get(&axis.path).map(AxisValue::from_datum);
+        let has = |axis: &Axis| view.datum(&axis.path).map(AxisValue::from_datum);
         let values = axes.iter().map(has);
         if found.is_none() && values.eq(like.axes.iter().map(|(_, value)| Some(value.clone()))) {
             let point = point(view, &axes, like.ramp, pulse_ms, like.sign);

@@ -9,6 +9,8 @@ use opshock_solver::ramp::CoupledMode;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use super::field::{Field, Text};
+use super::fields;
 use super::keys::KEYS;
 use super::settings::View;
 
@@ -19,24 +21,50 @@ pub const MESH_SIZE_M: f64 = 1e-3;
 /// Default of `cut_khz`, Hz.
 pub const CUT_HZ: f64 = 100e3;
 
-/// A ramp's length in a study: its key below [`TABLE`] and its field.
-pub type Length = (&'static str, fn(&mut RampGeometry) -> &mut f64);
+/// A ramp's length in a study: its key and its field.
+pub type Length = (Field<Option<f64>>, fn(&mut RampGeometry) -> &mut f64);
 
 /// Every length a study may set.
 pub const LENGTHS: &[Length] = &[
-    ("finger_length_mm", |g| &mut g.finger_length_m),
-    ("finger_width_mm", |g| &mut g.finger_width_m),
-    ("tip_thickness_mm", |g| &mut g.tip_thickness_m),
-    ("root_thickness_mm", |g| &mut g.root_thickness_m),
-    ("slope_length_mm", |g| &mut g.slope_length_m),
-    ("body_length_mm", |g| &mut g.body_length_m),
-    ("body_width_mm", |g| &mut g.body_width_m),
-    ("body_depth_mm", |g| &mut g.body_depth_m),
-    ("neck_length_mm", |g| &mut g.neck_length_m),
-    ("pad_length_mm", |g| &mut g.pad_length_m),
-    ("mount_thickness_mm", |g| &mut g.mount_thickness_m),
-    ("contact_mm", |g| &mut g.contact_m),
-    ("contact_length_mm", |g| &mut g.contact_length_m),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_FINGER_LENGTH_MM, |g| {
+        &mut g.finger_length_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_FINGER_WIDTH_MM, |g| {
+        &mut g.finger_width_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_TIP_THICKNESS_MM, |g| {
+        &mut g.tip_thickness_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_ROOT_THICKNESS_MM, |g| {
+        &mut g.root_thickness_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_SLOPE_LENGTH_MM, |g| {
+        &mut g.slope_length_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_BODY_LENGTH_MM, |g| {
+        &mut g.body_length_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_BODY_WIDTH_MM, |g| {
+        &mut g.body_width_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_BODY_DEPTH_MM, |g| {
+        &mut g.body_depth_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_NECK_LENGTH_MM, |g| {
+        &mut g.neck_length_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_PAD_LENGTH_MM, |g| {
+        &mut g.pad_length_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_MOUNT_THICKNESS_MM, |g| {
+        &mut g.mount_thickness_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_CONTACT_MM, |g| {
+        &mut g.contact_m
+    }),
+    (fields::RAMP_DEFORMABLE_GEOMETRY_CONTACT_LENGTH_MM, |g| {
+        &mut g.contact_length_m
+    }),
 ];
 
 /// Path of a key of the table.
@@ -52,57 +80,92 @@ pub fn paths() -> impl Iterator<Item = &'static str> {
 
 /// Whether the study gives the ramp by its geometry: whether it names a material.
 pub fn is_given(view: &View<'_>) -> bool {
-    view.settings.has(&path("material"))
+    view.settings.has(OF_GEOMETRY.material.path())
 }
 
 /// The ramp of a view.
 pub fn solid_ramp(view: &View<'_>) -> SolidRamp {
-    let given = |name: &str| view.maybe_si(&path(name));
     let mut geometry = RampGeometry::mobile_drive();
-    for (name, field) in LENGTHS {
-        if let Some(length_m) = given(name) {
+    for (key, field) in LENGTHS {
+        if let Some(length_m) = view.get(key) {
             *field(&mut geometry) = length_m;
         }
     }
     // The rim stands in the middle of the slot.
-    let half_disk_m = 0.5 * view.si("disk.thickness_mm");
-    let clearance_m = |side: &str| {
-        view.maybe_si(side)
-            .unwrap_or_else(|| view.si("ramp.clearance_um"))
+    let half_disk_m = 0.5 * view.get(&fields::DISK_THICKNESS_MM);
+    let clearance_m = |side: &Field<Option<f64>>| {
+        let own_m = view.get(side);
+        own_m.unwrap_or_else(|| view.get(&fields::RAMP_CLEARANCE_UM))
     };
-    geometry.slot_above_m = half_disk_m + clearance_m("ramp.clearance_top_um");
-    geometry.slot_below_m = half_disk_m + clearance_m("ramp.clearance_bottom_um");
+    geometry.slot_above_m = half_disk_m + clearance_m(&fields::RAMP_CLEARANCE_TOP_UM);
+    geometry.slot_below_m = half_disk_m + clearance_m(&fields::RAMP_CLEARANCE_BOTTOM_UM);
     SolidRamp {
         geometry,
-        material: material_of(view, TABLE),
-        mount: mount_of(view, TABLE),
-        mesh_size_m: given("mesh_size_mm").unwrap_or(MESH_SIZE_M),
-        cut_hz: given("cut_khz").unwrap_or(CUT_HZ),
+        material: OF_GEOMETRY.material(view),
+        mount: OF_GEOMETRY.mount(view),
+        mesh_size_m: view
+            .get(&fields::RAMP_DEFORMABLE_GEOMETRY_MESH_SIZE_MM)
+            .unwrap_or(MESH_SIZE_M),
+        cut_hz: OF_GEOMETRY.cut_hz(view),
     }
 }
 
-/// The material that a table of the ramp names, with what it replaces.
-pub fn material_of(view: &View<'_>, table: &str) -> Material {
-    let given = |name: &str| view.maybe_si(&format!("{table}.{name}"));
-    let name = view.word(&format!("{table}.material"));
-    // The table of keys allows known names only.
-    let known = Material::by_name(name).unwrap_or(MATERIALS[0].material);
-    Material {
-        youngs_modulus_pa: given("youngs_modulus_gpa").unwrap_or(known.youngs_modulus_pa),
-        poisson: given("poisson").unwrap_or(known.poisson),
-        density_kg_per_m3: given("density_kg_per_m3").unwrap_or(known.density_kg_per_m3),
-    }
+/// Keys of the solid ramp of a table.
+pub struct SolidFields {
+    /// Name of the material.
+    pub material: Field<Text>,
+    /// What replaces its Young's modulus, Poisson's ratio, density.
+    pub replaced: [Field<Option<f64>>; 3],
+    /// Stiffness of the mount: normal, tangential.
+    pub mount: [Field<Option<f64>>; 2],
+    /// Modes are kept below this frequency.
+    pub cut: Field<Option<f64>>,
 }
 
-/// How the ramp of a table stands on the base.
-pub fn mount_of(view: &View<'_>, table: &str) -> Mount {
-    let given = |name: &str| view.maybe_si(&format!("{table}.{name}"));
-    match given("mount_normal_n_per_m") {
-        None => Mount::Bolted,
-        Some(normal_n_per_m) => Mount::Elastic {
-            normal_n_per_m,
-            tangential_n_per_m: given("mount_tangential_n_per_m").unwrap_or(normal_n_per_m),
-        },
+/// Those of a geometry.
+pub const OF_GEOMETRY: SolidFields = SolidFields {
+    material: fields::RAMP_DEFORMABLE_GEOMETRY_MATERIAL,
+    replaced: [
+        fields::RAMP_DEFORMABLE_GEOMETRY_YOUNGS_MODULUS_GPA,
+        fields::RAMP_DEFORMABLE_GEOMETRY_POISSON,
+        fields::RAMP_DEFORMABLE_GEOMETRY_DENSITY_KG_PER_M3,
+    ],
+    mount: [
+        fields::RAMP_DEFORMABLE_GEOMETRY_MOUNT_NORMAL_N_PER_M,
+        fields::RAMP_DEFORMABLE_GEOMETRY_MOUNT_TANGENTIAL_N_PER_M,
+    ],
+    cut: fields::RAMP_DEFORMABLE_GEOMETRY_CUT_KHZ,
+};
+
+impl SolidFields {
+    /// The material named, with what replaces values of it.
+    pub fn material(&self, view: &View<'_>) -> Material {
+        // The table of keys allows known names only.
+        let known = Material::by_name(view.get(&self.material)).unwrap_or(MATERIALS[0].material);
+        let [youngs_modulus_pa, poisson, density_kg_per_m3] =
+            self.replaced.each_ref().map(|field| view.get(field));
+        Material {
+            youngs_modulus_pa: youngs_modulus_pa.unwrap_or(known.youngs_modulus_pa),
+            poisson: poisson.unwrap_or(known.poisson),
+            density_kg_per_m3: density_kg_per_m3.unwrap_or(known.density_kg_per_m3),
+        }
+    }
+
+    /// How the ramp stands on the base.
+    pub fn mount(&self, view: &View<'_>) -> Mount {
+        let [normal, tangential] = self.mount.each_ref().map(|field| view.get(field));
+        match normal {
+            None => Mount::Bolted,
+            Some(normal_n_per_m) => Mount::Elastic {
+                normal_n_per_m,
+                tangential_n_per_m: tangential.unwrap_or(normal_n_per_m),
+            },
+        }
+    }
+
+    /// Frequency below which its modes are kept, Hz.
+    pub fn cut_hz(&self, view: &View<'_>) -> f64 {
+        view.get(&self.cut).unwrap_or(CUT_HZ)
     }
 }
 
@@ -138,7 +201,7 @@ pub fn has_mesh(ramp: &SolidRamp) -> bool {
 
 /// The oscillators of a view as the solver takes them; none for a ramp that the checks refuse.
 pub fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
-    let damping_ratio = view.si("ramp.deformable.damping_ratio");
+    let damping_ratio = view.get(&fields::RAMP_DEFORMABLE_DAMPING_RATIO);
     oscillators(&solid_ramp(view), damping_ratio)
 }
 
@@ -189,9 +252,9 @@ mod tests {
     #[test]
     fn what_the_table_of_keys_says_is_the_default_is_it() {
         let default = RampGeometry::mobile_drive();
-        for (name, field) in LENGTHS {
-            let key = KEYS.iter().find(|key| key.path == path(name)).unwrap();
-            let Presence::Optional(absent) = key.presence else {
+        for (length, field) in LENGTHS {
+            let name = length.path();
+            let Presence::Optional(absent) = length.key.presence else {
                 panic!("{name}")
             };
             let value: f64 = absent.parse().unwrap();
@@ -201,18 +264,20 @@ mod tests {
                 "{name}"
             );
         }
-        for (name, expected) in [
-            ("mesh_size_mm", 1e3 * MESH_SIZE_M),
-            ("cut_khz", 1e-3 * CUT_HZ),
+        for (field, expected) in [
+            (
+                fields::RAMP_DEFORMABLE_GEOMETRY_MESH_SIZE_MM,
+                1e3 * MESH_SIZE_M,
+            ),
+            (fields::RAMP_DEFORMABLE_GEOMETRY_CUT_KHZ, 1e-3 * CUT_HZ),
         ] {
-            let key = KEYS.iter().find(|key| key.path == path(name)).unwrap();
-            let Presence::Optional(absent) = key.presence else {
-                panic!("{name}")
+            let Presence::Optional(absent) = field.key.presence else {
+                panic!("{}", field.path())
             };
-            assert_eq!(absent.parse(), Ok(expected), "{name}");
+            assert_eq!(absent.parse(), Ok(expected), "{}", field.path());
         }
         let names: Vec<&str> = MATERIALS.iter().map(|known| known.name).collect();
-        assert_eq!(names, crate::study::keys::RAMP_MATERIALS);
+        assert_eq!(names, crate::study::words::RAMP_MATERIALS);
     }
 
     /// Frequencies of one shape go with the square root of modulus over density.

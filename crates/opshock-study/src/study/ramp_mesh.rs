@@ -17,9 +17,11 @@ use opshock_solid::mesh::{Mesh, MeshError};
 use opshock_solid::ramp::{Mount, RampFaces, RampMesh, RampModes, ShapeError, SolidRampError};
 
 use super::fault::StudyError;
+use super::field::Field;
+use super::fields;
 use super::included::Location;
 use super::keys;
-use super::ramp_geometry::{CUT_HZ, material_of, mount_of, rounded};
+use super::ramp_geometry::{SolidFields, rounded};
 use super::ramp_solid::RampSolid;
 use super::read::Reader;
 use super::settings::View;
@@ -28,8 +30,22 @@ use super::{tree, words};
 
 /// Table of the mesh.
 pub const TABLE: &str = "ramp.deformable.mesh";
+/// Keys of its solid.
+const OF_MESH: SolidFields = SolidFields {
+    material: fields::RAMP_DEFORMABLE_MESH_MATERIAL,
+    replaced: [
+        fields::RAMP_DEFORMABLE_MESH_YOUNGS_MODULUS_GPA,
+        fields::RAMP_DEFORMABLE_MESH_POISSON,
+        fields::RAMP_DEFORMABLE_MESH_DENSITY_KG_PER_M3,
+    ],
+    mount: [
+        fields::RAMP_DEFORMABLE_MESH_MOUNT_NORMAL_N_PER_M,
+        fields::RAMP_DEFORMABLE_MESH_MOUNT_TANGENTIAL_N_PER_M,
+    ],
+    cut: fields::RAMP_DEFORMABLE_MESH_CUT_KHZ,
+};
 /// List that takes its place.
-pub const MODES: &str = "ramp.deformable.coupled_modes";
+pub const MODES: &str = fields::RAMP_DEFORMABLE_COUPLED_MODES.path();
 /// Nodes at most: two gigabytes and a quarter of a minute.
 const MOST_NODES: usize = 25_000;
 /// Longest edge of the box around a ramp, m.
@@ -39,18 +55,20 @@ const SLOT_M: f64 = 2e-6;
 
 /// Reads the mesh a study names, if it wants a deformable ramp, into the list of oscillators.
 pub fn read(reader: &mut Reader, location: &Location) {
-    let path = |name: &str| format!("{TABLE}.{name}");
-    let file_key = path("file");
+    let file_key = fields::RAMP_DEFORMABLE_MESH_FILE.path();
     let needed = [
         TABLE,
-        "ramp.models",
-        "disk.thickness_mm",
-        "ramp.clearance_um",
+        fields::RAMP_MODELS.path(),
+        fields::DISK_THICKNESS_MM.path(),
+        fields::RAMP_CLEARANCE_UM.path(),
     ];
     let view = View::first(&reader.settings);
-    let is_wanted = view.words("ramp.models").iter().any(|m| m == "deformable");
-    let named = view.word(&file_key).to_owned();
-    if named.is_empty() && view.word(&path("material")).is_empty() {
+    let is_wanted = view
+        .get(&fields::RAMP_MODELS)
+        .iter()
+        .any(|m| m == "deformable");
+    let named = view.get(&fields::RAMP_DEFORMABLE_MESH_FILE).to_owned();
+    if named.is_empty() && view.get(&OF_MESH.material).is_empty() {
         // Modes of the command line leave them without their file.
         if !reader.settings.has(MODES) {
             lonely(reader, TABLE, "a mesh", "file and material");
@@ -61,17 +79,17 @@ pub fn read(reader: &mut Reader, location: &Location) {
         return;
     }
     let answer = ramp(&view, &location.folder.join(&named));
-    let place = view.place(&file_key).cloned();
+    let place = view.place(file_key).cloned();
     match answer {
         Err(faults) => refuse_files(reader, TABLE, faults),
         Ok((modes, gap_m)) => {
-            let clearance_m = |side: &str| {
-                view.maybe_si(side)
-                    .unwrap_or_else(|| view.si("ramp.clearance_um"))
+            let clearance_m = |side: &Field<Option<f64>>| {
+                let own_m = view.get(side);
+                own_m.unwrap_or_else(|| view.get(&fields::RAMP_CLEARANCE_UM))
             };
-            let slot_m = view.si("disk.thickness_mm")
-                + clearance_m("ramp.clearance_top_um")
-                + clearance_m("ramp.clearance_bottom_um");
+            let slot_m = view.get(&fields::DISK_THICKNESS_MM)
+                + clearance_m(&fields::RAMP_CLEARANCE_TOP_UM)
+                + clearance_m(&fields::RAMP_CLEARANCE_BOTTOM_UM);
             if let Some(place) = place.filter(|_| (gap_m - slot_m).abs() > SLOT_M) {
                 let message = format!(
                     "its contacts stand {:.1} um apart, disk and clearances take {:.1} um",
@@ -79,7 +97,7 @@ pub fn read(reader: &mut Reader, location: &Location) {
                     1e6 * slot_m
                 );
                 reader.remarks.push(
-                    StudyError::at("N208", &place, &file_key, message)
+                    StudyError::at("N208", &place, file_key, message)
                         .value(place.text())
                         .hint(
                             "the study's clearances count; the mesh gives only how the ramp moves",
@@ -174,9 +192,9 @@ fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64)
     static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
     let source = text::Source::read(path)?;
     let metres = metres(view);
-    let material = material_of(view, TABLE);
-    let mount = mount_of(view, TABLE);
-    let cut_hz = cut_hz(view);
+    let material = OF_MESH.material(view);
+    let mount = OF_MESH.mount(view);
+    let cut_hz = OF_MESH.cut_hz(view);
     let digest = *blake3::hash(source.text().as_bytes()).as_bytes();
     let key = (
         digest,
@@ -202,12 +220,8 @@ fn ramp(view: &View<'_>, path: &std::path::Path) -> Result<(Arc<RampModes>, f64)
 
 /// Length of the file's unit, m.
 fn metres(view: &View<'_>) -> f64 {
-    let metres = view.chosen(&format!("{TABLE}.unit"), &words::LENGTH_UNITS);
-    metres.unwrap_or(words::LENGTH_UNITS[0].1)
-}
-
-fn cut_hz(view: &View<'_>) -> f64 {
-    view.maybe_si(&format!("{TABLE}.cut_khz")).unwrap_or(CUT_HZ)
+    let unit = view.get(&fields::RAMP_DEFORMABLE_MESH_UNIT);
+    unit.unwrap_or(words::LENGTH_UNITS[0].1).metres
 }
 
 /// The solid of a file that a study names.
@@ -218,9 +232,9 @@ pub fn solid(view: &View<'_>, path: &std::path::Path) -> Result<RampSolid, Fault
     let file = gmsh::read(&text::Source::read(path)?)?;
     Ok(RampSolid {
         mesh: ramp_mesh(&file, metres(view))?,
-        material: material_of(view, TABLE),
-        mount: mount_of(view, TABLE),
-        cut_hz: cut_hz(view),
+        material: OF_MESH.material(view),
+        mount: OF_MESH.mount(view),
+        cut_hz: OF_MESH.cut_hz(view),
     })
 }
 

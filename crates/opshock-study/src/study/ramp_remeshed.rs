@@ -1,9 +1,9 @@
 //! A ramp from geometry on finer and coarser meshes: what the mesh's part of an error bar is made of.
 
+use super::fields;
 use super::ramp_geometry;
-use super::scene::FACES;
 use super::settings::View;
-use super::words::{self, Faces, Ramp};
+use super::words::{Faces, Ramp};
 use opshock_solid::ramp::SolidRamp;
 use opshock_solver::ramp::CoupledMode;
 
@@ -22,8 +22,8 @@ impl RemeshedRamp {
         let is_solid = ramp == Ramp::Deformable && ramp_geometry::is_given(view);
         is_solid.then(|| Self {
             solid: ramp_geometry::solid_ramp(view),
-            damping_ratio: view.si("ramp.deformable.damping_ratio"),
-            faces: view.chosen(FACES, &words::FACES).unwrap_or_default(),
+            damping_ratio: view.get(&fields::RAMP_DEFORMABLE_DAMPING_RATIO),
+            faces: view.get(&fields::SLIDER_FACES).unwrap_or_default(),
         })
     }
 

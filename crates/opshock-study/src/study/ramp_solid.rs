@@ -2,7 +2,7 @@
 
 use super::fault::{StudyError, StudyErrors};
 use super::settings::View;
-use super::{Study, ramp_geometry, ramp_mesh};
+use super::{Study, fields, ramp_geometry, ramp_mesh};
 use opshock_solid::material::Material;
 use opshock_solid::ramp::{Extent, Mount, RampMesh, SolidRampError};
 use std::path::Path;
@@ -46,7 +46,7 @@ impl Study {
                 cut_hz: ramp.cut_hz,
             }));
         }
-        let file = view.word(&format!("{}.file", ramp_mesh::TABLE));
+        let file = view.get(&fields::RAMP_DEFORMABLE_MESH_FILE);
         if file.is_empty() {
             return Ok(None);
         }

@@ -6,17 +6,19 @@
 
 use std::fmt::Write as _;
 
+use super::datum::Datum;
+use super::fields;
 use super::key::{Key, Kind, Presence};
 use super::keys::{self, KEYS};
 use super::scene;
-use super::settings::{Datum, Settings, View};
+use super::settings::{Settings, View};
 use super::words;
 
 /// Keys that stand for what another key holds once the study is read.
 const REPLACED: [&str; 3] = [
-    "slider.surface.preset",
-    "slider.surface.file",
-    "pulse.table",
+    fields::SLIDER_SURFACE_PRESET.path(),
+    fields::SLIDER_SURFACE_FILE.path(),
+    fields::PULSE_TABLE.path(),
 ];
 
 /// Tables of such keys.
@@ -54,7 +56,7 @@ pub fn text(settings: &Settings) -> String {
     }
     let lists = KEYS.iter().filter(|key| key.kind == Kind::Tables);
     for key in lists.filter(|key| !key.path.contains("[]")) {
-        for position in 0..View::of_study(settings).entries(key.path) {
+        for position in 0..View::of_study(settings).entries_at(key.path) {
             let _ = write!(out, "\n[[{}]]\n", key.path);
             for (member, value) in members(settings, key.path, &format!("{}[{position}]", key.path))
             {
@@ -163,9 +165,10 @@ fn value_at(settings: &Settings, path: &str) -> Option<String> {
     }
     let key = keys::find(path)?;
     let is_axis = |path| settings.get(path).is_some_and(|setting| setting.is_axis);
-    let follows_axis = is_axis("solver.accuracy")
-        || path == "solver.coupling_tolerance" && is_axis("solver.head_tolerance")
-        || path == "solver.film_reference_cells" && has_skews(settings);
+    let follows_axis = is_axis(fields::SOLVER_ACCURACY.path())
+        || path == fields::SOLVER_COUPLING_TOLERANCE.path()
+            && is_axis(fields::SOLVER_HEAD_TOLERANCE.path())
+        || path == fields::SOLVER_FILM_REFERENCE_CELLS.path() && has_skews(settings);
     (key.presence == Presence::Rung && !follows_axis)
         .then(|| rung_value(settings, path))
         .flatten()
@@ -173,7 +176,7 @@ fn value_at(settings: &Settings, path: &str) -> Option<String> {
 
 /// Whether points differ in their skew, on which the film's reference depends.
 fn has_skews(settings: &Settings) -> bool {
-    const SKEW: &str = "slider.skew_deg";
+    const SKEW: &str = fields::SLIDER_SKEW_DEG.path();
     let is_axis = settings.get(SKEW).is_some_and(|setting| setting.is_axis);
     is_axis || settings.per_head().any(|own| own == SKEW)
 }
@@ -182,25 +185,66 @@ fn has_skews(settings: &Settings) -> bool {
 fn rung_value(settings: &Settings, path: &str) -> Option<String> {
     let view = View::first(settings);
     let base = scene::resolutions(&view);
-    Some(match path {
-        "solver.coupling" => datum(&Datum::Word(
-            words::coupling_word(base.head.coupling).to_string(),
-        )),
-        "solver.max_steps" => base.head.max_steps.to_string(),
-        "solver.disk_cut_khz" => number(base.disk.cut_hz / 1e3),
-        "solver.disk_harmonics" => base.disk.n_harmonics.to_string(),
-        "solver.disk_elements" => base.disk.n_elements.to_string(),
-        "solver.static_correction" => base.disk.static_correction.to_string(),
-        "solver.structure_step_us" => number(nearest(base.structure.step_s, 1e6)),
-        "solver.head_tolerance" => number(base.head.tolerance),
-        "solver.approach_share" => number(base.head.approach_share),
-        "solver.film_cells" => base.film.cells.to_string(),
-        "solver.film_reference_cells" => base.film.reference_cells.to_string(),
-        "solver.film_floor_nm" => number(nearest(base.film.floor_m, 1e9)),
-        "solver.coupling_tolerance" => number(base.head.coupling_tolerance),
-        "solver.suspension_modes" => base.head.suspension_modes.to_string(),
-        _ => return None,
-    })
+    let values = [
+        (
+            fields::SOLVER_COUPLING.path(),
+            text_literal(words::coupling_word(base.head.coupling)),
+        ),
+        (
+            fields::SOLVER_MAX_STEPS.path(),
+            base.head.max_steps.to_string(),
+        ),
+        (
+            fields::SOLVER_DISK_CUT_KHZ.path(),
+            number(base.disk.cut_hz / 1e3),
+        ),
+        (
+            fields::SOLVER_DISK_HARMONICS.path(),
+            base.disk.n_harmonics.to_string(),
+        ),
+        (
+            fields::SOLVER_DISK_ELEMENTS.path(),
+            base.disk.n_elements.to_string(),
+        ),
+        (
+            fields::SOLVER_STATIC_CORRECTION.path(),
+            base.disk.static_correction.to_string(),
+        ),
+        (
+            fields::SOLVER_STRUCTURE_STEP_US.path(),
+            number(nearest(base.structure.step_s, 1e6)),
+        ),
+        (
+            fields::SOLVER_HEAD_TOLERANCE.path(),
+            number(base.head.tolerance),
+        ),
+        (
+            fields::SOLVER_APPROACH_SHARE.path(),
+            number(base.head.approach_share),
+        ),
+        (
+            fields::SOLVER_FILM_CELLS.path(),
+            base.film.cells.to_string(),
+        ),
+        (
+            fields::SOLVER_FILM_REFERENCE_CELLS.path(),
+            base.film.reference_cells.to_string(),
+        ),
+        (
+            fields::SOLVER_FILM_FLOOR_NM.path(),
+            number(nearest(base.film.floor_m, 1e9)),
+        ),
+        (
+            fields::SOLVER_COUPLING_TOLERANCE.path(),
+            number(base.head.coupling_tolerance),
+        ),
+        (
+            fields::SOLVER_SUSPENSION_MODES.path(),
+            base.head.suspension_modes.to_string(),
+        ),
+    ];
+    let found = values.into_iter().find(|(known, _)| *known == path)?;
+    Some(found.1)
 }
 
 /// The value in a decimal unit that becomes `si` when divided by `scale`, with few digits.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::fault::StudyError;
+use super::fields;
 use super::source::{Origin, Place, Source};
 
 /// A sampled pulse as read.
@@ -64,7 +65,7 @@ pub fn read(source: &Arc<Source>) -> Result<Samples, Vec<StudyError>> {
                 StudyError::at(
                     "E153",
                     &place,
-                    "pulse.table",
+                    fields::PULSE_TABLE.path(),
                     format!("row {} is not two finite numbers", row + 1),
                 )
                 .value(content)
@@ -83,7 +84,7 @@ pub fn read(source: &Arc<Source>) -> Result<Samples, Vec<StudyError>> {
         };
         let place = samples.places.get(row).unwrap_or(&whole);
         faults.push(
-            StudyError::at("E153", place, "pulse.table", message)
+            StudyError::at("E153", place, fields::PULSE_TABLE.path(), message)
                 .value(place.text().trim())
                 .allowed("2 rows or more, times rising from 0"),
         );

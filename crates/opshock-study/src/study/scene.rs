@@ -1,79 +1,63 @@
-//! One point's settings as a scene in SI.
-//!
-//! Every number passes [`View::si`] here and nowhere else.
+//! One point's settings as a scene in SI: plain values by the table of keys, and what several keys make together.
 
-use opshock_solver::air_bearing::{FilmResolution, SurfaceForces};
-use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
+use opshock_solver::air_bearing::SurfaceForces;
+use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{
-    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
-};
+use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::knob::Knob;
-use opshock_solver::scene::{HeadResolution, Scene, Window};
+use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
-use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
-use opshock_solver::structure::StructureResolution;
-use opshock_solver::suspension::{
-    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, SuspensionParameters,
-};
+use opshock_solver::slider::{Rail, RailOutline};
+use opshock_solver::suspension::{ContactLaw, LiftTab, Limiter, SuspensionParameters};
 
-use super::settings::{Datum, View};
+use super::field::{Field, Pair};
+use super::fields::{self, PLACES};
+use super::settings::View;
 use super::unit;
-use super::words::{self, Faces, Ramp, Shape};
-use super::{imported_suspension, ramp_geometry, ramp_mesh};
-
-/// Key of the times of pressure fields.
-pub const FIELD_TIMES: &str = "fields.times_ms";
-/// Waves of the disk.
-pub const WAVES: &str = "disk.waves";
-
-/// Key of the way the head faces.
-pub const FACES: &str = "slider.faces";
+use super::words::{Faces, RailKind, Ramp, RunOut, Shape};
+use super::{imported_suspension, ramp_geometry};
 
 /// Builds the scene of one point as its head sees it, and the way this faces. `width_ms` is its pulse width.
 pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> (Scene, Faces) {
     let scene = drive(view, ramp, width_ms);
-    let faces = view.chosen(FACES, &words::FACES).unwrap_or_default();
+    let faces = view.get(&fields::SLIDER_FACES).unwrap_or_default();
     match faces {
         Faces::Down => (scene, faces),
         Faces::Up => (scene.mirrored(), faces),
     }
 }
 
+/// Brings the values of keys below a path that go into a scene as they are to their places.
+fn place(view: &View<'_>, below: &str, scene: &mut Scene) {
+    let places = PLACES.iter().filter(|(path, _)| path.starts_with(below));
+    places.for_each(|(_, place)| place(view, scene));
+}
+
 /// The scene with z along the drive's axis and a head over the disk.
 fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
-    let Resolutions {
-        disk,
-        structure,
-        film,
-        head,
-    } = resolutions(view);
-    Scene {
-        pulse: pulse(view, width_ms),
-        oblique: oblique(view),
-        base: base(view),
-        window: window(view),
-        disk: disk_parameters(view),
-        run_out: run_out(view),
-        ramp: ramp_parameters(view, ramp),
-        slider: slider(view),
-        suspension: suspension(view),
-        gas: gas_parameters(view),
-        flow: given(view, "gas.model", &words::FLOWS),
-        surface_forces: surface_forces(view),
-        fail_below_m: view.si("solver.fail_below_nm"),
-        disk_resolution: disk,
-        structure_resolution: structure,
-        film_resolution: film,
-        head_resolution: head,
-        not_refined: not_refined(view),
-    }
+    let mut scene = resolved(view);
+    place(view, "", &mut scene);
+    scene.pulse = pulse(view, width_ms);
+    scene.oblique = oblique(view);
+    scene.base = base(view);
+    scene.window = window(view);
+    scene.disk.damping = disk_damping(view);
+    scene.run_out = run_out(view);
+    complete_ramp(view, ramp, &mut scene.ramp);
+    scene.slider.surface.rails = (0..view.get(&fields::SLIDER_SURFACE_RAIL))
+        .map(|position| rail(view, position))
+        .collect();
+    complete_suspension(view, &mut scene.suspension);
+    scene.gas = gas_parameters(view);
+    scene.surface_forces = surface_forces(view);
+    scene.not_refined = not_refined(view);
+    scene
 }
 
 /// Discretisation parameters that are values of the model.
 fn not_refined(view: &View<'_>) -> Vec<Knob> {
-    let words = view.words("solver.not_refined").iter();
+    let words = view.get(&fields::SOLVER_NOT_REFINED).iter();
     words.filter_map(|word| Knob::from_word(word)).collect()
 }
 
@@ -82,79 +66,55 @@ const COUPLING_SHARE: f64 = 0.01;
 
 /// Accuracy asked for at a point.
 pub fn rung(view: &View<'_>) -> Rung {
-    given(view, "solver.accuracy", &words::RUNGS)
-}
-
-/// Value of a word that every study has, by its default if not by itself.
-pub fn given<T: Copy>(view: &View<'_>, path: &str, list: &[(&str, T)]) -> T {
-    let value = view.chosen(path, list);
-    value.expect("the table of keys has a default for it")
+    view.get(&fields::SOLVER_ACCURACY)
 }
 
 /// The rung's resolutions with what the study sets itself.
 pub fn resolutions(view: &View<'_>) -> Resolutions {
-    let base = accuracy::resolutions(rung(view));
-    // Limits of the table keep every count inside usize.
-    let count = |path: &str, base: usize| {
-        view.maybe_integer(path)
-            .map_or(base, |value| value as usize)
-    };
-    let number = |path: &str, base: f64| view.maybe_si(path).unwrap_or(base);
-    let is_skewed = view
-        .maybe_si("slider.skew_deg")
-        .is_some_and(|skew| skew != 0.0);
-    // What the solve leaves must stay small beside the error of a step.
-    let coupling_tolerance =
-        view.maybe_si("solver.head_tolerance")
-            .map_or(base.head.coupling_tolerance, |tolerance| {
-                // The smallest tolerance of all has no hundredth but 0, which is none.
-                (COUPLING_SHARE * tolerance).max(f64::MIN_POSITIVE)
-            });
+    let scene = resolved(view);
     Resolutions {
-        disk: DiskResolution {
-            n_harmonics: count("solver.disk_harmonics", base.disk.n_harmonics),
-            cut_hz: number("solver.disk_cut_khz", base.disk.cut_hz),
-            n_elements: count("solver.disk_elements", base.disk.n_elements),
-            static_correction: view
-                .maybe_flag("solver.static_correction")
-                .unwrap_or(base.disk.static_correction),
-        },
-        structure: StructureResolution {
-            step_s: number("solver.structure_step_us", base.structure.step_s),
-            contact: base.structure.contact,
-        },
-        film: FilmResolution {
-            cells: count("solver.film_cells", base.film.cells),
-            floor_m: number("solver.film_floor_nm", base.film.floor_m),
-            // A grid that the study sets is taken as it is.
-            reference_cells: count(
-                "solver.film_reference_cells",
-                match view.maybe_integer("solver.film_cells") {
-                    Some(_) => 0,
-                    None if is_skewed => base.film.reference_cells.max(SKEWED_REFERENCE_CELLS),
-                    None => base.film.reference_cells,
-                },
-            ),
-        },
-        head: HeadResolution {
-            tolerance: number("solver.head_tolerance", base.head.tolerance),
-            approach_share: number("solver.approach_share", base.head.approach_share),
-            suspension_modes: count("solver.suspension_modes", base.head.suspension_modes),
-            coupling: view
-                .chosen("solver.coupling", &words::COUPLINGS)
-                .unwrap_or(base.head.coupling),
-            coupling_tolerance: number("solver.coupling_tolerance", coupling_tolerance),
-            max_steps: view
-                .maybe_integer("solver.max_steps")
-                .map_or(base.head.max_steps, |value| value as u64),
-        },
+        disk: scene.disk_resolution,
+        structure: scene.structure_resolution,
+        film: scene.film_resolution,
+        head: scene.head_resolution,
     }
+}
+
+/// The default drive at the resolutions of the study.
+fn resolved(view: &View<'_>) -> Scene {
+    let mut scene = Scene::default_drive();
+    let Resolutions {
+        disk,
+        structure,
+        film,
+        head,
+    } = accuracy::resolutions(rung(view));
+    scene.disk_resolution = disk;
+    scene.structure_resolution = structure;
+    scene.film_resolution = film;
+    scene.head_resolution = head;
+    let is_skewed = view.get(&fields::SLIDER_SKEW_DEG) != 0.0;
+    let reference = &mut scene.film_resolution.reference_cells;
+    match view.get(&fields::SOLVER_FILM_CELLS) {
+        // A grid that the study sets is taken as it is.
+        Some(_) => *reference = 0,
+        None if is_skewed => *reference = SKEWED_REFERENCE_CELLS.max(*reference),
+        None => {}
+    }
+    // What the solve leaves must stay small beside the error of a step.
+    if let Some(tolerance) = view.get(&fields::SOLVER_HEAD_TOLERANCE) {
+        // The smallest tolerance of all has no hundredth but 0, which is none.
+        scene.head_resolution.coupling_tolerance =
+            (COUPLING_SHARE * tolerance).max(f64::MIN_POSITIVE);
+    }
+    place(view, "solver.", &mut scene);
+    scene
 }
 
 /// Stretched to the width, scaled to a largest magnitude of 1.
 fn table(view: &View<'_>, width_s: f64) -> PulseShape {
-    let times = view.numbers("pulse.table_time_ms");
-    let relative = view.numbers("pulse.table_relative");
+    let times = view.get(&fields::PULSE_TABLE_TIME_MS);
+    let relative = view.get(&fields::PULSE_TABLE_RELATIVE);
     let last = times.last().copied().unwrap_or(1.0);
     let largest = relative
         .iter()
@@ -166,17 +126,17 @@ fn table(view: &View<'_>, width_s: f64) -> PulseShape {
 }
 
 fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
-    let width_s = unit::si("pulse.widths_ms", width_ms);
-    let shape = match given(view, "pulse.shape", &words::SHAPES) {
+    let width_s = unit::si(fields::PULSE_WIDTHS_MS.path(), width_ms);
+    let shape = match view.get(&fields::PULSE_SHAPE) {
         Shape::HalfSine => PulseShape::HalfSine,
         Shape::Haversine => PulseShape::Haversine,
         Shape::Square => PulseShape::Square,
         Shape::Trapezoid => PulseShape::Trapezoid {
-            rise_share: view.si("pulse.rise_share"),
+            rise_share: view.get(&fields::PULSE_RISE_SHARE),
         },
         Shape::DampedSine => PulseShape::DampedSine {
-            frequency_hz: view.si("pulse.frequency_hz"),
-            decay_per_s: view.si("pulse.decay_per_s"),
+            frequency_hz: view.get(&fields::PULSE_FREQUENCY_HZ),
+            decay_per_s: view.get(&fields::PULSE_DECAY_PER_S),
         },
         Shape::Table => table(view, width_s),
     };
@@ -185,68 +145,59 @@ fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
 
 /// Shares of an oblique shock; `None` when all are 0.
 fn oblique(view: &View<'_>) -> Option<ObliqueShock> {
-    let share = |path: &str| view.maybe_si(path).unwrap_or(0.0);
+    let share = |field: &Field<Option<f64>>| view.get(field).unwrap_or(0.0);
     let shock = ObliqueShock {
-        in_plane: [share("pulse.in_plane_x"), share("pulse.in_plane_y")],
+        in_plane: [&fields::PULSE_IN_PLANE_X, &fields::PULSE_IN_PLANE_Y].map(share),
         rotation_per_m: [
-            share("pulse.rotation_x_per_m"),
-            share("pulse.rotation_y_per_m"),
-        ],
+            &fields::PULSE_ROTATION_X_PER_M,
+            &fields::PULSE_ROTATION_Y_PER_M,
+        ]
+        .map(share),
     };
     (shock != ObliqueShock::default()).then_some(shock)
 }
 
 /// Modes of base plate and housing.
 fn base(view: &View<'_>) -> Vec<BaseMode> {
-    view.tables("base.modes", |si| BaseMode {
-        frequency_hz: si("frequency_hz"),
-        damping_ratio: si("damping_ratio"),
-        participation_sqrt_kg: si("participation_sqrt_kg"),
-        spindle_per_sqrt_kg: si("spindle_per_sqrt_kg"),
-        ramp_per_sqrt_kg: si("ramp_per_sqrt_kg"),
-        pivot_per_sqrt_kg: si("pivot_per_sqrt_kg"),
-    })
+    let mode = |entry| BaseMode {
+        frequency_hz: view.entry(entry, &fields::BASE_MODES_FREQUENCY_HZ),
+        damping_ratio: view.entry(entry, &fields::BASE_MODES_DAMPING_RATIO),
+        participation_sqrt_kg: view.entry(entry, &fields::BASE_MODES_PARTICIPATION_SQRT_KG),
+        spindle_per_sqrt_kg: view.entry(entry, &fields::BASE_MODES_SPINDLE_PER_SQRT_KG),
+        ramp_per_sqrt_kg: view.entry(entry, &fields::BASE_MODES_RAMP_PER_SQRT_KG),
+        pivot_per_sqrt_kg: view.entry(entry, &fields::BASE_MODES_PIVOT_PER_SQRT_KG),
+    };
+    (0..view.get(&fields::BASE_MODES)).map(mode).collect()
 }
 
 /// Times at which pressure fields are asked for, after the onset, ascending.
 pub fn field_times_s(view: &View<'_>) -> Vec<f64> {
-    let start_s = view.si("pulse.start_ms");
-    let asked = view.numbers(FIELD_TIMES).iter();
+    let start_s = view.get(&fields::PULSE_START_MS);
+    let asked = view.get(&fields::FIELDS_TIMES_MS).iter();
     let mut times_s: Vec<f64> = asked
-        .map(|&time| unit::si(FIELD_TIMES, time) - start_s)
+        .map(|&time| unit::si(fields::FIELDS_TIMES_MS.path(), time) - start_s)
         .collect();
     times_s.sort_by(f64::total_cmp);
     times_s
 }
 
 fn window(view: &View<'_>) -> Window {
-    match view.maybe_si("pulse.window_ms") {
+    match view.get(&fields::PULSE_WINDOW_MS) {
         Some(length_s) => Window::Fixed { length_s },
         None => Window::UntilDecayed {
-            share: view.si("pulse.decay_share"),
-            max_s: view.si("pulse.window_max_ms"),
+            share: view.get(&fields::PULSE_DECAY_SHARE),
+            max_s: view.get(&fields::PULSE_WINDOW_MAX_MS),
         },
     }
 }
 
-fn disk_parameters(view: &View<'_>) -> DiskParameters {
-    DiskParameters {
-        inner_radius_m: view.si("disk.inner_radius_mm"),
-        outer_radius_m: view.si("disk.outer_radius_mm"),
-        thickness_m: view.si("disk.thickness_mm"),
-        youngs_modulus_pa: view.si("disk.youngs_modulus_gpa"),
-        poisson: view.si("disk.poisson"),
-        density_kg_per_m3: view.si("disk.density_kg_per_m3"),
-        spin_rad_per_s: view.si("disk.rpm"),
-        damping: match view.maybe_si("disk.damping.modal_ratio") {
-            Some(ratio) => DiskDamping::ModalRatio(ratio),
-            None => DiskDamping::Rayleigh {
-                alpha_per_s: view.si("disk.damping.rayleigh.alpha_per_s"),
-                beta_s: view.si("disk.damping.rayleigh.beta_s"),
-            },
+fn disk_damping(view: &View<'_>) -> DiskDamping {
+    match view.get(&fields::DISK_DAMPING_MODAL_RATIO) {
+        Some(ratio) => DiskDamping::ModalRatio(ratio),
+        None => DiskDamping::Rayleigh {
+            alpha_per_s: view.get(&fields::DISK_DAMPING_RAYLEIGH_ALPHA_PER_S),
+            beta_s: view.get(&fields::DISK_DAMPING_RAYLEIGH_BETA_S),
         },
-        space_fixed_damping_per_s: view.si("disk.space_fixed_damping_per_s"),
-        hub: hub(view),
     }
 }
 
@@ -254,20 +205,17 @@ fn disk_parameters(view: &View<'_>) -> DiskParameters {
 fn run_out(view: &View<'_>) -> Vec<Wave> {
     let once = Wave {
         harmonic: 1,
-        amplitude_m: view.maybe_si("disk.run_out_um").unwrap_or(0.0),
-        phase_rad: -view.maybe_si("disk.run_out_deg").unwrap_or(0.0),
+        amplitude_m: view.get(&fields::DISK_RUN_OUT_UM).unwrap_or(0.0),
+        phase_rad: -view.get(&fields::DISK_RUN_OUT_DEG).unwrap_or(0.0),
         grows_with_radius: true,
     };
-    let listed = (0..view.entries(WAVES)).map(|position| {
-        let member = |name: &str| format!("{WAVES}[{position}].{name}");
-        let harmonic = view.maybe_integer(&member("harmonic")).unwrap_or(1);
-        Wave {
-            // The table of keys bounds it.
-            harmonic: harmonic as u32,
-            amplitude_m: view.si(&member("amplitude_nm")),
-            phase_rad: view.maybe_si(&member("phase_deg")).unwrap_or(0.0),
-            grows_with_radius: false,
-        }
+    let listed = (0..view.get(&fields::DISK_WAVES)).map(|entry| Wave {
+        harmonic: view.entry(entry, &fields::DISK_WAVES_HARMONIC),
+        amplitude_m: view.entry(entry, &fields::DISK_WAVES_AMPLITUDE_NM),
+        phase_rad: view
+            .entry(entry, &fields::DISK_WAVES_PHASE_DEG)
+            .unwrap_or(0.0),
+        grows_with_radius: false,
     });
     std::iter::once(once)
         .chain(listed)
@@ -277,10 +225,10 @@ fn run_out(view: &View<'_>) -> Vec<Wave> {
 
 /// What the running-out disk takes of the ramp's gaps at its highest and lowest, m; 0 unless asked for.
 pub fn gap_taken_m(view: &View<'_>) -> f64 {
-    if view.chosen("ramp.run_out", &words::RUN_OUT) != Some(true) {
+    if view.get(&fields::RAMP_RUN_OUT) != Some(RunOut::LowestGap) {
         return 0.0;
     }
-    let share = view.si("ramp.radius_mm") / view.si("disk.outer_radius_mm");
+    let share = view.get(&fields::RAMP_RADIUS_MM) / view.get(&fields::DISK_OUTER_RADIUS_MM);
     let at_ramp = |wave: &Wave| match wave.grows_with_radius {
         true => share * wave.amplitude_m,
         false => wave.amplitude_m,
@@ -290,133 +238,92 @@ pub fn gap_taken_m(view: &View<'_>) -> f64 {
 
 /// Modes of both arms as one body, as listed.
 fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
-    let list = ramp_mesh::MODES;
-    let mode = |position: usize| {
-        let member = |name: &str| format!("{list}[{position}].{name}");
-        CoupledMode {
-            frequency_hz: view.si(&member("frequency_hz")),
-            shape_per_sqrt_kg: ["top_per_sqrt_kg", "bottom_per_sqrt_kg"]
-                .map(|name| view.si(&member(name))),
-            participation_sqrt_kg: view.si(&member("participation_sqrt_kg")),
-            damping_ratio: view
-                .maybe_si(&member("damping_ratio"))
-                .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
+    let mode = |entry| CoupledMode {
+        frequency_hz: view.entry(entry, &fields::RAMP_DEFORMABLE_COUPLED_MODES_FREQUENCY_HZ),
+        shape_per_sqrt_kg: [
+            view.entry(
+                entry,
+                &fields::RAMP_DEFORMABLE_COUPLED_MODES_TOP_PER_SQRT_KG,
+            ),
+            view.entry(
+                entry,
+                &fields::RAMP_DEFORMABLE_COUPLED_MODES_BOTTOM_PER_SQRT_KG,
+            ),
+        ],
+        participation_sqrt_kg: view.entry(
+            entry,
+            &fields::RAMP_DEFORMABLE_COUPLED_MODES_PARTICIPATION_SQRT_KG,
+        ),
+        damping_ratio: view
+            .entry(entry, &fields::RAMP_DEFORMABLE_COUPLED_MODES_DAMPING_RATIO)
+            .unwrap_or_else(|| view.get(&fields::RAMP_DEFORMABLE_DAMPING_RATIO)),
+    };
+    let count = view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES);
+    (0..count).map(mode).collect()
+}
+
+/// Model and clearances of the ramp.
+fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
+    let damping_ratio =
+        |own: Option<f64>| own.unwrap_or_else(|| view.get(&fields::RAMP_DEFORMABLE_DAMPING_RATIO));
+    let top = |entry| ArmMode {
+        frequency_hz: view.entry(entry, &fields::RAMP_DEFORMABLE_MODES_FREQUENCY_HZ),
+        mass_kg: view.entry(entry, &fields::RAMP_DEFORMABLE_MODES_MASS_MG),
+        participation: view.entry(entry, &fields::RAMP_DEFORMABLE_MODES_PARTICIPATION),
+        damping_ratio: damping_ratio(
+            view.entry(entry, &fields::RAMP_DEFORMABLE_MODES_DAMPING_RATIO),
+        ),
+    };
+    let bottom = |entry| ArmMode {
+        frequency_hz: view.entry(entry, &fields::RAMP_DEFORMABLE_BOTTOM_MODES_FREQUENCY_HZ),
+        mass_kg: view.entry(entry, &fields::RAMP_DEFORMABLE_BOTTOM_MODES_MASS_MG),
+        participation: view.entry(entry, &fields::RAMP_DEFORMABLE_BOTTOM_MODES_PARTICIPATION),
+        damping_ratio: damping_ratio(
+            view.entry(entry, &fields::RAMP_DEFORMABLE_BOTTOM_MODES_DAMPING_RATIO),
+        ),
+    };
+    parameters.model = match ramp {
+        Ramp::None => RampModel::None,
+        Ramp::Rigid => RampModel::Rigid,
+        Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
+            modes: ramp_geometry::coupled_modes(view),
+        },
+        Ramp::Deformable if view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0 => {
+            RampModel::Coupled {
+                modes: coupled_modes(view),
+            }
+        }
+        Ramp::Deformable => {
+            let top: Vec<ArmMode> = (0..view.get(&fields::RAMP_DEFORMABLE_MODES))
+                .map(top)
+                .collect();
+            let bottom = match view.get(&fields::RAMP_DEFORMABLE_BOTTOM_MODES) {
+                0 => top.clone(),
+                count => (0..count).map(bottom).collect(),
+            };
+            RampModel::Deformable { top, bottom }
         }
     };
-    (0..view.entries(list)).map(mode).collect()
-}
-
-/// The hub, when its stiffnesses are given; what is left out of it is 0.
-fn hub(view: &View<'_>) -> Option<HubParameters> {
-    let maybe = |name: &str| view.maybe_si(&format!("hub.{name}"));
-    let or_0 = |name: &str| maybe(name).unwrap_or(0.0);
-    Some(HubParameters {
-        axial_stiffness_n_per_m: maybe("axial_stiffness_n_per_m")?,
-        tilt_stiffness_n_m_per_rad: maybe("tilt_stiffness_n_m_per_rad")?,
-        mass_kg: or_0("mass_mg"),
-        transverse_inertia_kg_m2: or_0("transverse_inertia_mg_mm2"),
-        polar_inertia_kg_m2: or_0("polar_inertia_mg_mm2"),
-        axial_damping_n_s_per_m: or_0("axial_damping_n_s_per_m"),
-        tilt_damping_n_m_s_per_rad: or_0("tilt_damping_n_m_s_per_rad"),
-        cross_stiffness_n_m_per_rad: or_0("cross_stiffness_n_m_per_rad"),
-        cross_damping_n_m_s_per_rad: or_0("cross_damping_n_m_s_per_rad"),
-        centre_height_m: or_0("centre_height_mm"),
-    })
-}
-
-fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
-    let arm = |list: &str| -> Vec<ArmMode> {
-        (0..view.entries(list))
-            .map(|position| {
-                let member = |name: &str| format!("{list}[{position}].{name}");
-                ArmMode {
-                    frequency_hz: view.si(&member("frequency_hz")),
-                    mass_kg: view.si(&member("mass_mg")),
-                    participation: view.si(&member("participation")),
-                    damping_ratio: view
-                        .maybe_si(&member("damping_ratio"))
-                        .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
-                }
-            })
-            .collect()
-    };
-    let clearance_m = view.si("ramp.clearance_um");
+    let clearance_m = view.get(&fields::RAMP_CLEARANCE_UM);
     let taken_m = gap_taken_m(view);
-    RampParameters {
-        model: match ramp {
-            Ramp::None => RampModel::None,
-            Ramp::Rigid => RampModel::Rigid,
-            Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
-                modes: ramp_geometry::coupled_modes(view),
-            },
-            Ramp::Deformable if view.entries(ramp_mesh::MODES) > 0 => RampModel::Coupled {
-                modes: coupled_modes(view),
-            },
-            Ramp::Deformable => {
-                let top = arm("ramp.deformable.modes");
-                let bottom = match view.entries("ramp.deformable.bottom_modes") {
-                    0 => top.clone(),
-                    _ => arm("ramp.deformable.bottom_modes"),
-                };
-                RampModel::Deformable { top, bottom }
-            }
-        },
-        clearance_top_m: view
-            .maybe_si("ramp.clearance_top_um")
-            .unwrap_or(clearance_m)
-            - taken_m,
-        clearance_bottom_m: view
-            .maybe_si("ramp.clearance_bottom_um")
-            .unwrap_or(clearance_m)
-            - taken_m,
-        radius_m: view.si("ramp.radius_mm"),
-        angle_rad: view.si("ramp.angle_deg"),
-        restitution: view.si("ramp.restitution"),
-        contact_stiffness_n_per_m: view.maybe_si("ramp.contact_stiffness_n_per_m"),
-        contact_frequency_hz: view
-            .maybe_si("ramp.contact_frequency_khz")
-            .unwrap_or(CONTACT_FREQUENCY_HZ),
-        contact_damping_ratio: view
-            .maybe_si("ramp.contact_damping_ratio")
-            .unwrap_or(CONTACT_DAMPING_RATIO),
-    }
+    let own_m = |own: &Field<Option<f64>>| view.get(own).unwrap_or(clearance_m) - taken_m;
+    parameters.clearance_top_m = own_m(&fields::RAMP_CLEARANCE_TOP_UM);
+    parameters.clearance_bottom_m = own_m(&fields::RAMP_CLEARANCE_BOTTOM_UM);
+    parameters.contact_stiffness_n_per_m = view.get(&fields::RAMP_CONTACT_STIFFNESS_N_PER_M);
 }
 
-fn slider(view: &View<'_>) -> SliderParameters {
-    SliderParameters {
-        radius_m: view.si("slider.radius_mm"),
-        angle_rad: view.si("slider.angle_deg"),
-        skew_rad: view.si("slider.skew_deg"),
-        length_m: view.si("slider.length_mm"),
-        width_m: view.si("slider.width_mm"),
-        height_m: view.si("slider.height_mm"),
-        density_kg_per_m3: view.si("slider.density_kg_per_m3"),
-        surface: SurfaceParameters {
-            base_recess_m: view.si("slider.surface.base_recess_um"),
-            crown_m: view.si("slider.surface.crown_nm"),
-            camber_m: view.si("slider.surface.camber_nm"),
-            twist_m: view.si("slider.surface.twist_nm"),
-            taper_length_m: view.si("slider.surface.taper_length_um"),
-            taper_angle_rad: view.si("slider.surface.taper_angle_deg"),
-            rails: (0..view.entries("slider.surface.rail"))
-                .map(|position| rail(view, position))
-                .collect(),
-        },
-    }
-}
-
-fn rail(view: &View<'_>, position: usize) -> Rail {
-    let member = |name: &str| format!("slider.surface.rail[{position}].{name}");
-    let pair = |name: &str| match view.get(&member(name)) {
-        Some(Datum::Pair(ends)) => ends.map(|end| unit::si(name, end)),
-        _ => [0.0; 2],
+fn rail(view: &View<'_>, entry: usize) -> Rail {
+    let pair = |field: &Field<Pair>| {
+        let ends = view.entry(entry, field);
+        ends.map(|end| unit::si(field.path(), end))
     };
-    let is_polygon = view.chosen(&member("kind"), &words::RAIL_KINDS) == Some(true);
-    let outline = match view.get(&member("points_um")) {
-        Some(Datum::Points(points)) if is_polygon => {
-            let mut points_m: Vec<[f64; 2]> = points
+    let outline = match view.entry(entry, &fields::SLIDER_SURFACE_RAIL_KIND) {
+        RailKind::Polygon => {
+            let corners = &fields::SLIDER_SURFACE_RAIL_POINTS_UM;
+            let mut points_m: Vec<[f64; 2]> = view
+                .entry(entry, corners)
                 .iter()
-                .map(|corner| corner.map(|value| unit::si("points_um", value)))
+                .map(|corner| corner.map(|value| unit::si(corners.path(), value)))
                 .collect();
             if points_m.len() > 1 && points_m.first() == points_m.last() {
                 points_m.pop();
@@ -426,106 +333,82 @@ fn rail(view: &View<'_>, position: usize) -> Rail {
             }
             RailOutline::Polygon { points_m }
         }
-        _ => RailOutline::Rectangle {
-            x_m: pair("x_um"),
-            y_m: pair("y_um"),
+        RailKind::Rectangle => RailOutline::Rectangle {
+            x_m: pair(&fields::SLIDER_SURFACE_RAIL_X_UM),
+            y_m: pair(&fields::SLIDER_SURFACE_RAIL_Y_UM),
         },
     };
     Rail {
         outline,
-        recess_m: view.si(&member("recess_um")),
+        recess_m: view.entry(entry, &fields::SLIDER_SURFACE_RAIL_RECESS_UM),
     }
 }
 
 /// The suspension.
 pub fn suspension(view: &View<'_>) -> SuspensionParameters {
-    let si = |name: &str| view.si(&format!("suspension.{name}"));
-    SuspensionParameters {
-        gram_load_n: si("gram_load_gf"),
-        hinge: Hinge {
-            length_m: si("hinge.length_mm"),
-            width_m: si("hinge.width_mm"),
-            thickness_m: si("hinge.thickness_um"),
-        },
-        load_beam: LoadBeam {
-            dimple_m: si("load_beam.dimple_mm"),
-            end_m: si("load_beam.end_mm"),
-            web_m: si("load_beam.web_um"),
-            width_root_m: si("load_beam.width_root_mm"),
-            width_dimple_m: si("load_beam.width_dimple_mm"),
-            tab_width_m: si("load_beam.tab_width_mm"),
-        },
-        flange: Flange {
-            height_m: si("flange.height_um"),
-            from_m: si("flange.from_mm"),
-            to_m: si("flange.to_mm"),
-        },
-        flexure: Flexure {
-            mass_kg: si("flexure.mass_mg"),
-            from_m: si("flexure.from_mm"),
-        },
-        youngs_modulus_pa: si("material.youngs_modulus_gpa"),
-        shear_modulus_pa: si("material.shear_modulus_gpa"),
-        density_kg_per_m3: si("material.density_kg_per_m3"),
-        damping_ratio: si("damping_ratio"),
-        gimbal: Gimbal {
-            vertical_n_per_m: si("gimbal.vertical_n_per_m"),
-            pitch_n_m_per_rad: si("gimbal.pitch_n_m_per_rad"),
-            roll_n_m_per_rad: si("gimbal.roll_n_m_per_rad"),
-        },
-        dimple: contact_law(view, "dimple"),
-        limiters: limiters(view),
-        lift_tab: view
-            .maybe_si("suspension.lift_tab.gap_um")
-            .map(|gap_m| LiftTab {
-                gap_m,
-                contact: contact_law(view, "lift_tab"),
-            }),
-        modes: imported_suspension::listed(view),
-    }
+    let mut scene = Scene::default_drive();
+    place(view, "suspension.", &mut scene);
+    complete_suspension(view, &mut scene.suspension);
+    scene.suspension
+}
+
+/// Stops and imported modes of the suspension.
+fn complete_suspension(view: &View<'_>, suspension: &mut SuspensionParameters) {
+    // What a stop leaves out is the dimple's.
+    let dimple = suspension.dimple;
+    let contact = |stiffness: &Field<Option<f64>>, damping: &Field<Option<f64>>| ContactLaw {
+        stiffness_n_per_m: view.get(stiffness).unwrap_or(dimple.stiffness_n_per_m),
+        damping_ratio: view.get(damping).unwrap_or(dimple.damping_ratio),
+    };
+    suspension.limiters = limiters(
+        view,
+        contact(
+            &fields::SUSPENSION_LIMITERS_STIFFNESS_N_PER_M,
+            &fields::SUSPENSION_LIMITERS_DAMPING_RATIO,
+        ),
+    );
+    let gap_m = view.get(&fields::SUSPENSION_LIFT_TAB_GAP_UM);
+    suspension.lift_tab = gap_m.map(|gap_m| LiftTab {
+        gap_m,
+        contact: contact(
+            &fields::SUSPENSION_LIFT_TAB_STIFFNESS_N_PER_M,
+            &fields::SUSPENSION_LIFT_TAB_DAMPING_RATIO,
+        ),
+    });
+    suspension.modes = imported_suspension::listed(view);
 }
 
 /// The inner and the outer limiter, when a gap is given.
-fn limiters(view: &View<'_>) -> Vec<Limiter> {
-    let maybe = |name: &str| view.maybe_si(&format!("suspension.limiters.{name}"));
-    let Some(gap_m) = maybe("gap_um") else {
+fn limiters(view: &View<'_>, contact: ContactLaw) -> Vec<Limiter> {
+    let Some(gap_m) = view.get(&fields::SUSPENSION_LIMITERS_GAP_UM) else {
         return Vec::new();
     };
-    let across_m = maybe("across_mm").unwrap_or(0.0);
-    let limiter = |gap_m: f64, across_m: f64| Limiter {
+    let outer_m = view.get(&fields::SUSPENSION_LIMITERS_GAP_OUTER_UM);
+    let along_m = view
+        .get(&fields::SUSPENSION_LIMITERS_ALONG_MM)
+        .unwrap_or(0.0);
+    let across_m = view
+        .get(&fields::SUSPENSION_LIMITERS_ACROSS_MM)
+        .unwrap_or(0.0);
+    let limiter = |gap_m, across_m| Limiter {
         gap_m,
-        along_m: maybe("along_mm").unwrap_or(0.0),
+        along_m,
         across_m,
-        contact: contact_law(view, "limiters"),
+        contact,
     };
     vec![
         limiter(gap_m, -across_m),
-        limiter(maybe("gap_outer_um").unwrap_or(gap_m), across_m),
+        limiter(outer_m.unwrap_or(gap_m), across_m),
     ]
-}
-
-/// Stiffness and damping of a contact of the suspension; the dimple's where they are left out.
-fn contact_law(view: &View<'_>, contact: &str) -> ContactLaw {
-    let of = |name: &str| {
-        view.maybe_si(&format!("suspension.{contact}.{name}"))
-            .unwrap_or_else(|| view.si(&format!("suspension.dimple.{name}")))
-    };
-    ContactLaw {
-        stiffness_n_per_m: of("stiffness_n_per_m"),
-        damping_ratio: of("damping_ratio"),
-    }
 }
 
 /// Forces beside the air; `None` when none is given or all are 0.
 fn surface_forces(view: &View<'_>) -> Option<SurfaceForces> {
-    let or_0 = |name: &str| {
-        let path = format!("surface_forces.{name}");
-        view.maybe_si(&path).unwrap_or(0.0)
-    };
+    let or_0 = |field: &Field<Option<f64>>| view.get(field).unwrap_or(0.0);
     let forces = SurfaceForces {
-        hamaker_j: or_0("hamaker_j"),
-        repulsion_j_m6: or_0("repulsion_j_m6"),
-        potential_v: or_0("potential_v"),
+        hamaker_j: or_0(&fields::SURFACE_FORCES_HAMAKER_J),
+        repulsion_j_m6: or_0(&fields::SURFACE_FORCES_REPULSION_J_M6),
+        potential_v: or_0(&fields::SURFACE_FORCES_POTENTIAL_V),
     };
     (!forces.is_none()).then_some(forces)
 }
@@ -534,18 +417,18 @@ fn surface_forces(view: &View<'_>) -> Option<SurfaceForces> {
 /// from itself or scaled from the reference state.
 pub fn gas_parameters(view: &View<'_>) -> GasParameters {
     let pressure_pa = view
-        .maybe_si("gas.pressure_pa")
+        .get(&fields::GAS_PRESSURE_PA)
         .or_else(|| {
-            view.maybe_si("gas.altitude_m")
+            view.get(&fields::GAS_ALTITUDE_M)
                 .map(gas::standard_pressure_pa)
         })
         .unwrap_or(gas::SEA_LEVEL_PRESSURE_PA);
-    let temperature_k = view.maybe_si("gas.temperature_c");
+    let temperature_k = view.get(&fields::GAS_TEMPERATURE_C);
     let viscosity_pa_s = view
-        .maybe_si("gas.viscosity_pa_s")
+        .get(&fields::GAS_VISCOSITY_PA_S)
         .or_else(|| temperature_k.map(gas::viscosity_pa_s))
         .unwrap_or(gas::REFERENCE_VISCOSITY_PA_S);
-    let mean_free_path_m = view.maybe_si("gas.mean_free_path_nm").unwrap_or_else(|| {
+    let mean_free_path_m = view.get(&fields::GAS_MEAN_FREE_PATH_NM).unwrap_or_else(|| {
         let temperature_k = temperature_k.unwrap_or(gas::REFERENCE_TEMPERATURE_K);
         gas::mean_free_path_m(viscosity_pa_s, pressure_pa, temperature_k)
     });

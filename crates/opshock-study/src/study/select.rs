@@ -3,6 +3,7 @@
 use opshock_solver::quantity;
 
 use super::fault::{StudyError, StudyErrors};
+use super::fields;
 use super::points::{self, Point};
 use super::settings::View;
 use super::unit;
@@ -124,7 +125,7 @@ impl Study {
         }
         let pulse_ms = choice.pulse_ms.unwrap_or(self.widths_ms[0]);
         let is_width = pulse_ms.is_finite() && pulse_ms > 0.0;
-        if !is_width || !unit::si("pulse.widths_ms", pulse_ms).is_normal() {
+        if !is_width || !unit::si(fields::PULSE_WIDTHS_MS.path(), pulse_ms).is_normal() {
             return Err(ChoiceError::Value {
                 option: "--pulse-ms",
                 value: pulse_ms.to_string(),
@@ -167,21 +168,21 @@ impl Study {
         let ramps = self.ramps.iter().map(ToString::to_string).collect();
         leave_open(
             choice.ramp.is_some(),
-            "ramp.models",
+            fields::RAMP_MODELS.path(),
             "--ramp".to_string(),
             ramps,
         );
         let widths = self.widths_ms.iter().map(ToString::to_string).collect();
         leave_open(
             choice.pulse_ms.is_some(),
-            "pulse.widths_ms",
+            fields::PULSE_WIDTHS_MS.path(),
             "--pulse-ms".to_string(),
             widths,
         );
         let signs = self.signs.iter().map(ToString::to_string).collect();
         leave_open(
             choice.sign.is_some(),
-            "pulse.signs",
+            fields::PULSE_SIGNS.path(),
             "--sign".to_string(),
             signs,
         );

@@ -3,34 +3,9 @@
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::keys::{self, KEYS};
+use super::datum::Datum;
+use super::field::{Field, Single, Tables, Value};
 use super::source::{Origin, Place};
-use super::unit;
-
-/// One value of a key.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Datum {
-    /// Number, in the unit of its key.
-    Number(f64),
-    /// Whole number.
-    Integer(i64),
-    /// Word out of the key's list.
-    Word(String),
-    /// true or false.
-    Flag(bool),
-    /// Free text.
-    Text(String),
-    /// Words.
-    Words(Vec<String>),
-    /// Numbers.
-    Numbers(Vec<f64>),
-    /// From and to.
-    Pair([f64; 2]),
-    /// Corners.
-    Points(Vec<[f64; 2]>),
-    /// Number of entries of a list of tables.
-    Entries(usize),
-}
 
 /// What a key was set to: one value, or several when it is an axis.
 #[derive(Clone, Debug)]
@@ -169,22 +144,6 @@ impl Settings {
             _ => None,
         }
     }
-
-    /// Paths of the axes beside widths, ramp models and signs, in the order of the table of keys:
-    /// the order in which they were written is not part of a study.
-    pub fn axes(&self) -> Vec<&str> {
-        let mut axes: Vec<&str> = self
-            .iter()
-            .filter(|(_, setting)| setting.is_axis)
-            .map(|(path, _)| path)
-            .collect();
-        let rank = |path: &str| {
-            let pattern = keys::pattern(path);
-            KEYS.iter().position(|key| key.path == pattern)
-        };
-        axes.sort_by_key(|path| (rank(path), *path));
-        axes
-    }
 }
 
 /// The settings as one point sees them: every axis at one position.
@@ -296,7 +255,7 @@ impl<'a> View<'a> {
     }
 
     /// The value at a path.
-    pub fn get(&self, path: &str) -> Option<&'a Datum> {
+    pub fn datum(&self, path: &str) -> Option<&'a Datum> {
         if let Some(own) = self.own_path(path) {
             return self.settings.get(&own)?.values.first();
         }
@@ -321,6 +280,33 @@ impl<'a> View<'a> {
         })
     }
 
+    /// The value of a key: numbers in SI.
+    pub fn get<T: Value>(&self, field: &Field<T>) -> T::Out<'a> {
+        T::read(field.path(), self.datum(field.path()))
+    }
+
+    /// The value of a member of a list at an entry of it.
+    pub fn entry<T: Value>(&self, entry: usize, field: &Field<T>) -> T::Out<'a> {
+        let path = field.of_entry(entry);
+        T::read(&path, self.datum(&path))
+    }
+
+    /// The value of a key among those of one head: `of` is what stands before its path.
+    pub fn get_of<T: Value>(&self, of: &str, field: &Field<T>) -> T::Out<'a> {
+        let path = format!("{of}{}", field.path());
+        T::read(&path, self.datum(&path))
+    }
+
+    /// Number of entries of the list of tables at a path.
+    pub fn entries_at(&self, path: &str) -> usize {
+        Tables::read(path, self.datum(path))
+    }
+
+    /// One value, if there is one.
+    pub(super) fn given<T: Single>(&self, field: &Field<T>) -> Option<T::Of> {
+        T::given(field.path(), self.datum(field.path()))
+    }
+
     /// Number in the unit of its key.
     ///
     /// # Panics
@@ -332,90 +318,9 @@ impl<'a> View<'a> {
 
     /// Number in the unit of its key, if there is one.
     pub fn maybe_number(&self, path: &str) -> Option<f64> {
-        match self.get(path) {
+        match self.datum(path) {
             Some(Datum::Number(value)) => Some(*value),
             _ => None,
-        }
-    }
-
-    /// Number in SI. This is the only way from a study into a scene.
-    pub fn si(&self, path: &str) -> f64 {
-        unit::si(path, self.number(path))
-    }
-
-    /// Number in SI, if there is one.
-    pub fn maybe_si(&self, path: &str) -> Option<f64> {
-        self.maybe_number(path).map(|value| unit::si(path, value))
-    }
-
-    /// Whole number, if there is one.
-    pub fn maybe_integer(&self, path: &str) -> Option<i64> {
-        match self.get(path) {
-            Some(Datum::Integer(value)) => Some(*value),
-            _ => None,
-        }
-    }
-
-    /// Flag, if there is one.
-    pub fn maybe_flag(&self, path: &str) -> Option<bool> {
-        match self.get(path) {
-            Some(Datum::Flag(value)) => Some(*value),
-            _ => None,
-        }
-    }
-
-    /// Word or text; empty when there is none.
-    pub fn word(&self, path: &str) -> &'a str {
-        match self.get(path) {
-            Some(Datum::Word(word) | Datum::Text(word)) => word,
-            _ => "",
-        }
-    }
-
-    /// Value of the word in a list that the table of keys takes for `path`, if the study has one.
-    ///
-    /// # Panics
-    /// When the table of keys takes another list; a programming error.
-    pub fn chosen<T: Copy>(&self, path: &str, list: &[(&str, T)]) -> Option<T> {
-        let Some(Datum::Word(word)) = self.get(path) else {
-            return None;
-        };
-        let found = list.iter().find(|(name, _)| name == word);
-        let Some((_, value)) = found else {
-            panic!("{path} has the word {word}, which its list lacks");
-        };
-        Some(*value)
-    }
-
-    /// Words; empty when there are none.
-    pub fn words(&self, path: &str) -> &'a [String] {
-        match self.get(path) {
-            Some(Datum::Words(words)) => words,
-            _ => &[],
-        }
-    }
-
-    /// Numbers; empty when there are none.
-    pub fn numbers(&self, path: &str) -> &'a [f64] {
-        match self.get(path) {
-            Some(Datum::Numbers(numbers)) => numbers,
-            _ => &[],
-        }
-    }
-
-    /// Every table of a list, made by what reads a number of it in SI by its key.
-    pub fn tables<T>(&self, list: &str, make: impl Fn(&dyn Fn(&str) -> f64) -> T) -> Vec<T> {
-        let positions = 0..self.entries(list);
-        positions
-            .map(|position| make(&|key| self.si(&format!("{list}[{position}].{key}"))))
-            .collect()
-    }
-
-    /// Number of entries of a list of tables.
-    pub fn entries(&self, path: &str) -> usize {
-        match self.get(path) {
-            Some(Datum::Entries(count)) => *count,
-            _ => 0,
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The words of a study as values.
 //!
 //! Each list of words stands once, with the value of each: the table of keys takes the words from here ([`names`]),
-//! [`View::chosen`](super::View::chosen) the values. A word without a value cannot be written
+//! [`Field`](super::field::Field) the values. A word without a value cannot be written
 //! down, and a value that is printed has a word.
 
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
 use opshock_solver::scene::accuracy::Rung;
+use opshock_solver::scene::knob::Knob;
 
 /// The words of a list.
 pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
@@ -19,6 +20,53 @@ pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'stati
     names
 }
 
+/// Ramp models, in canonical order.
+pub const RAMPS: &[&str] = &[
+    Ramp::None.as_str(),
+    Ramp::Rigid.as_str(),
+    Ramp::Deformable.as_str(),
+];
+/// Signs, in canonical order.
+pub const SIGNS: &[&str] = &[Sign::Plus.as_str(), Sign::Minus.as_str()];
+/// Outputs that disk and ramp alone give.
+pub const STRUCTURE_OUTPUTS: &[&str] = &[
+    "disk_displacement",
+    "ramp_displacement",
+    "contact_force",
+    "touch_threshold",
+];
+/// Every output.
+pub const OUTPUTS: &[&str] = &[
+    "critical_shock",
+    "min_clearance",
+    "slider_attitude",
+    "pitch",
+    "steady_attitude",
+    "bearing_force",
+    "dimple_force",
+    "disk_displacement",
+    "ramp_displacement",
+    "contact_force",
+    "touch_threshold",
+    "pressure_field",
+];
+/// Effects that can be left out by hand.
+pub const LEAVE_OUT: &[&str] = &["air_bearing"];
+/// Named materials of a ramp.
+pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
+/// Named surfaces.
+pub const SURFACES: &[&str] = &["femto-2.5in"];
+
+/// Discretisation parameters of a scene.
+pub const DISCRETISATION: &[&str] = &[
+    Knob::FilmGrid.as_str(),
+    Knob::DiskModes.as_str(),
+    Knob::SuspensionModes.as_str(),
+    Knob::StructureStep.as_str(),
+    Knob::HeadTolerance.as_str(),
+    Knob::CouplingTolerance.as_str(),
+];
+
 /// `pulse.shape`.
 pub const SHAPES: [(&str, Shape); 6] = [
     ("half_sine", Shape::HalfSine),
@@ -29,8 +77,12 @@ pub const SHAPES: [(&str, Shape); 6] = [
     ("table", Shape::Table),
 ];
 /// Units of length of a ramp's mesh, in m; the first is the default.
-pub const LENGTH_UNITS: [(&str, f64); 4] =
-    [("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("inch", 0.0254)];
+pub const LENGTH_UNITS: [(&str, LengthUnit); 4] = [
+    ("mm", LengthUnit { metres: 1e-3 }),
+    ("um", LengthUnit { metres: 1e-6 }),
+    ("m", LengthUnit { metres: 1.0 }),
+    ("inch", LengthUnit { metres: 0.0254 }),
+];
 /// `gas.model`.
 pub const FLOWS: [(&str, FlowModel); 4] = [
     ("fukui_kaneko", FlowModel::FukuiKaneko),
@@ -70,10 +122,39 @@ pub const KEEP_HISTORIES: [(&str, KeepHistories); 3] = [
     (KeepHistories::None.as_str(), KeepHistories::None),
     (KeepHistories::All.as_str(), KeepHistories::All),
 ];
-/// `ramp.run_out`: whether the run-out of the disk takes of the ramp's gaps.
-pub const RUN_OUT: [(&str, bool); 2] = [("none", false), ("lowest_gap", true)];
-/// `slider.surface.rail[].kind`: whether the outline is a polygon.
-pub const RAIL_KINDS: [(&str, bool); 2] = [("rect", false), ("polygon", true)];
+/// `ramp.run_out`.
+pub const RUN_OUT: [(&str, RunOut); 2] =
+    [("none", RunOut::None), ("lowest_gap", RunOut::LowestGap)];
+/// `slider.surface.rail[].kind`.
+pub const RAIL_KINDS: [(&str, RailKind); 2] = [
+    ("rect", RailKind::Rectangle),
+    ("polygon", RailKind::Polygon),
+];
+
+/// Unit of length of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LengthUnit {
+    /// Its length, m.
+    pub metres: f64,
+}
+
+/// What the run-out of the disk takes of the ramp's gaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunOut {
+    /// Nothing.
+    None,
+    /// Its amplitude at the ramp: the lowest gap of a revolution.
+    LowestGap,
+}
+
+/// Shape of a rail's outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RailKind {
+    /// Along the slider's axes.
+    Rectangle,
+    /// By its corners.
+    Polygon,
+}
 
 /// Shape of the acceleration pulse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! Axes: lists of values, and `{ from, to, count, spacing }`.
 
 use super::{Reader, join};
+use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
 use crate::study::key::{Key, Kind};
-use crate::study::settings::Datum;
 use crate::study::source::Place;
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};

@@ -2,6 +2,7 @@
 
 use super::Reader;
 use crate::study::fault::StudyError;
+use crate::study::fields;
 use crate::study::key::{Key, Kind};
 use crate::study::memory::{film_bytes, reference_bytes};
 use crate::study::suggest;
@@ -92,12 +93,12 @@ pub(super) fn not_a_word(
 
 pub(super) fn memory_hint(path: &str, count: f64) -> String {
     let bytes = match path {
-        "solver.film_cells" => film_bytes(count),
-        "solver.film_reference_cells" => reference_bytes(count),
+        _ if path == fields::SOLVER_FILM_CELLS.path() => film_bytes(count),
+        _ if path == fields::SOLVER_FILM_REFERENCE_CELLS.path() => reference_bytes(count),
         // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
-        "solver.disk_harmonics" => count * 2.0 * 82.0 * 82.0 * 8.0,
-        "solver.disk_elements" => 8.0 * (2.0 * count + 2.0).powi(2),
-        "solver.suspension_modes" => 8.0 * count * count,
+        _ if path == fields::SOLVER_DISK_HARMONICS.path() => count * 2.0 * 82.0 * 82.0 * 8.0,
+        _ if path == fields::SOLVER_DISK_ELEMENTS.path() => 8.0 * (2.0 * count + 2.0).powi(2),
+        _ if path == fields::SOLVER_SUSPENSION_MODES.path() => 8.0 * count * count,
         _ => return "take a smaller number".to_string(),
     };
     format!(

@@ -9,10 +9,11 @@ mod value;
 
 pub use axis::{MAX_POINTS, too_many_points};
 
+use super::datum::Datum;
 use super::fault::StudyError;
 use super::key::{Key, Kind};
 use super::keys;
-use super::settings::{Datum, Setting, Settings};
+use super::settings::{Setting, Settings};
 use super::suggest;
 use super::tree::{self, Node, Value};
 

@@ -2,9 +2,10 @@
 
 use super::Reader;
 use super::message::{memory_hint, not_a_word};
+use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
+use crate::study::fields;
 use crate::study::key::{self, Key, Kind, Range};
-use crate::study::settings::Datum;
 use crate::study::source::Origin;
 use crate::study::tree::{Node, Value};
 use crate::study::unit;
@@ -179,11 +180,10 @@ impl Reader {
             let mut fault = StudyError::at(key.code, &node.place, path, format!("must be {range}"))
                 .value(&shown)
                 .allowed(format!("{range}{unit}"));
-            fault = match (key.path, value < 0.0) {
-                ("disk.rpm", true) => {
-                    fault.hint("a mirrored drive has the other angle between ramp and slider")
-                }
-                _ => fault.hint(format!("for example {}", key.example())),
+            let is_backwards = key.path == fields::DISK_RPM.path() && value < 0.0;
+            fault = match is_backwards {
+                true => fault.hint("a mirrored drive has the other angle between ramp and slider"),
+                false => fault.hint(format!("for example {}", key.example())),
             };
             self.errors.push(fault);
             return None;

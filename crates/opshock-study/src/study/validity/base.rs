@@ -1,21 +1,23 @@
 //! A base that vibrates.
 
 use super::Check;
+use crate::study::field::Field;
+use crate::study::fields;
 use crate::study::imported_base::{MODES, MOST};
 
 /// What a vibrating base is not combined with: its modes know no load but that along the axis.
 const APART: [&str; 4] = [
-    "pulse.in_plane_x",
-    "pulse.in_plane_y",
-    "pulse.rotation_x_per_m",
-    "pulse.rotation_y_per_m",
+    fields::PULSE_IN_PLANE_X.path(),
+    fields::PULSE_IN_PLANE_Y.path(),
+    fields::PULSE_ROTATION_X_PER_M.path(),
+    fields::PULSE_ROTATION_Y_PER_M.path(),
 ];
 
 impl Check<'_, '_> {
     /// A vibrating base takes a straight shock, is heavier than disk and hub, and has no more modes than there is
     /// room for.
     pub(super) fn base(&mut self) {
-        let n = self.view.entries(MODES);
+        let n = self.view.get(&fields::BASE_MODES);
         if n == 0 || !self.sound(&[MODES]) {
             return;
         }
@@ -26,17 +28,18 @@ impl Check<'_, '_> {
             fault.hint = "keep the lowest".to_string();
         }
         let disk = [
-            "disk.inner_radius_mm",
-            "disk.outer_radius_mm",
-            "disk.thickness_mm",
-            "disk.density_kg_per_m3",
+            fields::DISK_INNER_RADIUS_MM,
+            fields::DISK_OUTER_RADIUS_MM,
+            fields::DISK_THICKNESS_MM,
+            fields::DISK_DENSITY_KG_PER_M3,
         ];
-        if self.sound(&disk) {
-            let [inner_m, outer_m, thickness_m, density] = disk.map(|path| self.view.si(path));
+        if self.sound(&disk.each_ref().map(Field::path)) {
+            let [inner_m, outer_m, thickness_m, density] =
+                disk.each_ref().map(|field| self.view.get(field));
             let area = std::f64::consts::PI * (outer_m * outer_m - inner_m * inner_m);
-            let hub_kg = self.view.maybe_si("hub.mass_mg").unwrap_or(0.0);
+            let hub_kg = self.view.get(&fields::HUB_MASS_MG).unwrap_or(0.0);
             let mass_kg = density * thickness_m * area + hub_kg;
-            let shape = |k: usize| self.view.si(&format!("{MODES}[{k}].spindle_per_sqrt_kg"));
+            let shape = |k| self.view.entry(k, &fields::BASE_MODES_SPINDLE_PER_SQRT_KG);
             let share: f64 = (0..n).map(|k| shape(k).powi(2) * mass_kg).sum();
             if share >= 1.0 {
                 let message = format!(

@@ -3,8 +3,8 @@
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
 use super::{Check, trim};
-use crate::study::scene::WAVES;
-use crate::study::{imported_suspension, ramp_geometry, ramp_mesh, scene, unit};
+use crate::study::fields;
+use crate::study::{imported_suspension, ramp_geometry, scene, unit};
 use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;
 use opshock_solver::suspension::ReducedSuspension;
@@ -14,7 +14,10 @@ const LENGTHS_A_WAVE: f64 = 8.0;
 
 impl Check<'_, '_> {
     pub(super) fn disk_and_ramp(&mut self) {
-        let radii = ["disk.inner_radius_mm", "disk.outer_radius_mm"];
+        let radii = [
+            fields::DISK_INNER_RADIUS_MM.path(),
+            fields::DISK_OUTER_RADIUS_MM.path(),
+        ];
         let mut disk_fits = false;
         if self.sound(&radii) {
             let (inner, outer) = (self.view.number(radii[0]), self.view.number(radii[1]));
@@ -28,9 +31,9 @@ impl Check<'_, '_> {
                 fault.allowed = "inner_radius_mm < outer_radius_mm".to_string();
             }
         }
-        if disk_fits && self.sound(&["ramp.radius_mm"]) {
+        if disk_fits && self.sound(&[fields::RAMP_RADIUS_MM.path()]) {
             let (inner, outer) = (self.view.number(radii[0]), self.view.number(radii[1]));
-            let ramp = self.view.number("ramp.radius_mm");
+            let ramp = self.view.number(fields::RAMP_RADIUS_MM.path());
             if ramp <= inner || ramp > outer {
                 let side = if ramp > outer {
                     "outside the disk"
@@ -39,13 +42,16 @@ impl Check<'_, '_> {
                 };
                 let fault = self.fault(
                     "E141",
-                    &["ramp.radius_mm", radii[0], radii[1]],
+                    &[fields::RAMP_RADIUS_MM.path(), radii[0], radii[1]],
                     format!("the ramp at {ramp} mm is {side}"),
                 );
                 fault.allowed = format!("> {inner} and <= {outer} mm");
             }
         }
-        let contact = ["ramp.restitution", "ramp.contact_stiffness_n_per_m"];
+        let contact = [
+            fields::RAMP_RESTITUTION.path(),
+            fields::RAMP_CONTACT_STIFFNESS_N_PER_M.path(),
+        ];
         if self.sound(&contact)
             && self.view.maybe_number(contact[1]).is_some()
             && self.view.number(contact[0]) > 0.0
@@ -54,18 +60,21 @@ impl Check<'_, '_> {
             let fault = self.fault("E136", &contact, message);
             fault.allowed = "restitution = 0, or no contact_stiffness_n_per_m".to_string();
         }
-        for path in ["ramp.contact_frequency_khz", "ramp.contact_damping_ratio"] {
+        for path in [
+            fields::RAMP_CONTACT_FREQUENCY_KHZ.path(),
+            fields::RAMP_CONTACT_DAMPING_RATIO.path(),
+        ] {
             let given = self.sound(&[path]) && self.view.maybe_number(path).is_some();
-            if given && self.view.get(contact[1]).is_none() {
+            if given && self.view.maybe_number(contact[1]).is_none() {
                 let message = "a hard contact has no spring";
                 let fault = self.fault("E136", &[path], message);
                 fault.allowed = "with contact_stiffness_n_per_m".to_string();
             }
         }
         for path in [
-            "ramp.clearance_um",
-            "ramp.clearance_top_um",
-            "ramp.clearance_bottom_um",
+            fields::RAMP_CLEARANCE_UM.path(),
+            fields::RAMP_CLEARANCE_TOP_UM.path(),
+            fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
         ] {
             if self.sound(&[path]) && self.view.maybe_number(path) == Some(0.0) {
                 let fault = self.fault("N143", &[path], "disk and ramp touch at rest");
@@ -77,18 +86,18 @@ impl Check<'_, '_> {
     /// A hub has both stiffnesses, and moments of inertia that a body can have.
     pub(super) fn hub(&mut self) {
         const STIFFNESSES: [&str; 2] = [
-            "hub.axial_stiffness_n_per_m",
-            "hub.tilt_stiffness_n_m_per_rad",
+            fields::HUB_AXIAL_STIFFNESS_N_PER_M.path(),
+            fields::HUB_TILT_STIFFNESS_N_M_PER_RAD.path(),
         ];
         const REST: [&str; 8] = [
-            "hub.mass_mg",
-            "hub.transverse_inertia_mg_mm2",
-            "hub.polar_inertia_mg_mm2",
-            "hub.axial_damping_n_s_per_m",
-            "hub.tilt_damping_n_m_s_per_rad",
-            "hub.cross_stiffness_n_m_per_rad",
-            "hub.cross_damping_n_m_s_per_rad",
-            "hub.centre_height_mm",
+            fields::HUB_MASS_MG.path(),
+            fields::HUB_TRANSVERSE_INERTIA_MG_MM2.path(),
+            fields::HUB_POLAR_INERTIA_MG_MM2.path(),
+            fields::HUB_AXIAL_DAMPING_N_S_PER_M.path(),
+            fields::HUB_TILT_DAMPING_N_M_S_PER_RAD.path(),
+            fields::HUB_CROSS_STIFFNESS_N_M_PER_RAD.path(),
+            fields::HUB_CROSS_DAMPING_N_M_S_PER_RAD.path(),
+            fields::HUB_CENTRE_HEIGHT_MM.path(),
         ];
         let given: Vec<&str> = STIFFNESSES
             .into_iter()
@@ -124,10 +133,10 @@ impl Check<'_, '_> {
     /// An oblique shock has a hub to tilt.
     fn direction(&mut self, is_clamped: bool) {
         const SHARES: [&str; 4] = [
-            "pulse.in_plane_x",
-            "pulse.in_plane_y",
-            "pulse.rotation_x_per_m",
-            "pulse.rotation_y_per_m",
+            fields::PULSE_IN_PLANE_X.path(),
+            fields::PULSE_IN_PLANE_Y.path(),
+            fields::PULSE_ROTATION_X_PER_M.path(),
+            fields::PULSE_ROTATION_Y_PER_M.path(),
         ];
         let given: Vec<&str> = SHARES
             .into_iter()
@@ -147,9 +156,13 @@ impl Check<'_, '_> {
 
     /// Waves are so long that the slider sees a plane.
     pub(super) fn waves(&mut self) {
-        const PATHS: [&str; 2] = ["slider.radius_mm", "slider.length_mm"];
-        let members: Vec<String> = (0..self.view.entries(WAVES))
-            .map(|position| format!("{WAVES}[{position}].harmonic"))
+        const PATHS: [&str; 2] = [
+            fields::SLIDER_RADIUS_MM.path(),
+            fields::SLIDER_LENGTH_MM.path(),
+        ];
+        let waves = 0..self.view.get(&fields::DISK_WAVES);
+        let members: Vec<String> = waves
+            .map(|entry| fields::DISK_WAVES_HARMONIC.of_entry(entry))
             .collect();
         let paths: Vec<&str> = members.iter().map(String::as_str).collect();
         if !self.sound(&PATHS) || !self.sound(&paths) {
@@ -158,8 +171,8 @@ impl Check<'_, '_> {
         let [radius_mm, length_mm] = PATHS.map(|path| self.view.number(path));
         let round_mm = std::f64::consts::TAU * radius_mm;
         let most = (round_mm / (LENGTHS_A_WAVE * length_mm)).floor();
-        for path in paths {
-            let harmonic = self.view.maybe_integer(path).unwrap_or(1) as f64;
+        for (entry, path) in paths.into_iter().enumerate() {
+            let harmonic = f64::from(self.view.entry(entry, &fields::DISK_WAVES_HARMONIC));
             if harmonic > most {
                 let message = format!(
                     "waves of {} mm under a slider of {length_mm} mm, which would see them bend",
@@ -173,7 +186,10 @@ impl Check<'_, '_> {
 
     /// A repulsion belongs to the attraction that it ends.
     pub(super) fn surface_forces(&mut self) {
-        const PATHS: [&str; 2] = ["surface_forces.hamaker_j", "surface_forces.repulsion_j_m6"];
+        const PATHS: [&str; 2] = [
+            fields::SURFACE_FORCES_HAMAKER_J.path(),
+            fields::SURFACE_FORCES_REPULSION_J_M6.path(),
+        ];
         if !self.sound(&PATHS) {
             return;
         }
@@ -190,23 +206,23 @@ impl Check<'_, '_> {
     pub(super) fn ramp_geometry(&mut self) {
         let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();
         looked_at.extend([
-            "disk.thickness_mm",
-            "ramp.clearance_um",
-            "ramp.clearance_top_um",
-            "ramp.clearance_bottom_um",
+            fields::DISK_THICKNESS_MM.path(),
+            fields::RAMP_CLEARANCE_UM.path(),
+            fields::RAMP_CLEARANCE_TOP_UM.path(),
+            fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
         ]);
         let is_wanted = self
             .view
-            .words("ramp.models")
+            .get(&fields::RAMP_MODELS)
             .iter()
             .any(|m| m == "deformable");
         if !is_wanted || !self.sound(&looked_at) {
             return;
         }
-        let is_one_body =
-            ramp_geometry::is_given(self.view) || self.view.entries(ramp_mesh::MODES) > 0;
-        if is_one_body && self.view.entries("ramp.deformable.bottom_modes") > 0 {
-            let paths = ["ramp.deformable.bottom_modes"];
+        let is_one_body = ramp_geometry::is_given(self.view)
+            || self.view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0;
+        if is_one_body && self.view.get(&fields::RAMP_DEFORMABLE_BOTTOM_MODES) > 0 {
+            let paths = [fields::RAMP_DEFORMABLE_BOTTOM_MODES.path()];
             let message = "modes of the bottom arm beside a geometry, which gives both arms";
             let fault = self.fault("E115", &paths, message);
             fault.allowed = "one of the two".to_string();
@@ -227,10 +243,6 @@ impl Check<'_, '_> {
         let Err(error) = ramp_geometry::modes(&ramp_geometry::solid_ramp(self.view)) else {
             return;
         };
-        let mesh = [
-            ramp_geometry::path("mesh_size_mm"),
-            ramp_geometry::path("cut_khz"),
-        ];
         match error {
             SolidRampError::Geometry(GeometryError::Dimension {
                 name,
@@ -251,13 +263,17 @@ impl Check<'_, '_> {
                 self.fault("E173", &blamed, message).allowed = allowed;
             }
             SolidRampError::Geometry(fault @ GeometryError::MeshSize { .. }) => {
-                let fault = self.fault("E174", &[&mesh[0]], fault.to_string());
+                let fault = self.fault(
+                    "E174",
+                    &[fields::RAMP_DEFORMABLE_GEOMETRY_MESH_SIZE_MM.path()],
+                    fault.to_string(),
+                );
                 fault.allowed = format!("a size of at most {MOST_ELEMENTS} elements");
                 fault.hint = "a larger mesh_size_mm".to_string();
             }
             SolidRampError::Sparse(fault @ SparseError::TooManyModes { most, .. }) => {
                 let mut keys = looked_at;
-                keys.insert(0, &mesh[1]);
+                keys.insert(0, fields::RAMP_DEFORMABLE_GEOMETRY_CUT_KHZ.path());
                 let fault = self.fault("E174", &keys, fault.to_string());
                 fault.allowed = format!("a cut with at most {most} modes below it");
                 fault.hint = "a lower cut_khz, or a smaller or stiffer ramp".to_string();
@@ -273,12 +289,12 @@ impl Check<'_, '_> {
 
     pub(super) fn slider_place(&mut self) {
         let paths = [
-            "slider.radius_mm",
-            "slider.length_mm",
-            "slider.width_mm",
-            "slider.skew_deg",
-            "disk.inner_radius_mm",
-            "disk.outer_radius_mm",
+            fields::SLIDER_RADIUS_MM.path(),
+            fields::SLIDER_LENGTH_MM.path(),
+            fields::SLIDER_WIDTH_MM.path(),
+            fields::SLIDER_SKEW_DEG.path(),
+            fields::DISK_INNER_RADIUS_MM.path(),
+            fields::DISK_OUTER_RADIUS_MM.path(),
         ];
         if !self.sound(&paths) {
             return;
@@ -313,11 +329,15 @@ impl Check<'_, '_> {
             fault.allowed = format!("every corner between {inner} and {outer} mm");
             fault.hint = "move the slider's centre".to_string();
         }
-        let ramp = ["ramp.radius_mm", "ramp.angle_deg", "slider.angle_deg"];
+        let ramp = [
+            fields::RAMP_RADIUS_MM.path(),
+            fields::RAMP_ANGLE_DEG.path(),
+            fields::SLIDER_ANGLE_DEG.path(),
+        ];
         if self.sound(&ramp)
             && self
                 .view
-                .words("ramp.models")
+                .get(&fields::RAMP_MODELS)
                 .iter()
                 .any(|model| model != "none")
         {
@@ -333,10 +353,10 @@ impl Check<'_, '_> {
                 let fault = self.fault(
                     "W203",
                     &[
-                        "slider.angle_deg",
-                        "slider.radius_mm",
-                        "ramp.radius_mm",
-                        "ramp.angle_deg",
+                        fields::SLIDER_ANGLE_DEG.path(),
+                        fields::SLIDER_RADIUS_MM.path(),
+                        fields::RAMP_RADIUS_MM.path(),
+                        fields::RAMP_ANGLE_DEG.path(),
                     ],
                     "the slider flies over the ramp's contact point",
                 );
@@ -349,24 +369,28 @@ impl Check<'_, '_> {
     pub(super) fn suspension(&mut self) {
         let orders: [(&str, &str, bool); 5] = [
             (
-                "suspension.hinge.length_mm",
-                "suspension.load_beam.dimple_mm",
+                fields::SUSPENSION_HINGE_LENGTH_MM.path(),
+                fields::SUSPENSION_LOAD_BEAM_DIMPLE_MM.path(),
                 true,
             ),
             (
-                "suspension.load_beam.dimple_mm",
-                "suspension.load_beam.end_mm",
+                fields::SUSPENSION_LOAD_BEAM_DIMPLE_MM.path(),
+                fields::SUSPENSION_LOAD_BEAM_END_MM.path(),
                 true,
             ),
-            ("suspension.flange.from_mm", "suspension.flange.to_mm", true),
             (
-                "suspension.flange.to_mm",
-                "suspension.load_beam.end_mm",
+                fields::SUSPENSION_FLANGE_FROM_MM.path(),
+                fields::SUSPENSION_FLANGE_TO_MM.path(),
+                true,
+            ),
+            (
+                fields::SUSPENSION_FLANGE_TO_MM.path(),
+                fields::SUSPENSION_LOAD_BEAM_END_MM.path(),
                 false,
             ),
             (
-                "suspension.flexure.from_mm",
-                "suspension.load_beam.end_mm",
+                fields::SUSPENSION_FLEXURE_FROM_MM.path(),
+                fields::SUSPENSION_LOAD_BEAM_END_MM.path(),
                 true,
             ),
         ];
@@ -390,7 +414,7 @@ impl Check<'_, '_> {
     /// Modes that take the place of the suspension's geometry move the dimple, and bend or twist.
     pub(super) fn suspension_modes(&mut self) {
         let path = imported_suspension::MODES;
-        if !self.sound(&["suspension"]) || self.view.entries(path) == 0 {
+        if !self.sound(&["suspension"]) || self.view.get(&fields::SUSPENSION_MODES) == 0 {
             return;
         }
         let mut suspension = scene::suspension(self.view);
@@ -405,8 +429,8 @@ impl Check<'_, '_> {
     /// A mean free path given by hand that is far from what pressure and viscosity imply for air:
     /// often a pressure was changed and the path forgotten.
     pub(super) fn gas(&mut self) {
-        let path = "gas.mean_free_path_nm";
-        let Some(given_m) = self.view.maybe_si(path) else {
+        let path = fields::GAS_MEAN_FREE_PATH_NM.path();
+        let Some(given_m) = self.view.get(&fields::GAS_MEAN_FREE_PATH_NM) else {
             return;
         };
         if !self.sound(&["gas"]) {
@@ -415,7 +439,7 @@ impl Check<'_, '_> {
         let gas = scene::gas_parameters(self.view);
         let temperature_k = self
             .view
-            .maybe_si("gas.temperature_c")
+            .get(&fields::GAS_TEMPERATURE_C)
             .unwrap_or(REFERENCE_TEMPERATURE_K);
         let air_m = mean_free_path_m(gas.viscosity_pa_s, gas.pressure_pa, temperature_k);
         if !(0.8..=1.25).contains(&(given_m / air_m)) {

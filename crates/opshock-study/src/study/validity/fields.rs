@@ -1,8 +1,11 @@
 //! Times of pressure fields: asked for with the output that needs them, inside the simulation.
 
 use super::{Check, trim};
-use crate::study::scene::FIELD_TIMES;
+use crate::study::fields;
 use crate::study::source::Origin;
+
+/// Key of the times.
+const FIELD_TIMES: &str = fields::FIELDS_TIMES_MS.path();
 
 /// The output that the times belong to.
 const OUTPUT: &str = "pressure_field";
@@ -12,8 +15,12 @@ impl Check<'_, '_> {
         if !self.sound(&["outputs", FIELD_TIMES]) {
             return;
         }
-        let is_asked = self.view.words("outputs").iter().any(|word| word == OUTPUT);
-        let times_ms = self.view.numbers(FIELD_TIMES);
+        let is_asked = self
+            .view
+            .get(&fields::OUTPUTS)
+            .iter()
+            .any(|word| word == OUTPUT);
+        let times_ms = self.view.get(&fields::FIELDS_TIMES_MS);
         match (is_asked, self.view.settings.get(FIELD_TIMES)) {
             (true, None) => {
                 let fault = self.fault(
@@ -52,8 +59,12 @@ impl Check<'_, '_> {
 
     /// The last field against the end of the simulation, at the latest that of `until_decayed`.
     pub(super) fn fields_end(&mut self) {
-        let paths = ["pulse.start_ms", "pulse.window_ms", "pulse.window_max_ms"];
-        let times_ms = self.view.numbers(FIELD_TIMES).iter().copied();
+        let paths = [
+            fields::PULSE_START_MS.path(),
+            fields::PULSE_WINDOW_MS.path(),
+            fields::PULSE_WINDOW_MAX_MS.path(),
+        ];
+        let times_ms = self.view.get(&fields::FIELDS_TIMES_MS).iter().copied();
         let last_ms = times_ms.fold(f64::NEG_INFINITY, f64::max);
         if !self.sound(&paths) || !self.sound(&[FIELD_TIMES]) {
             return;

@@ -1,26 +1,28 @@
 //! The gap at the ramp that a disk leaves which runs out.
 
 use super::{Check, trim};
-use crate::study::{scene, words};
+use crate::study::field::Field;
+use crate::study::fields;
+use crate::study::scene;
+use crate::study::words::RunOut;
 
-const RUN_OUT: &str = "ramp.run_out";
-const GAP: &str = "ramp.clearance_um";
-const SIDES: [&str; 2] = ["ramp.clearance_top_um", "ramp.clearance_bottom_um"];
+const RUN_OUT: &str = fields::RAMP_RUN_OUT.path();
 
 impl Check<'_, '_> {
     /// A disk that runs out leaves a gap, and one that is taken off the gap runs out.
     pub(super) fn gap_left(&mut self) {
         let looked_at = [
-            "disk.waves",
-            "disk.run_out_um",
-            "disk.outer_radius_mm",
-            "ramp.radius_mm",
-            GAP,
-            SIDES[0],
-            SIDES[1],
+            fields::DISK_WAVES.path(),
+            fields::DISK_RUN_OUT_UM.path(),
+            fields::DISK_OUTER_RADIUS_MM.path(),
+            fields::RAMP_RADIUS_MM.path(),
+            fields::RAMP_CLEARANCE_UM.path(),
+            fields::RAMP_CLEARANCE_TOP_UM.path(),
+            fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
             RUN_OUT,
         ];
-        if self.view.chosen(RUN_OUT, &words::RUN_OUT) != Some(true) || !self.sound(&looked_at) {
+        let run_out = self.view.get(&fields::RAMP_RUN_OUT);
+        if run_out != Some(RunOut::LowestGap) || !self.sound(&looked_at) {
             return;
         }
         let taken_m = scene::gap_taken_m(self.view);
@@ -33,11 +35,12 @@ impl Check<'_, '_> {
             fault.hint = "leave it out, or give disk.run_out_um".to_string();
             return;
         }
-        let gap = |side: &str| {
-            let gap_m = self.view.maybe_si(side);
-            gap_m.unwrap_or_else(|| self.view.si(GAP))
+        let gap = |side: &Field<Option<f64>>| {
+            let gap_m = self.view.get(side);
+            gap_m.unwrap_or_else(|| self.view.get(&fields::RAMP_CLEARANCE_UM))
         };
-        let narrow_m = gap(SIDES[0]).min(gap(SIDES[1]));
+        let narrow_m =
+            gap(&fields::RAMP_CLEARANCE_TOP_UM).min(gap(&fields::RAMP_CLEARANCE_BOTTOM_UM));
         if taken_m >= narrow_m {
             let message = format!(
                 "the disk runs out by {} um at the ramp, across a gap of {} um",

@@ -2,13 +2,17 @@
 
 use super::Check;
 use crate::study::fault::StudyError;
+use crate::study::fields;
 use crate::study::imported_suspension;
 
 const HEADS: &str = "heads";
 /// Gap that stands for those of both sides.
-const CLEARANCE: &str = "ramp.clearance_um";
+const CLEARANCE: &str = fields::RAMP_CLEARANCE_UM.path();
 /// Gap of each side, which counts where it is given.
-const CLEARANCES: [&str; 2] = ["ramp.clearance_top_um", "ramp.clearance_bottom_um"];
+const CLEARANCES: [&str; 2] = [
+    fields::RAMP_CLEARANCE_TOP_UM.path(),
+    fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
+];
 
 impl Check<'_, '_> {
     /// Heads have names of their own, the chosen one is among them, and what they have of their own is no axis

@@ -15,8 +15,8 @@ mod stops;
 mod study;
 
 use super::fault::StudyError;
-use super::keys;
 use super::settings::View;
+use super::words;
 use seen::Seen;
 
 /// Collects the faults of one point of a study.
@@ -105,7 +105,7 @@ impl PointRules {
 
 /// Whether an output needs film, slider and suspension.
 pub fn needs_head(output: &str) -> bool {
-    !keys::STRUCTURE_OUTPUTS.contains(&output)
+    !words::STRUCTURE_OUTPUTS.contains(&output)
 }
 
 /// A number without the digits a conversion added.

@@ -1,9 +1,11 @@
 //! Pulse against step and window; sampled pulses.
 
 use super::{Check, trim};
+use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
-use crate::study::settings::Datum;
+use crate::study::fields;
 use crate::study::source::Place;
+use crate::study::words::Shape;
 use crate::study::{samples, scene, unit};
 
 /// Steps a pulse must span.
@@ -14,7 +16,7 @@ const LARGEST_VELOCITY_M_PER_S: f64 = 1000.0;
 
 impl Check<'_, '_> {
     pub(super) fn pulse(&mut self, widths_ms: &[f64]) {
-        if !self.sound(&["pulse.widths_ms"]) {
+        if !self.sound(&[fields::PULSE_WIDTHS_MS.path()]) {
             return;
         }
         for &width in widths_ms {
@@ -26,17 +28,23 @@ impl Check<'_, '_> {
     /// One pulse width, ms, against step and window.
     pub fn width(&mut self, width: f64) {
         let place = self.width_place(width);
-        let width_s = unit::si("pulse.widths_ms", width);
+        let width_s = unit::si(fields::PULSE_WIDTHS_MS.path(), width);
         let step_s = scene::resolutions(self.view).structure.step_s;
         // A step that is exactly an eighth must pass whatever its decimal rounding.
         let shortest_s = STEPS_PER_PULSE * step_s * (1.0 - 1e-12);
-        if self.sound(&["solver.structure_step_us", "solver.accuracy"]) && width_s < shortest_s {
+        if self.sound(&[
+            fields::SOLVER_STRUCTURE_STEP_US.path(),
+            fields::SOLVER_ACCURACY.path(),
+        ]) && width_s < shortest_s
+        {
             let message = format!(
                 "a pulse of {width} ms is shorter than {STEPS_PER_PULSE} steps of {} us",
                 trim(step_s * 1e6)
             );
             let fault = self.push(match place {
-                Some(place) => StudyError::at("E151", &place, "pulse.widths_ms", message),
+                Some(place) => {
+                    StudyError::at("E151", &place, fields::PULSE_WIDTHS_MS.path(), message)
+                }
                 None => StudyError::in_file("E151", "--pulse-ms", message),
             });
             fault.value = format!("{width}");
@@ -47,14 +55,18 @@ impl Check<'_, '_> {
             );
             fault.hint = "set a smaller step".to_string();
         }
-        if self.sound(&["pulse.window_ms", "pulse.window_max_ms"]) {
-            let fixed = self.view.maybe_number("pulse.window_ms");
+        if self.sound(&[
+            fields::PULSE_WINDOW_MS.path(),
+            fields::PULSE_WINDOW_MAX_MS.path(),
+        ]) {
+            let fixed = self.view.maybe_number(fields::PULSE_WINDOW_MS.path());
             let path = if fixed.is_some() {
-                "pulse.window_ms"
+                fields::PULSE_WINDOW_MS.path()
             } else {
-                "pulse.window_max_ms"
+                fields::PULSE_WINDOW_MAX_MS.path()
             };
-            let end_ms = fixed.unwrap_or_else(|| self.view.number("pulse.window_max_ms"));
+            let end_ms =
+                fixed.unwrap_or_else(|| self.view.number(fields::PULSE_WINDOW_MAX_MS.path()));
             if end_ms < width {
                 let fault = self.fault("E152", &[path], format!(
                     "the simulation ends {end_ms} ms after the onset, inside the pulse of {width} ms"
@@ -66,7 +78,7 @@ impl Check<'_, '_> {
 
     /// Place of a width in the study; none when the command line named it.
     pub(super) fn width_place(&self, width: f64) -> Option<Place> {
-        let setting = self.view.settings.get("pulse.widths_ms")?;
+        let setting = self.view.settings.get(fields::PULSE_WIDTHS_MS.path())?;
         match &setting.values[0] {
             Datum::Numbers(numbers) => {
                 let position = numbers.iter().position(|known| *known == width)?;
@@ -78,32 +90,33 @@ impl Check<'_, '_> {
 
     pub(super) fn sampled_pulse(&mut self) {
         let paths = [
-            "pulse.shape",
-            "pulse.table",
-            "pulse.table_time_ms",
-            "pulse.table_relative",
+            fields::PULSE_SHAPE.path(),
+            fields::PULSE_TABLE.path(),
+            fields::PULSE_TABLE_TIME_MS.path(),
+            fields::PULSE_TABLE_RELATIVE.path(),
         ];
-        if !self.sound(&paths) || self.view.word("pulse.shape") != "table" {
+        if !self.sound(&paths) || self.view.get(&fields::PULSE_SHAPE) != Shape::Table {
             return;
         }
-        if !self.view.settings.has("pulse.table_time_ms") {
+        if !self.view.settings.has(fields::PULSE_TABLE_TIME_MS.path()) {
             let fault = self.fault(
                 "E112",
-                &["pulse.shape"],
+                &[fields::PULSE_SHAPE.path()],
                 "missing key: pulse.table, for example table = \"pulse.csv\"",
             );
-            fault.key = "pulse.table".to_string();
+            fault.key = fields::PULSE_TABLE.path().to_string();
             fault.value = String::new();
             fault.allowed = "a file of two columns: time in ms, relative acceleration".to_string();
             return;
         }
-        let (time_ms, relative) = (self.view.numbers(paths[2]), self.view.numbers(paths[3]));
+        let time_ms = self.view.get(&fields::PULSE_TABLE_TIME_MS);
+        let relative = self.view.get(&fields::PULSE_TABLE_RELATIVE);
         if let Some((_, message)) = samples::faults(time_ms, relative) {
-            let fault = self.fault("E153", &["pulse.table_time_ms"], message);
+            let fault = self.fault("E153", &[fields::PULSE_TABLE_TIME_MS.path()], message);
             fault.allowed = "2 samples or more, times rising from 0".to_string();
             return;
         }
-        if !self.sound(&["search.amplitude_g.max"]) {
+        if !self.sound(&[fields::SEARCH_AMPLITUDE_G_MAX.path()]) {
             return;
         }
         let largest = relative
@@ -111,7 +124,7 @@ impl Check<'_, '_> {
             .fold(0.0_f64, |most, value| most.max(value.abs()));
         let width_ms = self
             .view
-            .numbers("pulse.widths_ms")
+            .get(&fields::PULSE_WIDTHS_MS)
             .iter()
             .fold(0.0_f64, |most, width| most.max(*width));
         let last = time_ms.last().copied().unwrap_or(1.0);
@@ -120,15 +133,15 @@ impl Check<'_, '_> {
                 0.5 * (relative[row] + relative[row - 1]) * (time_ms[row] - time_ms[row - 1])
             })
             .sum();
-        let velocity = self.view.si("search.amplitude_g.max")
+        let velocity = self.view.get(&fields::SEARCH_AMPLITUDE_G_MAX)
             * (area / largest).abs()
-            * unit::si("pulse.widths_ms", width_ms)
+            * unit::si(fields::PULSE_WIDTHS_MS.path(), width_ms)
             / last;
         if velocity > LARGEST_VELOCITY_M_PER_S {
-            let path = if self.view.settings.has("pulse.table") {
-                "pulse.table"
+            let path = if self.view.settings.has(fields::PULSE_TABLE.path()) {
+                fields::PULSE_TABLE.path()
             } else {
-                "pulse.table_time_ms"
+                fields::PULSE_TABLE_TIME_MS.path()
             };
             let fault = self.fault("W204", &[path], format!(
                 "the sampled shock changes the drive's velocity by {velocity:.0} m/s at the highest amplitude"

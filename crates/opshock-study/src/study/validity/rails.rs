@@ -3,17 +3,19 @@
 use opshock_solver::quantity;
 
 use super::{Check, trim};
-use crate::study::settings::Datum;
-use crate::study::{polygon, words};
+use crate::study::field::Field;
+use crate::study::fields;
+use crate::study::polygon;
+use crate::study::words::RailKind;
 
 impl Check<'_, '_> {
     pub(super) fn rails(&mut self) {
-        let outline = ["slider.length_mm", "slider.width_mm"];
-        if !self.sound(&outline) {
+        let outline = [fields::SLIDER_LENGTH_MM, fields::SLIDER_WIDTH_MM];
+        if !self.sound(&outline.each_ref().map(Field::path)) {
             return;
         }
         // Compared in SI: both sides are rounded once.
-        let [length_m, width_m] = outline.map(|path| self.view.si(path));
+        let [length_m, width_m] = outline.each_ref().map(|field| self.view.get(field));
         let (length_um, width_um) = (length_m * 1e6, width_m * 1e6);
         let inside = |corner: [f64; 2]| {
             let slack = 1e-12;
@@ -25,26 +27,27 @@ impl Check<'_, '_> {
             trim(length_um),
             trim(width_um)
         );
-        for position in 0..self.view.entries("slider.surface.rail") {
-            let rail = format!("slider.surface.rail[{position}]");
-            let member = |name: &str| format!("{rail}.{name}");
+        for position in 0..self.view.get(&fields::SLIDER_SURFACE_RAIL) {
+            let rail = format!("{}[{position}]", fields::SLIDER_SURFACE_RAIL.path());
             if !self.sound(&[&rail]) {
                 continue;
             }
-            if self.view.chosen(&member("kind"), &words::RAIL_KINDS) == Some(true) {
-                if let Some(Datum::Points(points)) = self.view.get(&member("points_um")) {
-                    self.polygon(&member("points_um"), points, &inside, &allowed);
-                }
+            let kind = self.view.entry(position, &fields::SLIDER_SURFACE_RAIL_KIND);
+            if kind == RailKind::Polygon {
+                let corners = &fields::SLIDER_SURFACE_RAIL_POINTS_UM;
+                let points = self.view.entry(position, corners);
+                self.polygon(&corners.of_entry(position), points, &inside, &allowed);
                 continue;
             }
-            for (axis, name) in [(0, "x_um"), (1, "y_um")] {
-                let path = member(name);
-                let Some(Datum::Pair(ends)) = self.view.get(&path) else {
-                    continue;
-                };
-                for end in ends {
+            let sides = [
+                fields::SLIDER_SURFACE_RAIL_X_UM,
+                fields::SLIDER_SURFACE_RAIL_Y_UM,
+            ];
+            for (axis, side) in sides.iter().enumerate() {
+                let path = side.of_entry(position);
+                for end in self.view.entry(position, side) {
                     let mut corner = [0.0; 2];
-                    corner[axis] = *end;
+                    corner[axis] = end;
                     if !inside(corner) {
                         let fault = self.fault(
                             "E144",

@@ -1,23 +1,24 @@
 //! Limiters and lift tab of the suspension.
 
 use super::Check;
+use crate::study::fields;
 use crate::study::imported_suspension;
 
 /// Keys of the limiters besides the gap that makes them.
 const OF_LIMITERS: [&str; 5] = [
-    "suspension.limiters.gap_outer_um",
-    "suspension.limiters.along_mm",
-    "suspension.limiters.across_mm",
-    "suspension.limiters.stiffness_n_per_m",
-    "suspension.limiters.damping_ratio",
+    fields::SUSPENSION_LIMITERS_GAP_OUTER_UM.path(),
+    fields::SUSPENSION_LIMITERS_ALONG_MM.path(),
+    fields::SUSPENSION_LIMITERS_ACROSS_MM.path(),
+    fields::SUSPENSION_LIMITERS_STIFFNESS_N_PER_M.path(),
+    fields::SUSPENSION_LIMITERS_DAMPING_RATIO.path(),
 ];
 /// Keys of the lift tab besides its gap.
 const OF_LIFT_TAB: [&str; 2] = [
-    "suspension.lift_tab.stiffness_n_per_m",
-    "suspension.lift_tab.damping_ratio",
+    fields::SUSPENSION_LIFT_TAB_STIFFNESS_N_PER_M.path(),
+    fields::SUSPENSION_LIFT_TAB_DAMPING_RATIO.path(),
 ];
-const LIMITER_GAP: &str = "suspension.limiters.gap_um";
-const LIFT_TAB_GAP: &str = "suspension.lift_tab.gap_um";
+const LIMITER_GAP: &str = fields::SUSPENSION_LIMITERS_GAP_UM.path();
+const LIFT_TAB_GAP: &str = fields::SUSPENSION_LIFT_TAB_GAP_UM.path();
 
 impl Check<'_, '_> {
     /// A stop has a gap, and a lift tab a geometry that says how far it rises.
@@ -26,9 +27,9 @@ impl Check<'_, '_> {
             ("limiters", LIMITER_GAP, OF_LIMITERS.as_slice()),
             ("a lift tab", LIFT_TAB_GAP, OF_LIFT_TAB.as_slice()),
         ] {
-            let has = |path: &&&str| self.view.get(path).is_some();
+            let has = |path: &&&str| self.view.datum(path).is_some();
             let given: Vec<&str> = rest.iter().filter(has).copied().collect();
-            if !given.is_empty() && self.view.get(gap).is_none() {
+            if !given.is_empty() && self.view.datum(gap).is_none() {
                 let message = format!("{what} without gap_um");
                 let fault = self.fault("E112", &given, message);
                 fault.allowed = "gap_um beside the rest".to_string();
@@ -37,8 +38,8 @@ impl Check<'_, '_> {
         }
         let modes = imported_suspension::MODES;
         if self.sound(&[LIFT_TAB_GAP, modes])
-            && self.view.get(LIFT_TAB_GAP).is_some()
-            && self.view.entries(modes) > 0
+            && self.view.datum(LIFT_TAB_GAP).is_some()
+            && self.view.get(&fields::SUSPENSION_MODES) > 0
         {
             let message = "a lift tab on a suspension given by its modes, which say nothing of it";
             let fault = self.fault("E139", &[LIFT_TAB_GAP], message);

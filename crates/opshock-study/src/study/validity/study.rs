@@ -1,17 +1,18 @@
 //! Rules that hold for a study as a whole: names, outputs, search, keys without effect.
 
 use super::{Check, needs_head};
-use crate::study::settings::Datum;
+use crate::study::datum::Datum;
+use crate::study::fields;
+use crate::study::imported_suspension;
 use crate::study::source::Origin;
 use crate::study::words::{self, Effects};
-use crate::study::{imported_suspension, keys};
 
 impl Check<'_, '_> {
     pub(super) fn names(&mut self) {
         if !self.sound(&["name"]) {
             return;
         }
-        let name = self.view.word("name");
+        let name = self.view.get(&fields::NAME);
         let wrong = if name.trim().is_empty() {
             Some("must not be empty")
         } else if name
@@ -35,49 +36,49 @@ impl Check<'_, '_> {
         if !self.sound(&["outputs"]) {
             return;
         }
-        let outputs = self.view.words("outputs");
+        let outputs = self.view.get(&fields::OUTPUTS);
         if outputs.is_empty() {
             let fault = self.fault("E158", &["outputs"], "no output is asked for");
-            fault.allowed = keys::find("outputs")
-                .map(|key| key.kind.allowed())
-                .unwrap_or_default();
+            fault.allowed = fields::OUTPUTS.key.kind.allowed();
         }
         if let Some(twice) = repeated(outputs) {
             let fault = self.fault("E159", &["outputs"], format!("asks for {twice} twice"));
             fault.allowed = "each output once".to_string();
         }
-        if !self.sound(&["solver.leave_out", "solver.effects"]) {
+        if !self.sound(&[
+            fields::SOLVER_LEAVE_OUT.path(),
+            fields::SOLVER_EFFECTS.path(),
+        ]) {
             return;
         }
-        let left_out = self.view.words("solver.leave_out");
+        let left_out = self.view.get(&fields::SOLVER_LEAVE_OUT);
         let left_out = left_out.iter().any(|effect| effect == "air_bearing");
         let asks = outputs.iter().find(|output| needs_head(output));
         if let (Some(output), true) = (asks, left_out) {
             let fault = self.fault(
                 "E158",
-                &["solver.leave_out"],
+                &[fields::SOLVER_LEAVE_OUT.path()],
                 format!("{output} needs air_bearing, which is left out"),
             );
             fault.allowed = format!(
                 "[], or outputs of disk and ramp alone: {}",
-                keys::STRUCTURE_OUTPUTS.join(", ")
+                words::STRUCTURE_OUTPUTS.join(", ")
             );
             fault.hint = format!("remove {output} from outputs, or do not leave air_bearing out");
         }
-        let full =
-            self.view.chosen("solver.effects", &words::EFFECTS) == Some(Effects::Full) && !left_out;
+        let full = self.view.get(&fields::SOLVER_EFFECTS) == Effects::Full && !left_out;
         let asker = asks.map_or("effects = \"full\"", String::as_str);
         if (asks.is_some() || full)
-            && self.sound(&["disk.rpm"])
-            && self.view.number("disk.rpm") == 0.0
+            && self.sound(&[fields::DISK_RPM.path()])
+            && self.view.number(fields::DISK_RPM.path()) == 0.0
         {
             let fault = self.fault(
                 "E133",
-                &["disk.rpm"],
+                &[fields::DISK_RPM.path()],
                 format!("{asker} needs the air bearing, which needs a spinning disk"),
             );
             fault.allowed = "> 0 rev/min".to_string();
-            fault.hint = format!("or ask only for {}", keys::STRUCTURE_OUTPUTS.join(", "));
+            fault.hint = format!("or ask only for {}", words::STRUCTURE_OUTPUTS.join(", "));
         }
     }
 
@@ -92,58 +93,76 @@ impl Check<'_, '_> {
                 })
             })
         };
-        let refines = ["search.refine.tolerance_pct", "search.refine.crossing_pct"];
+        let refines = [
+            fields::SEARCH_REFINE_TOLERANCE_PCT.path(),
+            fields::SEARCH_REFINE_CROSSING_PCT.path(),
+        ];
         let refines = refines.iter().any(|path| self.view.settings.has(path));
         let rules: [(bool, &str, &[&str]); 9] = [
             (
                 refines,
                 "neither tolerance_pct nor crossing_pct is given",
-                &["search.refine.closest_pct", "search.refine.most_points"],
+                &[
+                    fields::SEARCH_REFINE_CLOSEST_PCT.path(),
+                    fields::SEARCH_REFINE_MOST_POINTS.path(),
+                ],
             ),
             (
-                self.view.numbers("pulse.widths_ms").len() != 1,
+                self.view.get(&fields::PULSE_WIDTHS_MS).len() != 1,
                 "pulse.widths_ms has one width, and widths are added between two",
-                &["search.refine.tolerance_pct", "search.refine.crossing_pct"],
+                &[
+                    fields::SEARCH_REFINE_TOLERANCE_PCT.path(),
+                    fields::SEARCH_REFINE_CROSSING_PCT.path(),
+                ],
             ),
             (
-                self.view.words("ramp.models").len() != 1,
+                self.view.get(&fields::RAMP_MODELS).len() != 1,
                 "ramp.models has one model",
-                &["search.refine.crossing_pct"],
+                &[fields::SEARCH_REFINE_CROSSING_PCT.path()],
             ),
             (
-                any("pulse.shape", "trapezoid"),
+                any(fields::PULSE_SHAPE.path(), "trapezoid"),
                 "pulse.shape is not trapezoid",
-                &["pulse.rise_share"],
+                &[fields::PULSE_RISE_SHARE.path()],
             ),
             (
-                any("pulse.shape", "damped_sine"),
+                any(fields::PULSE_SHAPE.path(), "damped_sine"),
                 "pulse.shape is not damped_sine",
-                &["pulse.frequency_hz", "pulse.decay_per_s"],
+                &[
+                    fields::PULSE_FREQUENCY_HZ.path(),
+                    fields::PULSE_DECAY_PER_S.path(),
+                ],
             ),
             (
-                any("pulse.shape", "table"),
+                any(fields::PULSE_SHAPE.path(), "table"),
                 "pulse.shape is not table",
-                &["pulse.table", "pulse.table_time_ms"],
+                &[
+                    fields::PULSE_TABLE.path(),
+                    fields::PULSE_TABLE_TIME_MS.path(),
+                ],
             ),
             (
-                any("pulse.window_ms", "until_decayed"),
+                any(fields::PULSE_WINDOW_MS.path(), "until_decayed"),
                 "pulse.window_ms is not until_decayed",
-                &["pulse.decay_share", "pulse.window_max_ms"],
+                &[
+                    fields::PULSE_DECAY_SHARE.path(),
+                    fields::PULSE_WINDOW_MAX_MS.path(),
+                ],
             ),
             (
-                !self.view.settings.has("suspension.modes"),
+                !self.view.settings.has(fields::SUSPENSION_MODES.path()),
                 "the suspension is given by its modes",
                 &imported_suspension::REPLACED,
             ),
             (
-                any("ramp.models", "deformable"),
+                any(fields::RAMP_MODELS.path(), "deformable"),
                 "ramp.models has no deformable",
                 &[
-                    "ramp.deformable.modes",
-                    "ramp.deformable.bottom_modes",
-                    "ramp.deformable.damping_ratio",
-                    "ramp.deformable.mesh.file",
-                    "ramp.deformable.coupled_modes",
+                    fields::RAMP_DEFORMABLE_MODES.path(),
+                    fields::RAMP_DEFORMABLE_BOTTOM_MODES.path(),
+                    fields::RAMP_DEFORMABLE_DAMPING_RATIO.path(),
+                    fields::RAMP_DEFORMABLE_MESH_FILE.path(),
+                    fields::RAMP_DEFORMABLE_COUPLED_MODES.path(),
                 ],
             ),
         ];
@@ -161,7 +180,10 @@ impl Check<'_, '_> {
     }
 
     pub(super) fn search(&mut self) {
-        let paths = ["search.amplitude_g.min", "search.amplitude_g.max"];
+        let paths = [
+            fields::SEARCH_AMPLITUDE_G_MIN.path(),
+            fields::SEARCH_AMPLITUDE_G_MAX.path(),
+        ];
         if self.sound(&paths) {
             let (low, high) = (self.view.number(paths[0]), self.view.number(paths[1]));
             if low >= high {
@@ -174,32 +196,34 @@ impl Check<'_, '_> {
             }
         }
         self.refine();
-        for (path, what) in [("ramp.models", "ramp models"), ("pulse.signs", "signs")] {
+        for (field, what) in [
+            (&fields::RAMP_MODELS, "ramp models"),
+            (&fields::PULSE_SIGNS, "signs"),
+        ] {
+            let path = field.path();
             if !self.sound(&[path]) {
                 continue;
             }
-            let words = self.view.words(path);
+            let words = self.view.get(field);
             if words.is_empty() {
                 let fault = self.fault(
                     "E154",
                     &[path],
                     format!("the list is empty: a study needs {what}"),
                 );
-                fault.allowed = keys::find(path)
-                    .map(|key| key.kind.allowed())
-                    .unwrap_or_default();
+                fault.allowed = field.key.kind.allowed();
             }
             if let Some(twice) = repeated(words) {
                 let fault = self.fault("E154", &[path], format!("holds {twice:?} twice"));
                 fault.allowed = "values that differ".to_string();
             }
         }
-        if self.sound(&["pulse.widths_ms"]) {
-            let widths = self.view.numbers("pulse.widths_ms");
+        if self.sound(&[fields::PULSE_WIDTHS_MS.path()]) {
+            let widths = self.view.get(&fields::PULSE_WIDTHS_MS);
             if widths.is_empty() {
                 let fault = self.fault(
                     "E154",
-                    &["pulse.widths_ms"],
+                    &[fields::PULSE_WIDTHS_MS.path()],
                     "the list is empty: a study needs pulse widths",
                 );
                 fault.allowed = "one or more widths".to_string();
@@ -209,7 +233,7 @@ impl Check<'_, '_> {
             if let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
                 let fault = self.fault(
                     "E154",
-                    &["pulse.widths_ms"],
+                    &[fields::PULSE_WIDTHS_MS.path()],
                     format!("holds {} twice", twice[0]),
                 );
                 fault.allowed = "values that differ".to_string();
@@ -221,14 +245,18 @@ impl Check<'_, '_> {
 impl Check<'_, '_> {
     /// Lines cannot be told better than brackets.
     fn refine(&mut self) {
-        let tolerance = "search.refine.tolerance_pct";
-        if self.sound(&[tolerance, "search.tolerance_pct"])
+        let tolerance = fields::SEARCH_REFINE_TOLERANCE_PCT.path();
+        if self.sound(&[tolerance, fields::SEARCH_TOLERANCE_PCT.path()])
             && let Some(lines) = self.view.maybe_number(tolerance)
-            && lines < self.view.number("search.tolerance_pct")
+            && lines < self.view.number(fields::SEARCH_TOLERANCE_PCT.path())
         {
-            let bracket = self.view.number("search.tolerance_pct");
+            let bracket = self.view.number(fields::SEARCH_TOLERANCE_PCT.path());
             let what = format!("{lines} % is less than the bracket of every answer, {bracket} %");
-            let fault = self.fault("E156", &[tolerance, "search.tolerance_pct"], what);
+            let fault = self.fault(
+                "E156",
+                &[tolerance, fields::SEARCH_TOLERANCE_PCT.path()],
+                what,
+            );
             fault.allowed = format!(">= {bracket} %");
         }
     }
