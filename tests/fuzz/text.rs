@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use opshock_study::study::samples::{self, Samples};
-use opshock_study::study::source::{Source, decode};
+use opshock_study::study::source::Source;
+use opshock_study::study::text_file::decode;
 use opshock_study::study::{Study, StudyError, StudyErrors, fault::MAX_LISTED};
 use opshock_tests::seeded::{Seeded, seeds};
 

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::{Done, opshock, study};
-use opshock_study::study::memory::{Demand, film_bytes};
+use opshock_study::study::film_memory::film_bytes;
+use opshock_study::study::memory::Demand;
 use opshock_study::study::{SetArg, Severity, Study, StudyErrors, check_threads};
 
 /// Files in the order of their names. Paths are relative, so that messages are the same anywhere.

@@ -69,13 +69,13 @@ impl Output {
         Output::MinClearance,
         Output::SliderAttitude,
         Output::Pitch,
+        Output::SteadyAttitude,
         Output::BearingForce,
         Output::DimpleForce,
-        Output::SteadyAttitude,
-        Output::TouchThreshold,
         Output::DiskDisplacement,
         Output::RampDisplacement,
         Output::ContactForce,
+        Output::TouchThreshold,
         Output::PressureField,
     ];
 
@@ -120,6 +120,12 @@ impl Output {
             | Output::RampDisplacement
             | Output::ContactForce => Needs::Structure,
         }
+    }
+}
+
+impl std::fmt::Display for Output {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
     }
 }
 

@@ -10,7 +10,8 @@ use super::observed;
 use super::parameters;
 use super::prior::Parameter;
 use super::statements::Statements;
-use crate::study::source::{self, Origin, Source};
+use crate::study::source::{Origin, Source};
+use crate::study::text_file;
 use crate::study::tree;
 use crate::study::{SetArg, Study, StudyError, StudyErrors};
 
@@ -99,7 +100,7 @@ impl MatchProblem {
         sets: &[SetArg],
         statements: &'static dyn Statements,
     ) -> Result<Self, StudyErrors> {
-        let text = source::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
+        let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
         let source = Source::new(path.display().to_string(), text.clone());
         let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
         let mut faults = Faults::new();
@@ -454,7 +455,7 @@ fn settings(fields: &Fields<'_>, faults: &mut Faults) -> [Vec<String>; 3] {
 
 /// Whether a file says that it is a match file; what cannot be read is none.
 pub fn is_match_file(path: &Path) -> bool {
-    let text = source::read_text(path).unwrap_or_default();
+    let text = text_file::read_text(path).unwrap_or_default();
     let table = text.parse::<toml::Table>();
     table.is_ok_and(|table| table.contains_key("match_format"))
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::study::{StudyError, source};
+use crate::study::{StudyError, text_file};
 
 /// Times and values of a CSV file, a line each; lines that begin with `#` and one line of names are passed over.
 pub(super) fn measured(path: &Path) -> Result<Vec<(f64, f64)>, Box<StudyError>> {
-    let text = source::read_text(path)?;
+    let text = text_file::read_text(path)?;
     let file = path.display().to_string();
     let mut rows: Vec<(f64, f64)> = Vec::new();
     let mut is_first = true;

@@ -13,6 +13,8 @@ use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
 use opshock_solver::scene::accuracy::Rung;
+use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::plan::Output;
 
 /// A key whose value is a `T`.
 pub struct Field<T> {
@@ -55,7 +57,7 @@ pub(super) enum Is {
     Flag,
     Word(&'static [&'static str]),
     Text,
-    Words,
+    Words(&'static [&'static str]),
     Numbers,
     Pair,
     Corners,
@@ -65,12 +67,13 @@ pub(super) enum Is {
 impl Is {
     const fn fits(self, kind: Kind) -> bool {
         match (self, kind) {
-            (Self::Word(own), Kind::Word(words)) => are_same(own, words),
+            (Self::Word(own), Kind::Word(words)) | (Self::Words(own), Kind::Words(words)) => {
+                are_same(own, words)
+            }
             (Self::Number, Kind::Number(_) | Kind::NumberOrWord(..))
             | (Self::Integer, Kind::Integer(..))
             | (Self::Flag, Kind::Flag)
             | (Self::Text, Kind::Text | Kind::Word(_))
-            | (Self::Words, Kind::Words(_))
             | (Self::Numbers, Kind::Numbers(_) | Kind::Axis(_))
             | (Self::Pair, Kind::Pair(_))
             | (Self::Corners, Kind::Points)
@@ -195,6 +198,30 @@ pub trait Named: Sized + Copy + 'static {
     const NAMES: &'static [&'static str];
     /// Kind of a key that holds one.
     const KIND: Kind = Kind::Word(Self::NAMES);
+    /// Kind of a key that holds some.
+    const KIND_OF_MANY: Kind = Kind::Words(Self::NAMES);
+}
+
+/// Values of a list of words, in the order of the study.
+pub struct Many<T>(PhantomData<fn() -> T>);
+
+impl<T: Named> Value for Many<T> {
+    type Out<'a> = Vec<T>;
+    #[allow(private_interfaces)]
+    const IS: Is = Is::Words(T::NAMES);
+    const MAY_BE_ABSENT: bool = true;
+
+    fn read(_: &str, datum: Option<&Datum>) -> Vec<T> {
+        let Some(Datum::Words(words)) = datum else {
+            return Vec::new();
+        };
+        let value = |word: &String| T::WORDS.iter().find(|(name, _)| name == word);
+        words
+            .iter()
+            .filter_map(value)
+            .map(|(_, value)| *value)
+            .collect()
+    }
 }
 
 macro_rules! named {
@@ -230,6 +257,11 @@ named! {
     Coupling: super::words::COUPLINGS;
     Rung: super::words::RUNGS;
     Units: Units::WORDS;
+    super::words::Ramp: super::words::RAMPS;
+    super::words::Sign: super::words::SIGNS;
+    super::words::LeftOut: super::words::LEAVE_OUT;
+    Output: super::words::OUTPUTS;
+    Knob: super::words::DISCRETISATION;
 }
 
 /// What is read as a part of the settings, empty where there is none.
@@ -257,8 +289,6 @@ macro_rules! part {
 part! {
     /// Text, or a word of a list without values.
     Text: Is::Text, &'a str, Datum::Text(text) | Datum::Word(text) => text, "";
-    /// Words of a list.
-    Words: Is::Words, &'a [String], Datum::Words(words) => words, &[];
     /// Numbers in the unit of the key.
     Numbers: Is::Numbers, &'a [f64], Datum::Numbers(numbers) => numbers, &[];
     /// From and to, in the unit of the key.

@@ -11,13 +11,16 @@ use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::disk::HubParameters;
 use opshock_solver::scene::accuracy::Rung;
+use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::plan::Output;
 use opshock_solver::scene::{Coupling, Scene};
 
-use super::field::{Corners, Field, Named, Numbers, Pair, Tables, Text, Words, fields};
+use super::field::{Corners, Field, Many, Named, Numbers, Pair, Tables, Text, fields};
 use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, open};
 use super::settings::View;
 use super::words::{
-    self, Certify, Effects, Faces, KeepHistories, LengthUnit, RailKind, RunOut, Shape,
+    self, Certify, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, Ramp, RunOut,
+    Shape, Sign,
 };
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
 
@@ -31,7 +34,7 @@ fn hub(scene: &mut Scene) -> &mut HubParameters {
 fields! {
     STUDY_FORMAT: i64 = Key::required("study_format", Integer(1, 1), "1", "Version of the study file's format.");
     NAME: Text = Key::required("name", Kind::Text, "\"Fig. 13: three ramp models\"", "Name of the study, printed on every product.");
-    OUTPUTS: Words = Key::or("outputs", Kind::Words(words::OUTPUTS), "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158");
+    OUTPUTS: Many<Output> = Key::or("outputs", Output::KIND_OF_MANY, "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158");
     // heads
     HEAD: Text = Key::optional("head", Kind::Text, "every head", "\"0 up\"", "Of several heads the one that is simulated.").code("E191");
     HEADS: Tables = Key::optional("heads", Kind::Tables, "one head", "[{ head = \"0 up\", slider.radius_mm = 21.0 }, { head = \"0 down\", slider.radius_mm = 21.0, suspension.gram_load_gf = 2.3 }]", "Heads of a drive, each with its slider, suspension, disk and gap of the ramp: an axis of the study. What an entry leaves out is the study's.").code("E191");
@@ -39,7 +42,7 @@ fields! {
     // pulse
     PULSE_SHAPE: Shape = Key::or("pulse.shape", Shape::KIND, "\"half_sine\"", "Shape of the acceleration pulse.");
     PULSE_WIDTHS_MS: Numbers = Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.").usual(0.05, 100.0).code("E150");
-    PULSE_SIGNS: Words = Key::or("pulse.signs", Kind::Words(words::SIGNS), "[\"+\", \"-\"]", "Signs of the shock: + moves the disk towards the slider first.");
+    PULSE_SIGNS: Many<Sign> = Key::or("pulse.signs", Sign::KIND_OF_MANY, "[\"+\", \"-\"]", "Signs of the shock: + moves the disk towards the slider first.");
     PULSE_START_MS: f64 = Key::or("pulse.start_ms", Number(FROM_ZERO), "0.5", "Onset of the pulse on the time axis of every output.").usual(0.0, 1000.0).code("E150").fixed();
     PULSE_WINDOW_MS: Option<f64> = Key::or("pulse.window_ms", NumberOrWord(ABOVE_ZERO, &["until_decayed"]), "5.0", "Simulated time after the onset.").usual(0.1, 500.0).code("E152");
     PULSE_DECAY_SHARE: f64 = Key::or("pulse.decay_share", Number(open(0.0, 1.0)), "0.01", "Share of the peak energy of disk and ramp that ends the window until_decayed.").code("E152");
@@ -103,7 +106,7 @@ fields! {
     BASE_IMPORTED_CUT_KHZ: Option<f64> = Key::optional("base.imported.cut_khz", LENGTH, "10.0", "10.0", "Natural modes below this frequency are kept, at most 16.").usual(0.1, 100.0).code("E189");
     BASE_IMPORTED_DAMPING_RATIO: Option<f64> = Key::optional("base.imported.damping_ratio", Number(below(0.0, 1.0)), "0.02", "0.02", "Damping ratio of every mode.").usual(0.0, 0.5).code("E132");
     // ramp
-    RAMP_MODELS: Words = Key::required("ramp.models", Kind::Words(words::RAMPS), "[\"none\", \"rigid\", \"deformable\"]", "Ramp models: an axis of the study.");
+    RAMP_MODELS: Many<Ramp> = Key::required("ramp.models", Ramp::KIND_OF_MANY, "[\"none\", \"rigid\", \"deformable\"]", "Ramp models: an axis of the study.");
     RAMP_CLEARANCE_UM: f64 = Key::or("ramp.clearance_um", Number(FROM_ZERO), "100.0", "Static clearance between disk and ramp, above and below.").usual(10.0, 1000.0).code("E143");
     RAMP_CLEARANCE_TOP_UM: Option<f64> = Key::optional("ramp.clearance_top_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance above the disk, when unequal.").usual(10.0, 1000.0).code("E143");
     RAMP_CLEARANCE_BOTTOM_UM: Option<f64> = Key::optional("ramp.clearance_bottom_um", Number(FROM_ZERO), "as clearance_um", "100.0", "Static clearance below the disk, when unequal.").usual(10.0, 1000.0).code("E143");
@@ -258,12 +261,12 @@ fields! {
     // solver
     SOLVER_ACCURACY: Rung = Key::or("solver.accuracy", Rung::KIND, "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157");
     SOLVER_EFFECTS: Effects = Key::or("solver.effects", Effects::KIND, "\"auto\"", "auto simulates only what the outputs need.").fixed();
-    SOLVER_LEAVE_OUT: Words = Key::or("solver.leave_out", Kind::Words(words::LEAVE_OUT), "[]", "Effects left out by hand; refused when an output needs them.");
+    SOLVER_LEAVE_OUT: Many<LeftOut> = Key::or("solver.leave_out", LeftOut::KIND_OF_MANY, "[]", "Effects left out by hand; refused when an output needs them.");
     SOLVER_COUPLING: Option<Coupling> = Key::rung("solver.coupling", Coupling::KIND, "\"monolithic\"", "How film and slider are solved together.") => |scene| scene.head_resolution.coupling;
     SOLVER_FAIL_BELOW_NM: f64 = Key::or("solver.fail_below_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0) => |scene| scene.fail_below_m;
     SOLVER_MAX_STEPS: Option<u64> = Key::rung("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided.") => |scene| scene.head_resolution.max_steps;
     SOLVER_DISK_CUT_KHZ: Option<f64> = Key::rung("solver.disk_cut_khz", LENGTH, "30.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0) => |scene| scene.disk_resolution.cut_hz;
-    SOLVER_NOT_REFINED: Words = Key::optional("solver.not_refined", Kind::Words(words::DISCRETISATION), "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: no error bar counts them, no refinement changes them.");
+    SOLVER_NOT_REFINED: Many<Knob> = Key::optional("solver.not_refined", Knob::KIND_OF_MANY, "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: no error bar counts them, no refinement changes them.");
     SOLVER_DISK_HARMONICS: Option<usize> = Key::rung("solver.disk_harmonics", Integer(1, 2000), "40", "Largest number of nodal diameters.") => |scene| scene.disk_resolution.n_harmonics;
     SOLVER_DISK_ELEMENTS: Option<usize> = Key::rung("solver.disk_elements", Integer(2, 5000), "40", "Radial finite elements of the disk.") => |scene| scene.disk_resolution.n_elements;
     SOLVER_STATIC_CORRECTION: Option<bool> = Key::rung("solver.static_correction", Flag, "true", "Adds the residual flexibility of the ramp point.") => |scene| scene.disk_resolution.static_correction;

@@ -11,7 +11,8 @@ use super::keys::{KEYS, find};
 use super::read::Reader;
 use super::set_arg::SetArg;
 use super::settings::Setting;
-use super::source::{self, Origin, Place, Source};
+use super::source::{Origin, Place, Source};
+use super::text_file;
 use super::tree::{self, Node, Value};
 use super::{samples, surfaces};
 
@@ -55,7 +56,10 @@ pub fn base_list(root: &Node, sets: &[SetArg], path: &str, location: &Location) 
             let file = location.folder.join(file);
             // What cannot be read is reported when the surface itself is read.
             (
-                Source::new(file.display().to_string(), source::read_text(&file).ok()?),
+                Source::new(
+                    file.display().to_string(),
+                    text_file::read_text(&file).ok()?,
+                ),
                 Origin::Included,
             )
         }
@@ -248,7 +252,7 @@ fn open_named(
         reader.spoil(key, fault);
         return None;
     }
-    match source::read_text(&path) {
+    match text_file::read_text(&path) {
         Ok(text) => Some(Source::new(path.display().to_string(), text)),
         Err(fault) => {
             let named = StudyError::at(

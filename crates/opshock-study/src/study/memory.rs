@@ -3,19 +3,18 @@
 //! Every number is a measured peak of resident memory less that of a program that does nothing, on x86-64 Linux;
 //! `tests/products/memory.rs` holds the estimates against such peaks.
 
+use super::checked::Study;
+use super::fault::{StudyError, StudyErrors};
 use super::fields;
-use super::{KeepHistories, Study, StudyError, StudyErrors};
+use super::film_memory::{film_bytes, reference_bytes};
+use super::words::KeepHistories;
 use opshock_solver::scene::plan::{Needs, Plan};
 use opshock_solver::scene::{Scene, Window};
 
 /// Bytes of every thread that simulates: disk modes, film of some hundred cells, scratch.
 const THREAD: f64 = 25e6;
-/// Bytes of a film's matrices and banded factors over n^1.5 cells, as of bands √n wide: 54 and 45 at 5000 and 20 000.
-const FLIGHT: f64 = 50.0;
-/// The same where its complex impedance is found too: 150 and 152.
+/// Bytes of a film over n^1.5 cells, as [`FLIGHT`], where its complex impedance is found too: 150 and 152.
 const IMPEDANCE: f64 = 150.0;
-/// The same of films that are only held still, with factors of single precision: 27 and 33 at 40 000 and 16 000.
-const HELD: f64 = 30.0;
 /// Bytes of a model per time step of disk and ramp: the unit response, which has more on a hub or a base that vibrates.
 const UNIT_RESPONSE: [f64; 2] = [190.0, 330.0];
 /// Bytes of a run per time step: the motion of the disk under the slider and its rate.
@@ -24,16 +23,6 @@ const MOTION: f64 = 48.0;
 const HISTORY: f64 = 450.0;
 /// Models with turned knobs that an error bar asks for, and that a sweep keeps.
 const TURNED: [usize; 2] = [9, 24];
-
-/// Bytes of a film of n cells while a shock is run.
-pub fn film_bytes(cells: f64) -> f64 {
-    FLIGHT * cells.powf(1.5)
-}
-
-/// Bytes while a grid of n cells, and the same with every cell cut in four, tells what other grids leave out.
-pub fn reference_bytes(cells: f64) -> f64 {
-    HELD * (4.0 * cells).powf(1.5)
-}
 
 /// Bytes that simulations need beyond those of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

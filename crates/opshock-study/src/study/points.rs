@@ -177,19 +177,19 @@ pub fn axes(settings: &Settings) -> Vec<Axis> {
 
 /// Ramp models of the study, in canonical order.
 pub fn ramps(settings: &Settings) -> Vec<Ramp> {
-    let words = View::first(settings).get(&fields::RAMP_MODELS);
+    let asked = View::first(settings).get(&fields::RAMP_MODELS);
     Ramp::ALL
         .into_iter()
-        .filter(|ramp| words.iter().any(|word| word == ramp.as_str()))
+        .filter(|ramp| asked.contains(ramp))
         .collect()
 }
 
 /// Signs of the study, in canonical order.
 pub fn signs(settings: &Settings) -> Vec<Sign> {
-    let words = View::first(settings).get(&fields::PULSE_SIGNS);
+    let asked = View::first(settings).get(&fields::PULSE_SIGNS);
     Sign::ALL
         .into_iter()
-        .filter(|sign| words.iter().any(|word| word == sign.as_str()))
+        .filter(|sign| asked.contains(sign))
         .collect()
 }
 

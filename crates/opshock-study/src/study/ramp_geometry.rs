@@ -4,7 +4,9 @@
 //! different vector instructions, and the same study must be the same study on both.
 
 use opshock_solid::material::{MATERIALS, Material};
-use opshock_solid::ramp::{Extent, Mount, RampGeometry, RampModes, SolidRamp, SolidRampError};
+use opshock_solid::ramp::{
+    Extent, Mount, RampGeometry, RampMesh, RampModes, SolidRamp, SolidRampError,
+};
 use opshock_solver::ramp::CoupledMode;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -167,6 +169,19 @@ impl SolidFields {
     pub fn cut_hz(&self, view: &View<'_>) -> f64 {
         view.get(&self.cut).unwrap_or(CUT_HZ)
     }
+}
+
+/// A meshed ramp on its base.
+#[derive(Clone, Debug)]
+pub struct RampSolid {
+    /// Finite elements.
+    pub mesh: RampMesh,
+    /// Material.
+    pub material: Material,
+    /// Mount.
+    pub mount: Mount,
+    /// Modes are kept below this frequency, Hz.
+    pub cut_hz: f64,
 }
 
 /// What a ramp was reduced to.

@@ -21,12 +21,12 @@ use super::field::Field;
 use super::fields;
 use super::included::Location;
 use super::keys;
-use super::ramp_geometry::{SolidFields, rounded};
-use super::ramp_solid::RampSolid;
+use super::ramp_geometry::{RampSolid, SolidFields, rounded};
 use super::read::Reader;
 use super::settings::View;
 use super::source::{Origin, Source};
-use super::{tree, words};
+use super::tree;
+use super::words::{self, Ramp};
 
 /// Table of the mesh.
 pub const TABLE: &str = "ramp.deformable.mesh";
@@ -63,10 +63,7 @@ pub fn read(reader: &mut Reader, location: &Location) {
         fields::RAMP_CLEARANCE_UM.path(),
     ];
     let view = View::first(&reader.settings);
-    let is_wanted = view
-        .get(&fields::RAMP_MODELS)
-        .iter()
-        .any(|m| m == "deformable");
+    let is_wanted = view.get(&fields::RAMP_MODELS).contains(&Ramp::Deformable);
     let named = view.get(&fields::RAMP_DEFORMABLE_MESH_FILE).to_owned();
     if named.is_empty() && view.get(&OF_MESH.material).is_empty() {
         // Modes of the command line leave them without their file.

@@ -1,24 +1,12 @@
 //! The solid behind a study's deformable ramp, where the study gives one.
 
+use super::checked::Study;
 use super::fault::{StudyError, StudyErrors};
+use super::ramp_geometry::RampSolid;
 use super::settings::View;
-use super::{Study, fields, ramp_geometry, ramp_mesh};
-use opshock_solid::material::Material;
-use opshock_solid::ramp::{Extent, Mount, RampMesh, SolidRampError};
+use super::{fields, ramp_geometry, ramp_mesh};
+use opshock_solid::ramp::{Extent, SolidRampError};
 use std::path::Path;
-
-/// A meshed ramp on its base.
-#[derive(Clone, Debug)]
-pub struct RampSolid {
-    /// Finite elements.
-    pub mesh: RampMesh,
-    /// Material.
-    pub material: Material,
-    /// Mount.
-    pub mount: Mount,
-    /// Modes are kept below this frequency, Hz.
-    pub cut_hz: f64,
-}
 
 impl Study {
     /// The solid of the deformable ramp at the study's first point: of its geometry, or of its mesh,

@@ -5,7 +5,6 @@ use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
-use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline};
@@ -51,14 +50,8 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
     complete_suspension(view, &mut scene.suspension);
     scene.gas = gas_parameters(view);
     scene.surface_forces = surface_forces(view);
-    scene.not_refined = not_refined(view);
+    scene.not_refined = view.get(&fields::SOLVER_NOT_REFINED);
     scene
-}
-
-/// Discretisation parameters that are values of the model.
-fn not_refined(view: &View<'_>) -> Vec<Knob> {
-    let words = view.get(&fields::SOLVER_NOT_REFINED).iter();
-    words.filter_map(|word| Knob::from_word(word)).collect()
 }
 
 /// Coupling tolerance as a share of the head's, unless the study sets it.

@@ -2,14 +2,14 @@
 
 use opshock_solver::quantity;
 
-use super::fault::{StudyError, StudyErrors};
+use super::checked::Study;
+use super::fault::{Severity, StudyError, StudyErrors};
 use super::fields;
 use super::points::{self, Point};
 use super::settings::View;
 use super::unit;
 use super::validity::Check;
 use super::words::{Ramp, Sign};
-use super::{Severity, Study};
 
 /// What the command line says about a single shock. Axes it leaves out must have one value.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 use super::fault::StudyError;
-use super::source::{self, Origin, Place, Source};
+use super::source::{Origin, Place, Source};
+use super::text_file;
 
 /// A value and its place.
 #[derive(Clone, Debug)]
@@ -70,7 +71,7 @@ impl Node {
 /// # Errors
 /// E104 (limits) and every E103 (syntax), with their places.
 pub fn parse(source: &Arc<Source>, origin: Origin) -> Result<Node, Vec<StudyError>> {
-    source::check_limits(source, origin).map_err(|fault| vec![*fault])?;
+    text_file::check_limits(source, origin).map_err(|fault| vec![*fault])?;
     let (table, errors) = DeTable::parse_recoverable(&source.text);
     if errors.is_empty() {
         let span = table.span();
@@ -141,7 +142,7 @@ fn syntax_hint(source: &Source, text: &str, line: usize) -> String {
     if value.is_empty() && text.trim_end().ends_with('=') {
         return "a value is missing after =".to_string();
     }
-    match source::unclosed_bracket(&source.text).map(|at| source.line_column(at).0) {
+    match text_file::unclosed_bracket(&source.text).map(|at| source.line_column(at).0) {
         Some(opened) if opened <= line => {
             format!("a bracket opened in line {opened} is not closed")
         }
@@ -162,7 +163,7 @@ pub fn value_or_text(source: &Arc<Source>, at: usize, text: &str, position: usiz
         span: 0..at.saturating_sub(1),
         origin,
     };
-    let shallow = source::check_limits(&Source::new("", text), origin).is_ok();
+    let shallow = text_file::check_limits(&Source::new("", text), origin).is_ok();
     let parsed = if shallow {
         DeValue::parse(text).ok()
     } else {

@@ -8,6 +8,7 @@ use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
 use opshock_solver::scene::accuracy::Rung;
 use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::plan::{Needs, Output};
 
 /// The words of a list.
 pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
@@ -20,52 +21,40 @@ pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'stati
     names
 }
 
-/// Ramp models, in canonical order.
-pub const RAMPS: &[&str] = &[
-    Ramp::None.as_str(),
-    Ramp::Rigid.as_str(),
-    Ramp::Deformable.as_str(),
-];
-/// Signs, in canonical order.
-pub const SIGNS: &[&str] = &[Sign::Plus.as_str(), Sign::Minus.as_str()];
-/// Outputs that disk and ramp alone give.
-pub const STRUCTURE_OUTPUTS: &[&str] = &[
-    "disk_displacement",
-    "ramp_displacement",
-    "contact_force",
-    "touch_threshold",
-];
-/// Every output.
-pub const OUTPUTS: &[&str] = &[
-    "critical_shock",
-    "min_clearance",
-    "slider_attitude",
-    "pitch",
-    "steady_attitude",
-    "bearing_force",
-    "dimple_force",
-    "disk_displacement",
-    "ramp_displacement",
-    "contact_force",
-    "touch_threshold",
-    "pressure_field",
-];
-/// Effects that can be left out by hand.
-pub const LEAVE_OUT: &[&str] = &["air_bearing"];
+/// Every value of a list with its word.
+macro_rules! worded {
+    ($all:expr) => {{
+        let mut list = [("", $all[0]); $all.len()];
+        let mut at = 0;
+        while at < list.len() {
+            list[at] = ($all[at].as_str(), $all[at]);
+            at += 1;
+        }
+        list
+    }};
+}
+
+/// `ramp.models`, in canonical order.
+pub const RAMPS: [(&str, Ramp); 3] = worded!(Ramp::ALL);
+/// `pulse.signs`, in canonical order.
+pub const SIGNS: [(&str, Sign); 2] = worded!(Sign::ALL);
+/// `outputs`.
+pub const OUTPUTS: [(&str, Output); 12] = worded!(Output::ALL);
+/// `solver.leave_out`.
+pub const LEAVE_OUT: [(&str, LeftOut); 1] = [("air_bearing", LeftOut::AirBearing)];
+/// `solver.not_refined`: discretisation parameters of a scene.
+pub const DISCRETISATION: [(&str, Knob); 6] = worded!([
+    Knob::FilmGrid,
+    Knob::DiskModes,
+    Knob::SuspensionModes,
+    Knob::StructureStep,
+    Knob::HeadTolerance,
+    Knob::CouplingTolerance,
+]);
 /// Named materials of a ramp.
 pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
 /// Named surfaces.
 pub const SURFACES: &[&str] = &["femto-2.5in"];
-
-/// Discretisation parameters of a scene.
-pub const DISCRETISATION: &[&str] = &[
-    Knob::FilmGrid.as_str(),
-    Knob::DiskModes.as_str(),
-    Knob::SuspensionModes.as_str(),
-    Knob::StructureStep.as_str(),
-    Knob::HeadTolerance.as_str(),
-    Knob::CouplingTolerance.as_str(),
-];
 
 /// `pulse.shape`.
 pub const SHAPES: [(&str, Shape); 6] = [
@@ -309,6 +298,24 @@ impl Effects {
             Self::Full => "full",
         }
     }
+}
+
+/// Words of the outputs that disk and ramp alone give.
+pub fn structure_outputs() -> String {
+    let of_structure = |output: &Output| output.needs() == Needs::Structure;
+    let words: Vec<&str> = Output::ALL
+        .into_iter()
+        .filter(of_structure)
+        .map(Output::as_str)
+        .collect();
+    words.join(", ")
+}
+
+/// An effect that a study may leave out by hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LeftOut {
+    /// Film, slider and suspension.
+    AirBearing,
 }
 
 /// Which time histories are stored.

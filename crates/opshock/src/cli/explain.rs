@@ -263,7 +263,7 @@ fn as_json(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
         "study": study.name,
         "digest": study.digest_hex(),
         "mode": plan.mode.as_str(),
-        "outputs": study.outputs,
+        "outputs": study.output_words(),
         "amplitude_g": amplitude_g,
         "rules": all.first().map(|first| rules_json(&first.rules)),
         "scenes": scenes,
@@ -274,7 +274,7 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
     let mut text = format!(
         "{}: outputs {}, effects {}{}\n\n",
         study.name,
-        study.outputs.join(", "),
+        study.output_words().join(", "),
         plan.mode.as_str(),
         amplitude_g.map_or(String::new(), |g| format!(", {g} G")),
     );

@@ -181,7 +181,7 @@ fn cases(study: &Study, shock: Shock, console: &Console) -> Result<Vec<PaperCase
         let Some(history) = history else {
             return Err(Failure::Usage(vec![Fault {
                 key: Some("outputs".into()),
-                value: Some(study.outputs.join(", ")),
+                value: Some(study.output_words().join(", ")),
                 allowed: Some("also min_clearance and slider_attitude".into()),
                 ..Fault::new(
                     "usage",

@@ -19,8 +19,8 @@ use std::fmt::Write as _;
 ///
 /// An output that no sweep answers; a scene that cannot be built.
 pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
-    let answered = Output::TouchThreshold.as_str();
-    if let Some(output) = study.outputs.iter().find(|output| *output != answered) {
+    let answered = Output::TouchThreshold;
+    if let Some(output) = study.outputs.iter().find(|output| **output != answered) {
         let file = study.path.display().to_string();
         let message = format!("a sweep does not answer {output} without critical_shock");
         let mut fault = StudyError::in_file("E158", &file, message)

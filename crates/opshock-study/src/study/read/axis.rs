@@ -1,15 +1,13 @@
 //! Axes: lists of values, and `{ from, to, count, spacing }`.
 
-use super::{Reader, join};
+use super::limit::{MAX_POINTS, too_many_points};
+use super::reader::{Reader, join};
 use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
 use crate::study::key::{Key, Kind};
 use crate::study::source::Place;
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};
-
-/// Most values of one axis, and most points of a study.
-pub const MAX_POINTS: usize = 100_000;
 
 static COUNT: Key = Key::required(
     "count",
@@ -179,22 +177,4 @@ impl Reader {
         }
         true
     }
-}
-
-/// The refusal of a study with too many points, with what it would cost.
-pub fn too_many_points(place: &Place, path: &str, count: f64) -> StudyError {
-    // About 15 simulations of 0.3 s and 300 bytes in the journal each.
-    let hours = count * 15.0 * 0.3 / 3600.0;
-    let gigabytes = count * 15.0 * 300.0 / 1e9;
-    StudyError::at(
-        "E155",
-        place,
-        path,
-        format!(
-            "{count:.0} points are too many: about {hours:.0} core hours and {gigabytes:.1} GB"
-        ),
-    )
-    .value(place.text())
-    .allowed(format!("at most {MAX_POINTS} points"))
-    .hint("split the study, or take coarser axes")
 }

@@ -1,10 +1,10 @@
 //! Messages about values of the wrong kind or size.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::study::fault::StudyError;
 use crate::study::fields;
+use crate::study::film_memory::{film_bytes, reference_bytes};
 use crate::study::key::{Key, Kind};
-use crate::study::memory::{film_bytes, reference_bytes};
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};
 

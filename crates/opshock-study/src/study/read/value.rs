@@ -1,7 +1,7 @@
 //! Single values: numbers with range and unit, whole numbers, words, corners.
 
-use super::Reader;
 use super::message::{memory_hint, not_a_word};
+use super::reader::Reader;
 use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
 use crate::study::fields;

@@ -1,6 +1,6 @@
 //! A base that vibrates.
 
-use super::Check;
+use super::check::Check;
 use crate::study::field::Field;
 use crate::study::fields;
 use crate::study::imported_base::{MODES, MOST};

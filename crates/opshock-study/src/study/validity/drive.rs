@@ -2,8 +2,9 @@
 
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
-use super::{Check, trim};
+use super::check::{Check, trim};
 use crate::study::fields;
+use crate::study::words::Ramp;
 use crate::study::{imported_suspension, ramp_geometry, scene, unit};
 use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;
@@ -214,8 +215,7 @@ impl Check<'_, '_> {
         let is_wanted = self
             .view
             .get(&fields::RAMP_MODELS)
-            .iter()
-            .any(|m| m == "deformable");
+            .contains(&Ramp::Deformable);
         if !is_wanted || !self.sound(&looked_at) {
             return;
         }
@@ -258,7 +258,7 @@ impl Check<'_, '_> {
                 };
                 let message = format!(
                     "the ramp's parts do not fit: {name} is {} mm",
-                    super::trim(1e3 * value)
+                    trim(1e3 * value)
                 );
                 self.fault("E173", &blamed, message).allowed = allowed;
             }
@@ -339,7 +339,7 @@ impl Check<'_, '_> {
                 .view
                 .get(&fields::RAMP_MODELS)
                 .iter()
-                .any(|model| model != "none")
+                .any(|model| *model != Ramp::None)
         {
             let [ramp_radius, ramp_deg, slider_deg] = ramp.map(|path| self.view.number(path));
             let apart = unit::si("angle_deg", ramp_deg - slider_deg);

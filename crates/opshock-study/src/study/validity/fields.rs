@@ -1,25 +1,22 @@
 //! Times of pressure fields: asked for with the output that needs them, inside the simulation.
 
-use super::{Check, trim};
+use super::check::{Check, trim};
 use crate::study::fields;
 use crate::study::source::Origin;
+use opshock_solver::scene::plan::Output;
 
 /// Key of the times.
 const FIELD_TIMES: &str = fields::FIELDS_TIMES_MS.path();
 
 /// The output that the times belong to.
-const OUTPUT: &str = "pressure_field";
+const OUTPUT: Output = Output::PressureField;
 
 impl Check<'_, '_> {
     pub(super) fn fields(&mut self) {
         if !self.sound(&["outputs", FIELD_TIMES]) {
             return;
         }
-        let is_asked = self
-            .view
-            .get(&fields::OUTPUTS)
-            .iter()
-            .any(|word| word == OUTPUT);
+        let is_asked = self.view.get(&fields::OUTPUTS).contains(&OUTPUT);
         let times_ms = self.view.get(&fields::FIELDS_TIMES_MS);
         match (is_asked, self.view.settings.get(FIELD_TIMES)) {
             (true, None) => {

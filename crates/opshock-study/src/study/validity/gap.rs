@@ -1,6 +1,6 @@
 //! The gap at the ramp that a disk leaves which runs out.
 
-use super::{Check, trim};
+use super::check::{Check, trim};
 use crate::study::field::Field;
 use crate::study::fields;
 use crate::study::scene;

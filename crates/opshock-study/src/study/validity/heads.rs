@@ -1,6 +1,6 @@
 //! Several heads.
 
-use super::Check;
+use super::check::Check;
 use crate::study::fault::StudyError;
 use crate::study::fields;
 use crate::study::imported_suspension;

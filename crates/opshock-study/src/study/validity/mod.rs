@@ -4,6 +4,7 @@
 //! that one mistake makes one message.
 
 mod base;
+mod check;
 mod drive;
 mod fields;
 mod gap;
@@ -16,16 +17,8 @@ mod study;
 
 use super::fault::StudyError;
 use super::settings::View;
-use super::words;
+pub use check::Check;
 use seen::Seen;
-
-/// Collects the faults of one point of a study.
-pub struct Check<'a, 'f> {
-    /// The point's settings.
-    pub view: &'f View<'a>,
-    /// Where faults go.
-    pub faults: &'f mut Vec<StudyError>,
-}
 
 impl Check<'_, '_> {
     /// Every rule that does not depend on the point.
@@ -36,35 +29,6 @@ impl Check<'_, '_> {
         self.fields();
         self.search();
         self.without_effect();
-    }
-
-    fn sound(&self, paths: &[&str]) -> bool {
-        self.view.are_sound(paths)
-    }
-
-    /// A fault at the key, of those a rule looks at, that the user wrote last.
-    fn fault(
-        &mut self,
-        code: &'static str,
-        paths: &[&str],
-        message: impl Into<String>,
-    ) -> &mut StudyError {
-        let blamed = paths
-            .iter()
-            .filter_map(|path| self.view.place(path).map(|place| (*path, place)))
-            .rev()
-            .max_by_key(|(_, place)| place.origin);
-        let fault = match blamed {
-            Some((path, place)) => StudyError::at(code, place, path, message).value(place.text()),
-            None => StudyError::in_file(code, "study", message),
-        };
-        self.push(fault)
-    }
-
-    fn push(&mut self, fault: StudyError) -> &mut StudyError {
-        let at = self.faults.len();
-        self.faults.push(fault);
-        &mut self.faults[at]
     }
 }
 
@@ -101,15 +65,4 @@ impl PointRules {
             seen.look(view, || rule(&mut Check { view, faults }, widths_ms));
         }
     }
-}
-
-/// Whether an output needs film, slider and suspension.
-pub fn needs_head(output: &str) -> bool {
-    !words::STRUCTURE_OUTPUTS.contains(&output)
-}
-
-/// A number without the digits a conversion added.
-fn trim(value: f64) -> String {
-    let text = format!("{value:.9}");
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
 }

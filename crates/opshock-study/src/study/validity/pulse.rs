@@ -1,6 +1,6 @@
 //! Pulse against step and window; sampled pulses.
 
-use super::{Check, trim};
+use super::check::{Check, trim};
 use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
 use crate::study::fields;

@@ -2,7 +2,7 @@
 
 use opshock_solver::quantity;
 
-use super::{Check, trim};
+use super::check::{Check, trim};
 use crate::study::field::Field;
 use crate::study::fields;
 use crate::study::polygon;

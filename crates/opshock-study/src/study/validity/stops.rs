@@ -1,6 +1,6 @@
 //! Limiters and lift tab of the suspension.
 
-use super::Check;
+use super::check::Check;
 use crate::study::fields;
 use crate::study::imported_suspension;
 

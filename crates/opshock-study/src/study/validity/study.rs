@@ -1,11 +1,13 @@
 //! Rules that hold for a study as a whole: names, outputs, search, keys without effect.
 
-use super::{Check, needs_head};
+use super::check::Check;
 use crate::study::datum::Datum;
+use crate::study::field::{Field, Many, Named};
 use crate::study::fields;
 use crate::study::imported_suspension;
 use crate::study::source::Origin;
-use crate::study::words::{self, Effects};
+use crate::study::words::{self, Effects, LeftOut};
+use opshock_solver::scene::plan::{Needs, Output};
 
 impl Check<'_, '_> {
     pub(super) fn names(&mut self) {
@@ -41,7 +43,7 @@ impl Check<'_, '_> {
             let fault = self.fault("E158", &["outputs"], "no output is asked for");
             fault.allowed = fields::OUTPUTS.key.kind.allowed();
         }
-        if let Some(twice) = repeated(outputs) {
+        if let Some(twice) = repeated(&outputs) {
             let fault = self.fault("E159", &["outputs"], format!("asks for {twice} twice"));
             fault.allowed = "each output once".to_string();
         }
@@ -52,8 +54,9 @@ impl Check<'_, '_> {
             return;
         }
         let left_out = self.view.get(&fields::SOLVER_LEAVE_OUT);
-        let left_out = left_out.iter().any(|effect| effect == "air_bearing");
-        let asks = outputs.iter().find(|output| needs_head(output));
+        let left_out = left_out.contains(&LeftOut::AirBearing);
+        let needs_head = |output: &&Output| output.needs() > Needs::Structure;
+        let asks = outputs.iter().find(needs_head);
         if let (Some(output), true) = (asks, left_out) {
             let fault = self.fault(
                 "E158",
@@ -62,12 +65,12 @@ impl Check<'_, '_> {
             );
             fault.allowed = format!(
                 "[], or outputs of disk and ramp alone: {}",
-                words::STRUCTURE_OUTPUTS.join(", ")
+                words::structure_outputs()
             );
             fault.hint = format!("remove {output} from outputs, or do not leave air_bearing out");
         }
         let full = self.view.get(&fields::SOLVER_EFFECTS) == Effects::Full && !left_out;
-        let asker = asks.map_or("effects = \"full\"", String::as_str);
+        let asker = asks.map_or("effects = \"full\"", |output| output.as_str());
         if (asks.is_some() || full)
             && self.sound(&[fields::DISK_RPM.path()])
             && self.view.number(fields::DISK_RPM.path()) == 0.0
@@ -78,7 +81,7 @@ impl Check<'_, '_> {
                 format!("{asker} needs the air bearing, which needs a spinning disk"),
             );
             fault.allowed = "> 0 rev/min".to_string();
-            fault.hint = format!("or ask only for {}", words::STRUCTURE_OUTPUTS.join(", "));
+            fault.hint = format!("or ask only for {}", words::structure_outputs());
         }
     }
 
@@ -196,28 +199,8 @@ impl Check<'_, '_> {
             }
         }
         self.refine();
-        for (field, what) in [
-            (&fields::RAMP_MODELS, "ramp models"),
-            (&fields::PULSE_SIGNS, "signs"),
-        ] {
-            let path = field.path();
-            if !self.sound(&[path]) {
-                continue;
-            }
-            let words = self.view.get(field);
-            if words.is_empty() {
-                let fault = self.fault(
-                    "E154",
-                    &[path],
-                    format!("the list is empty: a study needs {what}"),
-                );
-                fault.allowed = field.key.kind.allowed();
-            }
-            if let Some(twice) = repeated(words) {
-                let fault = self.fault("E154", &[path], format!("holds {twice:?} twice"));
-                fault.allowed = "values that differ".to_string();
-            }
-        }
+        self.each_once(&fields::RAMP_MODELS, "ramp models");
+        self.each_once(&fields::PULSE_SIGNS, "signs");
         if self.sound(&[fields::PULSE_WIDTHS_MS.path()]) {
             let widths = self.view.get(&fields::PULSE_WIDTHS_MS);
             if widths.is_empty() {
@@ -243,6 +226,28 @@ impl Check<'_, '_> {
 }
 
 impl Check<'_, '_> {
+    /// A list with something in it, and that once.
+    fn each_once<T>(&mut self, field: &Field<Many<T>>, what: &str)
+    where
+        T: Named + PartialEq + std::fmt::Display,
+    {
+        let path = field.path();
+        if !self.sound(&[path]) {
+            return;
+        }
+        let values = self.view.get(field);
+        if values.is_empty() {
+            let message = format!("the list is empty: a study needs {what}");
+            let fault = self.fault("E154", &[path], message);
+            fault.allowed = field.key.kind.allowed();
+        }
+        if let Some(twice) = repeated(&values) {
+            let message = format!("holds {:?} twice", twice.to_string());
+            let fault = self.fault("E154", &[path], message);
+            fault.allowed = "values that differ".to_string();
+        }
+    }
+
     /// Lines cannot be told better than brackets.
     fn refine(&mut self) {
         let tolerance = fields::SEARCH_REFINE_TOLERANCE_PCT.path();
@@ -262,10 +267,10 @@ impl Check<'_, '_> {
     }
 }
 
-fn repeated(words: &[String]) -> Option<&String> {
-    words
+fn repeated<T: PartialEq>(values: &[T]) -> Option<&T> {
+    values
         .iter()
         .enumerate()
-        .find(|(position, word)| words[..*position].contains(word))
-        .map(|(_, word)| word)
+        .find(|(position, value)| values[..*position].contains(value))
+        .map(|(_, value)| value)
 }
