@@ -3,7 +3,7 @@
 use super::file::MatchProblem;
 use super::observation::Known;
 use super::sample::Sample;
-use super::search::Searched;
+use super::searched::Searched;
 use super::share::Share;
 use serde::Serialize;
 

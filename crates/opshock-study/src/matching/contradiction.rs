@@ -6,17 +6,7 @@ use super::observation::{Observation, Quantity, Stage};
 use super::refinement::{Evolution, population_size};
 use super::sample::Sample;
 use super::search::Run;
-
-/// Observations that searches of their own did not find a set for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Contradicted {
-    /// Their places.
-    pub(super) group: Vec<usize>,
-    /// Searches, each from draws of its own.
-    pub(super) searches: u64,
-    /// Sets they tried.
-    pub(super) tried: u64,
-}
+use super::searched::Contradicted;
 
 impl Run<'_, '_> {
     /// For each observation that the nearest set lacks, searches for sets that satisfy the smallest group in which it

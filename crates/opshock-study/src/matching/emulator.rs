@@ -3,7 +3,7 @@
 
 use super::observation::Observation;
 use super::sample::Sample;
-use super::search::Searched;
+use super::searched::Searched;
 use rayon::prelude::*;
 use smartcore::ensemble::extra_trees_regressor::{
     ExtraTreesRegressor, ExtraTreesRegressorParameters,

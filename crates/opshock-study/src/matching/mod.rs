@@ -27,6 +27,7 @@ mod prior;
 mod refinement;
 mod sample;
 mod search;
+mod searched;
 mod share;
 mod statements;
 
@@ -41,6 +42,7 @@ pub use observation::{
 pub use outputs::Printed;
 pub use prior::{Distribution, Parameter, ParameterValue};
 pub use sample::Sample;
-pub use search::{Ended, Searched, WaveReport, search};
+pub use search::search;
+pub use searched::{Ended, Searched, WaveReport};
 pub use share::Share;
 pub use statements::Statements;

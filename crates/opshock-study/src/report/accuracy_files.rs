@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
-use super::files::{ReportError, json};
+use super::error::{ReportError, json};
 use super::table::csv_line;
 use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
 use crate::store::aside::write_all;

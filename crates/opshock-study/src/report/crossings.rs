@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::html::escaped;
+use super::html::text::escaped;
 use crate::search::Sign;
 use crate::store::AxisValue;
 use crate::sweep::refine::Crossed;

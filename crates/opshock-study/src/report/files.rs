@@ -2,18 +2,6 @@
 
 use super::html::{ReportSource, html};
 use super::{chart::ChartError, critical_shock::critical_shock_figure, table};
-use crate::store::StoreError;
-
-/// A file of a report could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum ReportError {
-    /// The operating system refused.
-    #[error(transparent)]
-    Write(#[from] StoreError),
-    /// A figure could not be encoded.
-    #[error("cannot draw a figure")]
-    Chart(#[from] ChartError),
-}
 
 /// `table.md`, `table.csv`, `fig13.svg`, `fig13.png` and `report.html`: names and bytes.
 ///
@@ -32,10 +20,4 @@ pub fn report_files(source: &ReportSource<'_>) -> Result<Vec<(&'static str, Vec<
         ("fig13.png", figure.png()?),
         ("report.html", html(source).into_bytes()),
     ])
-}
-
-/// A value as the bytes of a JSON file.
-pub fn json(value: &impl serde::Serialize) -> Vec<u8> {
-    let text = serde_json::to_string_pretty(value).expect("a report serialises");
-    (text + "\n").into_bytes()
 }

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::chart::{
     Axis, ChartError, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour,
 };
-use super::files::json;
-use super::html::escaped;
+use super::error::json;
+use super::html::text::escaped;
 use super::match_tables::{Table, maybe, summary, tables, words};
 use super::table::csv_line;
 use crate::matching::{BestOfEach, Known, MatchAnswer, MatchProblem, MatchingSet, Searched};

@@ -1,7 +1,7 @@
 //! Pictures of one simulation against time.
 
 use super::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
-use super::files::ReportError;
+use super::error::ReportError;
 use crate::store::aside::write_all;
 use crate::store::history::{Column, head_columns, root_columns, structure_columns};
 use opshock_solver::simulation::History;

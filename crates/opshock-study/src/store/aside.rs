@@ -1,13 +1,12 @@
 //! Files replaced whole: written aside, synced, renamed, and the folder synced. Every file that the
 //! program makes gets its name here, but for the journal, which makes its own the same way.
 
-use std::fs::File;
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
-use super::files::list;
+use super::files::{list, sync_folder};
 
 /// Names that files aside may begin with, those of earlier versions included.
 const PREFIXES: [&str; 3] = [PREFIX, ".probe-", ".opshock-"];
@@ -81,11 +80,6 @@ fn unwritable(path: &Path, source: std::io::Error) -> StoreError {
         path: path.to_owned(),
         source,
     }
-}
-
-/// Makes a rename or a new file durable.
-pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
-    File::open(folder)?.sync_all()
 }
 
 pub(super) fn folder_of(path: &Path) -> &Path {

@@ -135,8 +135,13 @@ impl Files for RealFiles {
     }
 
     fn sync_folder(&self, folder: &Path) -> std::io::Result<()> {
-        super::aside::sync_folder(folder)
+        sync_folder(folder)
     }
+}
+
+/// Makes a rename or a new file durable.
+pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    File::open(folder)?.sync_all()
 }
 
 impl OpenFile for File {

@@ -12,33 +12,11 @@ use super::error::StoreError;
 use super::journal::{self, JournalHeader, JournalWriter};
 use super::lock::StoreLock;
 use super::machine;
-use super::owner::Owner;
+use super::names::{HISTORIES, JOURNAL_FILE, RESOLVED_FILE, RESULTS_FILE};
+use super::owner::{Owner, StudyTexts};
 use super::record::{PointDigest, Record, RunKey, RunRecord, StoredTouch};
 use super::results::{self, Results, Session};
 use crate::search::Verdict;
-
-/// Name of the results file in a store.
-pub const RESULTS_FILE: &str = "results.h5";
-/// Folder of the kept histories in a store.
-pub const HISTORIES: &str = "histories";
-const JOURNAL_FILE: &str = "journal";
-/// Name of the study with every default in a store.
-pub(super) const RESOLVED_FILE: &str = "study.resolved.toml";
-
-/// The study that a store is made for.
-#[derive(Clone, Debug, Default)]
-pub struct StudyTexts {
-    /// Name of the study.
-    pub name: String,
-    /// Digest of every setting.
-    pub digest: String,
-    /// Its file, absolute and without links; `None` for a study that comes from no file.
-    pub file: Option<PathBuf>,
-    /// The file as given.
-    pub given: String,
-    /// With every default.
-    pub resolved: String,
-}
 
 /// Finished simulations by content.
 #[derive(Clone, Debug, Default)]

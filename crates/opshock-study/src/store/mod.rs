@@ -15,6 +15,7 @@ pub mod history;
 pub mod journal;
 pub mod lock;
 pub mod machine;
+pub mod names;
 mod owner;
 pub mod record;
 pub mod results;
@@ -23,8 +24,8 @@ pub mod summary;
 
 pub use audit::{Audit, Difference};
 pub use error::StoreError;
-pub use folder::{Loaded, Store, StudyTexts, load};
-pub use owner::Owner;
+pub use folder::{Loaded, Store, load};
+pub use owner::{Owner, StudyTexts};
 pub use record::{PointDigest, Record, RunKey, RunMachine, RunRecord, StoredTouch, TouchRecord};
 pub use results::{PointKeep, Results, RunRow, Session};
 pub use summary::{AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals};

@@ -7,11 +7,26 @@
 use std::path::{Path, PathBuf};
 
 use super::error::StoreError;
-use super::folder::{RESOLVED_FILE, StudyTexts};
 use super::journal::JournalHeader;
+use super::names::RESOLVED_FILE;
 use super::results::Results;
 use crate::study::difference::{self, SettingDifference};
 use crate::study::digest_of;
+
+/// The study that a store is made for.
+#[derive(Clone, Debug, Default)]
+pub struct StudyTexts {
+    /// Name of the study.
+    pub name: String,
+    /// Digest of every setting.
+    pub digest: String,
+    /// Its file, absolute and without links; `None` for a study that comes from no file.
+    pub file: Option<PathBuf>,
+    /// The file as given.
+    pub given: String,
+    /// With every default.
+    pub resolved: String,
+}
 
 /// Settings that a message lists at most.
 const LISTED: usize = 6;

@@ -9,7 +9,7 @@ use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::simulation::held::{Other, held_clearance};
 use opshock_solver::simulation::{Model, Outcome, Verdict as SolverVerdict};
 
-use super::physics::not_built;
+use super::probed::not_built;
 use crate::search::{ProbeResult, RunCost, Verdict};
 
 /// Where a survivor came closest to the disk.

@@ -19,6 +19,7 @@ mod latest;
 mod ledger;
 mod merge;
 pub mod physics;
+mod probed;
 pub mod progress;
 pub mod refine;
 pub mod rounds;

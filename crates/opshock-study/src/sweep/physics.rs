@@ -15,17 +15,18 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
-    Bearing, BuildError, Cause, Going, HeadState, Model, Outcome, Request,
-    Verdict as SolverVerdict, Workspace, run_structure, simulate_head_on,
+    Bearing, BuildError, Going, HeadState, Model, Outcome, Request, Workspace, run_structure,
+    simulate_head_on,
 };
 
 use super::held::{Lowest, held_still};
 use super::latest::Latest;
+use super::probed::{not_built, probe_result};
 use super::shelf::{Counts, Shelf};
 use super::simulator::{Onset, Simulator};
 use crate::identity;
 use crate::provenance::PHYSICS_STRUCTURE;
-use crate::search::{Probe, ProbeResult, Retry, RunCost, UndecidedCause, Verdict};
+use crate::search::{Probe, ProbeResult, Retry};
 use crate::study::{Point, RemeshedRamp, Study};
 
 type Built = Result<Arc<Model>, BuildError>;
@@ -383,52 +384,5 @@ impl Simulator for Physics {
             Some(amplitude_m_per_s2) => Onset::At { amplitude_m_per_s2 },
             None => Onset::Unknown,
         }
-    }
-}
-
-/// A scene that could not be built has no verdict.
-pub(super) fn not_built(error: &BuildError) -> ProbeResult {
-    ProbeResult {
-        verdict: Verdict::Undecided {
-            cause: UndecidedCause::NotBuilt,
-            message: error.to_string(),
-        },
-        h_min_m: None,
-        t_min_s: None,
-        cost: RunCost::default(),
-    }
-}
-
-/// An outcome as the search sees it.
-pub fn probe_result(outcome: &Outcome) -> ProbeResult {
-    let verdict = match &outcome.verdict {
-        SolverVerdict::Survives => Verdict::Survives,
-        SolverVerdict::Fails { t_fail_s, place } => Verdict::Fails {
-            t_fail_s: *t_fail_s,
-            x_m: place.x_m,
-            y_m: place.y_m,
-        },
-        SolverVerdict::Undecided { cause } => Verdict::Undecided {
-            cause: match cause {
-                Cause::NotConverged { .. } => UndecidedCause::NotConverged,
-                Cause::StepLimit { .. } => UndecidedCause::StepLimit,
-                Cause::NotFinite { .. } => UndecidedCause::NotFinite,
-            },
-            message: cause.to_string(),
-        },
-    };
-    let cost = &outcome.cost;
-    ProbeResult {
-        verdict,
-        h_min_m: outcome.min_clearance_m,
-        t_min_s: outcome.t_min_clearance_s,
-        cost: RunCost {
-            steps: cost.steps,
-            rejected: cost.rejected,
-            film_solves: cost.film_solves,
-            factorisations: cost.factorisations,
-            structure_steps: cost.structure_steps,
-            film_unknowns: cost.film_unknowns,
-        },
     }
 }

@@ -11,7 +11,7 @@ use opshock_study::accuracy::Accuracy;
 use opshock_study::report::{
     CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
 };
-use opshock_study::store::folder::RESULTS_FILE;
+use opshock_study::store::names::RESULTS_FILE;
 use opshock_study::store::{Audit, Status, Summary, aside, results};
 use opshock_study::study::Study;
 use opshock_study::sweep::refine;

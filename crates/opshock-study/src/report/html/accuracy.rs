@@ -1,6 +1,6 @@
 //! Accuracy on the page: what the error bars are made of, and what each digit costs.
 
-use super::{escaped, figure};
+use super::text::{escaped, figure};
 use crate::accuracy::{Accuracy, PointLadders};
 use crate::report::accuracy_files;
 use crate::report::table;

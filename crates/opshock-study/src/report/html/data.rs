@@ -1,12 +1,13 @@
 //! What the page's script draws from, as a JSON block that no script runs.
 
 use super::points;
+use super::shock_film::ShockFilm;
 use crate::report::outcome_map::RunDot;
 use crate::store::summary::Summary;
 use serde_json::{Value, json};
 
 /// Points as lists by column, runs as `[point, amplitude, verdict, clearance nm]`.
-pub(super) fn block(summary: &Summary, runs: &[RunDot], film: Option<&super::ShockFilm>) -> String {
+pub(super) fn block(summary: &Summary, runs: &[RunDot], film: Option<&ShockFilm>) -> String {
     let points: Vec<Value> = summary
         .points
         .iter()

@@ -7,91 +7,25 @@
 mod accuracy;
 mod data;
 mod points;
+mod remarks;
 mod shock_film;
+mod source;
+pub(super) mod text;
 
 pub use shock_film::ShockFilm;
+pub use source::ReportSource;
+
+use remarks::{is_reservation, said_of};
+use text::{escaped, figure};
 
 use super::critical_shock::critical_shock_figure;
-use super::crossings::{self, CrossingRow};
+use super::crossings;
 use super::margin_curves::margin_curves;
-use super::outcome_map::{RunDot, outcome_map};
-use super::savings::{self, Saving};
+use super::outcome_map::outcome_map;
+use super::savings;
 use super::table;
-use crate::accuracy::Accuracy;
-use crate::store::Audit;
-use crate::store::summary::{Flag, PointSummary, Status, Summary};
-use crate::study::Study;
+use crate::store::summary::{PointSummary, Status, Summary};
 use std::fmt::Write as _;
-
-/// What a report is made from.
-#[derive(Clone, Copy, Debug)]
-pub struct ReportSource<'a> {
-    /// Critical shocks.
-    pub summary: &'a Summary,
-    /// Every simulation.
-    pub runs: &'a [RunDot],
-    /// Program that swept the store, as `provenance::program()` names it.
-    pub program: &'a str,
-    /// The study with every default written out, when the store has it.
-    pub resolved_study: Option<&'a str>,
-    /// The last audit of the store.
-    pub audit: Option<&'a Audit>,
-    /// What the rules saved.
-    pub savings: &'a [Saving],
-    /// Crossings of the ramps' curves, where the study asks for them.
-    pub crossings: &'a [CrossingRow],
-    /// What accuracy was measured to cost, if it was.
-    pub accuracy: Option<&'a Accuracy>,
-    /// Effects and rules of each ramp's scenes, as the JSON of the results; empty: not known.
-    pub plan: &'a str,
-    /// A kept shock to be shown moving.
-    pub film: Option<&'a ShockFilm>,
-}
-
-impl<'a> ReportSource<'a> {
-    /// A report of the table and its simulations alone.
-    pub fn of_table(summary: &'a Summary, runs: &'a [RunDot], program: &'a str) -> Self {
-        Self {
-            summary,
-            runs,
-            program,
-            resolved_study: None,
-            audit: None,
-            savings: &[],
-            crossings: &[],
-            accuracy: None,
-            plan: "",
-            film: None,
-        }
-    }
-
-    /// Discretisation parameters that are values of the study's model, in words.
-    pub fn not_refined(&self) -> Option<String> {
-        Study::from_text(self.resolved_study?, &[])
-            .ok()?
-            .not_refined()
-    }
-
-    /// The line under a table: program, study, audit.
-    pub fn provenance(&self) -> String {
-        let audit = self
-            .audit
-            .map_or(String::new(), |audit| format!("; {}", audit.sentence()));
-        let mut text = self
-            .not_refined()
-            .map_or(String::new(), |values| values + "\n\n");
-        let _ = write!(
-            text,
-            "{}, study {}{audit}",
-            self.program, self.summary.digest
-        );
-        for line in savings::lines(self.savings) {
-            text.push_str("\n\n");
-            text.push_str(&line);
-        }
-        text
-    }
-}
 
 /// The page.
 pub fn html(source: &ReportSource<'_>) -> String {
@@ -306,11 +240,6 @@ fn replaced(svg: &str, label: &str, plot: &str) -> String {
     format!("{figure}<div class=\"plot\" data-plot=\"{plot}\"></div>")
 }
 
-fn figure(svg: &str, label: &str) -> String {
-    let svg = svg.replacen("<svg ", &format!(r#"<svg aria-label="{label}" "#), 1);
-    format!("<figure>{svg}</figure>\n")
-}
-
 fn main_table(summary: &Summary) -> String {
     let (header, rows) = table::readable(summary);
     let words = 3 + summary.axes.len();
@@ -364,11 +293,6 @@ fn sort_value(point: &PointSummary, column: usize, words: usize) -> Option<f64> 
     }
 }
 
-/// `NoTouch` says where an answer comes from and takes nothing from it.
-fn is_reservation(flag: &Flag) -> bool {
-    *flag != Flag::NoTouch
-}
-
 fn reservations(summary: &Summary) -> String {
     let mut text = String::new();
     for point in &summary.points {
@@ -389,46 +313,6 @@ fn reservations(summary: &Summary) -> String {
         "<p>None: every point is bracketed, nothing was retried.</p>".into()
     } else {
         format!("<ul>\n{text}</ul>")
-    }
-}
-
-/// What a reader must know of a point, in sentences.
-fn said_of(point: &PointSummary) -> Vec<&'static str> {
-    let mut said: Vec<&str> = match point.status {
-        Status::Ok => Vec::new(),
-        Status::AboveRange => vec!["no failure up to the end of the searched range"],
-        Status::BelowRange => vec!["fails at the start of the searched range already"],
-        Status::Undecided => vec!["runs without verdict left no bracket"],
-        Status::Open => vec!["the search has not ended"],
-    };
-    let flags = point.flags.iter().filter(|flag| is_reservation(flag));
-    said.extend(flags.map(|flag| sentence(*flag)));
-    said
-}
-
-fn sentence(flag: Flag) -> &'static str {
-    match flag {
-        Flag::NonMonotone => {
-            "failure is not monotone in amplitude: a survivor lies above a failure"
-        }
-        Flag::Window => "the highest survivor fails in a window twice as long",
-        Flag::WindowUndecided => "the window twice as long has no verdict",
-        Flag::Retry => "a verdict needed smaller steps or another method",
-        Flag::UndecidedNode => "an amplitude without verdict widens the bracket",
-        Flag::NotConverged => "a run did not converge",
-        Flag::StepLimit => "a run reached its step limit",
-        Flag::NotFinite => "a run met a number that is not finite",
-        Flag::Panicked => "a run broke down",
-        Flag::NotBuilt => "a scene could not be built",
-        Flag::NoTouch => "the disk does not reach the ramp",
-        Flag::OnsetUnknown => "the amplitude of first touch is not known",
-        Flag::BarWide => {
-            "a part of the error bar shows no formal order and carries the wide factor"
-        }
-        Flag::BarPartial => "a part of the error bar could not be estimated",
-        Flag::BarExceeds => "half the error bar is more than the accuracy asked for",
-        Flag::BarFloor => "and no finer rung was allowed",
-        Flag::Climbed => "answered on finer knobs than the study's",
     }
 }
 
@@ -471,18 +355,4 @@ fn provenance(source: &ReportSource<'_>) -> String {
         );
     }
     text
-}
-
-pub(super) fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            c => safe.push(c),
-        }
-    }
-    safe
 }

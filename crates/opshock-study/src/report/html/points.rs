@@ -1,6 +1,7 @@
 //! A page for each point: answer, bar, every simulation.
 
-use super::{escaped, said_of};
+use super::remarks::said_of;
+use super::text::escaped;
 use crate::report::outcome_map::RunDot;
 use crate::store::summary::{PointSummary, Summary};
 use std::fmt::Write as _;

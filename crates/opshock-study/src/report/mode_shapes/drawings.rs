@@ -1,7 +1,7 @@
 //! Drawings of the modes along one line of each body, with the numbers drawn.
 
 use super::grids::numbered;
-use super::{DiskShapes, HeadShapes, ModeShapes, RampShapes};
+use super::shapes::{DiskShapes, HeadShapes, ModeShapes, RampShapes};
 use crate::report::chart::{
     Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour,
 };
@@ -95,8 +95,9 @@ fn disk(disk: &DiskShapes, study: &str) -> Drawing {
         let title = format!("Nodal circles: {circles}; curves: nodal diameters n");
         panel(title, Axis::linear("Radius (mm)"), series.collect())
     });
-    let name =
-        |m: &super::DiskShape| format!("n{}_c{}_per_sqrt_kg", m.nodal_diameters, m.nodal_circles);
+    let name = |m: &super::shapes::DiskShape| {
+        format!("n{}_c{}_per_sqrt_kg", m.nodal_diameters, m.nodal_circles)
+    };
     let mut names = vec!["radius_m".to_owned()];
     names.extend(disk.modes.iter().map(name));
     let columns = disk.modes.iter().map(|mode| &mode.radial_per_sqrt_kg[..]);

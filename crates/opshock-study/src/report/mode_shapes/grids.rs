@@ -1,6 +1,6 @@
 //! Grids of the bodies with their modes.
 
-use super::{DiskShapes, HeadShapes, ModeShapes, RampShapes};
+use super::shapes::{DiskShapes, HeadShapes, ModeShapes, RampShapes};
 use crate::report::vtk_files::arm_boxes;
 use crate::report::vtu::{Cell, Grid, polar_grid};
 use opshock_solid::element::Shape;

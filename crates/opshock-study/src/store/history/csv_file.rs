@@ -1,7 +1,8 @@
 //! History as one CSV table.
 
-use super::root_columns;
-use crate::store::{StoreError, aside};
+use super::columns::root_columns;
+use crate::store::aside;
+use crate::store::error::StoreError;
 use opshock_solver::simulation::{History, PressureFields};
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,11 @@
 //! History as HDF5.
 
-use super::{Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryHeader, head_columns, root_columns};
+use super::columns::{
+    Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryHeader, head_columns, root_columns,
+};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
-use crate::store::{StoreError, aside, hdf5_file, seal};
+use crate::store::error::StoreError;
+use crate::store::{aside, hdf5_file, seal};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, Location};
 use opshock_solver::simulation::{History, PressureFields};

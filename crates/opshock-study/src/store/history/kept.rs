@@ -9,7 +9,7 @@ use crate::search::{Retry, Sign};
 use crate::store::aside;
 use crate::store::error::StoreError;
 use crate::store::files::{self, RealFiles};
-use crate::store::folder::HISTORIES;
+use crate::store::names::HISTORIES;
 use crate::store::record::RunKey;
 
 /// A simulation of a study whose history may be kept.

@@ -1,5 +1,6 @@
 use super::*;
 use opshock_solver::simulation::History;
+use opshock_solver::simulation::{HeadColumns, StructureColumns};
 
 /// Structure at 0, 1, 2, 3 us; head at 0, 1.5, 2.5 us, where it touches.
 fn history() -> History {
@@ -54,7 +55,7 @@ fn header() -> HistoryHeader {
 
 #[test]
 fn resampling_is_linear_inside_and_absent_outside() {
-    let values = resampled(
+    let values = super::columns::resampled(
         &[1.0, 2.0, 4.0],
         &[10.0, 20.0, 0.0],
         &[0.5, 1.0, 1.5, 3.0, 4.0, 4.1],

@@ -7,7 +7,7 @@ use hdf5::{File, Group};
 use opshock_solver::scene::knob::Levels;
 
 use super::columns::{get, get_number, get_text, get_texts};
-use super::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
+use super::rows::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
 use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
 use crate::store::error::StoreError;
 use crate::store::files::{self, RealFiles};

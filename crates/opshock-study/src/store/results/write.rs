@@ -5,7 +5,7 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::columns::{self, Column, Values, counts, numbers, put_number, put_text, texts};
-use super::{RESULTS_FORMAT, Results, RunRow};
+use super::rows::{RESULTS_FORMAT, Results, RunRow};
 use crate::search::Verdict;
 use crate::search::lattice::REFERENCE_G;
 use crate::store::error::StoreError;

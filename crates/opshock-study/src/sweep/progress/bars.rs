@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Event, PointLabel, Progress, answer, bracket, finished, left};
+use super::event::{Event, PointLabel, Progress};
+use super::text::{answer, bracket, finished, left};
 
 /// Points shown at once; those that changed last.
 const ROWS: usize = 12;

@@ -4,7 +4,8 @@ use std::io::Write;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use super::{Event, PointLabel, Progress, answer, finished, left};
+use super::event::{Event, PointLabel, Progress};
+use super::text::{answer, finished, left};
 
 /// Time between two lines about what is left.
 const EVERY: Duration = Duration::from_secs(10);

@@ -1,0 +1,171 @@
+//! What `results.h5` holds of a study: its runs, points and sessions.
+
+use opshock_solver::scene::knob::Levels;
+
+use crate::provenance;
+use crate::search::{ProbeResult, Purpose};
+use crate::store::history::KeptRun;
+use crate::store::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
+use crate::store::summary::Summary;
+
+/// Number of the format of `results.h5`; raised when an older reader would go wrong.
+pub const RESULTS_FORMAT: u32 = 2;
+
+/// A simulation of the canonical sequence of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRow {
+    /// Place of the point in the study.
+    pub point: usize,
+    /// Place in the point's sequence.
+    pub sequence: usize,
+    /// Why it was asked.
+    pub purpose: Purpose,
+    /// Node of the lattice, of that of the error bars for theirs.
+    pub index: i32,
+    /// Knobs turned.
+    pub levels: Levels,
+    /// Amplitude without sign, G.
+    pub amplitude_g: f64,
+    /// The simulation.
+    pub run: RunRecord,
+}
+
+impl RunRow {
+    /// What the simulation answered.
+    pub fn result(&self) -> &ProbeResult {
+        &self.run.result
+    }
+
+    /// What totals count.
+    pub fn counted(&self) -> (Purpose, &ProbeResult) {
+        (self.purpose, &self.run.result)
+    }
+}
+
+/// What `/points` holds beside the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointKeep {
+    /// Content of the point.
+    pub digest: PointDigest,
+    /// First touch, when it is known.
+    pub touch: Option<StoredTouch>,
+}
+
+/// Who wrote a file, where and when.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Session {
+    /// Version of the program.
+    pub program_version: String,
+    /// Commit of the program.
+    pub commit: String,
+    /// Physics version of the structure stage.
+    pub physics_structure: u32,
+    /// Physics version of the head stage.
+    pub physics_head: u32,
+    /// Host.
+    pub host: String,
+    /// Process id.
+    pub process: u32,
+    /// Worker threads.
+    pub threads: usize,
+    /// Start of the process, seconds since 1970.
+    pub started_unix_s: f64,
+}
+
+impl Session {
+    /// The program, as [`provenance::program`] names it.
+    pub fn program(&self) -> String {
+        let physics = [self.physics_structure, self.physics_head];
+        provenance::program_of(&self.program_version, &self.commit, physics)
+    }
+}
+
+/// Content of `results.h5`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// The table.
+    pub summary: Summary,
+    /// Nodes per doubling of the lattice.
+    pub nodes_per_octave: i32,
+    /// Onset of the pulse on the study's time axis, s.
+    pub start_s: f64,
+    /// Effects and rules of each ramp's scenes, as JSON; empty in files that have none.
+    pub plan: String,
+    /// Per point of the table.
+    pub points: Vec<PointKeep>,
+    /// Simulations of the canonical sequences.
+    pub runs: Vec<RunRow>,
+    /// Finished simulations that no sequence asked for.
+    pub outside: Vec<RunRecord>,
+    /// Who wrote it.
+    pub session: Session,
+    /// When, seconds since 1970.
+    pub written_unix_s: f64,
+}
+
+impl Results {
+    /// Everything a resume takes from the file.
+    pub fn records(&self) -> Vec<Record> {
+        let touches = self.points.iter().filter_map(|point| {
+            Some(Record::Touch(TouchRecord {
+                point: point.digest,
+                touch: point.touch?,
+            }))
+        });
+        let runs = self.runs.iter().map(|row| &row.run).chain(&self.outside);
+        touches.chain(runs.cloned().map(Record::Run)).collect()
+    }
+
+    /// Runs on the study's own knobs: their histories may be kept.
+    pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
+        let rows = self.runs.iter().filter(|row| row.levels.is_none());
+        rows.map(|row| {
+            let point = &self.summary.points[row.point];
+            KeptRun {
+                ramp: &point.ramp,
+                pulse_ms: point.pulse_ms,
+                sign: point.sign,
+                amplitude_g: row.amplitude_g,
+                key: row.run.key,
+                start_s: self.start_s,
+                plan: &self.plan,
+            }
+        })
+    }
+
+    /// Digest of the table and of the canonical simulations, machine facts left out.
+    pub fn content_digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let table = serde_json::to_vec(&self.summary).expect("a table serialises");
+        hasher.update(&table);
+        for row in &self.runs {
+            let mut run = row.run.clone();
+            run.machine = RunMachine::default();
+            hasher.update(&Record::Run(run).encode());
+            hasher.update(row.purpose.as_str().as_bytes());
+            hasher.update(&row.index.to_le_bytes());
+        }
+        for point in &self.points {
+            if let Some(touch) = point.touch {
+                let record = TouchRecord {
+                    point: point.digest,
+                    touch,
+                };
+                hasher.update(&Record::Touch(record).encode());
+            }
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+
+    /// Digest of the simulations outside the canonical sequences, machine facts left out: they lie
+    /// with the machine's facts, for idle cores decide which there are.
+    pub fn outside_digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        for run in &self.outside {
+            let mut run = run.clone();
+            run.machine = RunMachine::default();
+            hasher.update(&Record::Run(run).encode());
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}

@@ -1,0 +1,51 @@
+//! What a simulation answers, as the search sees it.
+
+use crate::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
+use opshock_solver::simulation::{BuildError, Cause, Outcome, Verdict as SolverVerdict};
+
+/// A scene that could not be built has no verdict.
+pub(super) fn not_built(error: &BuildError) -> ProbeResult {
+    ProbeResult {
+        verdict: Verdict::Undecided {
+            cause: UndecidedCause::NotBuilt,
+            message: error.to_string(),
+        },
+        h_min_m: None,
+        t_min_s: None,
+        cost: RunCost::default(),
+    }
+}
+
+/// An outcome as the search sees it.
+pub(super) fn probe_result(outcome: &Outcome) -> ProbeResult {
+    let verdict = match &outcome.verdict {
+        SolverVerdict::Survives => Verdict::Survives,
+        SolverVerdict::Fails { t_fail_s, place } => Verdict::Fails {
+            t_fail_s: *t_fail_s,
+            x_m: place.x_m,
+            y_m: place.y_m,
+        },
+        SolverVerdict::Undecided { cause } => Verdict::Undecided {
+            cause: match cause {
+                Cause::NotConverged { .. } => UndecidedCause::NotConverged,
+                Cause::StepLimit { .. } => UndecidedCause::StepLimit,
+                Cause::NotFinite { .. } => UndecidedCause::NotFinite,
+            },
+            message: cause.to_string(),
+        },
+    };
+    let cost = &outcome.cost;
+    ProbeResult {
+        verdict,
+        h_min_m: outcome.min_clearance_m,
+        t_min_s: outcome.t_min_clearance_s,
+        cost: RunCost {
+            steps: cost.steps,
+            rejected: cost.rejected,
+            film_solves: cost.film_solves,
+            factorisations: cost.factorisations,
+            structure_steps: cost.structure_steps,
+            film_unknowns: cost.film_unknowns,
+        },
+    }
+}

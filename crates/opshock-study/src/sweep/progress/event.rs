@@ -1,0 +1,133 @@
+//! What a sweep tells, and who receives it.
+
+use std::path::PathBuf;
+
+use crate::search::Sign;
+use crate::store::summary::{PointSummary, Totals};
+
+/// Name of a point for people.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointLabel {
+    /// Name of the ramp model.
+    pub ramp: String,
+    /// Pulse width, ms.
+    pub pulse_ms: f64,
+    /// Sign.
+    pub sign: Sign,
+    /// Further axes as `name=value`.
+    pub axes: Vec<String>,
+}
+
+impl std::fmt::Display for PointLabel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{} {} ms {}",
+            self.ramp,
+            self.pulse_ms,
+            self.sign.as_str()
+        )?;
+        for axis in &self.axes {
+            write!(f, " {axis}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What is left, from the expected remaining probes of each run class.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// Simulations finished, stored ones included.
+    pub runs_done: u64,
+    /// Simulations expected to remain.
+    pub runs_left: f64,
+    /// Standard deviation of that number.
+    pub runs_left_sd: f64,
+    /// Time left at the measured pace, s; `None` until a run was measured.
+    pub eta_s: Option<f64>,
+}
+
+/// One thing that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// The sweep begins.
+    Started {
+        /// Name of the study.
+        study: String,
+        /// Points of the study, in its order.
+        points: Vec<PointLabel>,
+        /// Worker threads.
+        threads: usize,
+        /// Simulations found in the store.
+        stored_runs: u64,
+    },
+    /// A point asks for its first probe.
+    PointStarted {
+        /// Place in the study.
+        point: usize,
+    },
+    /// A simulation finished (or was found in the store).
+    ProbeDone {
+        /// Place in the study.
+        point: usize,
+        /// Amplitude, G, without sign.
+        amplitude_g: f64,
+        /// `survives`, `fails`, `undecided`.
+        verdict: &'static str,
+        /// `hunt`, `bisect`, `scan`, `follow_up`, `window`.
+        purpose: &'static str,
+        /// Label of the retry, empty for a plain run.
+        retry: &'static str,
+        /// Measured time, s; `None` when it came from the store.
+        wall_s: Option<f64>,
+    },
+    /// Evidence of a point now.
+    Bracket {
+        /// Place in the study.
+        point: usize,
+        /// Highest survivor below the lowest failure, G.
+        a_crit_g: Option<f64>,
+        /// Lowest failure, G.
+        a_fail_g: Option<f64>,
+        /// Canonical simulations so far.
+        runs: u64,
+    },
+    /// A point has its answer.
+    PointDone {
+        /// Place in the study.
+        point: usize,
+        /// Its row.
+        summary: PointSummary,
+    },
+    /// What is left.
+    Estimated(Estimate),
+    /// `results.h5` was replaced.
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// Canonical simulations in it.
+        runs: u64,
+    },
+    /// Something a person should know.
+    Warning {
+        /// Stable word, such as `lucky`.
+        code: &'static str,
+        /// A sentence.
+        message: String,
+    },
+    /// The sweep ended.
+    Finished {
+        /// Counts.
+        totals: Totals,
+        /// Measured time, s.
+        wall_s: f64,
+        /// Share of the threads' time spent simulating.
+        core_use: f64,
+    },
+}
+
+/// Receives events, in order, from one thread.
+pub trait Progress: Send + Sync {
+    /// Takes an event.
+    fn event(&self, event: &Event);
+}

@@ -1,0 +1,70 @@
+//! Events in words.
+
+use super::event::Estimate;
+use crate::store::summary::{PointSummary, Totals};
+
+/// `331.2 to 334.5 G`, `above 2000 G`, `below 20 G`.
+pub(super) fn answer(summary: &PointSummary) -> String {
+    bracket(summary.a_crit_g, summary.a_fail_g)
+}
+
+pub(super) fn bracket(a_crit_g: Option<f64>, a_fail_g: Option<f64>) -> String {
+    match (a_crit_g, a_fail_g) {
+        (Some(low), Some(high)) => format!("{} to {} G", short(low), short(high)),
+        (Some(low), None) => format!("above {} G", short(low)),
+        (None, Some(high)) => format!("below {} G", short(high)),
+        (None, None) => "no verdict".into(),
+    }
+}
+
+/// Four figures.
+fn short(value: f64) -> String {
+    let digits = 3 - value.abs().max(1.0).log10().floor() as i32;
+    format!("{value:.*}", digits.max(0) as usize)
+}
+
+/// What is left, in words.
+pub(super) fn left(estimate: &Estimate) -> String {
+    let runs = format!(
+        "{} runs done, {:.0} \u{b1} {:.0} left",
+        estimate.runs_done, estimate.runs_left, estimate.runs_left_sd
+    );
+    match estimate.eta_s {
+        Some(eta_s) if estimate.runs_left > 0.0 => format!("{runs}, about {}", duration(eta_s)),
+        _ => runs,
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    let whole = seconds.ceil().max(1.0) as u64;
+    match whole {
+        0..90 => format!("{whole} s"),
+        90..5400 => format!("{} min", (whole + 30) / 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+    }
+}
+
+/// Last line.
+pub(super) fn finished(totals: &Totals, wall_s: f64, core_use: f64) -> String {
+    let mut parts = Vec::new();
+    for (count, word) in [
+        (totals.ok, "bracketed"),
+        (totals.above_range, "above the range"),
+        (totals.below_range, "below the range"),
+        (totals.undecided, "undecided"),
+        (totals.open, "open"),
+    ] {
+        if count > 0 {
+            parts.push(format!("{count} {word}"));
+        }
+    }
+    format!(
+        "{} points: {}; {} runs, {} without verdict; {}, cores {:.0} % busy",
+        totals.points,
+        parts.join(", "),
+        totals.runs,
+        totals.undecided_runs,
+        duration(wall_s),
+        100.0 * core_use
+    )
+}
