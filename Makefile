@@ -93,7 +93,8 @@ verify: verify-film verify-effects verify-durability verify-store verify-search 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
 
-verify-effects: bootstrap ## 2000 random scenes as planned against in full (OPSHOCK_SEEDS=first..end goes on)
+verify-effects: bootstrap ## every condition of every rule deleted; 2000 random scenes as planned against in full (OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --features mutants --test physics -- effects_mutant
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture effects_slow
 
 verify-durability: bootstrap ## kill -9, torn journals, threads on the real study

@@ -9,6 +9,7 @@ mod contact_stiffness;
 mod coupled_ramp;
 mod effects;
 mod effects_hard_cases;
+#[cfg(feature = "mutants")]
 mod effects_mutants;
 mod film_defect;
 mod film_flight;

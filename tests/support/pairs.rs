@@ -8,7 +8,6 @@
 
 use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::disk::{DiskDamping, HubParameters, Wave};
-use opshock_solver::mutant;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
@@ -406,7 +405,7 @@ pub fn compare(
         (plan, lean, limits)
     };
     let (auto, lean, limits) = match pair.mutant {
-        Some(name) => mutant::with(name, planned),
+        Some(name) => deleted(name, planned),
         None => planned(),
     };
     assert_same(&lean, &all, auto.needs, what);
@@ -445,4 +444,15 @@ fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 9] {
         &mut head.limiter_force_n,
         &mut head.lift_tab_force_n,
     ]
+}
+
+/// What `run` gives with the condition `name` deleted.
+#[cfg(feature = "mutants")]
+fn deleted<T>(name: &'static str, run: impl FnOnce() -> T) -> T {
+    opshock_solver::mutant::with(name, run)
+}
+
+#[cfg(not(feature = "mutants"))]
+fn deleted<T>(name: &'static str, _run: impl FnOnce() -> T) -> T {
+    panic!("{name} is deleted in the build of make verify-effects alone")
 }
