@@ -1,8 +1,9 @@
-//! Floors, circles, names, architecture page, committed results.
+//! Floors, circles, lengths, names, architecture page, committed results.
 
 mod architecture;
 mod circles;
 mod floors;
 mod results;
+mod sizes;
 mod skips;
 mod wording;
