@@ -3,12 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DMatrix, DVector};
-use opshock_solver::disk::{DiskBasis, DiskMotion, DiskPose, Harmonics, HubParameters};
-use opshock_solver::head::{HeadWorkspace, ShockLoad};
+use opshock_solver::disk::{Harmonics, HubParameters};
 use opshock_solver::linalg::SquareMatrix;
 use opshock_solver::modal::{CoupledModes, CoupledSystem};
-use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{ArmMode, RampModel};
 use opshock_solver::scene::Window;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
@@ -16,7 +13,6 @@ use opshock_solver::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseShap
 use opshock_solver::simulation::Model;
 use opshock_solver::structure::{StructureError, StructureModel, StructureRun};
 use opshock_tests::pairs::{coarse, run as run_scene};
-use opshock_tests::runge_kutta;
 use opshock_tests::scenes;
 use opshock_tests::structures::Structure;
 
@@ -41,7 +37,7 @@ pub(super) const BASE: [BaseMode; 2] = [
     },
 ];
 
-fn arms() -> RampModel {
+pub(super) fn arms() -> RampModel {
     let mode = |frequency_hz: f64, participation: f64| ArmMode {
         frequency_hz,
         mass_kg: 2e-5,
@@ -54,7 +50,7 @@ fn arms() -> RampModel {
     }
 }
 
-fn on(base: &[BaseMode], model: RampModel) -> Structure {
+pub(super) fn on(base: &[BaseMode], model: RampModel) -> Structure {
     let mut structure = drive(None).with_ramp(model);
     structure.base = base.to_vec();
     structure
@@ -191,176 +187,6 @@ fn a_mode_of_the_base_moves_by_duhamels_integral() {
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Mount {
-    Spindle,
-    Ramp,
-    Pivot,
-}
-
-/// Base, disk and arms as one chain of oscillators by the classical Runge-Kutta rule.
-struct Chain {
-    base: Vec<BaseMode>,
-    /// ω, γ, participation, mount.
-    oscillators: Vec<OnMount>,
-    pulse: Pulse,
-}
-
-fn shape(mode: &BaseMode, mount: Mount) -> f64 {
-    match mount {
-        Mount::Spindle => mode.spindle_per_sqrt_kg,
-        Mount::Ramp => mode.ramp_per_sqrt_kg,
-        Mount::Pivot => mode.pivot_per_sqrt_kg,
-    }
-}
-
-impl Chain {
-    /// (velocities, accelerations) of base modes, then oscillators.
-    fn rates(&self, t: f64, y: &[f64], out: &mut [f64]) {
-        let n = self.base.len() + self.oscillators.len();
-        let a = self.pulse.value(t);
-        let (x, v) = y.split_at(n);
-        let (speed, force) = out.split_at_mut(n);
-        speed.copy_from_slice(v);
-        let n_base = self.base.len();
-        for (i, (omega, gamma, gain, _)) in self.oscillators.iter().enumerate() {
-            let j = n_base + i;
-            force[j] = gain * a - 2.0 * gamma * v[j] - omega * omega * x[j];
-        }
-        // [1, cᵀ; c, 1] of base and riders: the riders taken out leave 1 − Σ c cᵀ of the base.
-        let mut mass = DMatrix::identity(n_base, n_base);
-        let mut pull = DVector::zeros(n_base);
-        for (k, mode) in self.base.iter().enumerate() {
-            let omega = TAU * mode.frequency_hz;
-            let damping = 2.0 * mode.damping_ratio * omega;
-            pull[k] = mode.participation_sqrt_kg * a - damping * v[k] - omega * omega * x[k];
-        }
-        for (i, (.., gain, mount)) in self.oscillators.iter().enumerate() {
-            let c = DVector::from_iterator(
-                n_base,
-                self.base.iter().map(|mode| gain * shape(mode, *mount)),
-            );
-            pull -= &c * force[n_base + i];
-            mass -= &c * c.transpose();
-        }
-        let moved = mass
-            .lu()
-            .solve(&pull)
-            .expect("a base heavier than its disk");
-        force[..n_base].copy_from_slice(moved.as_slice());
-        for (i, (.., gain, mount)) in self.oscillators.iter().enumerate() {
-            for (k, mode) in self.base.iter().enumerate() {
-                force[n_base + i] -= gain * shape(mode, *mount) * force[k];
-            }
-        }
-    }
-
-    /// Positions at k × `step_s`, k = 0 ..= `n`, with `parts` steps of the rule in each.
-    fn march(&self, step_s: f64, n: usize, parts: usize) -> Vec<Vec<f64>> {
-        let size = 2 * (self.base.len() + self.oscillators.len());
-        let h = step_s / parts as f64;
-        let rate = |t: f64, y: &[f64]| {
-            let mut out = vec![0.0; y.len()];
-            self.rates(t, y, &mut out);
-            out
-        };
-        let mut y = vec![0.0; size];
-        let mut all = vec![y[..size / 2].to_vec()];
-        for i in 0..n * parts {
-            y = runge_kutta::step(i as f64 * h, h, &y, rate);
-            if (i + 1) % parts == 0 {
-                all.push(y[..size / 2].to_vec());
-            }
-        }
-        all
-    }
-}
-
-/// Angular frequency, half its damping rate, gain and mount of an oscillator.
-type OnMount = (f64, f64, f64, Mount);
-
-/// n = 0 of the disk as oscillators on the spindle, and their shapes under the slider.
-fn disk_modes(structure: &Structure, radius_m: f64) -> (Vec<OnMount>, Vec<f64>) {
-    let disk = &structure.disk;
-    let radii = [radius_m];
-    let resolution = &structure.disk_resolution;
-    let basis = DiskBasis::build(disk, resolution, &radii, None, Harmonics::Symmetric);
-    let modes = basis.expect("basis").modes;
-    let own = modes.iter().filter(|mode| mode.nodal_circles.is_some());
-    own.map(|mode| {
-        let omega = mode.omega_rad_per_s;
-        let gamma = mode.damping_ratio * omega + 0.5 * disk.space_fixed_damping_per_s;
-        let gain = mode.participation;
-        ((omega, gamma, gain, Mount::Spindle), mode.shape[0].0)
-    })
-    .unzip()
-}
-
-/// Before contact, one step of the grid and a half-sine that ends on it.
-#[test]
-fn disk_and_ramp_move_as_the_chain_integrated_directly() {
-    let structure = on(&BASE, arms());
-    let found = run(&structure, 60.0);
-    assert_eq!(found.first_touch_s, None);
-    let (mut oscillators, shapes) = disk_modes(&structure, structure.slider.radius_m);
-    let n_disk = oscillators.len();
-    let RampModel::Deformable { top, bottom } = arms() else {
-        unreachable!("arms")
-    };
-    oscillators.extend(top.iter().chain(&bottom).map(|mode| {
-        let omega = TAU * mode.frequency_hz;
-        let gain = mode.mass_kg.sqrt() * mode.participation;
-        (omega, mode.damping_ratio * omega, gain, Mount::Ramp)
-    }));
-    let chain = Chain {
-        base: BASE.to_vec(),
-        oscillators,
-        pulse: structure.pulse.clone(),
-    };
-    let columns = found.columns.expect("recorded");
-    let n = columns.time_s.len() - 1;
-    let step_s = columns.time_s[1];
-    let states = chain.march(step_s, n, 8);
-    let a = 60.0 * G;
-    let moved = |state: &Vec<f64>, mount: Mount| -> f64 {
-        BASE.iter()
-            .zip(state)
-            .map(|(m, q)| shape(m, mount) * q)
-            .sum()
-    };
-    let disk = |state: &Vec<f64>| -> f64 {
-        let own = shapes.iter().zip(&state[BASE.len()..]);
-        own.map(|(shape, x)| shape * x).sum::<f64>() + moved(state, Mount::Spindle)
-    };
-    let slider: Vec<f64> = states.iter().map(|s| a * disk(s)).collect();
-    let ramp: Vec<f64> = states
-        .iter()
-        .map(|s| {
-            let own = s[BASE.len() + n_disk] / top[0].mass_kg.sqrt();
-            a * (own + moved(s, Mount::Ramp))
-        })
-        .collect();
-    let over_pivot: Vec<f64> = states
-        .iter()
-        .map(|s| a * (disk(s) - moved(s, Mount::Pivot)))
-        .collect();
-    let history: Vec<f64> = columns
-        .time_s
-        .iter()
-        .map(|&t| found.history.pose(t).displacement_m)
-        .collect();
-    for (name, found, wanted) in [
-        ("slider", &columns.disk_slider_m, &slider),
-        ("ramp", &columns.ramp_top_m, &ramp),
-        ("over the pivot", &history, &over_pivot),
-    ] {
-        let share = distance(found, wanted) / largest(wanted);
-        println!("{name}: {share:.1e}");
-        assert!(share < 1e-8, "{name}: {share:e}");
-    }
-    assert!(found.energy.closure < 1e-9, "{:e}", found.energy.closure);
-}
-
 /// Through contact with mounts that move against one another, by exact flow and by Moreau-Jean steps.
 #[test]
 fn energy_is_booked_through_contact_with_moving_mounts() {
@@ -437,127 +263,6 @@ fn a_base_that_moves_as_one_is_another_shock_for_the_whole_drive() {
         assert!(moving.effects.contains(&"base.modes"));
         let impulse = [&moving, &felt].map(|run| run.top.impulse_n_s);
         assert!((impulse[0] - impulse[1]).abs() <= 1e-4 * impulse[1]);
-    }
-}
-
-/// A disk at a given height, under a suspension whose pivot moves.
-struct MovedPivot {
-    /// Height of the disk and motion of the pivot at a time.
-    disk_m: fn(f64) -> [f64; 2],
-    pivot_m: fn(f64) -> [f64; 2],
-    events_s: Vec<f64>,
-}
-
-impl DiskMotion for MovedPivot {
-    fn pose(&self, time_s: f64) -> DiskPose {
-        DiskPose {
-            displacement_m: (self.disk_m)(time_s)[0],
-            ..DiskPose::default()
-        }
-    }
-
-    fn pose_rate(&self, time_s: f64) -> DiskPose {
-        DiskPose {
-            displacement_m: (self.disk_m)(time_s)[1],
-            ..DiskPose::default()
-        }
-    }
-
-    fn events_s(&self) -> &[f64] {
-        &self.events_s
-    }
-
-    fn pivot(&self, time_s: f64) -> [f64; 2] {
-        (self.pivot_m)(time_s)
-    }
-}
-
-/// Period of the pivot's swing, s.
-const SWING_S: f64 = 2.5e-4;
-
-/// (1 − cos) swings of 3 um from 0.1 ms on, (displacement, velocity).
-fn swung(time_s: f64) -> [f64; 2] {
-    let omega = TAU / SWING_S;
-    let t = (time_s - 1e-4).max(0.0);
-    [
-        1.5e-6 * (1.0 - (omega * t).cos()),
-        1.5e-6 * omega * (omega * t).sin(),
-    ]
-}
-
-/// A blow that gives the pivot 4 mm/s from 0.2 ms on, for 0.1 ms.
-fn struck(time_s: f64) -> [f64; 2] {
-    let speed = 4e-3;
-    let t = (time_s - 2e-4).clamp(0.0, 1e-4);
-    let is_moving = (2e-4..3e-4).contains(&time_s);
-    [speed * t, if is_moving { speed } else { 0.0 }]
-}
-
-/// The pivot's motion told as such, or as a load −ü and a disk that moves the other way: the same clearance.
-/// A blow, for which there is no load, is told as one of 10 ns.
-#[test]
-fn a_pivot_that_moves_is_a_load_and_a_jump_of_its_velocity_a_short_one() {
-    let mut scene = coarse(scenes::scene("fig13-stiffness", "none", 0.5, &[]));
-    scene.head_resolution.tolerance = 1e-3;
-    let plan = Plan::new(&[Output::MinClearance], Mode::Auto);
-    let model = Model::assemble(&scene, &plan, None).expect("builds");
-    let head = model.head().expect("a head");
-    let rest = |_: f64| [0.0; 2];
-    let run = |motion: &MovedPivot, pulse: &Pulse, amplitude_m_per_s2: f64| {
-        let load = ShockLoad {
-            pulse,
-            amplitude_m_per_s2,
-            base: None,
-        };
-        let mut workspace = HeadWorkspace::new(head);
-        let run = head.run(motion, &load, 5e-4, false, true, &mut workspace);
-        (run.min_clearance_m, run.dimple.min_force_n)
-    };
-    let table = |time_s: Vec<f64>, relative: Vec<f64>| Pulse {
-        width_s: time_s[time_s.len() - 1],
-        shape: PulseShape::Table { time_s, relative },
-    };
-    // ü of the swings, and of a blow as triangles of 10 ns.
-    let omega = TAU / SWING_S;
-    let fine: Vec<f64> = (0..=2000).map(|k| 2.5e-7 * f64::from(k)).collect();
-    let swings = fine.iter().map(|&t| match t < 1e-4 {
-        true => 0.0,
-        false => -1.5e-6 * omega * omega * (omega * (t - 1e-4)).cos(),
-    });
-    let swings = table(fine.clone(), swings.collect());
-    let around = |at: f64| [at - 1e-8, at, at + 1e-8];
-    let times = [&[0.0][..], &around(2e-4), &around(3e-4)].concat();
-    let blow = table(times, vec![0.0, 0.0, -4e5, 0.0, 0.0, 4e5, 0.0]);
-    let against: [fn(f64) -> [f64; 2]; 2] = [|t| swung(t).map(|x| -x), |t| struck(t).map(|x| -x)];
-    let quiet = run(
-        &MovedPivot {
-            disk_m: rest,
-            pivot_m: rest,
-            events_s: vec![0.0],
-        },
-        &swings,
-        0.0,
-    );
-    let told: [fn(f64) -> [f64; 2]; 2] = [swung, struck];
-    for (k, (pulse, allowed)) in [(&swings, 5e-3), (&blow, 5e-2)].into_iter().enumerate() {
-        let events_s = vec![0.0, 1e-4, 2e-4, 3e-4];
-        let moved = MovedPivot {
-            disk_m: rest,
-            pivot_m: told[k],
-            events_s: events_s.clone(),
-        };
-        let shaken = MovedPivot {
-            disk_m: against[k],
-            pivot_m: rest,
-            events_s,
-        };
-        let (a, b) = (run(&moved, pulse, 0.0), run(&shaken, pulse, 1.0));
-        println!("still {quiet:?}, moved {a:?}, shaken {b:?}");
-        // In changes from rest, of the clearance and of the dimple's force.
-        let change = (quiet.0 - b.0, quiet.1 - b.1);
-        assert!(change.0 > 0.04 * quiet.0 && change.1 > 0.02 * quiet.1);
-        assert!((a.0 - b.0).abs() < allowed * change.0);
-        assert!((a.1 - b.1).abs() < allowed * change.1);
     }
 }
 

@@ -1,6 +1,8 @@
 //! Physics against references, invariants and relations.
 
 mod base;
+mod base_chain;
+mod base_pivot;
 mod bodies;
 mod contact;
 mod contact_energy;

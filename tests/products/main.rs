@@ -23,6 +23,8 @@ mod imports;
 mod longer_window;
 mod lowest_gap;
 mod matching;
+mod matching_files;
+mod matching_truths;
 mod memory;
 mod mode_shapes;
 mod multi_body;

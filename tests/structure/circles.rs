@@ -119,8 +119,10 @@ fn no_files_import_each_other_in_a_circle() {
             let inside = path.strip_prefix(&root).expect("inside").with_extension("");
             let parts = inside.iter().map(|part| part.to_str().expect("a name"));
             let mut module: Vec<&str> = parts.collect();
+            if module.contains(&"tests") {
+                continue;
+            }
             match module.last() {
-                Some(&"tests") => continue,
                 Some(&("mod" | "lib" | "main")) => drop(module.pop()),
                 _ => {}
             }

@@ -1,9 +1,10 @@
-//! Floors, circles, names, architecture page, committed results.
+//! Floors, circles, lengths, names, architecture page, committed results.
 
 mod architecture;
 mod circles;
 mod floors;
 mod keys;
 mod results;
+mod sizes;
 mod skips;
 mod wording;

@@ -337,6 +337,7 @@ fn the_truth_lies_inside_the_bars_of_known_laws() {
     assert!(median <= 10.0, "{median}");
 }
 
+mod coverage;
 mod verify;
 
 /// What a held film answers does not depend on whether the shock was run before; it is a clearance, with the

@@ -15,8 +15,10 @@
 //! Source: Gmsh reference manual, sections "MSH file format" (version 4.1) and "Node ordering".
 
 mod elements;
+mod found;
 mod mesh;
 mod read;
+mod words;
 mod write;
 
 pub use mesh::{BODY, Face, MeshFile, Solid};

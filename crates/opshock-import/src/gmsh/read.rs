@@ -1,11 +1,12 @@
 //! The sections of a `.msh` file.
 
 use super::elements::{Kind, kind};
-use super::mesh::{BODY, Face, MeshFile, Solid};
+use super::found::{Element, Found};
+use super::mesh::MeshFile;
+use super::words::Reader;
 use crate::fault::{Fault, Faults};
-use crate::text::{Line, NotANumber, Source, Word};
-use std::collections::{BTreeMap, HashMap, HashSet};
-use std::iter::Peekable;
+use crate::text::{Line, Source};
+use std::collections::HashSet;
 
 /// Reads a file.
 ///
@@ -14,12 +15,7 @@ use std::iter::Peekable;
 /// one; E177 for words that are no numbers, counts that are not those told, nodes that are not there
 /// or are there twice; E178 for elements that are not read, and for none.
 pub fn read(source: &Source) -> Result<MeshFile, Faults> {
-    let mut reader = Reader {
-        file: &source.name,
-        lines: source.lines().peekable(),
-        words: Vec::new().into_iter(),
-        last: 0,
-    };
+    let mut reader = Reader::new(&source.name, source.lines());
     reader.header()?;
     let mut found = Found::default();
     while let Some(line) = reader.next_section() {
@@ -45,50 +41,7 @@ pub fn read(source: &Source) -> Result<MeshFile, Faults> {
     found.finish(&source.name)
 }
 
-/// What the sections hold.
-#[derive(Default)]
-struct Found {
-    /// Names of physical groups by dimension and number.
-    names: HashMap<(usize, usize), String>,
-    /// Physical groups of surfaces and volumes, by dimension and number.
-    groups: HashMap<(usize, usize), Vec<usize>>,
-    has_entities: bool,
-    nodes: Vec<[f64; 3]>,
-    node_tags: Vec<usize>,
-    by_tag: HashMap<usize, usize>,
-    has_nodes: bool,
-    solids: Vec<Element>,
-    faces: Vec<Element>,
-}
-
-/// An element as it stands in the file.
-struct Element {
-    tag: usize,
-    entity: usize,
-    line: usize,
-    solid: Option<Solid>,
-    nodes: Vec<usize>,
-}
-
-struct Reader<'a, L: Iterator<Item = Line<'a>>> {
-    file: &'a str,
-    lines: Peekable<L>,
-    words: std::vec::IntoIter<Word<'a>>,
-    /// Line read last.
-    last: usize,
-}
-
-fn is_mark(line: &Line<'_>) -> bool {
-    line.text.trim_start().starts_with('$')
-}
-
 impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
-    fn line(&mut self) -> Option<Line<'a>> {
-        let line = self.lines.next()?;
-        self.last = line.number;
-        Some(line)
-    }
-
     /// The version, in the first section.
     fn header(&mut self) -> Result<(), Faults> {
         let first = self.next_section();
@@ -99,7 +52,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                 .hint("save as .msh, version 4.1, ASCII")
                 .into());
         }
-        let number = self.last;
+        let number = self.at();
         let version = self.word("version")?;
         let binary = self.word("file type")?;
         if !matches!(version.text, "4.1") {
@@ -126,126 +79,6 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         self.end("MeshFormat", number)
     }
 
-    /// The line that opens the next section.
-    fn next_section(&mut self) -> Option<Line<'a>> {
-        self.words = Vec::new().into_iter();
-        loop {
-            let line = self.line()?;
-            if is_mark(&line) {
-                return Some(line);
-            }
-        }
-    }
-
-    /// Leaves the lines before the next mark.
-    fn skip(&mut self) {
-        self.words = Vec::new().into_iter();
-        while self.lines.peek().is_some_and(|line| !is_mark(line)) {
-            self.line();
-        }
-    }
-
-    /// The mark that closes a section, with nothing before it.
-    fn end(&mut self, name: &str, opened: usize) -> Result<(), Faults> {
-        let too_many = |word: Word<'_>| {
-            Fault::of("E177", self.file, "more words than the counts tell")
-                .at(word.place())
-                .what(name)
-                .value(word.text)
-                .allowed(format!("$End{name}"))
-        };
-        if let Some(word) = self.words.next() {
-            return Err(too_many(word).into());
-        }
-        while let Some(line) = self.line() {
-            if line.text.trim() == format!("$End{name}") {
-                return Ok(());
-            }
-            if let Some(word) = line.words().next() {
-                let fault = Fault::of("E177", self.file, "more words than the counts tell");
-                return Err(fault
-                    .at(word.place())
-                    .what(name)
-                    .value(word.text)
-                    .allowed(format!("$End{name}"))
-                    .into());
-            }
-        }
-        let fault = Fault::of("E160", self.file, "the file is cut short");
-        Err(fault
-            .line(opened)
-            .what(name)
-            .allowed(format!("$End{name}"))
-            .into())
-    }
-
-    /// The next word of the section.
-    fn word(&mut self, what: &str) -> Result<Word<'a>, Faults> {
-        loop {
-            if let Some(word) = self.words.next() {
-                return Ok(word);
-            }
-            match self.lines.peek() {
-                Some(line) if !is_mark(line) => {
-                    let words: Vec<Word<'a>> = line.words().collect();
-                    self.words = words.into_iter();
-                    self.line();
-                }
-                Some(_) => {
-                    let fault = Fault::of("E177", self.file, "fewer words than the counts tell");
-                    return Err(fault.line(self.last).what(what).allowed("a number").into());
-                }
-                None => {
-                    let fault = Fault::of("E160", self.file, "the file is cut short");
-                    return Err(fault.line(self.last).what(what).allowed("a number").into());
-                }
-            }
-        }
-    }
-
-    fn count(&mut self, what: &str) -> Result<usize, Faults> {
-        let word = self.word(what)?;
-        word.count().ok_or_else(|| {
-            let fault = Fault::of("E177", self.file, "not a whole number from 0");
-            fault.at(word.place()).what(what).value(word.text).into()
-        })
-    }
-
-    /// A number of an entity or group: below 0 where it is turned round.
-    fn signed(&mut self, what: &str) -> Result<usize, Faults> {
-        let word = self.word(what)?;
-        let number = word
-            .integer()
-            .and_then(|n| usize::try_from(n.unsigned_abs()).ok());
-        number.ok_or_else(|| {
-            let fault = Fault::of("E177", self.file, "not a whole number");
-            fault.at(word.place()).what(what).value(word.text).into()
-        })
-    }
-
-    fn real(&mut self, what: &str) -> Result<f64, Faults> {
-        let word = self.word(what)?;
-        word.real().map_err(|wrong| {
-            let message = match wrong {
-                NotANumber::Comma => "a comma in a number",
-                NotANumber::NotFinite => "the value is not finite, or 1e300 and more",
-                NotANumber::Word => "the value is no number",
-            };
-            let fault = Fault::of("E177", self.file, message);
-            fault
-                .at(word.place())
-                .what(what)
-                .value(word.text)
-                .allowed("a number with a decimal point")
-                .into()
-        })
-    }
-
-    /// The line of the word read last.
-    fn at(&self) -> usize {
-        self.last
-    }
-
     /// `dimension number "name"`, a line each.
     fn names(&mut self, found: &mut Found) -> Result<(), Faults> {
         let n = self.count("physical names")?;
@@ -254,8 +87,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
             let number = self.signed("number of a name")?;
             // A name may hold blanks: it is what stands between the quotes.
             let line = self.at();
-            let words: Vec<&str> = self.words.by_ref().map(|word| word.text).collect();
-            let text = words.join(" ");
+            let text = self.rest_of_line();
             let name = text
                 .strip_prefix('"')
                 .and_then(|rest| rest.strip_suffix('"'));
@@ -360,19 +192,6 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         self.as_told("nodes", told, found.nodes.len())
     }
 
-    fn as_told(&self, what: &str, told: usize, there: usize) -> Result<(), Faults> {
-        if told == there {
-            return Ok(());
-        }
-        let fault = Fault::of("E177", self.file, "another number than the section tells");
-        Err(fault
-            .line(self.at())
-            .what(what)
-            .value(there.to_string())
-            .allowed(told.to_string())
-            .into())
-    }
-
     fn elements(&mut self, found: &mut Found) -> Result<(), Faults> {
         let n_blocks = self.count("blocks of elements")?;
         let told = self.count("elements")?;
@@ -454,83 +273,5 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
             }
         }
         self.as_told("elements", told, there)
-    }
-}
-
-impl Found {
-    /// Names of the physical groups that an element is in.
-    fn names_of(&self, dimension: usize, entity: usize) -> impl Iterator<Item = &str> {
-        let groups = self.groups.get(&(dimension, entity)).into_iter().flatten();
-        groups.filter_map(move |group| self.names.get(&(dimension, *group)).map(String::as_str))
-    }
-
-    fn finish(mut self, file: &str) -> Result<MeshFile, Faults> {
-        let missing = |section: &str| {
-            let fault = Fault::of("E160", file, "a section is missing");
-            Faults::from(fault.what(section).allowed(format!("${section}")))
-        };
-        if !self.has_nodes {
-            return Err(missing("Nodes"));
-        }
-        if !self.has_entities {
-            return Err(missing("Entities"));
-        }
-        let named = self
-            .names
-            .iter()
-            .any(|((d, _), name)| *d == 3 && name == BODY);
-        let solids = std::mem::take(&mut self.solids);
-        let solids: Vec<Element> = solids
-            .into_iter()
-            .filter(|e| !named || self.names_of(3, e.entity).any(|name| name == BODY))
-            .collect();
-        let Some(solid) = solids.first().and_then(|element| element.solid) else {
-            return Err(Fault::of("E178", file, "the mesh has no solid element")
-                .allowed("quadratic tetrahedra (11) or hexahedra (17, 12)")
-                .hint("mesh in three dimensions, and save the physical volume")
-                .into());
-        };
-        if let Some(other) = solids.iter().find(|element| element.solid != Some(solid)) {
-            return Err(
-                Fault::of("E178", file, "tetrahedra and hexahedra in one solid")
-                    .line(other.line)
-                    .what(format!("element {}", other.tag))
-                    .allowed("elements of one kind")
-                    .into(),
-            );
-        }
-        // Only nodes of the solid: Gmsh also has those of points, of constructions, of the middle of
-        // hexahedra.
-        let mut place = vec![usize::MAX; self.nodes.len()];
-        let mut mesh = MeshFile {
-            file: file.to_owned(),
-            solid,
-            nodes: Vec::new(),
-            node_tags: Vec::new(),
-            connectivity: Vec::with_capacity(solids.len() * solid.n_nodes()),
-            element_tags: solids.iter().map(|element| element.tag).collect(),
-            surfaces: BTreeMap::new(),
-        };
-        for node in solids.iter().flat_map(|element| &element.nodes) {
-            if place[*node] == usize::MAX {
-                place[*node] = mesh.nodes.len();
-                mesh.nodes.push(self.nodes[*node]);
-                mesh.node_tags.push(self.node_tags[*node]);
-            }
-            mesh.connectivity.push(place[*node]);
-        }
-        for face in &self.faces {
-            for name in self.names_of(2, face.entity) {
-                // A node outside the solid makes a face of none of its elements.
-                mesh.surfaces
-                    .entry(name.to_owned())
-                    .or_default()
-                    .push(Face {
-                        nodes: face.nodes.iter().map(|&node| place[node]).collect(),
-                        line: face.line,
-                    });
-            }
-        }
-        Ok(mesh)
     }
 }

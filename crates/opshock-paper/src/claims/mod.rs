@@ -20,18 +20,20 @@ mod finding;
 mod observations;
 mod parameter;
 mod sensitivity;
+mod sensitivity_files;
 mod shock_numbers;
 mod shocks;
 
 pub use answer::{Answer, ClaimRow, rows, tally};
 pub use catalogue::{CLAIMS, Claim, Source};
-pub use files::{ClaimTable, write_claims, write_sensitivity};
+pub use files::{ClaimTable, write_claims};
 pub use finding::{Finding, Part, Spread, findings};
 pub use observations::Paper;
 pub use sensitivity::{
     Found, Row, Sensitivity, Side, Variant, coarse_sets, merged, shock_sets, touched_ramps,
     with_sets,
 };
+pub use sensitivity_files::write_sensitivity;
 pub use shocks::{Case, ShockError, Shocks, Task, Three};
 
 #[cfg(doc)]

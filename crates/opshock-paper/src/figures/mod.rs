@@ -6,10 +6,13 @@
 //! | 4 to 12 | the histories of two shocks, a long and a short one, with every ramp model |
 //! | 13 | a table of critical shocks |
 
+mod case;
+mod curve_table;
 mod curves;
 mod drawings;
 
-pub use curves::{PaperCase, long_shock_figures, pulse_figure, short_shock_figures};
+pub use case::PaperCase;
+pub use curves::{long_shock_figures, pulse_figure, short_shock_figures};
 pub use drawings::{deformable_ramp_drawing, plan_drawing, rigid_ramp_drawing};
 
 use opshock_study::report::chart::Figure;

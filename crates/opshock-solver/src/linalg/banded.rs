@@ -16,7 +16,7 @@
 //! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
 
 use super::diagonals::{Band, Diagonals};
-pub use super::triangles::Entry;
+pub use super::entry::Entry;
 use super::triangles::Triangles;
 use crate::lanes::{Simd, WithSimd, widest};
 use thiserror::Error;

@@ -4,6 +4,7 @@ pub mod band;
 pub mod banded;
 pub mod dense;
 pub mod diagonals;
+mod entry;
 pub mod general;
 pub mod lowest;
 pub mod pivoted;

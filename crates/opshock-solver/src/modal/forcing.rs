@@ -43,6 +43,10 @@ pub struct ForcedResponse {
     pub velocity: [f64; 4],
 }
 
+/// Response of one first-order mode over one time to the four parts of a [`Phase`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FirstOrderResponse([Complex<f64>; 4]);
+
 impl Phase {
     /// The phase `h_s` later, for a wave of rate `sigma_per_s`.
     pub fn later(&self, sigma_per_s: Complex<f64>, h_s: f64) -> Self {
@@ -69,6 +73,31 @@ impl Phase {
     }
 }
 
+impl FirstOrderResponse {
+    /// Response over `h_s` of a mode of rate `s_per_s` to a wave of rate `sigma_per_s`.
+    pub fn new(s_per_s: Complex<f64>, sigma_per_s: Complex<f64>, h_s: f64) -> Self {
+        let i = Complex::new(0.0, 1.0);
+        let z = s_per_s * h_s;
+        let grown = z.exp() * h_s;
+        let along = grown * phi1((sigma_per_s - s_per_s) * h_s);
+        let against = grown * phi1((sigma_per_s.conj() - s_per_s) * h_s);
+        Self([
+            phi1(z) * h_s,
+            phi2(z) * (h_s * h_s),
+            // Re(C e^{στ}) with C = 1 and C = i.
+            (along + against) * 0.5,
+            i * (along - against) * 0.5,
+        ])
+    }
+
+    /// Increment of the mode for a forcing that starts at `phase`.
+    pub fn increment(&self, phase: &Phase) -> Complex<f64> {
+        let [constant, slope, re, im] = self.0;
+        (constant * phase.constant + slope * phase.slope_per_s)
+            + (re * phase.wave.re + im * phase.wave.im)
+    }
+}
+
 impl ForcedResponse {
     /// Response of `oscillator` (fixed frame: no turn, no space-fixed damping beside γ) over `h_s`
     /// to a wave of rate `sigma_per_s`.
@@ -83,19 +112,7 @@ impl ForcedResponse {
             let n_panels = (2.0 * fastest * h_s).ceil().min(1e4) as usize;
             return Self::by_quadrature(oscillator, sigma_per_s, h_s, n_panels);
         }
-        let i = Complex::new(0.0, 1.0);
-        let f = |l: Complex<f64>| {
-            let along = (l * h_s).exp() * h_s * phi1((sigma_per_s - l) * h_s);
-            let against = (l * h_s).exp() * h_s * phi1((sigma_per_s.conj() - l) * h_s);
-            [
-                phi1(l * h_s) * h_s,
-                phi2(l * h_s) * (h_s * h_s),
-                // Re(C e^{στ}) with C = 1 and C = i.
-                (along + against) * 0.5,
-                i * (along - against) * 0.5,
-            ]
-        };
-        let (f1, f2) = (f(l1), f(l2));
+        let [f1, f2] = [l1, l2].map(|l| FirstOrderResponse::new(l, sigma_per_s, h_s).0);
         let mut response = Self::default();
         for k in 0..4 {
             response.displacement[k] = ((f1[k] - f2[k]) / spread).re;

@@ -8,9 +8,8 @@ pub mod part_flow;
 
 pub use bank::{BankFlow, ModalState, Readout};
 pub use coupled::{
-    Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, FirstOrderResponse,
-    PointReadout,
+    Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, PointReadout,
 };
-pub use forcing::{ForcedResponse, Phase};
+pub use forcing::{FirstOrderResponse, ForcedResponse, Phase};
 pub use oscillator::{Flow, LossForm, Oscillator};
 pub use part_flow::PartFlows;

@@ -5,95 +5,29 @@
 //! probably ask. Answers come back in any order and change nothing but when a probe is answered.
 
 use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{RecvTimeoutError, Sender};
-
-use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::estimate;
 use super::guard;
 use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::ledger::{Job, Ledger, Told};
+use super::lucky::lucky;
+use super::neighbours::Neighbours;
+use super::options::{Ending, SweepEnd, SweepOptions};
 use super::progress::{Event, Progress};
-use super::shard::{self, Others, Shard};
+use super::shard::Shard;
 use super::simulator::Simulator;
-use super::stop::StopFlag;
 use super::writer::{self, Message};
 use crate::search::{ProbeResult, Verdict};
-use crate::store::summary::{PointSummary, Status, Summary};
 use crate::store::{
-    self, Loaded, PointDigest, Record, Results, RunKey, RunMachine, RunRecord, Session, Store,
-    StoreError, StoredTouch, TouchRecord, folder, machine,
+    self, Loaded, PointDigest, Record, RunKey, RunMachine, RunRecord, Session, Store, StoreError,
+    StoredTouch, TouchRecord, folder, machine,
 };
-
-/// How a sweep is run; none of it changes the answer.
-#[derive(Clone, Debug)]
-pub struct SweepOptions {
-    /// Worker threads.
-    pub threads: usize,
-    /// Asks the sweep to stop.
-    pub stop: StopFlag,
-    /// Time after which the sweep saves and ends.
-    pub budget: Option<Duration>,
-    /// Simulate again what had no verdict.
-    pub retry_undecided: bool,
-    /// Let idle threads compute probes that will probably be asked.
-    pub speculate: bool,
-    /// Stores, of any study, whose finished simulations answer what they can.
-    pub reuse: Vec<PathBuf>,
-    /// Complete one part of the points, into a store of its own within the store.
-    pub shard: Option<Shard>,
-}
-
-impl SweepOptions {
-    /// Options for a number of threads.
-    pub fn with_threads(threads: usize) -> SweepOptions {
-        SweepOptions {
-            threads: threads.max(1),
-            stop: StopFlag::default(),
-            budget: None,
-            retry_undecided: false,
-            speculate: true,
-            reuse: Vec::new(),
-            shard: None,
-        }
-    }
-}
-
-/// Why a sweep ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// Every point has its answer.
-    Complete,
-    /// A stop was asked for, by this signal if it was one.
-    Stopped {
-        /// Signal number.
-        signal: Option<i32>,
-    },
-    /// The budget was used up.
-    Budget,
-}
-
-/// What a sweep hands back.
-#[derive(Clone, Debug)]
-pub struct SweepEnd {
-    /// The table.
-    pub summary: Summary,
-    /// Why it ended.
-    pub ending: Ending,
-    /// Simulations computed by this process.
-    pub computed_runs: u64,
-    /// Simulations taken from other stores.
-    pub reused_runs: u64,
-    /// Measured time, s.
-    pub wall_s: f64,
-    /// Share of the threads' time spent simulating.
-    pub core_use: f64,
-}
 
 /// Room between the searches and the writer.
 const CHANNEL: usize = 1024;
@@ -102,8 +36,6 @@ const TICK: Duration = Duration::from_millis(50);
 /// What is left is told anew once the known runs have grown by this part of them, or this time on.
 const ESTIMATE_SHARE: usize = 256;
 const BETWEEN_ESTIMATES: Duration = Duration::from_secs(1);
-/// How often a shard looks at the stores of the others.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 
 /// Sweeps a study into the store in `folder`, or goes on with it.
 ///
@@ -168,25 +100,6 @@ fn forget_undecided(runs: &mut HashMap<RunKey, RunRecord>) {
     runs.retain(|key, run| !is_undecided(run) || decided.contains(&node(key)));
 }
 
-/// Table and runs from what is stored, without simulating.
-pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results {
-    let mut ledger = Ledger::new(input, loaded);
-    ledger.absorb_all();
-    ledger.results(session)
-}
-
-/// Table and runs of a store as it stands, a sweep in progress or a killed one included; nothing
-/// is simulated, locked or changed.
-///
-/// # Errors
-///
-/// [`StoreError`]: nothing is stored, the files are newer or damaged.
-pub fn stored(input: &SweepInput, folder: &Path) -> Result<Results, StoreError> {
-    let (loaded, results) = store::load(folder)?;
-    let session = results.map_or_else(|| folder::session(0), |results| results.session);
-    Ok(replay(input, loaded, &session))
-}
-
 /// Answer of a thread.
 enum Answer {
     Touch {
@@ -229,18 +142,6 @@ struct Run<'a> {
     neighbours: Option<Neighbours>,
 }
 
-/// The other parts of a divided sweep.
-struct Neighbours {
-    others: Others,
-    /// Shard that owns each point.
-    owners: Vec<usize>,
-    /// Points of this part.
-    owned: Vec<bool>,
-    /// Points whose answers this part cannot do without.
-    needed: Vec<bool>,
-    asked_at: Instant,
-}
-
 impl<'a> Run<'a> {
     fn new(
         input: &'a SweepInput,
@@ -281,33 +182,17 @@ impl<'a> Run<'a> {
         let wanted: Vec<bool> = points
             .map(|(point, &is_own)| is_own || point.coordinates.round > 0)
             .collect();
-        let neighbours = Neighbours {
-            others: Others::of(shard, whole),
-            owners: shard.owners(order),
-            needed: shard::needed(order, &wanted),
-            owned,
-            asked_at: Instant::now(),
-        };
+        self.neighbours = Some(Neighbours::new(shard, whole, order, owned, &wanted));
         self.ledger.want(wanted);
-        self.neighbours = Some(neighbours);
-        self.ask_neighbours(true);
+        self.ask_neighbours();
     }
 
     /// Takes what other shards have finished, and the points of those that are not at work.
-    fn ask_neighbours(&mut self, at_once: bool) {
-        let Some(neighbours) = &mut self.neighbours else {
+    fn ask_neighbours(&mut self) {
+        let asked = self.neighbours.as_mut().and_then(Neighbours::ask);
+        let Some((allowed, news)) = asked else {
             return;
         };
-        if !at_once && neighbours.asked_at.elapsed() < BETWEEN_LOOKS {
-            return;
-        }
-        neighbours.asked_at = Instant::now();
-        let at_work = neighbours.others.at_work();
-        let is_left = |(point, &owner): (usize, &usize)| {
-            neighbours.owned[point] || neighbours.needed[point] && !at_work[owner]
-        };
-        let allowed = neighbours.owners.iter().enumerate().map(is_left).collect();
-        let news = neighbours.others.news();
         self.ledger.allow(allowed);
         for record in news {
             let told = match record {
@@ -342,7 +227,7 @@ impl<'a> Run<'a> {
             }
         }
         let results = self.ledger.results(&self.session);
-        for message in self.lucky(&results) {
+        for message in lucky(self.input, &self.ledger, &results) {
             self.tell(Event::Warning {
                 code: "lucky",
                 message,
@@ -421,7 +306,7 @@ impl<'a> Run<'a> {
         let mut checkpoint_at = Instant::now();
         pool.in_place_scope(|scope| {
             loop {
-                self.ask_neighbours(false);
+                self.ask_neighbours();
                 let stopped = self.stopped();
                 while in_flight < threads && stopped.is_none() && !self.ledger.is_done() {
                     let Some(job) = self.ledger.next_job(self.options.speculate) else {
@@ -586,37 +471,6 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Failures below a point's answer that no search asked for: computed ahead, or of an earlier
-    /// form of the study. They do not enter the answer, which would then depend on luck.
-    fn lucky(&self, results: &Results) -> Vec<String> {
-        let mut places: HashMap<PointDigest, Vec<usize>> = HashMap::new();
-        for (place, point) in self.input.points.iter().enumerate() {
-            places.entry(point.digest).or_default().push(place);
-        }
-        let mut messages = Vec::new();
-        for record in &results.outside {
-            let fails = matches!(record.result.verdict, Verdict::Fails { .. });
-            if !fails || record.key.window_factor != 1 {
-                continue;
-            }
-            let amplitude = f64::from_bits(record.key.amplitude_bits).abs();
-            let amplitude_g = amplitude / STANDARD_GRAVITY_M_PER_S2;
-            for &place in places.get(&record.key.point).into_iter().flatten() {
-                let row = &results.summary.points[place];
-                if is_below_answer(row, self.ledger.failure_g(place), amplitude_g) {
-                    messages.push(format!(
-                        "{} {} ms {}: a run outside the search fails at {amplitude_g:.4} G, below \
-                         the answer; a smaller max_gap_pct or certify = \"full\" would find it",
-                        row.ramp,
-                        row.pulse_ms,
-                        row.sign.as_str()
-                    ));
-                }
-            }
-        }
-        messages
-    }
-
     fn tell(&mut self, event: Event) {
         self.send(Message::Tell(event));
     }
@@ -625,15 +479,5 @@ impl<'a> Run<'a> {
         if self.to_writer.send(message).is_err() {
             self.is_writer_gone = true;
         }
-    }
-}
-
-/// An amplitude lies below the lowest failure that the search found on the study's own knobs, which a climbed answer
-/// says nothing about; below the end of the range where it found none.
-fn is_below_answer(row: &PointSummary, failure_g: Option<f64>, amplitude_g: f64) -> bool {
-    match (row.status, failure_g) {
-        (Status::Open, _) => false,
-        (_, Some(failure_g)) => amplitude_g < failure_g * (1.0 - 1e-9),
-        (_, None) => row.a_crit_g.is_some(),
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use super::engine::replay;
 use super::input::SweepInput;
+use super::replay::replay;
 use crate::search::ProbeResult;
 use crate::store::{
     Loaded, Record, Results, RunKey, Session, Store, StoreError, StoredTouch, TouchRecord,

@@ -4,8 +4,8 @@
 //! and so on; nothing but the answers decides (`search::refine`). What is stored is the same as
 //! for a study that was written with these widths.
 
-use super::engine::replay;
 use super::input::SweepInput;
+use super::replay::replay;
 use crate::search::refine::{self, Answered, Crossing, Wanted};
 use crate::search::{LatticeError, Refine};
 use crate::store::summary::{PointSummary, Status, Summary};

@@ -9,9 +9,10 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::engine::{Ending, SweepOptions, replay};
 use super::input::SweepInput;
+use super::options::{Ending, SweepOptions};
 use super::refine::{next_round, refined};
+use super::replay::replay;
 use super::shard::{Others, Shard, stores};
 use crate::search::LatticeError;
 use crate::store::summary::Status;

@@ -1,14 +1,15 @@
 //! Layout of a figure and its primitives.
 
 use super::axis::ResolvedAxis;
+use super::canvas::{Canvas, rgb, text_width};
 use super::colour::{GREY, Rgb};
+use super::plot::{Plot, abscissae, ordinates};
 use super::{
     ChartError, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Scale, Series, Value, lines,
 };
 use kuva::backend::raster::RasterBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 const OUTER_PX: f64 = 16.0;
 const TITLE_SIZE: u32 = 16;
@@ -38,11 +39,6 @@ pub(super) fn png(figure: &Figure, scale: f32) -> Result<Vec<u8>, ChartError> {
         .with_scale(scale)
         .render_scene(&scene(figure))
         .map_err(ChartError)
-}
-
-/// A canvas in SVG pixels, y down.
-struct Canvas {
-    scene: Scene,
 }
 
 fn scene(figure: &Figure) -> Scene {
@@ -372,69 +368,6 @@ impl Canvas {
         }
     }
 
-    /// Shaft and open head; `up` is -1 (up) or 1 (down).
-    fn open_arrow(&mut self, (x, y): (f64, f64), up: f64, colour: Rgb) {
-        let tip = y + 24.0 * up;
-        self.segment((x, y), (x, tip - 7.0 * up), colour, 1.4);
-        self.path(
-            &[
-                (x - 4.5, tip - 8.0 * up),
-                (x, tip),
-                (x + 4.5, tip - 8.0 * up),
-            ],
-            Some((255, 255, 255)),
-            colour,
-        );
-    }
-
-    fn marker(&mut self, (x, y): (f64, f64), marker: Marker, fill: Fill, series: &Series) {
-        let (colour, r) = (series.colour, series.marker_px);
-        let inside = match fill {
-            Fill::Full => colour,
-            Fill::Open => (255, 255, 255),
-        };
-        match marker {
-            Marker::Circle => self.scene.add(Primitive::Circle {
-                cx: x,
-                cy: y,
-                r,
-                fill: rgb(inside),
-                fill_opacity: None,
-                stroke: Some(rgb(colour)),
-                stroke_width: Some(1.4),
-            }),
-            Marker::Square => {
-                let corners = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
-                self.path(
-                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
-                    Some(inside),
-                    colour,
-                );
-            }
-            Marker::Triangle => {
-                let corners = [(0.0, -1.25), (1.15, 0.85), (-1.15, 0.85)];
-                self.path(
-                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
-                    Some(inside),
-                    colour,
-                );
-            }
-            Marker::Diamond => {
-                let corners = [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)];
-                self.path(
-                    &corners.map(|c| (x + r * c.0, y + r * c.1)),
-                    Some(inside),
-                    colour,
-                );
-            }
-            Marker::Cross => {
-                let d = 0.9 * r;
-                self.segment((x - d, y - d), (x + d, y + d), colour, 1.8);
-                self.segment((x - d, y + d), (x + d, y - d), colour, 1.8);
-            }
-        }
-    }
-
     fn legend_entry(&mut self, (x, y): (f64, f64), series: &Series) {
         if let Some(dash) = series.line {
             self.polyline(
@@ -455,160 +388,4 @@ impl Canvas {
             TextAnchor::Start,
         );
     }
-
-    fn text(
-        &mut self,
-        (x, y): (f64, f64),
-        content: &str,
-        size: u32,
-        colour: Rgb,
-        anchor: TextAnchor,
-    ) {
-        if content.is_empty() {
-            return;
-        }
-        self.scene.add(Primitive::Text {
-            x,
-            y,
-            // The backend reads `$` as the start of a formula.
-            content: content.replace('$', "\\$"),
-            size,
-            anchor,
-            rotate: None,
-            bold: false,
-            color: Some(rgb(colour)),
-        });
-    }
-
-    fn segment(&mut self, a: (f64, f64), b: (f64, f64), colour: Rgb, width: f64) {
-        self.scene.add(Primitive::Line {
-            x1: a.0,
-            y1: a.1,
-            x2: b.0,
-            y2: b.1,
-            stroke: rgb(colour),
-            stroke_width: width,
-            stroke_dasharray: None,
-        });
-    }
-
-    fn polyline(&mut self, points: &[(f64, f64)], colour: Rgb, width: f64, dash: Dash) {
-        // Dashes are cut here: the raster backend would start the pattern anew at every point.
-        for piece in lines::dashed(points, dash) {
-            self.scene.add(Primitive::PolyLine {
-                points: piece,
-                stroke: rgb(colour),
-                stroke_width: width,
-                stroke_dasharray: None,
-            });
-        }
-    }
-
-    /// A closed polygon.
-    fn path(&mut self, corners: &[(f64, f64)], fill: Option<Rgb>, stroke: Rgb) {
-        let mut d = String::new();
-        for (index, (x, y)) in corners.iter().enumerate() {
-            let command = if index == 0 { 'M' } else { 'L' };
-            d.push_str(&format!("{command} {x:.2} {y:.2} "));
-        }
-        d.push('Z');
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d,
-            fill: fill.map(rgb),
-            stroke: rgb(stroke),
-            stroke_width: 1.4,
-            opacity: None,
-            stroke_dasharray: None,
-        })));
-    }
-}
-
-/// Plotting area and its axes.
-struct Plot {
-    x0: f64,
-    y0: f64,
-    x1: f64,
-    y1: f64,
-    shift: f64,
-    x: ResolvedAxis,
-    y: ResolvedAxis,
-}
-
-impl Plot {
-    /// The same axes with everything drawn `dx` to the right.
-    fn shifted(&self, dx: f64) -> Plot {
-        Plot {
-            shift: dx,
-            x: self.x.clone(),
-            y: self.y.clone(),
-            ..*self
-        }
-    }
-
-    /// Lengths of the axes' units made equal: the axis with the longer unit shows more.
-    fn true_to_scale(mut self) -> Plot {
-        let x_unit = (self.x1 - self.x0) / (self.x.high - self.x.low);
-        let y_unit = (self.y1 - self.y0) / (self.y.high - self.y.low);
-        if x_unit > y_unit {
-            self.x = self.x.grown(x_unit / y_unit);
-        } else {
-            self.y = self.y.grown(y_unit / x_unit);
-        }
-        self
-    }
-
-    fn px(&self, x: f64) -> f64 {
-        self.shift + self.x0 + self.x.share(x) * (self.x1 - self.x0)
-    }
-
-    fn py(&self, y: f64) -> f64 {
-        self.y1 - self.y.share(y) * (self.y1 - self.y0)
-    }
-
-    fn at(&self, x: f64, y: f64) -> (f64, f64) {
-        (self.px(x), self.py(y))
-    }
-}
-
-fn abscissae(panel: &Panel) -> impl Iterator<Item = f64> {
-    panel.series.iter().flat_map(|series| {
-        let curve = series.curve.iter().map(|p| p.0);
-        curve.chain(series.samples.iter().map(|sample| sample.x))
-    })
-}
-
-fn ordinates(panel: &Panel) -> impl Iterator<Item = f64> {
-    let series = panel.series.iter().flat_map(|series| {
-        let curve = series.curve.iter().map(|p| p.1);
-        let samples = series.samples.iter().flat_map(|sample| match sample.value {
-            Value::Known { y, low, high } => [y, low, high],
-            Value::Above(y) | Value::Below(y) => [y; 3],
-        });
-        curve.chain(samples)
-    });
-    let rules = panel.rules.iter().filter_map(|rule| match rule {
-        Rule::Horizontal { y, .. } => Some(*y),
-        Rule::Vertical { .. } => None,
-    });
-    series.chain(rules)
-}
-
-/// Width of a text in DejaVu Sans, px; within some percent, for spacing only.
-fn text_width(text: &str, size: u32) -> f64 {
-    let em: f64 = text
-        .chars()
-        .map(|c| match c {
-            'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' => 0.31,
-            'f' | 't' | 'r' | '(' | ')' | '/' | '-' => 0.39,
-            'm' | 'w' | 'M' | 'W' | '%' => 0.92,
-            '+' | '\u{2212}' | '=' | '<' | '>' | '\u{00b1}' => 0.84,
-            c if c.is_ascii_uppercase() => 0.70,
-            _ => 0.62,
-        })
-        .sum();
-    em * f64::from(size)
-}
-
-fn rgb((r, g, b): Rgb) -> Color {
-    Color::Rgb(r, g, b)
 }

@@ -6,8 +6,10 @@
 //! only bounded, and panels that share a legend are what the products need.
 
 mod axis;
+mod canvas;
 mod draw;
 mod lines;
+mod plot;
 #[cfg(test)]
 mod tests;
 

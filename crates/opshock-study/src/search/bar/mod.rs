@@ -25,26 +25,24 @@
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.
 
+mod ask;
 mod climb;
 mod judge;
 mod margin;
 #[cfg(test)]
 mod tests;
 mod verdicts;
+mod walk;
 
 use std::collections::BTreeSet;
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
+pub use self::ask::{Ask, BarInput, Known, Progress, SUBNODES, Seen};
 pub use self::climb::{Answer, FLOOR, answer, most_film_steps};
 use self::judge::Estimate;
-use super::evidence::NodeVerdict;
-use super::lattice::Lattice;
+use self::walk::{Walk, bracket, fails_below};
 use super::outcome::Flag;
-use super::probe::Retry;
-
-/// Nodes of the bar's lattice per step of the search.
-pub const SUBNODES: i32 = 16;
 
 /// Knobs that are first turned together.
 struct Group {
@@ -81,66 +79,6 @@ const COARSE_GRAIN: f64 = 1.0 / 8.0;
 
 /// Narrowest bracket of turned knobs, nodes.
 const FINEST: i32 = 2;
-
-/// A survivor that the search has met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
-    /// Node of the bar's lattice.
-    pub index: i32,
-    /// Smallest clearance, m.
-    pub h_min_m: f64,
-    /// Its time, s.
-    pub t_min_s: f64,
-}
-
-/// A bracket with what surrounds it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BarInput {
-    /// Knobs turned already: every other turn is made from here.
-    pub base: Levels,
-    /// Lattice of the bar: [`SUBNODES`] nodes for each of the search.
-    pub lattice: Lattice,
-    /// Highest survivor, node of that lattice.
-    pub survivor: i32,
-    /// Lowest failure.
-    pub failure: i32,
-    /// Time of touch of the lowest failure, s.
-    pub t_fail_s: Option<f64>,
-    /// Survivors of the search with their margins.
-    pub survivors: Vec<Known>,
-    /// Knobs that can change the answer.
-    pub knobs: Vec<Knob>,
-    /// Times the film's cells may be halved; 0 where there is no film.
-    pub film_halvings: i8,
-    /// Times the study's elements of the ramp's solid may be halved; 0 where it is none.
-    pub mesh_halvings: i8,
-    /// A film can be held still at the lowest attitude of a shock ([`Knob::HeldFilm`]).
-    pub holds_films: bool,
-    /// Accuracy asked for, a share.
-    pub accuracy: f64,
-}
-
-/// A run that the bar asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Ask {
-    /// Knobs turned.
-    pub levels: Levels,
-    /// Node of the bar's lattice.
-    pub index: i32,
-    /// How the run is made: the scene itself, climbed or not, is tried again as the search tries.
-    pub retry: Retry,
-}
-
-/// What such a run answered.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
-    /// Verdict.
-    pub verdict: NodeVerdict,
-    /// Smallest clearance, m.
-    pub h_min_m: Option<f64>,
-    /// Its time, s.
-    pub t_min_s: Option<f64>,
-}
 
 /// One part of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,15 +137,6 @@ impl Bar {
     }
 }
 
-/// How far a bar has got.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Progress<T = Bar> {
-    /// This run is needed next.
-    Wants(Ask),
-    /// All is known.
-    Done(T),
-}
-
 /// The bar of `input` as far as `lookup` knows the runs it needs, with the runs looked at.
 pub fn bar(input: &BarInput, lookup: &dyn Fn(Ask) -> Option<Seen>) -> (Vec<Ask>, Progress) {
     let mut log = Vec::new();
@@ -216,95 +145,6 @@ pub fn bar(input: &BarInput, lookup: &dyn Fn(Ask) -> Option<Seen>) -> (Vec<Ask>,
         Err(ask) => Progress::Wants(ask),
     };
     (log, progress)
-}
-
-/// Looks runs up in order; the first that is not known ends the walk.
-struct Walk<'a> {
-    input: &'a BarInput,
-    lookup: &'a dyn Fn(Ask) -> Option<Seen>,
-    log: &'a mut Vec<Ask>,
-}
-
-impl<'a> Walk<'a> {
-    fn new(
-        input: &'a BarInput,
-        lookup: &'a dyn Fn(Ask) -> Option<Seen>,
-        log: &'a mut Vec<Ask>,
-    ) -> Self {
-        Self { input, lookup, log }
-    }
-
-    /// A run of the scene turned by `levels`. Without verdict the scene itself is tried again down
-    /// the ladder of the search; a turned one is not, since its knobs may be what fails.
-    fn see(&mut self, levels: Levels, index: i32) -> Result<Seen, Ask> {
-        let mut ask = Ask {
-            levels: self.input.base.plus(levels),
-            index,
-            retry: Retry::None,
-        };
-        loop {
-            let seen = (self.lookup)(ask).ok_or(ask)?;
-            if !self.log.contains(&ask) {
-                self.log.push(ask);
-            }
-            let is_open = levels.is_none() && seen.verdict == NodeVerdict::Undecided;
-            match ask.retry.next().filter(|_| is_open) {
-                Some(retry) => ask.retry = retry,
-                None => return Ok(seen),
-            }
-        }
-    }
-
-    /// The film on which the other knobs are compared.
-    fn proxy(&self) -> Levels {
-        Levels::NONE.turned(Knob::FilmGrid, -self.input.film_halvings.min(2))
-    }
-
-    /// A scene with these knobs a step finer can be made.
-    fn has_finer(&self, knobs: &[Knob]) -> bool {
-        !knobs.contains(&Knob::RampMesh)
-            || self.input.base.of(Knob::RampMesh) < self.input.mesh_halvings
-    }
-
-    /// Whole nodes in a share.
-    fn nodes(&self, share: f64) -> i32 {
-        self.input.lattice.nodes_within(share)
-    }
-
-    /// Ratio of amplitudes `nodes` apart, minus one.
-    fn share(&self, nodes: i32) -> f64 {
-        self.share_of(f64::from(nodes))
-    }
-
-    /// The same of a distance between nodes.
-    fn share_of(&self, nodes: f64) -> f64 {
-        (nodes / f64::from(self.input.lattice.nodes_per_octave)).exp2() - 1.0
-    }
-}
-
-/// The bracket of the scene itself, narrowed by what was met of it on the way.
-fn bracket(walk: &Walk<'_>) -> (i32, i32) {
-    let input = walk.input;
-    let mut inside: Vec<(i32, NodeVerdict)> = walk
-        .log
-        .iter()
-        .filter(|ask| ask.levels == input.base)
-        .filter(|ask| (input.survivor..input.failure).contains(&ask.index))
-        .filter_map(|&ask| Some((ask.index, (walk.lookup)(ask)?.verdict)))
-        .collect();
-    inside.sort_by_key(|one| one.0);
-    let mut ends = (input.survivor, input.failure);
-    for (index, verdict) in inside {
-        match verdict {
-            NodeVerdict::Survives => ends.0 = index,
-            NodeVerdict::Fails => {
-                ends.1 = index;
-                break;
-            }
-            NodeVerdict::Undecided => {}
-        }
-    }
-    ends
 }
 
 /// What the bracket alone adds.
@@ -465,15 +305,6 @@ fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Bar {
         bar.flags.insert(Flag::NonMonotone);
     }
     bar
-}
-
-/// The scene itself failed, where a slope was asked for, below the answer that was found.
-fn fails_below(walk: &Walk<'_>) -> bool {
-    let input = walk.input;
-    walk.log
-        .iter()
-        .filter(|ask| ask.levels == input.base && ask.index < input.survivor)
-        .any(|&ask| (walk.lookup)(ask).is_some_and(|seen| seen.verdict == NodeVerdict::Fails))
 }
 
 fn parts(walk: &mut Walk<'_>) -> Result<Bar, Ask> {

@@ -1,0 +1,25 @@
+//! Table and runs of a store, without simulating.
+
+use super::input::SweepInput;
+use super::ledger::Ledger;
+use crate::store::{self, Loaded, Results, Session, StoreError, folder};
+use std::path::Path;
+
+/// Table and runs from what is stored, without simulating.
+pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results {
+    let mut ledger = Ledger::new(input, loaded);
+    ledger.absorb_all();
+    ledger.results(session)
+}
+
+/// Table and runs of a store as it stands, a sweep in progress or a killed one included; nothing
+/// is simulated, locked or changed.
+///
+/// # Errors
+///
+/// [`StoreError`]: nothing is stored, the files are newer or damaged.
+pub fn stored(input: &SweepInput, folder: &Path) -> Result<Results, StoreError> {
+    let (loaded, results) = store::load(folder)?;
+    let session = results.map_or_else(|| folder::session(0), |results| results.session);
+    Ok(replay(input, loaded, &session))
+}
