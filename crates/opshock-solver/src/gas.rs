@@ -1,7 +1,7 @@
 //! Air at a temperature and an altitude: pressure, viscosity, mean free path.
 
 /// State of the gas around the drive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct GasParameters {
     /// Ambient pressure, Pa.
     pub pressure_pa: f64,

@@ -17,7 +17,7 @@ use crate::slider::surface::Surface;
 use thiserror::Error;
 
 /// Numerical resolution of the film.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct FilmResolution {
     /// Wanted number of cells; the grid fits the surface's edges and comes close to it.
     pub cells: usize,

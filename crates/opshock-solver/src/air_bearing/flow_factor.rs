@@ -28,7 +28,7 @@ use crate::elementary::polynomial;
 use std::f64::consts::PI;
 
 /// Rarefaction model of the flow factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum FlowModel {
     /// Continuum.
     Continuum,

@@ -30,7 +30,7 @@ use crate::slider::surface::Surface;
 use std::f64::consts::PI;
 
 /// What acts between slider and disk beside the air.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct SurfaceForces {
     /// Hamaker's constant A of the attraction, J.
     pub hamaker_j: f64,

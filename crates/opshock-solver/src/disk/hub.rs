@@ -24,7 +24,7 @@
 use super::error::DiskError;
 
 /// Hub with its bearing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct HubParameters {
     /// Mass that moves with the hub, without the free part of the disk simulated, kg.
     pub mass_kg: f64,

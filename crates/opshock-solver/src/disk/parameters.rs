@@ -3,7 +3,7 @@
 use super::hub::HubParameters;
 
 /// How the disk loses energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum DiskDamping {
     /// Rayleigh damping of the material, in the rotating frame: c = alpha m + beta k.
     Rayleigh {
@@ -17,7 +17,7 @@ pub enum DiskDamping {
 }
 
 /// Geometry, material and speed of the disk.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DiskParameters {
     /// Clamp radius, m.
     pub inner_radius_m: f64,
@@ -42,7 +42,7 @@ pub struct DiskParameters {
 }
 
 /// Numerical resolution of the disk.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct DiskResolution {
     /// Largest nodal-diameter number N.
     pub n_harmonics: usize,

@@ -20,7 +20,7 @@ use super::motion::{DiskMotion, DiskPose};
 use nalgebra::Complex;
 
 /// One wave around the disk.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Wave {
     /// Waves a revolution.
     pub harmonic: u32,

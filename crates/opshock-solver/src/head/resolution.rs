@@ -1,7 +1,7 @@
 //! How finely a head is integrated, and how film and slider are solved together.
 
 /// How film and slider are solved together at a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum Coupling {
     /// One Newton iteration on everything at once (Schur complement).
     Monolithic,
@@ -14,7 +14,7 @@ pub enum Coupling {
 }
 
 /// Resolution and limits of the head's time integration.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct HeadResolution {
     /// Relative local error allowed in the clearance per step.
     pub tolerance: f64,

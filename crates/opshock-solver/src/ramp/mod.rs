@@ -1,7 +1,7 @@
 //! Load/unload ramp: none, rigid, deformable arms given as modes each, or both arms as one body.
 
 /// One mode of a ramp arm, scaled to shape 1 at the contact point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ArmMode {
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
@@ -18,7 +18,7 @@ pub struct ArmMode {
 /// ```text
 /// q'' + 2 ζ ω q' + ω² q = φ_top λ_top − φ_bottom λ_bottom + p a(t),    x_arm = Σ φ_arm q
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct CoupledMode {
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
@@ -44,7 +44,7 @@ impl CoupledMode {
 }
 
 /// Which ramp model stands at the rim.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub enum RampModel {
     /// No ramp.
     None,
@@ -65,7 +65,7 @@ pub enum RampModel {
 }
 
 /// The ramp and where it stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RampParameters {
     /// Model.
     pub model: RampModel,

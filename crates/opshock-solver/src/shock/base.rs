@@ -21,7 +21,7 @@ use crate::modal::{CoupledState, Phase, PointReadout, Readout};
 const CLOSEST: f64 = 1e-6;
 
 /// A mode of base plate and housing, of unit modal mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct BaseMode {
     /// Undamped frequency, Hz.
     pub frequency_hz: f64,

@@ -22,7 +22,7 @@ use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
 /// Shape of the unit pulse s(t), 0 <= t <= width, with max |s| = 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub enum PulseShape {
     /// s = sin(pi t / T).
     HalfSine,
@@ -52,7 +52,7 @@ pub enum PulseShape {
 }
 
 /// One unit pulse. Time 0 is its onset.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Pulse {
     /// Shape.
     pub shape: PulseShape,
@@ -77,7 +77,7 @@ pub struct Stretch {
 ///
 /// Axes stand in the drive: x at angle 0 of the disk, y a quarter turn on in the sense of growing
 /// angle. Signs are those of a(t), the load felt in the base.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct ObliqueShock {
     /// In-plane loads per mass along x and y per unit a(t).
     pub in_plane: [f64; 2],

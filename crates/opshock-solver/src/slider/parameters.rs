@@ -1,7 +1,7 @@
 //! Slider body and the rails of its surface, as plain data.
 
 /// Slider body and its place over the disk.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SliderParameters {
     /// Radius of the slider's centre, m.
     pub radius_m: f64,
@@ -22,7 +22,7 @@ pub struct SliderParameters {
 }
 
 /// Air-bearing surface. Recess is positive away from the disk, from the reference plane.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct SurfaceParameters {
     /// Recess of everything no rail covers, m.
     pub base_recess_m: f64,
@@ -42,7 +42,7 @@ pub struct SurfaceParameters {
 }
 
 /// A rail: an area of one recess depth.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Rail {
     /// Outline.
     pub outline: RailOutline,
@@ -51,7 +51,7 @@ pub struct Rail {
 }
 
 /// Outline of a rail in slider coordinates.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub enum RailOutline {
     /// Axis-parallel rectangle.
     Rectangle {

@@ -5,7 +5,7 @@ use crate::ramp::RampParameters;
 use crate::shock::{BaseMode, ObliqueShock, Pulse};
 
 /// How disk and ramp are brought into contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub enum ContactMethod {
     /// Exact flow between impacts, impacts located in time, aimed impulses in lasting contact.
     #[default]
@@ -17,7 +17,7 @@ pub enum ContactMethod {
 }
 
 /// Numerical resolution of the structure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct StructureResolution {
     /// Step of the grid on which motion is stored and contact is resolved, s. Divided into equal
     /// parts when the fastest mode of the disk needs it.
@@ -27,7 +27,7 @@ pub struct StructureResolution {
 }
 
 /// How long a simulation lasts after the onset.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum Window {
     /// Fixed length, s.
     Fixed {

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 use super::error::SuspensionError;
 
 /// An oscillator of unit mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct SuspensionMode {
     /// Undamped natural frequency on the base, Hz.
     pub frequency_hz: f64,

@@ -3,7 +3,7 @@
 use super::modes::SuspensionMode;
 
 /// Geometry and material of the suspension; x is measured from the root of the hinge.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SuspensionParameters {
     /// Gram load at the slider's centre, N.
     pub gram_load_n: f64,
@@ -36,7 +36,7 @@ pub struct SuspensionParameters {
 }
 
 /// Hinge strip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Hinge {
     /// Length, m.
     pub length_m: f64,
@@ -47,7 +47,7 @@ pub struct Hinge {
 }
 
 /// Load beam: tapers linearly from root to dimple, then a tab of constant width.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LoadBeam {
     /// Dimple, from the root of the hinge, m.
     pub dimple_m: f64,
@@ -64,7 +64,7 @@ pub struct LoadBeam {
 }
 
 /// Side flanges.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Flange {
     /// Height, m.
     pub height_m: f64,
@@ -75,7 +75,7 @@ pub struct Flange {
 }
 
 /// Flexure mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Flexure {
     /// Mass, kg.
     pub mass_kg: f64,
@@ -84,7 +84,7 @@ pub struct Flexure {
 }
 
 /// Gimbal stiffnesses.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Gimbal {
     /// Vertical, N/m.
     pub vertical_n_per_m: f64,
@@ -95,7 +95,7 @@ pub struct Gimbal {
 }
 
 /// Dimple, limiter or lift tab in contact: a spring that only pushes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ContactLaw {
     /// Contact stiffness, N/m.
     pub stiffness_n_per_m: f64,
@@ -104,7 +104,7 @@ pub struct ContactLaw {
 }
 
 /// Hook of the flexure behind the load beam, which ends the opening of the dimple.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Limiter {
     /// Opening at which it is met, from the steady state, m.
     pub gap_m: f64,
@@ -117,7 +117,7 @@ pub struct Limiter {
 }
 
 /// Tab at the end of the load beam under a stop that is fixed to the base, a ramp's or a limiter's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LiftTab {
     /// Rise of the tab's end at which it is met, from the steady state, m.
     pub gap_m: f64,
