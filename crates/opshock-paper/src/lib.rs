@@ -1,5 +1,4 @@
-//! The paper's statements and figures, from the public interface of solver and study: the numbers that decide the
-//! statements, their table, what they rest on, and Fig. 1 to 13.
+#![doc = include_str!("../README.md")]
 
 #![forbid(unsafe_code)]
 

@@ -1,8 +1,4 @@
-//! Studies of operational shock: reading them, searching critical amplitudes, storing, reporting.
-//!
-//! A *study* turns axes into points; a point is a search over shock amplitude; each probe is one
-//! simulation with a verdict. Points run in parallel, one writer saves them, the report reads
-//! only what was saved.
+#![doc = include_str!("../README.md")]
 
 pub mod accuracy;
 pub mod hard_cases;
