@@ -1,9 +1,10 @@
 //! Hard cases B of disk and ramp: sticking, resting, both arms, light and heavy arms, signs.
 
+use super::check::{Check, largest};
+use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1, s1_arms};
 use super::structure::{run, slider_distance};
-use super::{Check, largest, naive};
 use opshock_solver::disk::{DiskDamping, DiskMotion, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{RampError, RampModel};

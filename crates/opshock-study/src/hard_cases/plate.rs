@@ -1,8 +1,9 @@
 //! Hard cases A of the plate: frequencies, extreme radii, modes left out.
 
+use super::check::Check;
+use super::naive;
 use super::scenes::structures::paper;
 use super::structure::run;
-use super::{Check, naive};
 use opshock_solver::disk::{DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::RampModel;

@@ -1,6 +1,6 @@
 //! F: the same bits again.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::drive::small_scene;
 use super::scenes::noted::note;

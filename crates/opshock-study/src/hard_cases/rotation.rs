@@ -1,9 +1,10 @@
 //! Hard cases A of a turning disk: split of its waves, critical speed, instability above it, axial symmetry.
 
+use super::check::Check;
+use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1};
 use super::structure::run;
-use super::{Check, naive};
 use opshock_solver::disk::{DiskDamping, DiskResolution};
 use opshock_solver::modal::Oscillator;
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2 as G, rad_per_s_from_rpm};

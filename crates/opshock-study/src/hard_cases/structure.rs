@@ -1,6 +1,6 @@
 //! A: the structure and its time stepping.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1};
