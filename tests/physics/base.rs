@@ -9,7 +9,7 @@ use opshock_solver::head::{HeadWorkspace, ShockLoad};
 use opshock_solver::linalg::SquareMatrix;
 use opshock_solver::modal::{CoupledModes, CoupledSystem};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms, NoRamp, RampBody, RigidRamp};
 use opshock_solver::scene::Window;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseShape};
@@ -41,20 +41,21 @@ pub(super) const BASE: [BaseMode; 2] = [
     },
 ];
 
-fn arms() -> RampModel {
+fn arms() -> RampBody {
     let mode = |frequency_hz: f64, participation: f64| ArmMode {
         frequency_hz,
         mass_kg: 2e-5,
         participation,
         damping_ratio: 0.02,
     };
-    RampModel::Deformable {
+    Arms {
         top: vec![mode(3100.0, 0.8)],
         bottom: vec![mode(2700.0, 0.7), mode(9000.0, 0.1)],
     }
+    .into()
 }
 
-fn on(base: &[BaseMode], model: RampModel) -> Structure {
+fn on(base: &[BaseMode], model: impl Into<RampBody>) -> Structure {
     let mut structure = drive(None).with_ramp(model);
     structure.base = base.to_vec();
     structure
@@ -71,7 +72,7 @@ fn a_stiff_base_is_the_rigid_base_to_a_billionth() {
         ..mode
     });
     for (base, model, amplitude_g) in [
-        (&stiff, RampModel::Rigid, 300.0),
+        (&stiff, RigidRamp.into(), 300.0),
         (&stiff, arms(), 300.0),
         (&stiff, arms(), -400.0),
         (&stiffer, arms(), 300.0),
@@ -304,10 +305,8 @@ fn disk_and_ramp_move_as_the_chain_integrated_directly() {
     assert_eq!(found.first_touch_s, None);
     let (mut oscillators, shapes) = disk_modes(&structure, structure.slider.radius_m);
     let n_disk = oscillators.len();
-    let RampModel::Deformable { top, bottom } = arms() else {
-        unreachable!("arms")
-    };
-    oscillators.extend(top.iter().chain(&bottom).map(|mode| {
+    let arms = arms();
+    oscillators.extend(arms.modes().iter().map(|mode| {
         let omega = TAU * mode.frequency_hz;
         let gain = mode.mass_kg.sqrt() * mode.participation;
         (omega, mode.damping_ratio * omega, gain, Mount::Ramp)
@@ -336,7 +335,7 @@ fn disk_and_ramp_move_as_the_chain_integrated_directly() {
     let ramp: Vec<f64> = states
         .iter()
         .map(|s| {
-            let own = s[BASE.len() + n_disk] / top[0].mass_kg.sqrt();
+            let own = s[BASE.len() + n_disk] / arms.modes()[0].mass_kg.sqrt();
             a * (own + moved(s, Mount::Ramp))
         })
         .collect();
@@ -364,7 +363,7 @@ fn disk_and_ramp_move_as_the_chain_integrated_directly() {
 /// Through contact with mounts that move against one another, by exact flow and by Moreau-Jean steps.
 #[test]
 fn energy_is_booked_through_contact_with_moving_mounts() {
-    for (model, amplitude_g) in [(RampModel::Rigid, 350.0), (arms(), 450.0), (arms(), -350.0)] {
+    for (model, amplitude_g) in [(RigidRamp.into(), 350.0), (arms(), 450.0), (arms(), -350.0)] {
         let structure = on(&BASE, model);
         let exact = run(&structure, amplitude_g);
         let steps = run(&structure.with_step(2.5e-7).with_moreau_jean(), amplitude_g);
@@ -649,7 +648,7 @@ fn a_base_that_cannot_be_is_refused() {
     let build = |structure: &Structure| {
         StructureModel::build(&structure.parameters(), Harmonics::All).map(|_| ())
     };
-    let mut structure = on(&BASE, RampModel::None);
+    let mut structure = on(&BASE, NoRamp);
     assert_eq!(build(&structure), Ok(()));
     structure.disk.hub = Some(spindle());
     assert_eq!(build(&structure), Ok(()));

@@ -9,7 +9,7 @@ use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{
-    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
+    CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, ContactMode, RampBody, RampParameters,
 };
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
@@ -420,42 +420,34 @@ impl Digester {
                 self.numbers(&spring);
             }
         }
-        match model {
-            RampModel::None => self.text("none"),
-            RampModel::Rigid => self.text("rigid"),
-            RampModel::Deformable { top, bottom } => {
-                self.text("deformable");
-                for arm in [top, bottom] {
-                    self.integer(arm.len() as u64);
-                    for ArmMode {
-                        frequency_hz,
-                        mass_kg,
-                        participation,
-                        damping_ratio,
-                    } in arm
-                    {
-                        self.numbers(&[*frequency_hz, *mass_kg, *participation, *damping_ratio]);
-                    }
-                }
-            }
-            RampModel::Coupled { modes } => {
-                self.text("coupled");
-                self.integer(modes.len() as u64);
-                for CoupledMode {
-                    frequency_hz,
-                    shape_per_sqrt_kg: [top, bottom],
-                    participation_sqrt_kg,
-                    damping_ratio,
-                } in modes
-                {
-                    self.numbers(&[
-                        *frequency_hz,
-                        *top,
-                        *bottom,
-                        *participation_sqrt_kg,
-                        *damping_ratio,
-                    ]);
-                }
+        let RampBody { model, contacts } = model;
+        self.text(model);
+        let modes = contacts.as_deref().unwrap_or_default();
+        // Arms list their modes each, as in a study file.
+        let lists: &[&[ContactMode]] = match (*model, modes.iter().position(|m| m.shape[0] == 0.0))
+        {
+            (_, _) if modes.is_empty() => &[],
+            ("deformable", Some(of_bottom)) => &[&modes[..of_bottom], &modes[of_bottom..]],
+            _ => &[modes],
+        };
+        for list in lists {
+            self.integer(list.len() as u64);
+            for ContactMode {
+                frequency_hz,
+                mass_kg,
+                shape,
+                participation,
+                damping_ratio,
+            } in *list
+            {
+                let scale: &[f64] = match *model {
+                    "deformable" => &[*mass_kg],
+                    "coupled" => shape,
+                    _ => &[*mass_kg, shape[0], shape[1]],
+                };
+                self.numbers(&[*frequency_hz]);
+                self.numbers(scale);
+                self.numbers(&[*participation, *damping_ratio]);
             }
         }
     }

@@ -9,7 +9,7 @@ use opshock_solver::disk::{DiskBasis, DiskDamping, DiskParameters, DiskResolutio
 use opshock_solver::integrator::{StageSystem, Stepper, TR_BDF2};
 use opshock_solver::modal::{ForcedResponse, Oscillator, Phase};
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2 as G, rad_per_s_from_rpm};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RigidRamp};
 use opshock_solver::structure::{StructureRun, StructureWarning, Wake, Window, Workspace, modes};
 use std::f64::consts::{PI, TAU};
 
@@ -104,7 +104,7 @@ pub(super) fn a2() -> Vec<Check> {
 
 pub(super) fn a3() -> Vec<Check> {
     let width = 1000.37 * 0.5e-6;
-    let mut structure = s1(width, RampModel::None).with_cut(20e3);
+    let mut structure = s1(width, NoRamp).with_cut(20e3);
     structure.window = Window::Fixed { length_s: 2e-3 };
     let coarse = run(&structure.with_step(2e-6), 100.0 * G);
     let fine = run(&structure.with_step(0.25e-6), 100.0 * G);
@@ -169,7 +169,7 @@ pub(super) fn a4() -> Vec<Check> {
     let width = 1e-8;
     let (_, v) = half_sine_response(omega, width, width);
     let exact = 2.0 * amplitude * width / PI;
-    let mut structure = s1(1e-7, RampModel::None).with_step(2e-6).with_cut(10e3);
+    let mut structure = s1(1e-7, NoRamp).with_step(2e-6).with_cut(10e3);
     structure.window = Window::Fixed { length_s: 1e-3 };
     let short = run(&structure, 1e7);
     structure.pulse.width_s = 1e-8;
@@ -293,7 +293,7 @@ pub(super) fn a7() -> Vec<Check> {
         n_elements: 24,
         static_correction: false,
     };
-    let base = s1(1e-3, RampModel::None);
+    let base = s1(1e-3, NoRamp);
     let (mut worst, mut without, mut signs) = (0.0_f64, 0.0_f64, 0);
     for sense in [1.0, -1.0] {
         let mut disk = base.disk.clone();
@@ -329,7 +329,7 @@ pub(super) fn a7() -> Vec<Check> {
 
 /// Set S1 with a rigid ramp at another speed.
 fn at_speed(rpm: f64) -> Structure {
-    let mut structure = s1(5e-4, RampModel::Rigid).with_cut(15e3).with_step(1e-6);
+    let mut structure = s1(5e-4, RigidRamp).with_cut(15e3).with_step(1e-6);
     structure.disk.spin_rad_per_s = rad_per_s_from_rpm(rpm);
     structure.window = Window::Fixed { length_s: 2e-3 };
     structure
@@ -422,8 +422,8 @@ pub(super) fn a9() -> Vec<Check> {
 }
 
 pub(super) fn a10() -> Vec<Check> {
-    let structure = s1(5e-4, RampModel::Rigid).with_cut(20e3);
-    let mut free = structure.with_ramp(RampModel::None);
+    let structure = s1(5e-4, RigidRamp).with_cut(20e3);
+    let mut free = structure.with_ramp(NoRamp);
     free.window = structure.window;
     let alone = run(&free, 200.0 * G);
     // Every harmonic marched from the onset, not from the first touch.
@@ -558,7 +558,7 @@ pub(super) fn a12() -> Vec<Check> {
 
 pub(super) fn a13() -> Vec<Check> {
     // A push so slow that all modes follow at once: what counts is the flexibility they leave out.
-    let mut base = paper(10e-3, RampModel::Rigid).with_step(4e-6);
+    let mut base = paper(10e-3, RigidRamp).with_step(4e-6);
     base.disk.damping = DiskDamping::ModalRatio(0.3);
     base.window = Window::Fixed { length_s: 6e-3 };
     let at = |cut: f64, corrected: bool| {

@@ -30,6 +30,7 @@ pub mod memory;
 mod overlay;
 mod points;
 mod polygon;
+mod ramp;
 mod ramp_geometry;
 mod ramp_mesh;
 mod ramp_remeshed;

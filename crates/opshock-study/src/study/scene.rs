@@ -5,9 +5,6 @@
 use opshock_solver::air_bearing::{FilmResolution, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{
-    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, RampModel, RampParameters,
-};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::{HeadResolution, Scene, Window};
@@ -21,7 +18,7 @@ use opshock_solver::suspension::{
 use super::settings::{Datum, View};
 use super::unit;
 use super::words::{self, Faces, Ramp, Shape};
-use super::{imported_suspension, ramp_geometry, ramp_mesh};
+use super::{imported_suspension, ramp};
 
 /// Key of the times of pressure fields.
 pub const FIELD_TIMES: &str = "fields.times_ms";
@@ -42,7 +39,7 @@ pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> (Scene, Faces) {
 }
 
 /// The scene with z along the drive's axis and a head over the disk.
-fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
+fn drive(view: &View<'_>, model: Ramp, width_ms: f64) -> Scene {
     let Resolutions {
         disk,
         structure,
@@ -56,7 +53,7 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         window: window(view),
         disk: disk_parameters(view),
         run_out: run_out(view),
-        ramp: ramp_parameters(view, ramp),
+        ramp: ramp::parameters(view, model, gap_taken_m(view)),
         slider: slider(view),
         suspension: suspension(view),
         gas: gas_parameters(view),
@@ -288,24 +285,6 @@ pub fn gap_taken_m(view: &View<'_>) -> f64 {
     run_out(view).iter().map(at_ramp).sum()
 }
 
-/// Modes of both arms as one body, as listed.
-fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
-    let list = ramp_mesh::MODES;
-    let mode = |position: usize| {
-        let member = |name: &str| format!("{list}[{position}].{name}");
-        CoupledMode {
-            frequency_hz: view.si(&member("frequency_hz")),
-            shape_per_sqrt_kg: ["top_per_sqrt_kg", "bottom_per_sqrt_kg"]
-                .map(|name| view.si(&member(name))),
-            participation_sqrt_kg: view.si(&member("participation_sqrt_kg")),
-            damping_ratio: view
-                .maybe_si(&member("damping_ratio"))
-                .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
-        }
-    };
-    (0..view.entries(list)).map(mode).collect()
-}
-
 /// The hub, when its stiffnesses are given; what is left out of it is 0.
 fn hub(view: &View<'_>) -> Option<HubParameters> {
     let maybe = |name: &str| view.maybe_si(&format!("hub.{name}"));
@@ -322,64 +301,6 @@ fn hub(view: &View<'_>) -> Option<HubParameters> {
         cross_damping_n_m_s_per_rad: or_0("cross_damping_n_m_s_per_rad"),
         centre_height_m: or_0("centre_height_mm"),
     })
-}
-
-fn ramp_parameters(view: &View<'_>, ramp: Ramp) -> RampParameters {
-    let arm = |list: &str| -> Vec<ArmMode> {
-        (0..view.entries(list))
-            .map(|position| {
-                let member = |name: &str| format!("{list}[{position}].{name}");
-                ArmMode {
-                    frequency_hz: view.si(&member("frequency_hz")),
-                    mass_kg: view.si(&member("mass_mg")),
-                    participation: view.si(&member("participation")),
-                    damping_ratio: view
-                        .maybe_si(&member("damping_ratio"))
-                        .unwrap_or_else(|| view.si("ramp.deformable.damping_ratio")),
-                }
-            })
-            .collect()
-    };
-    let clearance_m = view.si("ramp.clearance_um");
-    let taken_m = gap_taken_m(view);
-    RampParameters {
-        model: match ramp {
-            Ramp::None => RampModel::None,
-            Ramp::Rigid => RampModel::Rigid,
-            Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
-                modes: ramp_geometry::coupled_modes(view),
-            },
-            Ramp::Deformable if view.entries(ramp_mesh::MODES) > 0 => RampModel::Coupled {
-                modes: coupled_modes(view),
-            },
-            Ramp::Deformable => {
-                let top = arm("ramp.deformable.modes");
-                let bottom = match view.entries("ramp.deformable.bottom_modes") {
-                    0 => top.clone(),
-                    _ => arm("ramp.deformable.bottom_modes"),
-                };
-                RampModel::Deformable { top, bottom }
-            }
-        },
-        clearance_top_m: view
-            .maybe_si("ramp.clearance_top_um")
-            .unwrap_or(clearance_m)
-            - taken_m,
-        clearance_bottom_m: view
-            .maybe_si("ramp.clearance_bottom_um")
-            .unwrap_or(clearance_m)
-            - taken_m,
-        radius_m: view.si("ramp.radius_mm"),
-        angle_rad: view.si("ramp.angle_deg"),
-        restitution: view.si("ramp.restitution"),
-        contact_stiffness_n_per_m: view.maybe_si("ramp.contact_stiffness_n_per_m"),
-        contact_frequency_hz: view
-            .maybe_si("ramp.contact_frequency_khz")
-            .unwrap_or(CONTACT_FREQUENCY_HZ),
-        contact_damping_ratio: view
-            .maybe_si("ramp.contact_damping_ratio")
-            .unwrap_or(CONTACT_DAMPING_RATIO),
-    }
 }
 
 fn slider(view: &View<'_>) -> SliderParameters {
