@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use opshock_solver::air_bearing::{FlowModel, SurfaceForces};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::RigidRamp;
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::ObliqueShock;
@@ -134,7 +134,7 @@ fn effects_mutant_of_the_asked_times_is_caught() {
 #[test]
 fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     let mut scene = base();
-    scene.ramp.model = RampModel::Rigid;
+    scene.ramp.model = RigidRamp.into();
     for (name, change) in OF_SHARING {
         is_needed(&scene, name, change);
     }

@@ -3,7 +3,9 @@
 use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use opshock_solver::ramp::{
+    ArmMode, Arms, CoupledMode, NoRamp, OneBody, RampParameters, RigidRamp,
+};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
@@ -276,16 +278,16 @@ fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
         ),
     };
     parameters.model = match ramp {
-        Ramp::None => RampModel::None,
-        Ramp::Rigid => RampModel::Rigid,
-        Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
+        Ramp::None => NoRamp.into(),
+        Ramp::Rigid => RigidRamp.into(),
+        Ramp::Deformable if ramp_geometry::is_given(view) => OneBody {
             modes: ramp_geometry::coupled_modes(view),
-        },
-        Ramp::Deformable if view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0 => {
-            RampModel::Coupled {
-                modes: coupled_modes(view),
-            }
         }
+        .into(),
+        Ramp::Deformable if view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0 => OneBody {
+            modes: coupled_modes(view),
+        }
+        .into(),
         Ramp::Deformable => {
             let top: Vec<ArmMode> = (0..view.get(&fields::RAMP_DEFORMABLE_MODES))
                 .map(top)
@@ -294,7 +296,7 @@ fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
                 0 => top.clone(),
                 count => (0..count).map(bottom).collect(),
             };
-            RampModel::Deformable { top, bottom }
+            Arms { top, bottom }.into()
         }
     };
     let clearance_m = view.get(&fields::RAMP_CLEARANCE_UM);

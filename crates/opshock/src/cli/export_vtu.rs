@@ -9,7 +9,6 @@ use super::selection::ShockArgs;
 use super::study_file;
 use anyhow::Context as _;
 use opshock_solver::disk::Harmonics;
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::simulation::{History, StructureColumns};
 use opshock_solver::structure::{
@@ -202,7 +201,7 @@ fn ramp(
     times_s: &[f64],
     start_s: f64,
 ) -> Option<RampSeries> {
-    if scene.ramp.model == RampModel::None {
+    if scene.ramp.model.is_absent() {
         return None;
     }
     let half = 0.5 * scene.disk.thickness_m;
