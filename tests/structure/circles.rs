@@ -5,7 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Crates without circles.
-const CRATES: [&str; 3] = ["opshock-solver", "opshock-import", "opshock-solid"];
+const CRATES: [&str; 4] = [
+    "opshock-solver",
+    "opshock-import",
+    "opshock-solid",
+    "opshock-paper",
+];
 
 /// Of every module those that it imports or declares. Modules are named as `disk::hub`, the root is empty.
 type Imports = BTreeMap<String, BTreeSet<String>>;
