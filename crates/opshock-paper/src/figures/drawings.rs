@@ -3,7 +3,7 @@
 //! A scene knows of the ramp only where it may touch the disk and how far away; blocks, springs
 //! and frame around the contact points are schematic.
 
-use super::PaperFigure;
+use super::paper_figure::PaperFigure;
 use opshock_solver::disk::DiskParameters;
 use opshock_solver::ramp::{ArmMode, RampParameters};
 use opshock_solver::scene::Scene;
