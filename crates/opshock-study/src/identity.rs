@@ -5,7 +5,7 @@
 //! below take every structure apart by name, so that a new field of a scene does not compile until
 //! it has a place in its digest.
 
-use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
+use opshock_solver::air_bearing::{FilmResolution, FlowModel};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{
@@ -137,7 +137,7 @@ impl Digester {
             suspension: _,
             gas: _,
             flow: _,
-            surface_forces: _,
+            gap_forces: _,
             fail_below_m: _,
             film_resolution: _,
             head_resolution: _,
@@ -215,7 +215,7 @@ impl Digester {
             suspension,
             gas,
             flow,
-            surface_forces,
+            gap_forces,
             fail_below_m,
             film_resolution,
             head_resolution,
@@ -285,14 +285,9 @@ impl Digester {
             self.integer(u64::from(*harmonic));
             self.numbers(&[*amplitude_m, *phase_rad, disk.outer_radius_m]);
         }
-        if let Some(SurfaceForces {
-            hamaker_j,
-            repulsion_j_m6,
-            potential_v,
-        }) = surface_forces
-        {
-            self.text("surface_forces");
-            self.numbers(&[*hamaker_j, *repulsion_j_m6, *potential_v]);
+        for force in gap_forces.active() {
+            self.text(force.key());
+            self.numbers(&force.numbers());
         }
     }
 

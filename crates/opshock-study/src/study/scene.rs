@@ -2,7 +2,7 @@
 //!
 //! Every number passes [`View::si`] here and nowhere else.
 
-use opshock_solver::air_bearing::{FilmResolution, SurfaceForces};
+use opshock_solver::air_bearing::{FilmResolution, GapForces, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{
@@ -61,7 +61,7 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         suspension: suspension(view),
         gas: gas_parameters(view),
         flow: given(view, "gas.model", &words::FLOWS),
-        surface_forces: surface_forces(view),
+        gap_forces: gap_forces(view),
         fail_below_m: view.si("solver.fail_below_nm"),
         disk_resolution: disk,
         structure_resolution: structure,
@@ -516,18 +516,16 @@ fn contact_law(view: &View<'_>, contact: &str) -> ContactLaw {
     }
 }
 
-/// Forces beside the air; `None` when none is given or all are 0.
-fn surface_forces(view: &View<'_>) -> Option<SurfaceForces> {
-    let or_0 = |name: &str| {
-        let path = format!("surface_forces.{name}");
-        view.maybe_si(&path).unwrap_or(0.0)
-    };
-    let forces = SurfaceForces {
-        hamaker_j: or_0("hamaker_j"),
-        repulsion_j_m6: or_0("repulsion_j_m6"),
-        potential_v: or_0("potential_v"),
-    };
-    (!forces.is_none()).then_some(forces)
+/// Forces in the gap beside the air's pressure; none acts unless it is asked for.
+fn gap_forces(view: &View<'_>) -> GapForces {
+    let or_0 = |path: &str| view.maybe_si(path).unwrap_or(0.0);
+    GapForces {
+        surface_forces: SurfaceForces {
+            hamaker_j: or_0("surface_forces.hamaker_j"),
+            repulsion_j_m6: or_0("surface_forces.repulsion_j_m6"),
+            potential_v: or_0("surface_forces.potential_v"),
+        },
+    }
 }
 
 /// Pressure from itself or the altitude; viscosity from itself or the temperature; mean free path
