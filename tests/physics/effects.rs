@@ -153,11 +153,11 @@ const POISONS: [Poison; 9] = [
         ramp: "rigid",
         asked: Output::ContactForce,
         poison: |s| {
-            s.surface_forces = Some(SurfaceForces {
+            s.gap_forces.surface_forces = SurfaceForces {
                 hamaker_j: f64::NAN,
                 repulsion_j_m6: f64::NAN,
                 potential_v: f64::NAN,
-            });
+            };
         },
     },
     Poison {

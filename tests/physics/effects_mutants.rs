@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use opshock_solver::air_bearing::{FlowModel, SurfaceForces};
+use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::ramp::RigidRamp;
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
@@ -27,11 +27,8 @@ const OF_SHARING: [(&str, Change); 14] = [
     ("R9 slider", |s| s.slider.length_m *= 1.01),
     ("R9 gas", |s| s.gas.pressure_pa *= 0.9),
     ("R9 flow model", |s| s.flow = FlowModel::Slip1),
-    ("R9 surface forces", |s| {
-        s.surface_forces = Some(SurfaceForces {
-            potential_v: 0.3,
-            ..SurfaceForces::default()
-        });
+    ("R9 gap forces", |s| {
+        s.gap_forces.surface_forces.potential_v = 0.3;
     }),
     ("R9 film cells", |s| s.film_resolution.cells = 60),
     ("R9 speed", |s| s.disk.spin_rad_per_s *= 1.05),

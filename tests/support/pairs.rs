@@ -342,11 +342,11 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         }];
     }
     if seeded.once_in(4) {
-        scene.surface_forces = Some(SurfaceForces {
+        scene.gap_forces.surface_forces = SurfaceForces {
             hamaker_j: seeded.between(0.0, 2e-19),
             repulsion_j_m6: 1e-76,
             potential_v: seeded.between(0.0, 0.5),
-        });
+        };
     }
     scene
 }

@@ -5,7 +5,7 @@
 
 use super::accuracy::{Rung, resolutions};
 use super::description::Scene;
-use crate::air_bearing::FlowModel;
+use crate::air_bearing::{FlowModel, GapForces};
 use crate::disk::{DiskDamping, DiskParameters};
 use crate::gas::{self, GasParameters};
 use crate::quantity::{kg_from_mg, m_from_mm, n_from_gf, rad_from_deg, rad_per_s_from_rpm};
@@ -50,7 +50,7 @@ impl Scene {
                 mean_free_path_m: gas::REFERENCE_MEAN_FREE_PATH_M,
             },
             flow: FlowModel::FukuiKaneko,
-            surface_forces: None,
+            gap_forces: GapForces::default(),
             fail_below_m: 0.0,
             disk_resolution: resolutions.disk,
             structure_resolution: resolutions.structure,

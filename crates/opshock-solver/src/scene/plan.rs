@@ -368,11 +368,11 @@ impl Plan {
                 false => needs("disk.run_out", Needs::Head),
                 true => effect("disk.run_out", State::Off, None),
             },
-            match scene.surface_forces {
-                Some(_) => needs("head.surface_forces", Needs::Flight),
-                None => effect("head.surface_forces", State::Off, None),
-            },
         ];
+        list.extend(scene.gap_forces.all().map(|force| match force.is_active() {
+            true => needs(force.name(), Needs::Flight),
+            false => effect(force.name(), State::Off, None),
+        }));
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));
         }

@@ -256,8 +256,8 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     if model.head.is_some() && !model.scene.run_out.is_empty() {
         names.push("disk.run_out");
     }
-    if model.bearing().is_some() && model.scene.surface_forces.is_some() {
-        names.push("head.surface_forces");
+    if model.bearing().is_some() {
+        names.extend(model.scene.gap_forces.active().map(|force| force.name()));
     }
     if model.head.is_some() {
         names.extend(["head.film", "head.slider", "head.suspension", "head.dimple"]);

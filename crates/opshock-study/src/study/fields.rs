@@ -243,9 +243,9 @@ fields! {
     GAS_MEAN_FREE_PATH_NM: Option<f64> = Key::optional("gas.mean_free_path_nm", LENGTH, "63.5 nm scaled with viscosity, pressure and temperature", "63.5", "Mean free path at the ambient pressure.").usual(5.0, 500.0);
     GAS_MODEL: FlowModel = Key::or("gas.model", FlowModel::KIND, "\"fukui_kaneko\"", "Rarefaction model of the film.") => |scene| scene.flow;
     // surface forces
-    SURFACE_FORCES_HAMAKER_J: Option<f64> = Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125");
-    SURFACE_FORCES_REPULSION_J_M6: Option<f64> = Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125");
-    SURFACE_FORCES_POTENTIAL_V: Option<f64> = Key::optional("surface_forces.potential_v", Number(ANY), "no electrostatic force", "0.5", "Potential difference V of slider and disk: attraction eps0 V^2/(2 h^2) per area.").usual(-10.0, 10.0).code("E125");
+    SURFACE_FORCES_HAMAKER_J: Option<f64> = Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125") => |scene| scene.gap_forces.surface_forces.hamaker_j;
+    SURFACE_FORCES_REPULSION_J_M6: Option<f64> = Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125") => |scene| scene.gap_forces.surface_forces.repulsion_j_m6;
+    SURFACE_FORCES_POTENTIAL_V: Option<f64> = Key::optional("surface_forces.potential_v", Number(ANY), "no electrostatic force", "0.5", "Potential difference V of slider and disk: attraction eps0 V^2/(2 h^2) per area.").usual(-10.0, 10.0).code("E125") => |scene| scene.gap_forces.surface_forces.potential_v;
     // search
     SEARCH_AMPLITUDE_G_MIN: f64 = Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156");
     SEARCH_AMPLITUDE_G_MAX: f64 = Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156");

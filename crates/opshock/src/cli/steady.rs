@@ -13,13 +13,13 @@ use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
 use opshock_solver::air_bearing::steady::{
     Equilibrium, SteadyError, fixed_attitude, lower_equilibria,
 };
-use opshock_solver::air_bearing::{Attitude, Film, SurfaceLoad};
+use opshock_solver::air_bearing::{Attitude, Film, GapLoad};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_solver::slider::body::Inertia;
 use opshock_study::study::Study;
 use opshock_study::study::memory::Demand;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -74,9 +74,9 @@ struct SteadyJson {
     /// What the film's grid leaves out of the air's force, put back.
     #[serde(skip_serializing_if = "Option::is_none")]
     correction: Option<LoadJson>,
-    /// Share of the forces between slider and disk beside the air.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    surface_forces: Option<LoadJson>,
+    /// Shares of the forces in the gap beside the air's pressure, by name.
+    #[serde(flatten, serialize_with = "in_order")]
+    gap_forces: Vec<(&'static str, LoadJson)>,
     #[serde(skip_serializing_if = "Option::is_none")]
     impedance: Option<Vec<ImpedanceJson>>,
 }
@@ -88,6 +88,20 @@ struct LoadJson {
     pitch_moment_n_m: f64,
     roll_moment_n_m: f64,
     stiffness: Matrix,
+    /// Force in the disk's plane along the disk's motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag_n: Option<f64>,
+    /// The same at a right angle to it, outwards.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outward_n: Option<f64>,
+}
+
+/// The entries as a map, in their order.
+fn in_order<S: Serializer>(
+    entries: &[(&'static str, LoadJson)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|(name, load)| (name, load)))
 }
 
 /// An equilibrium below the flight.
@@ -257,11 +271,13 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
     let [force_n, pitch_moment_n_m, roll_moment_n_m] =
         film.force(&psi, &attitude, &mut film.scratch());
     let [air_n, air_pitch_n_m, air_roll_n_m] = film.air_force(&psi, &attitude, &mut film.scratch());
-    let part = |load: SurfaceLoad| LoadJson {
+    let part = |load: GapLoad| LoadJson {
         force_n: load.force[0],
         pitch_moment_n_m: load.force[1],
         roll_moment_n_m: load.force[2],
         stiffness: load.by_attitude.map(|row| row.map(|slope| -slope)),
+        drag_n: load.in_plane_n.map(|force| force[0]),
+        outward_n: load.in_plane_n.map(|force| force[1]),
     };
     let [length_m, width_m] = film.extent_m();
     let json = SteadyJson {
@@ -286,7 +302,11 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         unknowns: n,
         lower: None,
         correction: film.correction(&attitude).map(part),
-        surface_forces: film.surface_load(&attitude).map(part),
+        gap_forces: film
+            .gap_loads(&psi, &attitude, &mut film.scratch())
+            .into_iter()
+            .map(|(name, load)| (name, part(load)))
+            .collect(),
         impedance: None,
     };
     State {
@@ -419,18 +439,26 @@ fn as_text(steady: &SteadyJson) -> String {
         1e6 * steady.centre_of_pressure[1],
         steady.unknowns,
     );
-    for (name, load) in [
-        ("grid's defect", &steady.correction),
-        ("no air", &steady.surface_forces),
-    ] {
-        let Some(load) = load else { continue };
-        let _ = writeln!(
+    let correction = steady.correction.iter().map(|load| ("grid's defect", load));
+    let gap_forces = steady.gap_forces.iter().map(|(name, load)| (*name, load));
+    for (name, load) in correction.chain(gap_forces) {
+        let _ = write!(
             text,
-            "{name:<15}{:.4} mN of the force, moments {:.4e} and {:.4e} N m",
+            "{:<15}{:.4} mN of the force, moments {:.4e} and {:.4e} N m",
+            name.replace('_', " "),
             1e3 * load.force_n,
             load.pitch_moment_n_m,
             load.roll_moment_n_m
         );
+        if let (Some(drag_n), Some(outward_n)) = (load.drag_n, load.outward_n) {
+            let _ = write!(
+                text,
+                ", drag {:.4} mN, outward {:.4}",
+                1e3 * drag_n,
+                1e3 * outward_n
+            );
+        }
+        text.push('\n');
     }
     matrix(&mut text, "stiffness", &steady.stiffness);
     matrix(&mut text, "damping", &steady.damping);

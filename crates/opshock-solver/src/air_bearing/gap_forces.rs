@@ -1,0 +1,38 @@
+//! The list of forces between slider and disk beside the air's pressure, each in a file of its own.
+//!
+//! A new one is a file here, its entry below, and its keys and their reading in a study.
+
+mod surface_forces;
+
+use super::gap_force::GapForce;
+pub use surface_forces::SurfaceForces;
+
+/// The forces of a scene; by default none acts.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct GapForces {
+    /// Van der Waals and electrostatic forces.
+    pub surface_forces: SurfaceForces,
+}
+
+impl GapForces {
+    /// Every one, active or not, in the order of plans and results.
+    pub fn all(&self) -> impl Iterator<Item = &dyn GapForce> {
+        // Taken apart by name, so that a new one does not compile until it has its place here.
+        let Self { surface_forces } = self;
+        let all: [&dyn GapForce; _] = [surface_forces];
+        all.into_iter()
+    }
+
+    /// Those that act.
+    pub fn active(&self) -> impl Iterator<Item = &dyn GapForce> {
+        self.all().filter(|force| force.is_active())
+    }
+
+    /// The same in the drive upside down.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            surface_forces: self.surface_forces.mirrored(),
+        }
+    }
+}
