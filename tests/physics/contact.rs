@@ -7,14 +7,14 @@ use opshock_solver::structure::{Episode, StructureModel, StructureRun, Workspace
 use opshock_tests::structures::{Structure, paper, paper_arms, s1, s1_arms};
 use opshock_tests::{number, reference};
 
-struct Case {
-    name: &'static str,
-    amplitude: f64,
-    structure: Structure,
+pub(super) struct Case {
+    pub(super) name: &'static str,
+    pub(super) amplitude: f64,
+    pub(super) structure: Structure,
 }
 
 /// The four cases of set S1.
-fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Case> {
     let case = |name, g: f64, width, model: RampBody| Case {
         name,
         amplitude: g * G,
@@ -28,7 +28,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-fn run(structure: &Structure, amplitude: f64) -> StructureRun {
+pub(super) fn run(structure: &Structure, amplitude: f64) -> StructureRun {
     structure
         .build()
         .run(amplitude, true, &mut Workspace::default())
@@ -211,7 +211,7 @@ fn recording_and_reused_memory_change_nothing() {
     }
 }
 
-fn slider_distance(coarse: &StructureRun, fine: &StructureRun) -> f64 {
+pub(super) fn slider_distance(coarse: &StructureRun, fine: &StructureRun) -> f64 {
     let (a, b) = (
         coarse.columns.as_ref().unwrap(),
         fine.columns.as_ref().unwrap(),

@@ -6,6 +6,7 @@ mod base_pivot;
 mod bodies;
 mod contact;
 mod contact_energy;
+mod contact_limits;
 mod contact_method;
 mod contact_stiffness;
 mod coupled_ramp;

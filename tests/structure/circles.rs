@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Crates without circles.
-const CRATES: [&str; 4] = [
+const CRATES: [&str; 5] = [
     "opshock-solver",
     "opshock-import",
     "opshock-solid",
     "opshock-paper",
+    "opshock-study",
 ];
 
 /// Of every module those that it imports or declares. Modules are named as `disk::hub`, the root is empty.
