@@ -5,12 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Crates without circles.
-const CRATES: [&str; 5] = [
+const CRATES: [&str; 6] = [
     "opshock-solver",
     "opshock-import",
     "opshock-solid",
     "opshock-paper",
     "opshock-study",
+    "opshock",
 ];
 
 /// Of every module those that it imports or declares. Modules are named as `disk::hub`, the root is empty.

@@ -1,9 +1,9 @@
 //! `opshock export STUDY --format vtu`: one shock as time series for ParaView.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::run::simulated;
 use super::selection::ShockArgs;
 use super::study_file;

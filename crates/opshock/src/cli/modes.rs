@@ -1,9 +1,9 @@
 //! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film; responses.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::mode_shapes;
 use super::responses::responses;
 use super::selection::{PointArgs, unshaken_point};

@@ -1,9 +1,9 @@
 //! `opshock run`: one shock in full.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::ShockArgs;
 use super::{memory, study_file};
 use clap::Args;

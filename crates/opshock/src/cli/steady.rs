@@ -1,9 +1,9 @@
 //! `opshock steady`: the slider flying before the shock, or held at an attitude.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::{PointArgs, unshaken_point};
 use super::{memory, study_file};
 use anyhow::Context as _;
