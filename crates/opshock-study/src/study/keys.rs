@@ -240,6 +240,7 @@ static TABLE: &[Key] = &[
     Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0),
     Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5),
     Key::or("slider.density_kg_per_m3", LENGTH, "4300.0", "Density.").usual(1000.0, 10000.0),
+    Key::optional("slider.viscous_shear", Flag, "no shear", "true", "Shear of the film on the slider, which the suspension balances at the dimple: moments of pitch and roll."),
     Key::optional("slider.surface.preset", Word(SURFACES), "a file, rails given here, or femto-2.5in", "\"femto-2.5in\"", "A named air-bearing surface."),
     Key::optional("slider.surface.file", Text, "no file", "\"surface.toml\"", "File of the air-bearing surface, beside the study."),
     Key::or("slider.surface.base_recess_um", Number(FROM_ZERO), "1.5", "Recess of everything no rail covers.").usual(0.1, 10.0).code("E145"),

@@ -2,7 +2,8 @@
 //!
 //! Every number passes [`View::si`] here and nowhere else.
 
-use opshock_solver::air_bearing::{FilmResolution, GapForces, SurfaceForces};
+use opshock_solver::air_bearing::FilmResolution;
+use opshock_solver::air_bearing::gap_forces::{GapForces, SurfaceForces, ViscousShear};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{
@@ -524,6 +525,9 @@ fn gap_forces(view: &View<'_>) -> GapForces {
             hamaker_j: or_0("surface_forces.hamaker_j"),
             repulsion_j_m6: or_0("surface_forces.repulsion_j_m6"),
             potential_v: or_0("surface_forces.potential_v"),
+        },
+        viscous_shear: ViscousShear {
+            is_on: view.maybe_flag("slider.viscous_shear") == Some(true),
         },
     }
 }
