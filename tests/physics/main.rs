@@ -37,3 +37,4 @@ mod responses;
 mod run_out;
 mod surface_forces;
 mod suspension;
+mod viscous_shear;

@@ -173,6 +173,7 @@ fields! {
     SLIDER_WIDTH_MM: f64 = Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0) => |scene| scene.slider.width_m;
     SLIDER_HEIGHT_MM: f64 = Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5) => |scene| scene.slider.height_m;
     SLIDER_DENSITY_KG_PER_M3: f64 = Key::or("slider.density_kg_per_m3", LENGTH, "4300.0", "Density.").usual(1000.0, 10000.0) => |scene| scene.slider.density_kg_per_m3;
+    SLIDER_VISCOUS_SHEAR: Option<bool> = Key::optional("slider.viscous_shear", Flag, "no shear", "true", "Shear of the film on the slider, which the suspension balances at the dimple: moments of pitch and roll.") => |scene| scene.gap_forces.viscous_shear.is_on;
     SLIDER_SURFACE_PRESET: Text = Key::optional("slider.surface.preset", Kind::Word(words::SURFACES), "a file, rails given here, or femto-2.5in", "\"femto-2.5in\"", "A named air-bearing surface.");
     SLIDER_SURFACE_FILE: Text = Key::optional("slider.surface.file", Kind::Text, "no file", "\"surface.toml\"", "File of the air-bearing surface, beside the study.");
     SLIDER_SURFACE_BASE_RECESS_UM: f64 = Key::or("slider.surface.base_recess_um", Number(FROM_ZERO), "1.5", "Recess of everything no rail covers.").usual(0.1, 10.0).code("E145") => |scene| scene.slider.surface.base_recess_m;
