@@ -33,6 +33,7 @@ mod selection;
 mod slurm;
 mod status;
 mod steady;
+mod steady_state;
 mod stored;
 mod study_file;
 mod sweep;

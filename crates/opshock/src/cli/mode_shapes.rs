@@ -1,7 +1,7 @@
 //! `opshock modes --shapes DIR`: the modes of every body as grids and drawings.
 
 use super::failure::{Failure, Fault};
-use super::steady::ModeJson;
+use super::steady_state::ModeJson;
 use anyhow::Context as _;
 use opshock_solver::disk::{DiskBasis, Harmonics};
 use opshock_solver::ramp::ContactMode;
