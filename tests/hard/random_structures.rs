@@ -3,7 +3,7 @@
 
 use opshock_solver::disk::{DiskDamping, DiskResolution};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms, RigidRamp};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::structure::{StructureRun, StructureWarning, Window, Workspace};
 use opshock_tests::seeded::{OnPanic, Seeded, seeds};
@@ -11,7 +11,7 @@ use opshock_tests::structures::{Structure, paper};
 
 /// A scene and its amplitude, m/s2.
 fn random(seeded: &mut Seeded) -> (Structure, f64) {
-    let mut s = paper(seeded.log_between(1e-4, 1.2e-3), RampModel::Rigid);
+    let mut s = paper(seeded.log_between(1e-4, 1.2e-3), RigidRamp);
     let disk = &mut s.disk;
     disk.inner_radius_m = seeded.between(0.006, 0.014);
     disk.thickness_m *= seeded.log_between(0.6, 2.0);
@@ -49,12 +49,13 @@ fn random(seeded: &mut Seeded) -> (Structure, f64) {
     };
     let (top, bottom) = (arm(true), arm(true));
     s.ramp.model = match seeded.below(4) {
-        0 => RampModel::Rigid,
-        1 => RampModel::Deformable {
+        0 => RigidRamp.into(),
+        1 => Arms {
             top: top.clone(),
             bottom: top,
-        },
-        _ => RampModel::Deformable { top, bottom },
+        }
+        .into(),
+        _ => Arms { top, bottom }.into(),
     };
     let gap = |seeded: &mut Seeded| match seeded.below(8) {
         0 => 0.0,
@@ -174,9 +175,7 @@ fn mirrored(structure: &Structure) -> Structure {
     let mut other = structure.clone();
     let ramp = &mut other.ramp;
     std::mem::swap(&mut ramp.clearance_top_m, &mut ramp.clearance_bottom_m);
-    if let RampModel::Deformable { top, bottom } = &mut ramp.model {
-        std::mem::swap(top, bottom);
-    }
+    ramp.model = ramp.model.mirrored();
     other
 }
 
@@ -185,10 +184,8 @@ fn heavier(structure: &Structure) -> Structure {
     let mut other = structure.clone();
     other.disk.density_kg_per_m3 *= 4.0;
     other.disk.youngs_modulus_pa *= 4.0;
-    if let RampModel::Deformable { top, bottom } = &mut other.ramp.model {
-        for mode in top.iter_mut().chain(bottom) {
-            mode.mass_kg *= 4.0;
-        }
+    for mode in other.ramp.model.contacts.iter_mut().flatten() {
+        mode.mass_kg *= 4.0;
     }
     other
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use opshock_solver::disk::{Harmonics, HubParameters};
 use opshock_solver::linalg::SquareMatrix;
 use opshock_solver::modal::{CoupledModes, CoupledSystem};
-use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms, NoRamp, RampBody, RigidRamp};
 use opshock_solver::scene::Window;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::shock::{BaseMode, BaseMotion, ObliqueShock, Pulse, PulseShape};
@@ -37,20 +37,21 @@ pub(super) const BASE: [BaseMode; 2] = [
     },
 ];
 
-pub(super) fn arms() -> RampModel {
+pub(super) fn arms() -> RampBody {
     let mode = |frequency_hz: f64, participation: f64| ArmMode {
         frequency_hz,
         mass_kg: 2e-5,
         participation,
         damping_ratio: 0.02,
     };
-    RampModel::Deformable {
+    Arms {
         top: vec![mode(3100.0, 0.8)],
         bottom: vec![mode(2700.0, 0.7), mode(9000.0, 0.1)],
     }
+    .into()
 }
 
-pub(super) fn on(base: &[BaseMode], model: RampModel) -> Structure {
+pub(super) fn on(base: &[BaseMode], model: impl Into<RampBody>) -> Structure {
     let mut structure = drive(None).with_ramp(model);
     structure.base = base.to_vec();
     structure
@@ -67,7 +68,7 @@ fn a_stiff_base_is_the_rigid_base_to_a_billionth() {
         ..mode
     });
     for (base, model, amplitude_g) in [
-        (&stiff, RampModel::Rigid, 300.0),
+        (&stiff, RigidRamp.into(), 300.0),
         (&stiff, arms(), 300.0),
         (&stiff, arms(), -400.0),
         (&stiffer, arms(), 300.0),
@@ -190,7 +191,7 @@ fn a_mode_of_the_base_moves_by_duhamels_integral() {
 /// Through contact with mounts that move against one another, by exact flow and by Moreau-Jean steps.
 #[test]
 fn energy_is_booked_through_contact_with_moving_mounts() {
-    for (model, amplitude_g) in [(RampModel::Rigid, 350.0), (arms(), 450.0), (arms(), -350.0)] {
+    for (model, amplitude_g) in [(RigidRamp.into(), 350.0), (arms(), 450.0), (arms(), -350.0)] {
         let structure = on(&BASE, model);
         let exact = run(&structure, amplitude_g);
         let steps = run(&structure.with_step(2.5e-7).with_moreau_jean(), amplitude_g);
@@ -354,7 +355,7 @@ fn a_base_that_cannot_be_is_refused() {
     let build = |structure: &Structure| {
         StructureModel::build(&structure.parameters(), Harmonics::All).map(|_| ())
     };
-    let mut structure = on(&BASE, RampModel::None);
+    let mut structure = on(&BASE, NoRamp);
     assert_eq!(build(&structure), Ok(()));
     structure.disk.hub = Some(spindle());
     assert_eq!(build(&structure), Ok(()));

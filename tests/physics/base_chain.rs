@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 use opshock_solver::disk::{DiskBasis, DiskMotion, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+
 use opshock_solver::shock::{BaseMode, Pulse};
 use opshock_tests::runge_kutta;
 use opshock_tests::structures::Structure;
@@ -126,10 +126,8 @@ fn disk_and_ramp_move_as_the_chain_integrated_directly() {
     assert_eq!(found.first_touch_s, None);
     let (mut oscillators, shapes) = disk_modes(&structure, structure.slider.radius_m);
     let n_disk = oscillators.len();
-    let RampModel::Deformable { top, bottom } = arms() else {
-        unreachable!("arms")
-    };
-    oscillators.extend(top.iter().chain(&bottom).map(|mode| {
+    let arms = arms();
+    oscillators.extend(arms.modes().iter().map(|mode| {
         let omega = TAU * mode.frequency_hz;
         let gain = mode.mass_kg.sqrt() * mode.participation;
         (omega, mode.damping_ratio * omega, gain, Mount::Ramp)
@@ -158,7 +156,7 @@ fn disk_and_ramp_move_as_the_chain_integrated_directly() {
     let ramp: Vec<f64> = states
         .iter()
         .map(|s| {
-            let own = s[BASE.len() + n_disk] / top[0].mass_kg.sqrt();
+            let own = s[BASE.len() + n_disk] / arms.modes()[0].mass_kg.sqrt();
             a * (own + moved(s, Mount::Ramp))
         })
         .collect();

@@ -2,33 +2,33 @@
 
 use opshock_solver::disk::DiskMotion;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RampBody, RigidRamp};
 use opshock_solver::structure::{Episode, StructureModel, StructureRun, Workspace};
 use opshock_tests::structures::{Structure, paper, paper_arms, s1, s1_arms};
 use opshock_tests::{number, reference};
 
-struct Case {
-    name: &'static str,
-    amplitude: f64,
-    structure: Structure,
+pub(super) struct Case {
+    pub(super) name: &'static str,
+    pub(super) amplitude: f64,
+    pub(super) structure: Structure,
 }
 
 /// The four cases of set S1.
-fn cases() -> Vec<Case> {
-    let case = |name, g: f64, width, model| Case {
+pub(super) fn cases() -> Vec<Case> {
+    let case = |name, g: f64, width, model: RampBody| Case {
         name,
         amplitude: g * G,
         structure: s1(width, model),
     };
     vec![
-        case("case1_rigid", 400.0, 2e-3, RampModel::Rigid),
+        case("case1_rigid", 400.0, 2e-3, RigidRamp.into()),
         case("case1_deform", 400.0, 2e-3, s1_arms()),
-        case("case2_rigid", 200.0, 5e-4, RampModel::Rigid),
+        case("case2_rigid", 200.0, 5e-4, RigidRamp.into()),
         case("case2_deform", 200.0, 5e-4, s1_arms()),
     ]
 }
 
-fn run(structure: &Structure, amplitude: f64) -> StructureRun {
+pub(super) fn run(structure: &Structure, amplitude: f64) -> StructureRun {
     structure
         .build()
         .run(amplitude, true, &mut Workspace::default())
@@ -182,10 +182,8 @@ fn the_material_energy_balances_with_the_spindle() {
     // Without damping: E_end = shock work - impact loss + algorithmic + spindle work.
     for mut case in cases() {
         case.structure.disk.damping = opshock_solver::disk::DiskDamping::ModalRatio(0.0);
-        if let RampModel::Deformable { top, bottom } = &mut case.structure.ramp.model {
-            for mode in top.iter_mut().chain(bottom) {
-                mode.damping_ratio = 0.0;
-            }
+        for mode in case.structure.ramp.model.contacts.iter_mut().flatten() {
+            mode.damping_ratio = 0.0;
         }
         let e = run(&case.structure, case.amplitude).energy;
         let expected = e.shock_work_j - e.impact_loss_j + e.algorithmic_j + e.spindle_work_j;
@@ -213,7 +211,7 @@ fn recording_and_reused_memory_change_nothing() {
     }
 }
 
-fn slider_distance(coarse: &StructureRun, fine: &StructureRun) -> f64 {
+pub(super) fn slider_distance(coarse: &StructureRun, fine: &StructureRun) -> f64 {
     let (a, b) = (
         coarse.columns.as_ref().unwrap(),
         fine.columns.as_ref().unwrap(),
@@ -328,7 +326,7 @@ fn first_touch_amplitudes_of_the_paper_set() {
         (2e-3, 255.5, 320.0),
         (3e-3, 268.6, 322.0),
     ] {
-        let onset = |model| {
+        let onset = |model: RampBody| {
             let model = paper(width, model).build();
             let (plus, minus) = (
                 model.touch_amplitude_m_per_s2(true).unwrap() / G,
@@ -341,7 +339,7 @@ fn first_touch_amplitudes_of_the_paper_set() {
             plus
         };
         assert!(
-            (onset(RampModel::Rigid) / rigid - 1.0).abs() < 1e-2,
+            (onset(RigidRamp.into()) / rigid - 1.0).abs() < 1e-2,
             "{width}"
         );
         assert!(
@@ -349,9 +347,7 @@ fn first_touch_amplitudes_of_the_paper_set() {
             "{width}"
         );
         assert_eq!(
-            paper(width, RampModel::None)
-                .build()
-                .touch_amplitude_m_per_s2(true),
+            paper(width, NoRamp).build().touch_amplitude_m_per_s2(true),
             None
         );
     }
@@ -361,7 +357,7 @@ fn first_touch_amplitudes_of_the_paper_set() {
 #[test]
 fn hard_b5_grazing_at_the_touch_amplitude() {
     let mut workspace = Workspace::default();
-    for model in [RampModel::Rigid, paper_arms()] {
+    for model in [RampBody::from(RigidRamp), paper_arms()] {
         for width in [0.5e-3, 2e-3] {
             let model = paper(width, model.clone()).build();
             let onset = model.touch_amplitude_m_per_s2(true).unwrap();

@@ -6,7 +6,6 @@
 
 use opshock_solver::disk::DiskDamping;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Model, Outcome, Request, Scope, Workspace, simulate};
 use opshock_tests::scenes::scene;
@@ -23,10 +22,8 @@ fn undamped(ramp: &str, stiffness: Option<f64>, window_ms: &str) -> Scene {
     );
     scene.ramp.contact_stiffness_n_per_m = stiffness;
     scene.disk.damping = DiskDamping::ModalRatio(0.0);
-    if let RampModel::Deformable { top, bottom } = &mut scene.ramp.model {
-        for mode in top.iter_mut().chain(bottom) {
-            mode.damping_ratio = 0.0;
-        }
+    for mode in scene.ramp.model.contacts.iter_mut().flatten() {
+        mode.damping_ratio = 0.0;
     }
     scene
 }

@@ -1,7 +1,7 @@
 //! The local stiffness of the contact: what it must converge to, and what it must not take.
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Model, Outcome, Request, Scope, Workspace, simulate};
 use opshock_tests::scenes::scene;
@@ -116,10 +116,11 @@ fn a_rigid_ramp_with_a_stiffness_is_an_arm_of_one_mode() {
     }];
     let mut alike = rigid.clone();
     alike.ramp.contact_stiffness_n_per_m = None;
-    alike.ramp.model = RampModel::Deformable {
+    alike.ramp.model = Arms {
         top: arm.clone(),
         bottom: arm,
-    };
+    }
+    .into();
     let [a, b] = [&rigid, &alike].map(|scene| outcome(scene, 250.0));
     assert_eq!(a.top.first_touch_s, b.top.first_touch_s);
     assert!(a.top.first_touch_s.is_some());

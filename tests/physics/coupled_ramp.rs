@@ -1,7 +1,7 @@
 //! A ramp whose arms are one body: against separate arms, the other contact method, and its books.
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampError, RampModel};
+use opshock_solver::ramp::{ArmMode, CoupledMode, OneBody, RampBody, RampError, RigidRamp};
 use opshock_solver::structure::{StructureRun, Workspace};
 use opshock_tests::structures::{Structure, s1, s1_arms};
 
@@ -32,15 +32,13 @@ fn distance_m(a: &StructureRun, b: &StructureRun) -> f64 {
 }
 
 fn arm_modes() -> Vec<ArmMode> {
-    match s1_arms() {
-        RampModel::Deformable { top, .. } => top,
-        _ => unreachable!("set S1 has deformable arms"),
-    }
+    let [top, _] = s1_arms().arms().expect("set S1 has separate arms");
+    top
 }
 
 /// Equal separate arms as one body: any two modes of equal frequency may be mixed, here into arms
 /// that move together and arms that move apart.
-fn mixed() -> RampModel {
+fn mixed() -> RampBody {
     let half = 0.5_f64.sqrt();
     let modes = arm_modes().into_iter().flat_map(|mode| {
         let shape = half / mode.mass_kg.sqrt();
@@ -53,20 +51,21 @@ fn mixed() -> RampModel {
         };
         [of(shape, participation), of(-shape, 0.0)]
     });
-    RampModel::Coupled {
+    OneBody {
         modes: modes.collect(),
     }
+    .into()
 }
 
 /// Two fingers on a body: modes of the default ramp from geometry, rounded.
-fn bolted() -> RampModel {
+fn bolted() -> RampBody {
     let mode = |frequency_hz, top, bottom, participation_sqrt_kg| CoupledMode {
         frequency_hz,
         shape_per_sqrt_kg: [top, bottom],
         participation_sqrt_kg,
         damping_ratio: 0.02,
     };
-    RampModel::Coupled {
+    OneBody {
         modes: vec![
             mode(3180.0, 220.2, 218.7, 6.06e-3),
             mode(20_430.0, 738.3, -352.2, -4.36e-4),
@@ -77,6 +76,7 @@ fn bolted() -> RampModel {
             mode(89_930.0, 199.0, 604.0, 1.9e-5),
         ],
     }
+    .into()
 }
 
 #[test]
@@ -157,8 +157,8 @@ fn a_body_that_cannot_move_a_contact_point_is_refused() {
         damping_ratio: 0.02,
     };
     let refused = |modes: Vec<CoupledMode>| {
-        let mut structure = s1(2e-3, RampModel::Rigid);
-        structure.ramp.model = RampModel::Coupled { modes };
+        let mut structure = s1(2e-3, RigidRamp);
+        structure.ramp.model = OneBody { modes }.into();
         structure.ramp.validate().unwrap_err()
     };
     assert_eq!(

@@ -105,7 +105,7 @@ struct Poison {
 
 /// Every effect that a plan can leave out, but arms, hub, oblique shock, base, limiters and lift tab: where a scene has none it has
 /// no numbers of them.
-const POISONS: [Poison; 9] = [
+const POISONS: [Poison; 10] = [
     Poison {
         effect: "disk.travelling_waves",
         ramp: "none",
@@ -153,11 +153,21 @@ const POISONS: [Poison; 9] = [
         ramp: "rigid",
         asked: Output::ContactForce,
         poison: |s| {
-            s.surface_forces = Some(SurfaceForces {
+            s.gap_forces.surface_forces = SurfaceForces {
                 hamaker_j: f64::NAN,
                 repulsion_j_m6: f64::NAN,
                 potential_v: f64::NAN,
-            });
+            };
+        },
+    },
+    Poison {
+        effect: "head.viscous_shear",
+        ramp: "rigid",
+        asked: Output::ContactForce,
+        poison: |s| {
+            s.gap_forces.viscous_shear.is_on = true;
+            s.slider.height_m = f64::NAN;
+            s.gas.viscosity_pa_s = f64::NAN;
         },
     },
     Poison {

@@ -2,8 +2,8 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use opshock_solver::air_bearing::{FlowModel, SurfaceForces};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::air_bearing::FlowModel;
+use opshock_solver::ramp::RigidRamp;
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::ObliqueShock;
@@ -27,11 +27,8 @@ const OF_SHARING: [(&str, Change); 14] = [
     ("R9 slider", |s| s.slider.length_m *= 1.01),
     ("R9 gas", |s| s.gas.pressure_pa *= 0.9),
     ("R9 flow model", |s| s.flow = FlowModel::Slip1),
-    ("R9 surface forces", |s| {
-        s.surface_forces = Some(SurfaceForces {
-            potential_v: 0.3,
-            ..SurfaceForces::default()
-        });
+    ("R9 gap forces", |s| {
+        s.gap_forces.surface_forces.potential_v = 0.3;
     }),
     ("R9 film cells", |s| s.film_resolution.cells = 60),
     ("R9 speed", |s| s.disk.spin_rad_per_s *= 1.05),
@@ -134,7 +131,7 @@ fn effects_mutant_of_the_asked_times_is_caught() {
 #[test]
 fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     let mut scene = base();
-    scene.ramp.model = RampModel::Rigid;
+    scene.ramp.model = RigidRamp.into();
     for (name, change) in OF_SHARING {
         is_needed(&scene, name, change);
     }

@@ -2,7 +2,7 @@
 
 use opshock_solver::disk::{DiskMotion, DiskParameters};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RampBody, RigidRamp};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::structure::{StructuralHistory, Window, Workspace};
 use opshock_tests::structures::{Structure, half_sine, paper, s1, s1_arms};
@@ -10,7 +10,7 @@ use opshock_tests::{number, reference};
 
 /// The reference disk without a ramp; `radius_m` is seen through the slider.
 fn no_ramp(width_s: f64, radius_m: f64) -> Structure {
-    let mut structure = s1(width_s, RampModel::None);
+    let mut structure = s1(width_s, NoRamp);
     structure.slider.radius_m = radius_m;
     structure
 }
@@ -86,7 +86,7 @@ fn no_ramp_response_is_the_reference_to_1e_5() {
 fn documented_peaks_of_the_drive_disk() {
     let mut workspace = Workspace::default();
     for (radius, micrometres) in [(0.0325, 104.3), (0.03215, 102.4), (0.022215, 46.5)] {
-        let mut structure = paper(5e-4, RampModel::None);
+        let mut structure = paper(5e-4, NoRamp);
         structure.slider.radius_m = radius;
         let run = structure
             .build()
@@ -99,7 +99,7 @@ fn documented_peaks_of_the_drive_disk() {
         );
     }
     // 400 G / 2 ms brings the ramp point to 100 um 0.50 ms after the onset.
-    let mut structure = paper(2e-3, RampModel::None);
+    let mut structure = paper(2e-3, NoRamp);
     structure.slider.radius_m = 0.03215;
     let run = structure
         .build()
@@ -193,7 +193,7 @@ fn every_shape_agrees_with_its_own_table() {
 #[test]
 fn hard_b18_below_touch_every_ramp_gives_the_same_bits() {
     let mut workspace = Workspace::default();
-    let models = [RampModel::None, RampModel::Rigid, s1_arms()].map(|m| s1(5e-4, m).build());
+    let models = [RampBody::from(NoRamp), RigidRamp.into(), s1_arms()].map(|m| s1(5e-4, m).build());
     let onset = models[1..]
         .iter()
         .map(|m| m.touch_amplitude_m_per_s2(true).unwrap())
@@ -227,7 +227,7 @@ fn hard_b18_below_touch_every_ramp_gives_the_same_bits() {
 #[test]
 fn until_decayed_ends_at_the_share() {
     let mut workspace = Workspace::default();
-    let mut structure = paper(5e-4, RampModel::None);
+    let mut structure = paper(5e-4, NoRamp);
     structure.window = Window::UntilDecayed {
         share: 0.5,
         max_s: 50e-3,
@@ -260,7 +260,7 @@ fn until_decayed_ends_at_the_share() {
 #[test]
 fn slopes_turn_with_the_skew() {
     let mut workspace = Workspace::default();
-    let mut structure = s1(2e-3, RampModel::Rigid);
+    let mut structure = s1(2e-3, RigidRamp);
     let straight = structure
         .build()
         .run(400.0 * G, false, &mut workspace)
@@ -290,7 +290,7 @@ fn slopes_turn_with_the_skew() {
 #[test]
 fn slopes_are_the_gradient_of_the_displacement() {
     let mut workspace = Workspace::default();
-    let base = s1(2e-3, RampModel::Rigid).with_step(1e-6);
+    let base = s1(2e-3, RigidRamp).with_step(1e-6);
     let mut at = |radius: f64, angle: f64| {
         let mut structure = base.clone();
         structure.slider.radius_m = radius;
@@ -326,7 +326,7 @@ fn slopes_are_the_gradient_of_the_displacement() {
 #[test]
 fn the_sense_of_rotation_is_a_mirror() {
     let mut workspace = Workspace::default();
-    let forward = s1(2e-3, RampModel::Rigid);
+    let forward = s1(2e-3, RigidRamp);
     let mut backward = forward.clone();
     backward.disk = DiskParameters {
         spin_rad_per_s: -forward.disk.spin_rad_per_s,
@@ -350,7 +350,7 @@ fn the_sense_of_rotation_is_a_mirror() {
 /// Grid times are k times the step, and the pulse's end is an event of the history.
 #[test]
 fn events_hold_the_onset_and_the_end_of_the_pulse() {
-    let mut structure = s1(1e-3, RampModel::None);
+    let mut structure = s1(1e-3, NoRamp);
     structure.pulse = half_sine(1e-3);
     let run = structure
         .build()

@@ -6,7 +6,7 @@ use opshock_solver::disk::{
     DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics, HubParameters,
 };
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RigidRamp};
 use opshock_solver::scene::Window;
 use opshock_solver::structure::{HubModeRow, StructureRun, StructureWarning, Workspace, modes};
 use opshock_tests::runge_kutta;
@@ -30,7 +30,7 @@ pub(super) fn spindle() -> HubParameters {
 
 /// The drive of Fig. 13 with a rigid ramp and modes to 12 kHz, 2 ms of it.
 pub(super) fn drive(hub: Option<HubParameters>) -> Structure {
-    let mut structure = paper(2e-3, RampModel::Rigid);
+    let mut structure = paper(2e-3, RigidRamp);
     structure.disk.hub = hub;
     structure.disk_resolution.cut_hz = 12e3;
     structure.resolution.step_s = 1e-6;
@@ -218,7 +218,7 @@ fn modes_with_the_hub_are_the_roots_of_its_dynamic_stiffness() {
 #[test]
 fn a_flexible_disk_on_its_hub_answers_a_half_sine_as_direct_integration_does() {
     let hub = spindle();
-    let structure = drive(Some(hub)).with_ramp(RampModel::None);
+    let structure = drive(Some(hub)).with_ramp(NoRamp);
     let run = run(&structure, 100.0);
     let (disk, radius) = (&structure.disk, structure.slider.radius_m);
     let symmetric = Harmonics::Symmetric;
@@ -360,7 +360,7 @@ fn a_softer_bearing_lets_the_disk_move_further() {
             axial_stiffness_n_per_m: stiffness,
             ..spindle()
         };
-        let free = drive(Some(hub)).with_ramp(RampModel::None);
+        let free = drive(Some(hub)).with_ramp(NoRamp);
         let reach = run(&free, 100.0).disk.slider_max_m;
         assert!(reach > last, "{stiffness:e}: {reach:e}");
         last = reach;

@@ -2,7 +2,7 @@
 //! the disk is below it.
 
 use opshock_solver::disk::HubParameters;
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms, CoupledMode, OneBody, RampBody, RigidRamp};
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::ObliqueShock;
@@ -22,7 +22,7 @@ fn arm(frequency_hz: f64, participation: f64) -> ArmMode {
 }
 
 /// The drive of Fig. 13 with gaps of 80 um above and 60 um below, 2 ms of it.
-fn drive(model: RampModel, hub: HubParameters) -> Scene {
+fn drive(model: impl Into<RampBody>, hub: HubParameters) -> Scene {
     let mut scene = scenes::scene(
         "fig13-stiffness",
         "rigid",
@@ -32,7 +32,7 @@ fn drive(model: RampModel, hub: HubParameters) -> Scene {
     scene.window = Window::Fixed { length_s: 2e-3 };
     scene.disk_resolution.cut_hz = 12e3;
     scene.disk.hub = Some(hub);
-    scene.ramp.model = model;
+    scene.ramp.model = model.into();
     scene.ramp.clearance_top_m = 80e-6;
     scene.ramp.clearance_bottom_m = 60e-6;
     scene.slider.angle_rad += 0.7;
@@ -59,7 +59,7 @@ fn a_drive_upside_down_moves_the_other_way() {
         damping_ratio: 0.02,
     };
     let mut oblique = drive(
-        RampModel::Coupled {
+        OneBody {
             modes: vec![coupled(2500.0, 150.0, 90.0), coupled(6100.0, -60.0, 130.0)],
         },
         spindle(),
@@ -69,7 +69,7 @@ fn a_drive_upside_down_moves_the_other_way() {
         rotation_per_m: [9.0, 14.0],
     });
     let mut shaky = drive(
-        RampModel::Deformable {
+        Arms {
             top: vec![arm(3100.0, 0.8)],
             bottom: vec![arm(2700.0, 0.7), arm(9000.0, 0.1)],
         },
@@ -122,7 +122,7 @@ fn a_drive_upside_down_moves_the_other_way() {
 /// Mirrored twice a scene is itself.
 #[test]
 fn upside_down_twice_is_the_drive_itself() {
-    let rigid = drive(RampModel::Rigid, spindle());
+    let rigid = drive(RigidRamp, spindle());
     assert_ne!(rigid.mirrored(), rigid);
     assert_eq!(rigid.mirrored().mirrored(), rigid);
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::Complex;
 use opshock_solver::disk::{DiskBasis, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::NoRamp;
 use opshock_solver::shock::ObliqueShock;
 use opshock_tests::runge_kutta;
 use opshock_tests::structures::Structure;
@@ -41,7 +41,7 @@ fn an_oblique_shock_without_shares_is_the_straight_one() {
 #[test]
 fn the_disk_tilts_as_a_rotor_on_a_base_that_turns_and_is_pushed_aside() {
     let hub = spindle();
-    let mut structure = shaken(Some(OBLIQUE)).with_ramp(RampModel::None);
+    let mut structure = shaken(Some(OBLIQUE)).with_ramp(NoRamp);
     structure.slider.angle_rad = 1.1;
     let found = run(&structure, 100.0).columns.expect("recorded");
     // The axial part is that of the straight shock.

@@ -4,7 +4,7 @@ use opshock_solver::disk::{
     DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics, MembraneStress,
 };
 use opshock_solver::quantity::rad_per_s_from_rpm;
-use opshock_solver::ramp::{RampModel, RampParameters};
+use opshock_solver::ramp::{NoRamp, RampParameters};
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::structure::modes;
 use opshock_tests::scenes::scene;
@@ -125,8 +125,8 @@ fn hard_a12_extreme_radii_stay_definite_and_monotone() {
 fn hard_a7_spinning_disk_frequencies_in_both_frames() {
     let data = reference("spinning_disk.json");
     let ramp = RampParameters {
-        model: RampModel::None,
-        ..s1(1e-3, RampModel::None).ramp
+        model: NoRamp.into(),
+        ..s1(1e-3, NoRamp).ramp
     };
     for case in data["frequencies_Hz"].as_array().unwrap() {
         for sense in [1.0, -1.0] {

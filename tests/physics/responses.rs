@@ -7,7 +7,7 @@ use opshock_solver::air_bearing::Attitude;
 use opshock_solver::air_bearing::impedance::SmallMotion;
 use opshock_solver::air_bearing::steady::fixed_attitude;
 use opshock_solver::disk::Harmonics;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{Arms, NoRamp, RampBody, RigidRamp};
 use opshock_solver::structure::{Source, StructureModel, modes};
 use opshock_tests::heads::default_film;
 use opshock_tests::structures::{Structure, s1};
@@ -40,24 +40,25 @@ fn responses_of_an_arm_of_one_mode() {
 
 const MASS_KG: f64 = 5e-5;
 
-fn one_mode() -> RampModel {
+fn one_mode() -> RampBody {
     let arm = vec![opshock_solver::ramp::ArmMode {
         frequency_hz: 900.0,
         mass_kg: MASS_KG,
         participation: 0.4,
         damping_ratio: 0.03,
     }];
-    RampModel::Deformable {
+    Arms {
         top: arm.clone(),
         bottom: arm,
     }
+    .into()
 }
 
 /// Static limit of the shock: deflection of a clamped, free annulus under its own weight, from
 /// D ∇⁴w = ρ h with w = q r⁴/(64 D) + A + B ln r + C r² + E r² ln r.
 #[test]
 fn responses_static_limit_is_the_plates_deflection() {
-    let mut structure = s1(1e-3, RampModel::None);
+    let mut structure = s1(1e-3, NoRamp);
     structure.disk.spin_rad_per_s = 0.0;
     let disk = &structure.disk;
     let (a, b, h, nu) = (
@@ -115,7 +116,7 @@ fn responses_static_limit_is_the_plates_deflection() {
 /// stands and, of a spinning one, when the spin is reversed; each whirl has its peak where the modes say.
 #[test]
 fn responses_are_reciprocal_and_peak_at_the_whirls() {
-    let mut structure = s1(1e-3, RampModel::Rigid);
+    let mut structure = s1(1e-3, RigidRamp);
     for spin in [0.0, structure.disk.spin_rad_per_s] {
         structure.disk.spin_rad_per_s = spin;
         let model = build(&structure);

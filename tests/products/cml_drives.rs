@@ -4,6 +4,7 @@
 use crate::cli::{COARSE, Done};
 use crate::imports::{cmlair, dynamic, folder, run};
 use opshock_import::cml::rail::{self, Rail, RailFile, Recess};
+use opshock_solver::air_bearing::{GapForce, SurfaceForces};
 use opshock_solver::disk::DiskDamping;
 use opshock_solver::slider::RailOutline;
 use opshock_study::study::Study;
@@ -247,15 +248,18 @@ fn a_cmlair_run_brings_its_surface_forces() {
             .points[0]
             .scene
             .clone();
-        (scene.surface_forces, steady(at.path(), &study))
+        (scene.gap_forces.surface_forces, steady(at.path(), &study))
     };
     let (absent, free) = flight("none", &plain);
     let (present, pulled) = flight("some", &plain.replace(none, some));
-    assert_eq!(absent, None);
-    let forces = present.expect("surface forces");
+    assert!(!absent.is_active() && present.is_active());
     assert_eq!(
-        (forces.hamaker_j, forces.repulsion_j_m6, forces.potential_v),
-        (1.8e-19, 1.0e-76, 0.5)
+        present,
+        SurfaceForces {
+            hamaker_j: 1.8e-19,
+            repulsion_j_m6: 1.0e-76,
+            potential_v: 0.5,
+        }
     );
     let height = |flight: &serde_json::Value| flight["min_clearance_m"].as_f64().unwrap();
     assert!(height(&pulled) < height(&free), "{pulled} {free}");

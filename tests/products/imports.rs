@@ -3,7 +3,6 @@
 //! first point which of the files of its folder it replaces.
 
 use crate::cli::{Done, files};
-use opshock_solver::ramp::RampModel;
 use opshock_study::study::Study;
 use std::path::{Path, PathBuf};
 
@@ -237,10 +236,7 @@ fn a_study_takes_its_ramp_from_a_gmsh_mesh() {
         let named = text.replace("sound.msh", path.to_str().unwrap());
         Study::from_text(&named, &[]).unwrap()
     };
-    let modes = |study: &Study| match &study.points[0].scene.ramp.model {
-        RampModel::Coupled { modes } => modes.clone(),
-        other => panic!("{other:?}"),
-    };
+    let modes = |study: &Study| study.points[0].scene.ramp.model.modes().to_vec();
     let [twenty, twenty_seven, ten] = ["hex20.msh", "hex27.msh", "tet10.msh"].map(read);
     let lowest = |study: &Study| modes(study)[0].frequency_hz;
     assert!((lowest(&twenty) / lowest(&twenty_seven) - 1.0).abs() < 1e-8);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::cli::Done;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::NoRamp;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::Model;
@@ -68,7 +68,7 @@ fn no_angle_of_the_disk_at_the_onset_touches_earlier() {
     let bound = touch(&study(&format!("run_out = \"lowest_gap\"\n{RUN_OUT}")).points[0].scene);
     let mut free = study("").points[0].scene.clone();
     let ramp = free.ramp.clone();
-    free.ramp.model = RampModel::None;
+    free.ramp.model = NoRamp.into();
     let plan = Plan::new(&[Output::DiskDisplacement], Mode::Auto);
     let (_, outcome) = pairs::run(&free, &plan, 1.0, None);
     let columns = &outcome.history.as_ref().unwrap().structure;

@@ -369,16 +369,12 @@ fn the_command_line_wins_and_both_values_are_recorded() {
         (scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m),
         (80e-6, 80e-6)
     );
-    match &scene.ramp.model {
-        opshock_solver::ramp::RampModel::Deformable { top, bottom } => {
-            assert_eq!(top, bottom);
-            assert_eq!(
-                (top.len(), top[0].mass_kg, top[0].damping_ratio),
-                (1, 54.4e-6, 0.005)
-            );
-        }
-        other => panic!("{other:?}"),
-    }
+    let [top, bottom] = scene.ramp.model.arms().expect("separate arms");
+    assert_eq!(top, bottom);
+    assert_eq!(
+        (top.len(), top[0].mass_kg, top[0].damping_ratio),
+        (1, 54.4e-6, 0.005)
+    );
     assert_eq!(study.points.len(), 1);
     assert_eq!(study.points[0].sign, Sign::Minus);
     assert_eq!(study.name, "from the command line");
@@ -409,12 +405,10 @@ fn an_entry_of_a_default_list_can_be_set_alone() {
     let masses: Vec<f64> = study
         .points
         .iter()
-        .map(|point| match &point.scene.ramp.model {
-            opshock_solver::ramp::RampModel::Deformable { top, .. } => {
-                assert_eq!(top[0].mass_kg, 57.9e-6);
-                top[1].mass_kg
-            }
-            other => panic!("{other:?}"),
+        .map(|point| {
+            let [top, _] = point.scene.ramp.model.arms().expect("separate arms");
+            assert_eq!(top[0].mass_kg, 57.9e-6);
+            top[1].mass_kg
         })
         .collect();
     assert_eq!(masses, [30e-6, 30e-6, 40e-6, 40e-6]);

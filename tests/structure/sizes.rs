@@ -11,8 +11,6 @@ const LONGER: &[&str] = &[
     "crates/opshock-solver/src/air_bearing/flux.rs",
     "crates/opshock-solver/src/head/stage.rs",
     "crates/opshock-solver/src/scene/plan.rs",
-    "crates/opshock-study/src/identity.rs",
-    "crates/opshock-study/src/study/scene.rs",
     "tests/products/study_reading.rs",
 ];
 

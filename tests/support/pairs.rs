@@ -9,7 +9,7 @@
 use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::disk::{DiskDamping, HubParameters, Wave};
 use opshock_solver::quantity::m_per_s2_from_g;
-use opshock_solver::ramp::{ArmMode, RampModel};
+use opshock_solver::ramp::{ArmMode, Arms, NoRamp, RampBody, RigidRamp};
 use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, PulseShape};
@@ -263,16 +263,18 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
     };
     let (top, bottom) = (arm(), arm());
     let models = [
-        RampModel::None,
-        RampModel::Rigid,
-        RampModel::Deformable {
+        RampBody::from(NoRamp),
+        RigidRamp.into(),
+        Arms {
             top: top.clone(),
             bottom,
-        },
-        RampModel::Deformable {
+        }
+        .into(),
+        Arms {
             top: top.clone(),
             bottom: top,
-        },
+        }
+        .into(),
     ];
     scene.ramp.model = seeded.one_of(&models).clone();
     scene.ramp.clearance_top_m = *seeded.one_of(&[0.0, 2e-5, 1e-4]);
@@ -340,11 +342,11 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         }];
     }
     if seeded.once_in(4) {
-        scene.surface_forces = Some(SurfaceForces {
+        scene.gap_forces.surface_forces = SurfaceForces {
             hamaker_j: seeded.between(0.0, 2e-19),
             repulsion_j_m6: 1e-76,
             potential_v: seeded.between(0.0, 0.5),
-        });
+        };
     }
     scene
 }

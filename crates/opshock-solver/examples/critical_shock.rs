@@ -3,15 +3,15 @@
 //! `cargo run --release -p opshock-solver --example critical_shock`
 
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RampBody, RigidRamp};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Model, Workspace, critical_shock};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = Scene::default_drive();
     for (name, ramp) in [
-        ("no ramp", RampModel::None),
-        ("rigid ramp", RampModel::Rigid),
+        ("no ramp", RampBody::from(NoRamp)),
+        ("rigid ramp", RigidRamp.into()),
     ] {
         scene.ramp.model = ramp;
         let model = Model::new(&scene)?;

@@ -76,7 +76,7 @@ fn structure(scene: &Scene) -> impl Serialize {
         suspension: _,
         gas: _,
         flow: _,
-        surface_forces: _,
+        gap_forces: _,
         fail_below_m: _,
         film_resolution: _,
         head_resolution: _,
@@ -102,7 +102,7 @@ fn head(scene: &Scene) -> impl Serialize {
         suspension,
         gas,
         flow,
-        surface_forces,
+        gap_forces,
         fail_below_m,
         film_resolution,
         head_resolution,
@@ -117,7 +117,7 @@ fn head(scene: &Scene) -> impl Serialize {
         structure_resolution: _,
         not_refined: _,
     } = scene;
-    let film = (gas, flow, surface_forces, film_resolution);
+    let film = (gas, flow, gap_forces, film_resolution);
     (
         slider,
         suspension,

@@ -1,30 +1,9 @@
 //! The list of statements.
 
-use super::critical;
+use super::critical::{self, Parts};
 use super::shock_numbers as shock;
 use super::shocks::Shocks;
 use opshock_study::store::summary::Summary;
-
-/// One number of a statement about many critical shocks: place, number, bounds by the error bars.
-pub type Place = (String, f64, Option<[f64; 2]>);
-
-/// Numbers of a statement about many critical shocks.
-#[derive(Clone, Debug, Default)]
-pub struct Parts {
-    /// Those that decide it.
-    pub places: Vec<Place>,
-    /// What else a reader wants to see.
-    pub note: String,
-}
-
-impl From<Vec<Place>> for Parts {
-    fn from(places: Vec<Place>) -> Self {
-        Self {
-            places,
-            note: String::new(),
-        }
-    }
-}
 
 /// Where a number comes from.
 #[derive(Clone, Copy, Debug)]

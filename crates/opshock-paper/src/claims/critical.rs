@@ -3,9 +3,29 @@
 //! A ratio's bounds are the quotients of the ends of both bars: both rows wrong by all of their bars
 //! and in opposite directions.
 
-use super::catalogue::{Parts, Place};
 use opshock_study::search::Sign;
 use opshock_study::store::summary::{PointSummary, Status, Summary};
+
+/// One number of a statement about many critical shocks: place, number, bounds by the error bars.
+pub type Place = (String, f64, Option<[f64; 2]>);
+
+/// Numbers of a statement about many critical shocks.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// Those that decide it.
+    pub places: Vec<Place>,
+    /// What else a reader wants to see.
+    pub note: String,
+}
+
+impl From<Vec<Place>> for Parts {
+    fn from(places: Vec<Place>) -> Self {
+        Self {
+            places,
+            note: String::new(),
+        }
+    }
+}
 
 /// From this width on a pulse counts as long, ms: the paper's section 4.2 calls 0.5 ms small.
 const LONG_FROM_MS: f64 = 1.0;

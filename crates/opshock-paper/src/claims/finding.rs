@@ -1,6 +1,7 @@
 //! A claim's number, and what is known of its uncertainty.
 
-use super::catalogue::{CLAIMS, Claim, Parts, Source};
+use super::catalogue::{CLAIMS, Claim, Source};
+use super::critical::Parts;
 use super::shocks::Shocks;
 use opshock_study::store::summary::Summary;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,8 @@
 //! Fig. 4 to 12: histories of a long and a short shock, a panel for each ramp model.
 
-use super::PaperFigure;
 use super::case::{Clock, Curve, PaperCase, curve};
 use super::curve_table::table;
+use super::paper_figure::PaperFigure;
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_study::report::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
 use opshock_study::report::column_named;

@@ -3,9 +3,9 @@
 //! A scene knows of the ramp only where it may touch the disk and how far away; blocks, springs
 //! and frame around the contact points are schematic.
 
-use super::PaperFigure;
+use super::paper_figure::PaperFigure;
 use opshock_solver::disk::DiskParameters;
-use opshock_solver::ramp::{ArmMode, RampModel, RampParameters};
+use opshock_solver::ramp::{ArmMode, RampParameters};
 use opshock_solver::scene::Scene;
 use opshock_solver::slider::SliderParameters;
 use opshock_study::report::chart::{
@@ -45,7 +45,7 @@ pub fn plan_drawing(scene: &Scene, program: &str) -> PaperFigure {
         },
     ];
     let mut marks = Vec::new();
-    if scene.ramp.model != RampModel::None {
+    if !scene.ramp.model.is_absent() {
         let ramp = &scene.ramp;
         outlines.push(Outline {
             width: 2.2,
@@ -95,15 +95,16 @@ pub fn rigid_ramp_drawing(scene: &Scene, program: &str) -> PaperFigure {
 pub fn deformable_ramp_drawing(scene: &Scene, program: &str) -> PaperFigure {
     let section = Section::of(scene);
     let mut outlines = section.disk();
-    let modes: [Vec<ArmMode>; 2] = match &scene.ramp.model {
-        RampModel::Deformable { top, bottom } => [top.clone(), bottom.clone()],
+    let ramp = &scene.ramp.model;
+    let modes: [Vec<ArmMode>; 2] = ramp.arms().unwrap_or_else(|| {
         // Each arm as it moves alone; more springs would not be told apart.
-        RampModel::Coupled { modes } => [0, 1].map(|arm| {
-            let own = modes.iter().filter_map(|mode| mode.at_contact(arm));
-            own.take(3).collect()
-        }),
-        RampModel::None | RampModel::Rigid => [Vec::new(), Vec::new()],
-    };
+        let of = |arm| {
+            ramp.modes()
+                .iter()
+                .filter_map(move |mode| mode.at_contact(arm))
+        };
+        [0, 1].map(|arm| of(arm).take(3).collect())
+    });
     for side in SIDES {
         outlines.push(section.block(side, section.arm_end(), "arm (schematic)"));
     }

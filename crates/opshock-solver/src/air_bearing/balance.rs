@@ -24,7 +24,7 @@ impl Film {
     }
 
     /// Net outward flux R of every cell, `capacity` dψ/dt + `out` = 0, and the force and moments
-    /// [F_z, M_pitch, M_roll] of the film and of surface forces beside it on the slider, conjugate to
+    /// [F_z, M_pitch, M_roll] of the film and of forces beside its pressure on the slider, conjugate to
     /// (h_c, pitch, roll): N, N m, N m. ψ must be positive.
     ///
     /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
@@ -52,8 +52,9 @@ impl Film {
         .total();
         let mut force = force;
         let mut add = |more: [f64; 3]| (0..3).for_each(|f| force[f] += more[f]);
-        if self.interaction.is_some() {
-            add(self.surface_force(attitude));
+        let cells = scratch.cell_states(attitude);
+        for (_, gap_force) in &self.gap_forces {
+            add(gap_force.force(self, &cells));
         }
         if let Some(defect) = &self.defect {
             add(defect.force(attitude));
@@ -88,7 +89,7 @@ impl Film {
         force
     }
 
-    /// The air's share of [`Film::force`], without surface forces.
+    /// The share of the air's pressure in [`Film::force`].
     ///
     /// # Panics
     ///
@@ -99,11 +100,9 @@ impl Film {
         attitude: &Attitude,
         scratch: &mut FilmScratch,
     ) -> [f64; 3] {
-        let (force, surface) = (
-            self.force(psi, attitude, scratch),
-            self.surface_force(attitude),
-        );
-        std::array::from_fn(|f| force[f] - surface[f])
+        let force = self.force(psi, attitude, scratch);
+        let beside = self.gap_force(attitude, scratch);
+        std::array::from_fn(|f| force[f] - beside[f])
     }
 
     /// Normal force of the air on every cell, N, over the same profiles as the whole force.

@@ -143,8 +143,8 @@ impl Film {
     ) -> Result<Self, FilmError> {
         let surface = Surface::new(slider);
         let speed = spin_rad_per_s * slider.radius_m;
-        let wind = [slider.skew_rad.cos(), slider.skew_rad.sin()]
-            .map(|part| 6.0 * gas.viscosity_pa_s * speed * part);
+        let direction = [slider.skew_rad.cos(), slider.skew_rad.sin()];
+        let wind = direction.map(|part| 6.0 * gas.viscosity_pa_s * speed * part);
         let flow = FlowFactor::new(flow, gas.mean_free_path_m * gas.pressure_pa);
         let clearance = ClearanceMap::new(&surface);
         let usual = usual_attitude(&clearance, slider.length_m, wind[0]);
@@ -160,11 +160,13 @@ impl Film {
             mesh,
             flow,
             floor: Floor { h0: floor_m },
+            gas: gas.clone(),
             ambient_pa: gas.pressure_pa,
+            disk_velocity_m_per_s: direction.map(|part| speed * part),
             clearance,
             usual,
             usual_psi: Vec::new(),
-            interaction: None,
+            gap_forces: Vec::new(),
             defect: None,
         };
         film.usual_psi = film.ambient(&usual);

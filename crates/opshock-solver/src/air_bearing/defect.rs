@@ -7,7 +7,7 @@ pub(super) mod interpolation;
 pub(super) mod range;
 
 use super::attitude::Attitude;
-use super::surface_forces::SurfaceLoad;
+use super::gap_load::GapLoad;
 use interpolation::Interpolation;
 use range::Range;
 
@@ -26,14 +26,15 @@ impl Defect {
     }
 
     /// P and its derivatives.
-    pub(super) fn load(&self, attitude: &Attitude) -> SurfaceLoad {
+    pub(super) fn load(&self, attitude: &Attitude) -> GapLoad {
         let variables = self.range.variables(attitude);
         let (force, slopes) = self.missing.linearised(variables.map(|x| x.0));
         let by = |f: usize, q: usize| -> f64 {
             let parts = slopes[f].iter().zip(&variables);
             parts.map(|(slope, x)| slope * x.1[q]).sum()
         };
-        SurfaceLoad {
+        GapLoad {
+            in_plane_n: None,
             force,
             by_attitude: std::array::from_fn(|f| std::array::from_fn(|q| by(f, q))),
         }

@@ -12,16 +12,19 @@
 use super::attitude::Attitude;
 use super::defect::Defect;
 use super::faces::{BLOCK, Block, Columns, block};
-use super::flow_factor::FlowFactor;
+use super::flow_factor::{FlowFactor, FlowModel};
 use super::flux::HalfCell;
+use super::gap_load::GapLoad;
 use super::heights::inverses;
 use super::mesh::{Cell, Mesh, Side};
-use super::surface_forces::Interaction;
 use super::thickness::Floor;
+use crate::gas::GasParameters;
 use crate::lanes::{Kernel, widest};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::diagonals::Diagonals;
 use crate::slider::clearance::{Clearance, ClearanceMap};
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A roll that moves no point of a slider by an atom's thousandth, rad.
 const LEAN_RAD: f64 = 1e-11;
@@ -35,15 +38,54 @@ pub struct Film {
     pub(super) storage: Diagonals,
     pub(super) flow: FlowFactor,
     pub(super) floor: Floor,
+    pub(super) gas: GasParameters,
     pub(super) ambient_pa: f64,
+    /// Velocity of the disk along x and y, m/s.
+    pub(super) disk_velocity_m_per_s: [f64; 2],
     pub(super) clearance: ClearanceMap,
     pub(super) usual: Attitude,
     /// ψ in the usual attitude, roughly.
     pub(super) usual_psi: Vec<f64>,
-    /// Surface forces beside the film; none unless asked for.
-    pub(super) interaction: Option<Interaction>,
+    /// Forces on the slider beside the air's pressure, each with its key; none unless asked for.
+    pub(super) gap_forces: Vec<(&'static str, Arc<dyn Element>)>,
     /// What the grid leaves out, put back; none unless asked for.
     pub(super) defect: Option<Defect>,
+}
+
+/// State of the cells that a force beside the air's pressure may depend on, one entry for each cell.
+pub struct CellStates<'a> {
+    /// Attitude of the slider.
+    pub attitude: &'a Attitude,
+    /// ψ, Pa m.
+    pub psi: &'a [f64],
+    /// Height that the film sees, m.
+    pub h: &'a [f64],
+    /// Its inverse, 1/m.
+    pub inverse_h: &'a [f64],
+    /// Its derivative by the true height.
+    pub h_slope: &'a [f64],
+}
+
+impl CellStates<'_> {
+    /// Pressure at the centre of a cell, Pa.
+    pub fn pressure(&self, cell: usize) -> f64 {
+        self.psi[cell] * self.inverse_h[cell]
+    }
+}
+
+/// A force on the slider beside the air's pressure over the cells of one film: an element of the list that residual
+/// and linearisation loop over.
+pub trait Element: Debug + Send + Sync {
+    /// Force and moments [F_z, M_pitch, M_roll], conjugate to (h_c, pitch, roll), N and N m.
+    fn force(&self, film: &Film, cells: &CellStates<'_>) -> [f64; 3];
+
+    /// The same with derivatives; those by ψ are added to `by_psi`, one column for each force.
+    fn load(&self, film: &Film, cells: &CellStates<'_>, by_psi: &mut [Vec<f64>; 3]) -> GapLoad;
+
+    /// `share` of a force that may draw the slider in, so that its flight ends; `None` of any other.
+    fn share_of_attraction(&self, _share: f64) -> Option<Arc<dyn Element>> {
+        None
+    }
 }
 
 impl Film {
@@ -88,6 +130,21 @@ impl Film {
     /// Ambient pressure, Pa.
     pub fn ambient_pa(&self) -> f64 {
         self.ambient_pa
+    }
+
+    /// Gas around the drive.
+    pub fn gas(&self) -> &GasParameters {
+        &self.gas
+    }
+
+    /// Rarefaction model.
+    pub fn flow_model(&self) -> FlowModel {
+        self.flow.model()
+    }
+
+    /// Velocity of the disk under the slider along its x and y, m/s.
+    pub fn disk_velocity_m_per_s(&self) -> [f64; 2] {
+        self.disk_velocity_m_per_s
     }
 
     /// Attitude of a slider in ordinary flight, the first guess of steady states and what the grid

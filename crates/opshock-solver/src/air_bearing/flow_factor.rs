@@ -110,6 +110,11 @@ impl FlowFactor {
         }
     }
 
+    /// The model.
+    pub fn model(&self) -> FlowModel {
+        self.model
+    }
+
     /// G and dG/dψ of many ψ > 0 (Pa m), with the bits of [`FlowFactor::conductance`]: what needs no
     /// table in whole registers, and its rows picked in between.
     ///

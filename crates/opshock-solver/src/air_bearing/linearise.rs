@@ -100,9 +100,12 @@ impl Film {
         });
         out.force_by_attitude = totals.force_by_attitude.map(|row| row.map(total));
         out.force = totals.moments.total();
-        let defect = self.defect.as_ref();
-        let defect = defect.map(|defect| defect.load(attitude));
-        for load in self.surface_load(attitude).into_iter().chain(defect) {
+        let cells = scratch.cell_states(attitude);
+        let gap_forces = self.gap_forces.iter();
+        let gap_loads =
+            gap_forces.map(|(_, force)| force.load(self, &cells, &mut out.force_by_psi));
+        let defect = self.defect.iter().map(|defect| defect.load(attitude));
+        for load in gap_loads.chain(defect) {
             for f in 0..3 {
                 out.force[f] += load.force[f];
                 for q in 0..3 {

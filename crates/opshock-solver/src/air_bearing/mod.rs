@@ -12,6 +12,9 @@ mod faces;
 mod film;
 mod flow_factor;
 mod flux;
+mod gap_force;
+pub mod gap_forces;
+mod gap_load;
 mod heights;
 pub mod impedance;
 mod layout;
@@ -26,8 +29,6 @@ mod state;
 pub mod steady;
 mod steady_error;
 mod storage;
-mod surface_forces;
-mod surface_load;
 mod thickness;
 
 #[cfg(test)]
@@ -35,9 +36,11 @@ mod tests;
 
 pub use attitude::Attitude;
 pub use build::{FilmError, FilmResolution};
-pub use film::Film;
+pub use film::{CellStates, Element, Film};
 pub use flow_factor::{FlowFactor, FlowModel};
+pub use gap_force::GapForce;
+pub use gap_forces::{GapForces, SurfaceForces};
+pub use gap_load::GapLoad;
 pub use linearise::FilmLinearisation;
 pub use reference_forces::ReferenceForces;
 pub use state::FilmScratch;
-pub use surface_forces::{SurfaceForces, SurfaceLoad};

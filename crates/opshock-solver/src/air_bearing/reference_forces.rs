@@ -24,11 +24,11 @@ use super::defect::Defect;
 use super::defect::interpolation::Interpolation;
 use super::defect::range::Range;
 use super::film::Film;
+use super::gap_load::GapLoad;
 use super::layout::carried;
 use super::newton::Newton;
 use super::search::Flight;
 use super::steady_error::SteadyError;
-use super::surface_forces::SurfaceLoad;
 
 /// Attitudes at which films are held.
 const SAMPLES: usize = 200;
@@ -120,7 +120,7 @@ impl Film {
     }
 
     /// What [`Film::corrected_by`] adds to force and moments at an attitude; `None` of a film as its grid has it.
-    pub fn correction(&self, attitude: &Attitude) -> Option<SurfaceLoad> {
+    pub fn correction(&self, attitude: &Attitude) -> Option<GapLoad> {
         Some(self.defect.as_ref()?.load(attitude))
     }
 }

@@ -2,13 +2,16 @@
 
 use super::attitude::Attitude;
 use super::faces::{BLOCK, Block, Sides, block};
-use super::film::Film;
+use super::film::{CellStates, Film};
 use super::flow_factor::PickedRows;
 use super::flux::HalfCell;
 
 /// Scratch of the flux balance, one per thread.
 #[derive(Clone, Debug)]
 pub struct FilmScratch {
+    /// Where cell 0 stands in the columns, and the number of cells.
+    front: usize,
+    n_cells: usize,
     /// ψ, its inverse, height, its inverse, its derivative by the true height, G, its inverse and dG/dψ
     /// of every cell.
     pub(super) psi: Vec<f64>,
@@ -32,6 +35,8 @@ impl FilmScratch {
         let columns = &film.columns;
         let ones = || vec![1.0; columns.padded];
         Self {
+            front: columns.front,
+            n_cells: columns.n_cells,
             psi: ones(),
             inverse_psi: ones(),
             h: ones(),
@@ -43,6 +48,18 @@ impl FilmScratch {
             flux: [0, 1].map(|_| vec![0.0; columns.padded]),
             rows: PickedRows::new(columns.n_cells),
             spare: vec![0.0; columns.n_cells],
+        }
+    }
+
+    /// The state taken over last, at its `attitude`.
+    pub(super) fn cell_states<'a>(&'a self, attitude: &'a Attitude) -> CellStates<'a> {
+        let cells = self.front..self.front + self.n_cells;
+        CellStates {
+            attitude,
+            psi: &self.psi[cells.clone()],
+            h: &self.h[cells.clone()],
+            inverse_h: &self.inverse_h[cells.clone()],
+            h_slope: &self.h_slope[cells],
         }
     }
 

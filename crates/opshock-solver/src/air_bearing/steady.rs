@@ -80,7 +80,7 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 /// [`SteadyError::CannotFly`] when the film does not carry the load, [`SteadyError`] when a stable equilibrium is
 /// neither found nor ruled out; it names the best attitude met.
 pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
-    if film.surface_forces().is_none() {
+    if !film.is_drawn_in() {
         let flown = seek(film, load, start, true);
         return match flown {
             Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
@@ -92,7 +92,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     if flown.as_ref().is_ok_and(is_flight) {
         return flown;
     }
-    let bare = seek(&film.with_surface_share(0.0), load, start, true)?;
+    let bare = seek(&film.with_share_of_attraction(0.0), load, start, true)?;
     match is_flight(&bare) {
         true => follow(film, load, &bare),
         false => flown,
@@ -118,7 +118,7 @@ pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
 /// [`SteadyError::PulledIn`] with the share at which the flight ends.
 fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
-    let at = |share| (film.with_surface_share(share), load);
+    let at = |share| (film.with_share_of_attraction(share), load);
     let path = Path::along(&at, (0.0, Found::of(bare)), 2.0 * film.floor_m());
     if path.share < 1.0 {
         return Err(SteadyError::PulledIn {

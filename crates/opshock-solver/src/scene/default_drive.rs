@@ -5,13 +5,11 @@
 
 use super::accuracy::{Rung, resolutions};
 use super::description::Scene;
-use crate::air_bearing::FlowModel;
+use crate::air_bearing::{FlowModel, GapForces};
 use crate::disk::{DiskDamping, DiskParameters};
 use crate::gas::{self, GasParameters};
 use crate::quantity::{kg_from_mg, m_from_mm, n_from_gf, rad_from_deg, rad_per_s_from_rpm};
-use crate::ramp::{
-    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampModel, RampParameters,
-};
+use crate::ramp::{ArmMode, Arms, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampParameters};
 use crate::shock::{Pulse, PulseShape};
 use crate::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use crate::structure::Window;
@@ -52,7 +50,7 @@ impl Scene {
                 mean_free_path_m: gas::REFERENCE_MEAN_FREE_PATH_M,
             },
             flow: FlowModel::FukuiKaneko,
-            surface_forces: None,
+            gap_forces: GapForces::default(),
             fail_below_m: 0.0,
             disk_resolution: resolutions.disk,
             structure_resolution: resolutions.structure,
@@ -91,10 +89,11 @@ fn ramp() -> RampParameters {
         })
         .to_vec();
     RampParameters {
-        model: RampModel::Deformable {
+        model: Arms {
             top: arm.clone(),
             bottom: arm,
-        },
+        }
+        .into(),
         clearance_top_m: 100e-6,
         clearance_bottom_m: 100e-6,
         radius_m: 32.15e-3,

@@ -1,7 +1,7 @@
 //! Everything one simulation needs but the amplitude.
 
 use super::knob::Knob;
-use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, SurfaceForces};
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
 use crate::head::HeadResolution;
@@ -36,8 +36,8 @@ pub struct Scene {
     pub gas: GasParameters,
     /// Rarefaction model.
     pub flow: FlowModel,
-    /// Forces between slider and disk beside the air; `None`: the air alone.
-    pub surface_forces: Option<SurfaceForces>,
+    /// Forces between slider and disk beside the air's pressure.
+    pub gap_forces: GapForces,
     /// Clearance below which the head-disk interface has failed, m.
     pub fail_below_m: f64,
     /// Resolution of the disk.
@@ -66,7 +66,7 @@ impl Scene {
         (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
     }
 
-    /// The film under the slider, over the disk at its speed, and surface forces beside it.
+    /// The film under the slider, over the disk at its speed, and the scene's other forces in the gap.
     ///
     /// # Errors
     ///
@@ -79,7 +79,7 @@ impl Scene {
             self.disk.spin_rad_per_s,
             &self.film_resolution,
         )?;
-        Ok(self.with_surface_forces(film))
+        Ok(self.with_gap_forces(film))
     }
 
     /// The same scene on a film of about so many cells.
@@ -104,7 +104,7 @@ impl Scene {
             self.film_resolution.floor_m,
             lines_m,
         )?;
-        Ok(self.with_surface_forces(film))
+        Ok(self.with_gap_forces(film))
     }
 
     /// `film`, a film of this scene, with every cell cut in two along both directions.
@@ -121,10 +121,8 @@ impl Scene {
         self.film_on([&x, &y])
     }
 
-    fn with_surface_forces(&self, film: Film) -> Film {
-        match self.surface_forces {
-            Some(forces) => film.with_surface_forces(&self.slider, forces),
-            None => film,
-        }
+    fn with_gap_forces(&self, film: Film) -> Film {
+        let active = self.gap_forces.active();
+        active.fold(film, |film, force| film.with_gap_force(&self.slider, force))
     }
 }

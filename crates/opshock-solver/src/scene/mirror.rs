@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 
 use super::description::Scene;
 use crate::disk::{DiskParameters, HubParameters, Wave};
-use crate::ramp::{CoupledMode, RampModel, RampParameters};
+use crate::ramp::RampParameters;
 use crate::shock::ObliqueShock;
 
 impl Scene {
@@ -47,7 +47,7 @@ impl Scene {
             suspension,
             gas,
             flow,
-            surface_forces,
+            gap_forces,
             fail_below_m,
             disk_resolution,
             structure_resolution,
@@ -67,7 +67,7 @@ impl Scene {
             suspension: suspension.clone(),
             gas: gas.clone(),
             flow: *flow,
-            surface_forces: *surface_forces,
+            gap_forces: gap_forces.mirrored(),
             fail_below_m: *fail_below_m,
             disk_resolution: disk_resolution.clone(),
             structure_resolution: structure_resolution.clone(),
@@ -106,18 +106,8 @@ fn mirrored_wave(wave: &Wave) -> Wave {
 }
 
 fn mirrored_ramp(ramp: &RampParameters) -> RampParameters {
-    let model = match &ramp.model {
-        RampModel::Deformable { top, bottom } => RampModel::Deformable {
-            top: bottom.clone(),
-            bottom: top.clone(),
-        },
-        RampModel::Coupled { modes } => RampModel::Coupled {
-            modes: modes.iter().map(CoupledMode::mirrored).collect(),
-        },
-        model @ (RampModel::None | RampModel::Rigid) => model.clone(),
-    };
     RampParameters {
-        model,
+        model: ramp.model.mirrored(),
         clearance_top_m: ramp.clearance_bottom_m,
         clearance_bottom_m: ramp.clearance_top_m,
         ..ramp.clone()

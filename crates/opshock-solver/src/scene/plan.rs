@@ -30,7 +30,6 @@ use super::description::Scene;
 use crate::disk::Harmonics;
 use crate::mutant;
 use crate::quantity::STANDARD_GRAVITY_M_PER_S2;
-use crate::ramp::RampModel;
 use crate::structure::Wake;
 
 /// What can be asked of a simulation.
@@ -311,9 +310,9 @@ impl Plan {
 
     /// Harmonics of the disk that are built: without a ramp nothing can wake n >= 1.
     pub fn harmonics(&self, scene: &Scene) -> Harmonics {
-        match (self.wake, &scene.ramp.model) {
-            (Wake::AtTouch, RampModel::None) if scene.oblique.is_some() => Harmonics::Tilting,
-            (Wake::AtTouch, RampModel::None) => Harmonics::Symmetric,
+        match (self.wake, scene.ramp.model.is_absent()) {
+            (Wake::AtTouch, true) if scene.oblique.is_some() => Harmonics::Tilting,
+            (Wake::AtTouch, true) => Harmonics::Symmetric,
             (Wake::AtTouch, _) if mutant::is_on("R2 no ramp") => Harmonics::Symmetric,
             _ => Harmonics::All,
         }
@@ -353,27 +352,27 @@ impl Plan {
                 Harmonics::Symmetric => effect("disk.travelling_waves", State::Off, Some("R2")),
                 Harmonics::All => sleeps("disk.travelling_waves", "R2"),
             },
-            match (&scene.ramp.model, self.wake) {
-                (RampModel::None, _) => effect("ramp.contact", State::Off, None),
+            match (scene.ramp.model.is_absent(), self.wake) {
+                (true, _) => effect("ramp.contact", State::Off, None),
                 (_, Wake::AtTouch) if touch.stays_clear() == Some(true) => {
                     effect("ramp.contact", State::Off, Some("R4"))
                 }
                 _ => sleeps("ramp.contact", "R3"),
             },
-            match scene.ramp.model {
-                RampModel::Deformable { .. } | RampModel::Coupled { .. } => on("ramp.arms"),
-                _ => effect("ramp.arms", State::Off, None),
+            match scene.ramp.model.modes().is_empty() {
+                true => effect("ramp.arms", State::Off, None),
+                false => on("ramp.arms"),
             },
             needs("head.steady_flight", Needs::Flight),
             match scene.run_out.is_empty() {
                 false => needs("disk.run_out", Needs::Head),
                 true => effect("disk.run_out", State::Off, None),
             },
-            match scene.surface_forces {
-                Some(_) => needs("head.surface_forces", Needs::Flight),
-                None => effect("head.surface_forces", State::Off, None),
-            },
         ];
+        list.extend(scene.gap_forces.all().map(|force| match force.is_active() {
+            true => needs(force.name(), Needs::Flight),
+            false => effect(force.name(), State::Off, None),
+        }));
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));
         }
@@ -406,7 +405,7 @@ impl Plan {
     /// R1 to R10 for `scene`, in order.
     pub fn decisions(&self, scene: &Scene, touch: &Touch) -> Vec<Decision> {
         let auto = self.mode == Mode::Auto;
-        let has_ramp = scene.ramp.model != RampModel::None;
+        let has_ramp = !scene.ramp.model.is_absent();
         let decision = |rule, what, applied, condition, value| Decision {
             rule,
             what,
@@ -547,16 +546,9 @@ impl Touch {
 
 /// Whether turning the drive over leaves disk and ramp as they are.
 pub fn is_mirrored(scene: &Scene) -> bool {
-    let arms = match &scene.ramp.model {
-        RampModel::None => return true,
-        RampModel::Rigid => true,
-        RampModel::Deformable { top, bottom } => top == bottom,
-        // Turned over, a body with arms that move alike is itself.
-        RampModel::Coupled { modes } => modes
-            .iter()
-            .all(|mode| mode.shape_per_sqrt_kg[0] == mode.shape_per_sqrt_kg[1]),
-    };
-    arms && scene.ramp.clearance_top_m == scene.ramp.clearance_bottom_m
+    let ramp = &scene.ramp;
+    let is_alike = ramp.model.is_symmetric() && ramp.clearance_top_m == ramp.clearance_bottom_m;
+    ramp.model.is_absent() || is_alike
 }
 
 fn mirror_words(scene: &Scene) -> String {
@@ -570,13 +562,12 @@ fn mirror_words(scene: &Scene) -> String {
         1e6 * scene.ramp.clearance_top_m,
         1e6 * scene.ramp.clearance_bottom_m
     );
-    match &scene.ramp.model {
-        RampModel::None => "no ramp".to_owned(),
-        RampModel::Rigid => clearances,
-        RampModel::Deformable { top, bottom } if top == bottom => {
-            format!("{clearances}, arms equal")
-        }
-        RampModel::Deformable { .. } => format!("{clearances}, arms differ"),
-        RampModel::Coupled { .. } => format!("{clearances}, arms of one body"),
+    let ramp = &scene.ramp.model;
+    match (ramp.is_absent(), ramp.modes().is_empty(), ramp.arms()) {
+        (true, ..) => "no ramp".to_owned(),
+        (_, true, _) => clearances,
+        (.., Some([top, bottom])) if top == bottom => format!("{clearances}, arms equal"),
+        (.., Some(_)) => format!("{clearances}, arms differ"),
+        (.., None) => format!("{clearances}, arms of one body"),
     }
 }

@@ -5,7 +5,6 @@ use super::description::Scene;
 use super::knob::{Knob, Levels};
 use crate::disk::MOST_ELEMENTS;
 use crate::head::Coupling;
-use crate::ramp::RampModel;
 use crate::structure::{ContactMethod, Window};
 use crate::suspension::ReducedSuspension;
 
@@ -66,7 +65,7 @@ impl Scene {
     /// The discretisation parameters whose refinement can change this scene's answer: without a ramp nothing excites what
     /// the disk's modes and the structure's step resolve, and a value of the model is not refined.
     pub fn knobs(&self) -> Vec<Knob> {
-        let has_ramp = self.ramp.model != RampModel::None;
+        let has_ramp = !self.ramp.model.is_absent();
         Knob::ALL
             .into_iter()
             .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))

@@ -118,13 +118,13 @@ pub fn critical_shock(
 mod tests {
     use super::*;
     use crate::quantity::m_per_s2_from_g;
-    use crate::ramp::RampModel;
+    use crate::ramp::NoRamp;
     use crate::scene::Scene;
     use crate::simulation::{Outcome, Scope};
 
     fn coarse() -> Scene {
         let mut scene = Scene::default_drive();
-        scene.ramp.model = RampModel::None;
+        scene.ramp.model = NoRamp.into();
         scene.disk_resolution.cut_hz = 20e3;
         scene.film_resolution.cells = 250;
         scene.film_resolution.reference_cells = 0;

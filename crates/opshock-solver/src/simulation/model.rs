@@ -101,7 +101,7 @@ impl Bearing {
             ("R9 slider", a.slider == b.slider),
             ("R9 gas", a.gas == b.gas),
             ("R9 flow model", a.flow == b.flow),
-            ("R9 surface forces", a.surface_forces == b.surface_forces),
+            ("R9 gap forces", a.gap_forces == b.gap_forces),
             ("R9 film reference", one == other),
             ("R9 speed", a.disk.spin_rad_per_s == b.disk.spin_rad_per_s),
             (

@@ -7,7 +7,6 @@ use super::outcome::{
     Cause, Cost, DiskExtremes, EnergyBook, History, Outcome, SteadyState, Verdict, Warning,
 };
 use crate::head::{HeadRun, HeadState, HeadWorkspace, ShockLoad, Stretch};
-use crate::ramp::RampModel;
 use crate::structure::{self, StructureError, StructureRun, StructureWarning};
 
 /// What is asked of one simulation.
@@ -243,12 +242,13 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     if !model.scene.base.is_empty() {
         names.push("base.modes");
     }
-    match model.scene.ramp.model {
-        RampModel::None => {}
-        RampModel::Rigid => names.extend(["ramp.contact", "disk.travelling_waves"]),
-        RampModel::Deformable { .. } | RampModel::Coupled { .. } => {
-            names.extend(["ramp.contact", "ramp.arms", "disk.travelling_waves"]);
-        }
+    let ramp = &model.scene.ramp.model;
+    for (name, is_on) in [
+        ("ramp.contact", !ramp.is_absent()),
+        ("ramp.arms", !ramp.modes().is_empty()),
+        ("disk.travelling_waves", !ramp.is_absent()),
+    ] {
+        names.extend(is_on.then_some(name));
     }
     if model.bearing().is_some() && model.head.is_none() {
         names.push("head.steady_flight");
@@ -256,8 +256,8 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     if model.head.is_some() && !model.scene.run_out.is_empty() {
         names.push("disk.run_out");
     }
-    if model.bearing().is_some() && model.scene.surface_forces.is_some() {
-        names.push("head.surface_forces");
+    if model.bearing().is_some() {
+        names.extend(model.scene.gap_forces.active().map(|force| force.name()));
     }
     if model.head.is_some() {
         names.extend(["head.film", "head.slider", "head.suspension", "head.dimple"]);

@@ -14,7 +14,7 @@ use crate::complementarity::ImpactLaw;
 use crate::disk::{
     self, DiskBasis, DiskMode, DiskModes, DiskParameters, DiskResolution, Harmonics,
 };
-use crate::ramp::{ArmMode, RampModel, RampParameters};
+use crate::ramp::RampParameters;
 use crate::shock::{BaseMode, ObliqueShock};
 use std::sync::LazyLock;
 
@@ -141,7 +141,7 @@ impl StructureModel {
             method: resolution.contact,
             window,
             pulse: pulse.clone(),
-            n_contacts: if ramp.model == RampModel::None { 0 } else { 2 },
+            n_contacts: if ramp.model.is_absent() { 0 } else { 2 },
             clearance_m: [ramp.clearance_top_m, ramp.clearance_bottom_m],
             law: ImpactLaw {
                 restitution: ramp.restitution,
@@ -174,12 +174,7 @@ impl Assembly {
         let Self { disk, ramp, .. } = self;
         let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.is_on_base);
         let spring = Spring::of(ramp, self.method, self.step_s);
-        let mut add = |modes: &[ArmMode]| bank.add_arm(modes, spring, self.step_s);
-        let arms = match &ramp.model {
-            RampModel::None | RampModel::Rigid => [add(&[]), add(&[])],
-            RampModel::Deformable { top, bottom } => [add(top), add(bottom)],
-            RampModel::Coupled { modes } => bank.add_coupled(modes, spring, self.step_s),
-        };
+        let arms = bank.add_ramp(&ramp.model, spring, self.step_s);
         if let Some(shock) = &self.oblique {
             // A turning base shakes the ramp by another axial load than the spindle.
             bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));

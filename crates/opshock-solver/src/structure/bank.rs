@@ -6,7 +6,7 @@ use super::rotor::RidingMode;
 use crate::disk::{DiskMode, DiskParameters, DiskPose};
 use crate::modal::bank::padded;
 use crate::modal::{Oscillator, Readout};
-use crate::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use crate::ramp::{ContactMode, RampBody, RampParameters};
 use std::ops::Range;
 
 /// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
@@ -15,7 +15,9 @@ const FASTEST_ARM_ANGLE: f64 = 1.5;
 /// The spring of a contact: one more mode of its arm.
 #[derive(Clone, Copy)]
 pub(super) struct Spring {
-    mode: ArmMode,
+    frequency_hz: f64,
+    mass_kg: f64,
+    damping_ratio: f64,
 }
 
 impl Spring {
@@ -33,14 +35,21 @@ impl Spring {
             }
             ContactMethod::MoreauJean => 1.0,
         };
-        (ramp.model != RampModel::None).then_some(Self {
-            mode: ArmMode {
-                frequency_hz,
-                mass_kg: share * stiffness_n_per_m / (std::f64::consts::TAU * frequency_hz).powi(2),
-                participation: 0.0,
-                damping_ratio,
-            },
+        (!ramp.model.is_absent()).then_some(Self {
+            frequency_hz,
+            mass_kg: share * stiffness_n_per_m / (std::f64::consts::TAU * frequency_hz).powi(2),
+            damping_ratio,
         })
+    }
+
+    fn at_contact(self, shape: [f64; 2]) -> ContactMode {
+        ContactMode {
+            frequency_hz: self.frequency_hz,
+            mass_kg: self.mass_kg,
+            shape,
+            participation: 0.0,
+            damping_ratio: self.damping_ratio,
+        }
     }
 }
 
@@ -50,6 +59,7 @@ fn fastest_arm_hz(step_s: f64) -> f64 {
 }
 
 /// One arm in the bank of oscillators.
+#[derive(Clone)]
 pub(super) struct Arm {
     /// Indices of its modes in the bank.
     pub modes: Range<usize>,
@@ -67,7 +77,6 @@ pub(super) struct Bank {
     pub arm_shape: [Vec<f64>; 2],
     /// Bank index of the mode of each contact's spring; none of hard contacts.
     pub springs: Vec<usize>,
-    pub n_arms: usize,
     pub n_slowed: usize,
     pub rim: Vec<f64>,
     pub slider: [Readout; 3],
@@ -100,7 +109,6 @@ impl Bank {
             contact_turn: zero(),
             arm_shape: [zero(), zero()],
             springs: Vec::new(),
-            n_arms: 0,
             n_slowed: 0,
             rim: zero(),
             slider: std::array::from_fn(|_| Readout {
@@ -164,27 +172,36 @@ impl Bank {
         bank
     }
 
-    /// Appends the modes of an arm. A mode too fast for the step is slowed to
-    /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: its stiffness, its load and so all slow
-    /// motion stay as they are.
-    pub fn add_arm(&mut self, modes: &[ArmMode], spring: Option<Spring>, step_s: f64) -> Arm {
+    /// Appends the modes of a ramp and the springs of its contacts: of separate arms each arm's modes and its
+    /// spring, of one body all modes and both springs.
+    pub fn add_ramp(&mut self, ramp: &RampBody, spring: Option<Spring>, step_s: f64) -> [Arm; 2] {
+        let springs =
+            [[1.0, 0.0], [0.0, 1.0]].map(|contact| spring.map(|spring| spring.at_contact(contact)));
+        if ramp.arms().is_none() {
+            let springs: Vec<ContactMode> = springs.into_iter().flatten().collect();
+            let arm = self.add_modes(ramp.modes(), &springs, step_s);
+            return [arm.clone(), arm];
+        }
+        [0, 1].map(|side| {
+            let own = |mode: &&ContactMode| mode.shape[side] != 0.0;
+            let modes: Vec<ContactMode> = ramp.modes().iter().filter(own).copied().collect();
+            self.add_modes(&modes, springs[side].as_slice(), step_s)
+        })
+    }
+
+    /// Appends `modes` and `springs` behind them. A mode too fast for the step is slowed to
+    /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: φ/ω and p/ω, its stiffness and its load, and so all
+    /// slow motion stay as they are.
+    fn add_modes(&mut self, modes: &[ContactMode], springs: &[ContactMode], step_s: f64) -> Arm {
         let start = self.oscillators.len();
         let fastest_hz = fastest_arm_hz(step_s);
-        for mut mode in modes.iter().copied().chain(spring.map(|s| s.mode)) {
-            if mode.frequency_hz > fastest_hz {
-                let gain = (mode.frequency_hz / fastest_hz).powi(2);
-                mode.frequency_hz = fastest_hz;
-                mode.mass_kg *= gain;
-                mode.participation /= gain;
-                self.n_slowed += 1;
-            }
-            let o = Oscillator::fixed(
-                std::f64::consts::TAU * mode.frequency_hz,
-                mode.damping_ratio,
-            );
-            let shape = mode.mass_kg.sqrt().recip();
-            let gain = mode.mass_kg.sqrt() * mode.participation;
-            let shapes = std::array::from_fn(|side| if side == self.n_arms { shape } else { 0.0 });
+        for mode in modes.iter().chain(springs) {
+            let share = (fastest_hz / mode.frequency_hz).min(1.0);
+            self.n_slowed += usize::from(share < 1.0);
+            let omega = std::f64::consts::TAU * mode.frequency_hz * share;
+            let o = Oscillator::fixed(omega, mode.damping_ratio);
+            let gain = share * mode.participation_sqrt_kg();
+            let shapes = mode.shape_per_sqrt_kg().map(|shape| share * shape);
             if self.is_riding(&o, gain, shapes) {
                 continue;
             }
@@ -192,77 +209,18 @@ impl Bank {
             self.forced.oscillators.push(o);
             self.forced.participation.push(gain);
             self.oscillators.push(o);
-            for (column, own) in self.arm_shape.iter_mut().zip(shapes) {
-                column.push(own);
-            }
-            // Shapes of the arms follow those of the disk in the forced columns.
-            let column = if self.n_arms == 0 {
-                &mut self.shapes.top
-            } else {
-                &mut self.shapes.bottom
-            };
-            column.resize(self.forced.oscillators.len() - 1, 0.0);
-            column.push(shape);
-        }
-        self.springs
-            .extend(spring.map(|_| self.oscillators.len() - 1));
-        self.n_arms += 1;
-        Arm {
-            modes: start..self.oscillators.len(),
-        }
-    }
-
-    /// Appends the modes of a body that holds both arms. One too fast for the step is slowed as in
-    /// [`Self::add_arm`]: φ/ω and p/ω stay. Each arm has its own `spring`.
-    pub fn add_coupled(
-        &mut self,
-        modes: &[CoupledMode],
-        spring: Option<Spring>,
-        step_s: f64,
-    ) -> [Arm; 2] {
-        let start = self.oscillators.len();
-        let springs = spring.into_iter().flat_map(|Spring { mode }| {
-            let shape = mode.mass_kg.sqrt().recip();
-            [[shape, 0.0], [0.0, shape]].map(|shape_per_sqrt_kg| CoupledMode {
-                frequency_hz: mode.frequency_hz,
-                shape_per_sqrt_kg,
-                participation_sqrt_kg: 0.0,
-                damping_ratio: mode.damping_ratio,
-            })
-        });
-        let fastest_hz = fastest_arm_hz(step_s);
-        for mode in modes.iter().copied().chain(springs) {
-            let share = (fastest_hz / mode.frequency_hz).min(1.0);
-            self.n_slowed += usize::from(share < 1.0);
-            let omega = std::f64::consts::TAU * mode.frequency_hz * share;
-            let o = Oscillator::fixed(omega, mode.damping_ratio);
-            let gain = share * mode.participation_sqrt_kg;
-            if self.is_riding(&o, gain, mode.shape_per_sqrt_kg.map(|shape| share * shape)) {
-                continue;
-            }
-            self.forced_index.push(self.oscillators.len());
-            self.forced.oscillators.push(o);
-            self.forced.participation.push(gain);
-            self.oscillators.push(o);
             let before = self.forced.oscillators.len() - 1;
-            for (side, column) in [&mut self.shapes.top, &mut self.shapes.bottom]
-                .into_iter()
-                .enumerate()
-            {
-                let shape = share * mode.shape_per_sqrt_kg[side];
-                self.arm_shape[side].push(shape);
+            // Shapes of the arms follow those of the disk in the forced columns.
+            let columns = [&mut self.shapes.top, &mut self.shapes.bottom];
+            for (side, column) in columns.into_iter().enumerate() {
+                self.arm_shape[side].push(shapes[side]);
                 column.resize(before, 0.0);
-                column.push(shape);
+                column.push(shapes[side]);
             }
         }
-        self.n_arms += 2;
         let end = self.oscillators.len();
-        let modes = start..end;
-        self.springs
-            .extend(spring.into_iter().flat_map(|_| [end - 2, end - 1]));
-        [0, 1].map(|_| Arm {
-            modes: modes.clone(),
-        })
+        self.springs.extend(end - springs.len()..end);
+        Arm { modes: start..end }
     }
 
     /// Leaves a mode of an arm to the rotor, when there is a base that shakes it.

@@ -3,7 +3,7 @@
 use super::error::StructureError;
 use super::rotor::{HubModeRow, hub_modes};
 use crate::disk::{DiskBasis, DiskParameters, DiskResolution, Harmonics};
-use crate::ramp::{CoupledMode, RampModel, RampParameters};
+use crate::ramp::{CoupledMode, RampParameters};
 use std::f64::consts::TAU;
 
 /// One mode of the disk; n >= 1 stands for a pair.
@@ -82,22 +82,21 @@ pub fn modes(
         .filter(|row| row.rotating_frame_hz < resolution.cut_hz)
         .collect();
     rows.sort_by(|a, b| a.rotating_frame_hz.total_cmp(&b.rotating_frame_hz));
-    let mut arms = Vec::new();
-    if let RampModel::Deformable { top, bottom } = &ramp.model {
-        for (arm, modes) in [("top", top), ("bottom", bottom)] {
-            arms.extend(modes.iter().map(|m| ArmModeRow {
-                arm,
-                frequency_hz: m.frequency_hz,
-                mass_kg: m.mass_kg,
-                participation: m.participation,
-                damping_ratio: m.damping_ratio,
-            }));
+    let (mut arms, mut coupled_ramp) = (Vec::new(), Vec::new());
+    match ramp.model.arms() {
+        Some(own) => {
+            for (arm, modes) in ["top", "bottom"].into_iter().zip(own) {
+                arms.extend(modes.iter().map(|m| ArmModeRow {
+                    arm,
+                    frequency_hz: m.frequency_hz,
+                    mass_kg: m.mass_kg,
+                    participation: m.participation,
+                    damping_ratio: m.damping_ratio,
+                }));
+            }
         }
+        None => coupled_ramp.extend(ramp.model.modes().iter().map(CoupledMode::from)),
     }
-    let coupled_ramp = match &ramp.model {
-        RampModel::Coupled { modes } => modes.clone(),
-        _ => Vec::new(),
-    };
     let mut hub = hub_modes(disk, &basis)?;
     hub.retain(|row| row.frequency_hz < resolution.cut_hz);
     Ok(StructureModes {

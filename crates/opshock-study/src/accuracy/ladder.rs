@@ -1,6 +1,6 @@
 //! Ladders: the settings that each knob takes, and the reference they are held against.
 
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{ArmMode, Arms, RampModel};
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::accuracy::{Resolutions, Rung, resolutions};
 use opshock_solver::scene::knob::Knob;
@@ -59,7 +59,7 @@ pub fn order_quantity(ladder: &str) -> &'static str {
 pub fn ladders(scene: &Scene) -> Vec<Setting> {
     let small =
         scene.at_levels(opshock_solver::scene::knob::Levels::NONE.turned(Knob::FilmGrid, -2));
-    let has_ramp = small.ramp.model != RampModel::None;
+    let has_ramp = !small.ramp.model.is_absent();
     let mut all = Vec::new();
     if has_ramp {
         let base = small.disk_resolution.clone();
@@ -91,22 +91,19 @@ pub fn ladders(scene: &Scene) -> Vec<Setting> {
             ));
         }
     }
-    if let RampModel::Deformable { top, bottom } = &small.ramp.model {
+    if let Some([top, bottom]) = small.ramp.model.arms() {
         // The arm's modes are the model itself: the reference is what the study gives.
-        for kept in 1..=top.len().max(bottom.len()) {
+        let all_modes = top.len().max(bottom.len());
+        for kept in 1..=all_modes {
             let mut at = small.clone();
-            at.ramp.model = RampModel::Deformable {
-                top: top.iter().take(kept).cloned().collect(),
-                bottom: bottom.iter().take(kept).cloned().collect(),
+            let first = |arm: &[ArmMode]| arm.iter().take(kept).copied().collect();
+            let kept_modes = Arms {
+                top: first(&top),
+                bottom: first(&bottom),
             };
-            let is_reference = kept == top.len().max(bottom.len());
-            all.push(setting(
-                "ramp_modes",
-                kept.to_string(),
-                kept as f64,
-                is_reference,
-                at,
-            ));
+            at.ramp.model.contacts = kept_modes.contacts();
+            let (value, is_reference) = (kept.to_string(), kept == all_modes);
+            all.push(setting("ramp_modes", value, kept as f64, is_reference, at));
         }
     }
     let modes = small.head_resolution.suspension_modes;

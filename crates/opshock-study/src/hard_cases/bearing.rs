@@ -1,10 +1,11 @@
 //! C: the air bearing.
 
+use super::check::{Check, largest};
+use super::naive;
 use super::scenes::films::{
     AMBIENT_PA, LENGTH_M, PlaneSlider, TRAILING_M, VISCOSITY_PA_S, crowded, crowded_twice, uniform,
 };
 use super::scenes::heads::default_film;
-use super::{Check, largest, naive};
 use nalgebra::{Matrix3, Vector3};
 use opshock_solver::air_bearing::impedance::SmallMotion;
 use opshock_solver::air_bearing::steady::{fixed_attitude, fly_from};

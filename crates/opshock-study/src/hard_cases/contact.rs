@@ -1,12 +1,13 @@
 //! Hard cases B of disk and ramp: sticking, resting, both arms, light and heavy arms, signs.
 
+use super::check::{Check, largest};
+use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1, s1_arms};
 use super::structure::{run, slider_distance};
-use super::{Check, largest, naive};
 use opshock_solver::disk::{DiskDamping, DiskMotion, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{RampError, RampModel};
+use opshock_solver::ramp::{NoRamp, RampBody, RampError, RigidRamp};
 use opshock_solver::structure::{
     StructureError, StructureModel, StructureRun, StructureWarning, Window, Workspace,
 };
@@ -15,9 +16,9 @@ use std::f64::consts::PI;
 /// The four cases of set S1 with the modes a user gets, and their amplitudes.
 fn cases() -> Vec<(Structure, f64)> {
     [
-        (RampModel::Rigid, 2e-3, 400.0),
+        (RampBody::from(RigidRamp), 2e-3, 400.0),
         (s1_arms(), 2e-3, 400.0),
-        (RampModel::Rigid, 5e-4, 200.0),
+        (RigidRamp.into(), 5e-4, 200.0),
         (s1_arms(), 5e-4, 200.0),
     ]
     .into_iter()
@@ -62,7 +63,7 @@ pub(super) fn b1() -> Vec<Check> {
 }
 
 pub(super) fn b7() -> Vec<Check> {
-    let mut structure = s1(40e-3, RampModel::Rigid).with_cut(10e3).with_step(2e-6);
+    let mut structure = s1(40e-3, RigidRamp).with_cut(10e3).with_step(2e-6);
     structure.disk_resolution.static_correction = true;
     structure.disk.damping = DiskDamping::ModalRatio(0.3);
     structure.window = Window::Fixed { length_s: 45e-3 };
@@ -93,8 +94,8 @@ pub(super) fn b7() -> Vec<Check> {
 pub(super) fn b8() -> Vec<Check> {
     let (mut held, mut unequal, mut penetration, mut silent) = (0.0_f64, 0, 0.0_f64, 0);
     for clearance in [0.0, 1e-12] {
-        for model in [RampModel::Rigid, s1_arms()] {
-            let rigid = model == RampModel::Rigid;
+        for model in [RampBody::from(RigidRamp), s1_arms()] {
+            let rigid = model.modes().is_empty();
             let mut structure = s1(2e-3, model).with_cut(20e3);
             structure.ramp.clearance_top_m = clearance;
             structure.ramp.clearance_bottom_m = clearance;
@@ -123,7 +124,7 @@ pub(super) fn b8() -> Vec<Check> {
 }
 
 pub(super) fn b9() -> Vec<Check> {
-    let mut structure = s1(2e-3, RampModel::Rigid).with_cut(20e3);
+    let mut structure = s1(2e-3, RigidRamp).with_cut(20e3);
     structure.ramp.clearance_top_m = 0.0;
     let touching = run(&structure, 1.0);
     let kick = touching.history.pose_rate(0.0).displacement_m.abs();
@@ -146,25 +147,20 @@ pub(super) fn b9() -> Vec<Check> {
 }
 
 pub(super) fn b11() -> Vec<Check> {
-    let base = s1(5e-4, RampModel::Rigid).with_cut(15e3);
+    let base = s1(5e-4, RigidRamp).with_cut(15e3);
     let amplitude = 200.0 * G;
     let scaled = |factor: f64, keep_stiffness: bool| {
-        let RampModel::Deformable { mut top, .. } = s1_arms() else {
-            return base.clone();
-        };
-        for mode in &mut top {
+        let mut arms = s1_arms();
+        for mode in arms.contacts.iter_mut().flatten() {
             mode.mass_kg *= factor;
             mode.participation = 0.0;
             if keep_stiffness {
                 mode.frequency_hz /= factor.sqrt();
             }
         }
-        base.with_ramp(RampModel::Deformable {
-            bottom: top.clone(),
-            top,
-        })
+        base.with_ramp(arms)
     };
-    let none = run(&base.with_ramp(RampModel::None), amplitude);
+    let none = run(&base.with_ramp(NoRamp), amplitude);
     let rigid = run(&base, amplitude);
     let travel = none.disk.slider_max_m;
     let light = run(&scaled(1e-9, false), amplitude);
@@ -199,7 +195,7 @@ pub(super) fn b11() -> Vec<Check> {
 
 pub(super) fn b12() -> Vec<Check> {
     let impulse = |cut: f64, restitution: f64| {
-        let mut structure = s1(2e-3, RampModel::Rigid).with_cut(cut);
+        let mut structure = s1(2e-3, RigidRamp).with_cut(cut);
         structure.disk_resolution.static_correction = true;
         structure.ramp.restitution = restitution;
         run(&structure, 400.0 * G).top.impulse_n_s
@@ -286,7 +282,7 @@ pub(super) fn b17() -> Vec<Check> {
 pub(super) fn b18() -> Vec<Check> {
     let mut workspace = Workspace::default();
     let structures =
-        [RampModel::None, RampModel::Rigid, s1_arms()].map(|m| s1(5e-4, m).with_cut(20e3));
+        [RampBody::from(NoRamp), RigidRamp.into(), s1_arms()].map(|m| s1(5e-4, m).with_cut(20e3));
     let models = structures.each_ref().map(Structure::build);
     let onsets = models[1..]
         .iter()

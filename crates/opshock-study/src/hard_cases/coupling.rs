@@ -1,6 +1,6 @@
 //! D: film and slider solved in turn, and what flows between structure and head.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::drive::small_scene;
 use opshock_solver::fixed_point::{Ending, FixedPoint, Method};

@@ -1,9 +1,10 @@
 //! Hard cases B of one body against a stop or another: impacts whose times, speeds and impulses are known.
 
+use super::check::{Check, largest};
+use super::naive;
 use super::scenes::bodies::Body;
 use super::scenes::noted::note;
 use super::scenes::structures::{paper, paper_arms};
-use super::{Check, largest, naive};
 use opshock_solver::complementarity::{ImpactLaw, ImpulseKind};
 use opshock_solver::linalg::{SquareMatrix, dense};
 use opshock_solver::modal::Oscillator;

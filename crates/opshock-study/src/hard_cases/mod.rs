@@ -7,6 +7,7 @@
 //! carries its figure too ([`naive`]): the fault that the method in use cures.
 
 mod bearing;
+mod check;
 mod contact;
 mod coupling;
 mod impact;
@@ -19,63 +20,7 @@ pub mod scenes;
 mod structure;
 mod verdict;
 
-use serde::Serialize;
-
-/// What was measured against what may be.
-#[derive(Clone, Debug, Serialize)]
-pub struct Check {
-    /// What the figure is.
-    pub what: &'static str,
-    /// Measured.
-    pub figure: f64,
-    /// Largest figure allowed.
-    pub bound: f64,
-    /// The naive method and its figure, where there is one.
-    pub naive: Option<Naive>,
-}
-
-/// A method that was left for a better one.
-#[derive(Clone, Debug, Serialize)]
-pub struct Naive {
-    /// Method.
-    pub method: &'static str,
-    /// Its figure for the same check.
-    pub figure: f64,
-}
-
-/// The largest of figures that are not negative.
-fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
-    figures.into_iter().fold(0.0, f64::max)
-}
-
-impl Check {
-    /// A figure with its bound.
-    pub fn new(what: &'static str, figure: f64, bound: f64) -> Self {
-        Self {
-            what,
-            figure,
-            bound,
-            naive: None,
-        }
-    }
-
-    /// Something that must hold exactly; the figure counts where it does not.
-    pub fn none(what: &'static str, count: usize) -> Self {
-        Self::new(what, count as f64, 0.0)
-    }
-
-    /// The same with the naive method's figure beside it.
-    #[must_use]
-    pub fn against(mut self, method: &'static str, figure: f64) -> Self {
-        self.naive = Some(Naive { method, figure });
-        self
-    }
-
-    /// Whether the figure is within its bound; a figure that is no number is not.
-    pub fn holds(&self) -> bool {
-        self.figure <= self.bound
-    }
-}
+pub use check::{Check, Naive};
 
 /// A hard case.
 #[derive(Clone, Copy, Debug)]

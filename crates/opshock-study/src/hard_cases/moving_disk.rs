@@ -1,7 +1,8 @@
 //! Hard cases C of the head over a disk that moves suddenly: touch, suction, lift-off and return.
 
+use super::check::{Check, largest};
+use super::naive;
 use super::scenes::heads::{SuddenDisk, default_film, default_head, default_resolution};
-use super::{Check, largest, naive};
 use opshock_solver::air_bearing::Attitude;
 use opshock_solver::air_bearing::steady::fixed_attitude;
 use opshock_solver::disk::{DiskMotion, DiskPose};

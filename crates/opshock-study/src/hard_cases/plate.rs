@@ -1,11 +1,12 @@
 //! Hard cases A of the plate: frequencies, extreme radii, modes left out.
 
+use super::check::Check;
+use super::naive;
 use super::scenes::structures::paper;
 use super::structure::run;
-use super::{Check, naive};
 use opshock_solver::disk::{DiskBasis, DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::RigidRamp;
 use opshock_solver::structure::{StructureRun, Window};
 
 /// A plate at rest with outer radius 1 and sqrt(ρ h/D) = 1: ω is λ².
@@ -111,7 +112,7 @@ pub(super) fn a12() -> Vec<Check> {
 
 pub(super) fn a13() -> Vec<Check> {
     // A push so slow that all modes follow at once: what counts is the flexibility they leave out.
-    let mut base = paper(10e-3, RampModel::Rigid).with_step(4e-6);
+    let mut base = paper(10e-3, RigidRamp).with_step(4e-6);
     base.disk.damping = DiskDamping::ModalRatio(0.3);
     base.window = Window::Fixed { length_s: 6e-3 };
     let at = |cut: f64, corrected: bool| {

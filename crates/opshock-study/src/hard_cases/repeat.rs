@@ -1,6 +1,6 @@
 //! F: the same bits again.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::drive::small_scene;
 use super::scenes::noted::note;
@@ -11,19 +11,19 @@ use nalgebra::Complex;
 use opshock_solver::fixed_point::{FixedPoint, Method};
 use opshock_solver::modal::Oscillator;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{RampBody, RigidRamp};
 use opshock_solver::simulation::{Model, Outcome, Request, Scope, Workspace, simulate};
 use opshock_solver::structure::{StructureRun, Window};
 
 /// Eight small points: two ramps, four amplitudes.
 fn points() -> Vec<(Structure, f64)> {
-    let of = |model: RampModel| {
+    let of = |model: RampBody| {
         let mut structure = s1(5e-4, model).with_cut(10e3).with_step(1e-6);
         structure.window = Window::Fixed { length_s: 1e-3 };
         structure
     };
     let amplitudes = [100.0, 200.0, -250.0, 400.0];
-    [RampModel::Rigid, s1_arms()]
+    [RampBody::from(RigidRamp), s1_arms()]
         .into_iter()
         .flat_map(|model| amplitudes.map(|g| (of(model.clone()), g * G)))
         .collect()

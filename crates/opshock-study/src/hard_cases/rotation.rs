@@ -1,13 +1,14 @@
 //! Hard cases A of a turning disk: split of its waves, critical speed, instability above it, axial symmetry.
 
+use super::check::Check;
+use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1};
 use super::structure::run;
-use super::{Check, naive};
 use opshock_solver::disk::{DiskDamping, DiskResolution};
 use opshock_solver::modal::Oscillator;
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2 as G, rad_per_s_from_rpm};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::{NoRamp, RigidRamp};
 use opshock_solver::structure::{StructureRun, StructureWarning, Wake, Window, Workspace, modes};
 use std::f64::consts::TAU;
 
@@ -18,7 +19,7 @@ pub(super) fn a7() -> Vec<Check> {
         n_elements: 24,
         static_correction: false,
     };
-    let base = s1(1e-3, RampModel::None);
+    let base = s1(1e-3, NoRamp);
     let (mut worst, mut without, mut signs) = (0.0_f64, 0.0_f64, 0);
     for sense in [1.0, -1.0] {
         let mut disk = base.disk.clone();
@@ -54,7 +55,7 @@ pub(super) fn a7() -> Vec<Check> {
 
 /// Set S1 with a rigid ramp at another speed.
 fn at_speed(rpm: f64) -> Structure {
-    let mut structure = s1(5e-4, RampModel::Rigid).with_cut(15e3).with_step(1e-6);
+    let mut structure = s1(5e-4, RigidRamp).with_cut(15e3).with_step(1e-6);
     structure.disk.spin_rad_per_s = rad_per_s_from_rpm(rpm);
     structure.window = Window::Fixed { length_s: 2e-3 };
     structure
@@ -147,8 +148,8 @@ pub(super) fn a9() -> Vec<Check> {
 }
 
 pub(super) fn a10() -> Vec<Check> {
-    let structure = s1(5e-4, RampModel::Rigid).with_cut(20e3);
-    let mut free = structure.with_ramp(RampModel::None);
+    let structure = s1(5e-4, RigidRamp).with_cut(20e3);
+    let mut free = structure.with_ramp(NoRamp);
     free.window = structure.window;
     let alone = run(&free, 200.0 * G);
     // Every harmonic marched from the onset, not from the first touch.

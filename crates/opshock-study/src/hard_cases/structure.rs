@@ -1,6 +1,6 @@
 //! A: the structure and its time stepping.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1};
@@ -8,7 +8,7 @@ use nalgebra::Complex;
 use opshock_solver::integrator::{StageSystem, Stepper, TR_BDF2};
 use opshock_solver::modal::{ForcedResponse, Oscillator, Phase};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::NoRamp;
 use opshock_solver::structure::{StructureRun, Window, Workspace};
 use std::f64::consts::{PI, TAU};
 
@@ -103,7 +103,7 @@ pub(super) fn a2() -> Vec<Check> {
 
 pub(super) fn a3() -> Vec<Check> {
     let width = 1000.37 * 0.5e-6;
-    let mut structure = s1(width, RampModel::None).with_cut(20e3);
+    let mut structure = s1(width, NoRamp).with_cut(20e3);
     structure.window = Window::Fixed { length_s: 2e-3 };
     let coarse = run(&structure.with_step(2e-6), 100.0 * G);
     let fine = run(&structure.with_step(0.25e-6), 100.0 * G);
@@ -168,7 +168,7 @@ pub(super) fn a4() -> Vec<Check> {
     let width = 1e-8;
     let (_, v) = half_sine_response(omega, width, width);
     let exact = 2.0 * amplitude * width / PI;
-    let mut structure = s1(1e-7, RampModel::None).with_step(2e-6).with_cut(10e3);
+    let mut structure = s1(1e-7, NoRamp).with_step(2e-6).with_cut(10e3);
     structure.window = Window::Fixed { length_s: 1e-3 };
     let short = run(&structure, 1e7);
     structure.pulse.width_s = 1e-8;

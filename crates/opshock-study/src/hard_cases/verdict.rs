@@ -1,6 +1,6 @@
 //! E: the verdict, and the search for the critical shock.
 
-use super::Check;
+use super::check::Check;
 use super::naive;
 use super::scenes::films::{PlaneSlider, uniform};
 use super::scenes::heads::{

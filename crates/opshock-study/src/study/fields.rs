@@ -173,6 +173,7 @@ fields! {
     SLIDER_WIDTH_MM: f64 = Key::or("slider.width_mm", LENGTH, "0.7", "Width, inner to outer side.").usual(0.2, 4.0) => |scene| scene.slider.width_m;
     SLIDER_HEIGHT_MM: f64 = Key::or("slider.height_mm", LENGTH, "0.23", "Height.").usual(0.05, 1.5) => |scene| scene.slider.height_m;
     SLIDER_DENSITY_KG_PER_M3: f64 = Key::or("slider.density_kg_per_m3", LENGTH, "4300.0", "Density.").usual(1000.0, 10000.0) => |scene| scene.slider.density_kg_per_m3;
+    SLIDER_VISCOUS_SHEAR: Option<bool> = Key::optional("slider.viscous_shear", Flag, "no shear", "true", "Shear of the film on the slider, which the suspension balances at the dimple: moments of pitch and roll.") => |scene| scene.gap_forces.viscous_shear.is_on;
     SLIDER_SURFACE_PRESET: Text = Key::optional("slider.surface.preset", Kind::Word(words::SURFACES), "a file, rails given here, or femto-2.5in", "\"femto-2.5in\"", "A named air-bearing surface.");
     SLIDER_SURFACE_FILE: Text = Key::optional("slider.surface.file", Kind::Text, "no file", "\"surface.toml\"", "File of the air-bearing surface, beside the study.");
     SLIDER_SURFACE_BASE_RECESS_UM: f64 = Key::or("slider.surface.base_recess_um", Number(FROM_ZERO), "1.5", "Recess of everything no rail covers.").usual(0.1, 10.0).code("E145") => |scene| scene.slider.surface.base_recess_m;
@@ -243,9 +244,9 @@ fields! {
     GAS_MEAN_FREE_PATH_NM: Option<f64> = Key::optional("gas.mean_free_path_nm", LENGTH, "63.5 nm scaled with viscosity, pressure and temperature", "63.5", "Mean free path at the ambient pressure.").usual(5.0, 500.0);
     GAS_MODEL: FlowModel = Key::or("gas.model", FlowModel::KIND, "\"fukui_kaneko\"", "Rarefaction model of the film.") => |scene| scene.flow;
     // surface forces
-    SURFACE_FORCES_HAMAKER_J: Option<f64> = Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125");
-    SURFACE_FORCES_REPULSION_J_M6: Option<f64> = Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125");
-    SURFACE_FORCES_POTENTIAL_V: Option<f64> = Key::optional("surface_forces.potential_v", Number(ANY), "no electrostatic force", "0.5", "Potential difference V of slider and disk: attraction eps0 V^2/(2 h^2) per area.").usual(-10.0, 10.0).code("E125");
+    SURFACE_FORCES_HAMAKER_J: Option<f64> = Key::optional("surface_forces.hamaker_j", Number(FROM_ZERO), "no van der Waals force", "1.8e-19", "Hamaker's constant A of the attraction A/(6 pi h^3) per area between slider and disk.").usual(1e-21, 1e-18).code("E125") => |scene| scene.gap_forces.surface_forces.hamaker_j;
+    SURFACE_FORCES_REPULSION_J_M6: Option<f64> = Key::optional("surface_forces.repulsion_j_m6", Number(FROM_ZERO), "no repulsion", "1.0e-76", "Constant B of the repulsion B/(45 pi h^9) per area that ends the attraction.").usual(1e-79, 1e-74).code("E125") => |scene| scene.gap_forces.surface_forces.repulsion_j_m6;
+    SURFACE_FORCES_POTENTIAL_V: Option<f64> = Key::optional("surface_forces.potential_v", Number(ANY), "no electrostatic force", "0.5", "Potential difference V of slider and disk: attraction eps0 V^2/(2 h^2) per area.").usual(-10.0, 10.0).code("E125") => |scene| scene.gap_forces.surface_forces.potential_v;
     // search
     SEARCH_AMPLITUDE_G_MIN: f64 = Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156");
     SEARCH_AMPLITUDE_G_MAX: f64 = Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156");

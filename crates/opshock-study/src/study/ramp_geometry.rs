@@ -246,7 +246,6 @@ mod tests {
     use super::*;
     use crate::study::Study;
     use crate::study::key::Presence;
-    use opshock_solver::ramp::RampModel;
 
     fn study(lines: &str) -> Study {
         let text = format!(
@@ -258,10 +257,7 @@ mod tests {
     }
 
     fn lowest_hz(study: &Study, point: usize) -> f64 {
-        match &study.points[point].scene.ramp.model {
-            RampModel::Coupled { modes } => modes[0].frequency_hz,
-            other => panic!("{other:?}"),
-        }
+        study.points[point].scene.ramp.model.modes()[0].frequency_hz
     }
 
     #[test]

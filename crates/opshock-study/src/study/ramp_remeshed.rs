@@ -5,7 +5,7 @@ use super::ramp_geometry;
 use super::settings::View;
 use super::words::{Faces, Ramp};
 use opshock_solid::ramp::SolidRamp;
-use opshock_solver::ramp::CoupledMode;
+use opshock_solver::ramp::{ContactMode, OneBody, RampBody};
 
 /// A deformable ramp whose mesh can be made anew.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,12 +29,14 @@ impl RemeshedRamp {
 
     /// Oscillators on elements of half the size `level` times, or of twice where it is negative. None
     /// where the geometry has no such mesh: a scene with them cannot be built.
-    pub fn modes(&self, level: i8) -> Vec<CoupledMode> {
+    pub fn modes(&self, level: i8) -> Vec<ContactMode> {
         let modes = ramp_geometry::oscillators(&self.at(level), self.damping_ratio);
-        match self.faces {
-            Faces::Down => modes,
-            Faces::Up => modes.iter().map(CoupledMode::mirrored).collect(),
-        }
+        let ramp = RampBody::from(OneBody { modes });
+        let seen = match self.faces {
+            Faces::Down => ramp,
+            Faces::Up => ramp.mirrored(),
+        };
+        seen.contacts.unwrap_or_default()
     }
 
     /// Times that the elements may be halved, up to `most`, until the ramp takes too many.
@@ -59,7 +61,6 @@ impl RemeshedRamp {
 #[cfg(test)]
 mod tests {
     use crate::study::Study;
-    use opshock_solver::ramp::RampModel;
 
     /// Displacements that are held to polynomials stiffen: frequencies fall from mesh to mesh.
     #[test]
@@ -81,24 +82,20 @@ mod tests {
         };
         assert_eq!(rigid.remeshed, None);
         let ramp = deformable.remeshed.as_ref().expect("a solid");
-        let RampModel::Coupled { modes } = &deformable.scene.ramp.model else {
-            panic!("a body")
-        };
-        assert_eq!(ramp.modes(0), *modes);
+        let modes = deformable.scene.ramp.model.modes();
+        assert_eq!(ramp.modes(0), modes);
         // The same oscillators as those of a study with that size.
-        let RampModel::Coupled { modes: halved } = &study("1.5").points[1].scene.ramp.model else {
-            panic!("a body")
-        };
-        assert_eq!(ramp.modes(1), *halved);
+        assert_eq!(
+            ramp.modes(1),
+            study("1.5").points[1].scene.ramp.model.modes()
+        );
         // A head under the disk sees the ramp upside down, on every mesh.
         let up = &facing("3.0", "up").points[1];
-        let RampModel::Coupled { modes: seen } = &up.scene.ramp.model else {
-            panic!("a body")
-        };
+        let seen = up.scene.ramp.model.modes();
         let ramp_seen = up.remeshed.as_ref().expect("a solid");
-        assert_eq!(ramp_seen.modes(0), *seen);
-        assert_ne!(*seen, *modes);
-        assert_eq!(seen[0].mirrored(), modes[0]);
+        assert_eq!(ramp_seen.modes(0), seen);
+        assert_ne!(seen, modes);
+        assert_eq!(up.scene.ramp.model.mirrored(), deformable.scene.ramp.model);
         // Elements of 0.375 mm are some 4000, of 0.1875 mm more than the 5000 that a ramp may have.
         assert_eq!([1, 3, 6].map(|most| ramp.halvings(most)), [1, 3, 3]);
         let lowest = [-1, 0, 1].map(|level| ramp.modes(level)[0].frequency_hz);

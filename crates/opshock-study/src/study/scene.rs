@@ -1,9 +1,10 @@
 //! One point's settings as a scene in SI: plain values by the table of keys, and what several keys make together.
 
-use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
-use opshock_solver::ramp::{ArmMode, CoupledMode, RampModel, RampParameters};
+use opshock_solver::ramp::{
+    ArmMode, Arms, CoupledMode, NoRamp, OneBody, RampParameters, RigidRamp,
+};
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
@@ -49,7 +50,6 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         .collect();
     complete_suspension(view, &mut scene.suspension);
     scene.gas = gas_parameters(view);
-    scene.surface_forces = surface_forces(view);
     scene.not_refined = view.get(&fields::SOLVER_NOT_REFINED);
     scene
 }
@@ -276,16 +276,16 @@ fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
         ),
     };
     parameters.model = match ramp {
-        Ramp::None => RampModel::None,
-        Ramp::Rigid => RampModel::Rigid,
-        Ramp::Deformable if ramp_geometry::is_given(view) => RampModel::Coupled {
+        Ramp::None => NoRamp.into(),
+        Ramp::Rigid => RigidRamp.into(),
+        Ramp::Deformable if ramp_geometry::is_given(view) => OneBody {
             modes: ramp_geometry::coupled_modes(view),
-        },
-        Ramp::Deformable if view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0 => {
-            RampModel::Coupled {
-                modes: coupled_modes(view),
-            }
         }
+        .into(),
+        Ramp::Deformable if view.get(&fields::RAMP_DEFORMABLE_COUPLED_MODES) > 0 => OneBody {
+            modes: coupled_modes(view),
+        }
+        .into(),
         Ramp::Deformable => {
             let top: Vec<ArmMode> = (0..view.get(&fields::RAMP_DEFORMABLE_MODES))
                 .map(top)
@@ -294,7 +294,7 @@ fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
                 0 => top.clone(),
                 count => (0..count).map(bottom).collect(),
             };
-            RampModel::Deformable { top, bottom }
+            Arms { top, bottom }.into()
         }
     };
     let clearance_m = view.get(&fields::RAMP_CLEARANCE_UM);
@@ -393,17 +393,6 @@ fn limiters(view: &View<'_>, contact: ContactLaw) -> Vec<Limiter> {
         limiter(gap_m, -across_m),
         limiter(outer_m.unwrap_or(gap_m), across_m),
     ]
-}
-
-/// Forces beside the air; `None` when none is given or all are 0.
-fn surface_forces(view: &View<'_>) -> Option<SurfaceForces> {
-    let or_0 = |field: &Field<Option<f64>>| view.get(field).unwrap_or(0.0);
-    let forces = SurfaceForces {
-        hamaker_j: or_0(&fields::SURFACE_FORCES_HAMAKER_J),
-        repulsion_j_m6: or_0(&fields::SURFACE_FORCES_REPULSION_J_M6),
-        potential_v: or_0(&fields::SURFACE_FORCES_POTENTIAL_V),
-    };
-    (!forces.is_none()).then_some(forces)
 }
 
 /// Pressure from itself or the altitude; viscosity from itself or the temperature; mean free path

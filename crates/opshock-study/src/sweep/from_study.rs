@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Window;
 use opshock_solver::scene::knob::Knob;
 use opshock_solver::scene::plan::Touch;
@@ -147,7 +146,7 @@ fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
 /// axis.
 fn digest(point: &Point, sign: Sign) -> PointDigest {
     let scene = &point.scene;
-    let key = if scene.ramp.model == RampModel::None {
+    let key = if scene.ramp.model.is_absent() {
         let mut bare = scene.clone();
         bare.ramp.clearance_top_m = 0.0;
         bare.ramp.clearance_bottom_m = 0.0;

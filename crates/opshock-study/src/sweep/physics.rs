@@ -10,7 +10,6 @@ use std::collections::HashSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::knob::{Knob, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
@@ -47,9 +46,7 @@ impl Slot {
         let mut scene = self.scene.at_levels(levels);
         let mesh = levels.of(Knob::RampMesh);
         if let Some(ramp) = self.remeshed.as_ref().filter(|_| mesh != 0) {
-            scene.ramp.model = RampModel::Coupled {
-                modes: ramp.modes(mesh),
-            };
+            scene.ramp.model.contacts = Some(ramp.modes(mesh));
         }
         scene
     }
@@ -367,7 +364,7 @@ impl Simulator for Physics {
 
     fn onset(&self, point: usize) -> Onset {
         let (slot, sign, sense) = self.points[point];
-        if self.slots[slot].scene.ramp.model == RampModel::None {
+        if self.slots[slot].scene.ramp.model.is_absent() {
             return Onset::NoRamp;
         }
         // In full nothing is taken from the answers without ramp.

@@ -1,9 +1,9 @@
 //! `opshock accuracy`: what each knob's accuracy costs, at some points of a study.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::study_file;
 use clap::Args;
 use opshock_solver::simulation::Scope;

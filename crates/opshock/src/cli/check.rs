@@ -1,9 +1,9 @@
 //! `opshock check`: is the study valid, and what does it ask for?
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::study_file;
 use clap::Args;
 use opshock_study::study::{Study, StudyError};

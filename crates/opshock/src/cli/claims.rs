@@ -1,10 +1,10 @@
 //! `opshock claims`: the paper's statements against this program's numbers.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::figures::{critical_shocks, swept};
+use super::global::GlobalArgs;
 use super::{memory, study_file};
 use anyhow::Context as _;
 use clap::Args;

@@ -1,9 +1,9 @@
 //! `opshock compare`: what differs between two stores.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::stored;
 use clap::Args;
 use opshock_study::report::comparison::{Side, compare};

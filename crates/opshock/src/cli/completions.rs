@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 
 /// Print the completion script of a shell
 #[derive(Args, Debug)]
@@ -12,15 +12,14 @@ pub struct CompletionsArgs {
     shell: clap_complete::Shell,
 }
 
-/// Runs the command.
-pub fn run(arguments: &CompletionsArgs, console: &Console) -> Result<Exit, Failure> {
+/// Runs the command for the arguments of `program`.
+pub fn run(
+    arguments: &CompletionsArgs,
+    mut program: Command,
+    console: &Console,
+) -> Result<Exit, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(
-        arguments.shell,
-        &mut super::Cli::command(),
-        "opshock",
-        &mut script,
-    );
+    clap_complete::generate(arguments.shell, &mut program, "opshock", &mut script);
     console.result(&String::from_utf8_lossy(&script))?;
     Ok(Exit::Complete)
 }

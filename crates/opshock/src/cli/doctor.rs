@@ -1,9 +1,9 @@
 //! `opshock doctor`: can this machine be trusted with a sweep?
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::memory;
 use anyhow::Context as _;
 use clap::Args;

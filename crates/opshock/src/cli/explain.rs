@@ -1,9 +1,9 @@
 //! `opshock explain`: which effects each scene of a study calls for, and by which rule.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::ShockArgs;
 use super::thresholds::coordinates;
 use super::{memory, stored, study_file};

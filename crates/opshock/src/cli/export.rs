@@ -1,9 +1,9 @@
 //! `opshock export`: every simulation of a store as CSV or JSON; one shock for ParaView.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::ShockArgs;
 use super::{export_suspension, export_vtu, stored};
 use clap::{Args, ValueEnum};

@@ -1,10 +1,10 @@
 //! `opshock export --format suspension`: the finite elements of a study's suspension as matrices.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::import::{shown, write_new};
+use super::global::GlobalArgs;
+use super::import::written::{shown, write_new};
 use super::study_file;
 use anyhow::Context as _;
 use opshock_study::study::imported_suspension::write;

@@ -1,15 +1,14 @@
 //! `opshock export STUDY --format vtu`: one shock as time series for ParaView.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::run::simulated;
 use super::selection::ShockArgs;
 use super::study_file;
 use anyhow::Context as _;
 use opshock_solver::disk::Harmonics;
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::simulation::{History, StructureColumns};
 use opshock_solver::structure::{
@@ -202,7 +201,7 @@ fn ramp(
     times_s: &[f64],
     start_s: f64,
 ) -> Option<RampSeries> {
-    if scene.ramp.model == RampModel::None {
+    if scene.ramp.model.is_absent() {
         return None;
     }
     let half = 0.5 * scene.disk.thickness_m;

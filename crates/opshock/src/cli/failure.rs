@@ -1,7 +1,7 @@
 //! What stops a command, and how it is told.
 
-use super::console::{stderr_colour, stderr_width};
 use super::exit::Exit;
+use super::terminal::{stderr_colour, stderr_width};
 use opshock_study::report::ReportError;
 use opshock_study::store::StoreError;
 use opshock_study::study::{SetSyntaxError, StudyErrors};

@@ -1,9 +1,9 @@
 //! `opshock figures`: the figures of the paper from a study's scene, runs and critical shocks.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::run::{caption, simulated};
 use super::{stored, study_file};
 use clap::Args;

@@ -1,9 +1,9 @@
 //! `opshock match`: parameters of a study that make a set of observations true.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::stored;
 use super::sweep::{duration, quoted, settings};
 use super::{memory, modes, steady, study_file};

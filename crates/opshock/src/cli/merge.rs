@@ -1,9 +1,9 @@
 //! `opshock merge`: shards, or other stores of the same study, united in one.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::report::exit_of;
 use super::stored;
 use anyhow::Context as _;

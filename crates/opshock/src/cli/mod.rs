@@ -15,6 +15,7 @@ mod export_suspension;
 mod export_vtu;
 mod failure;
 mod figures;
+mod global;
 mod hard_cases;
 mod import;
 mod matching;
@@ -32,21 +33,22 @@ mod selection;
 mod slurm;
 mod status;
 mod steady;
+mod steady_state;
 mod stored;
 mod study_file;
 mod sweep;
+mod terminal;
 mod thresholds;
 
 pub use exit::Exit;
 
 use anyhow::Context as _;
-use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory as _, Parser, Subcommand};
 use console::Console;
 use failure::{Failure, Fault};
+use global::GlobalArgs;
 use opshock_study::provenance;
-use opshock_study::sweep::ProgressKind;
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -68,76 +70,6 @@ struct Cli {
     global: GlobalArgs,
     #[command(subcommand)]
     command: Command,
-}
-
-/// Options of every command.
-#[derive(Args, Debug)]
-struct GlobalArgs {
-    /// Print version, commit and physics versions
-    #[arg(short = 'V', long, action = ArgAction::Version)]
-    version: Option<bool>,
-    /// Worker threads [default: all cores]
-    #[arg(short, long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    /// Results, and errors, as JSON
-    #[arg(long, global = true)]
-    json: bool,
-    /// No messages but errors and warnings
-    #[arg(short, long, global = true)]
-    quiet: bool,
-    /// Set a key of the study; may be repeated
-    #[arg(
-        long,
-        global = true,
-        value_name = "KEY=VALUE",
-        allow_hyphen_values = true
-    )]
-    set: Vec<String>,
-    /// Take a key, a section or an entry of a list away from the study; may be repeated
-    #[arg(long, global = true, value_name = "KEY")]
-    unset: Vec<String>,
-    /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
-    #[arg(long, global = true, value_name = "DIR")]
-    store: Option<PathBuf>,
-    /// How progress is shown
-    #[arg(long, global = true, value_name = "HOW", value_enum, default_value_t)]
-    progress: ProgressChoice,
-    /// Codes of warnings that need not stop the command, as W201,W305
-    #[arg(long, global = true, value_name = "CODES", value_delimiter = ',')]
-    accept: Vec<String>,
-}
-
-/// How progress is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum ProgressChoice {
-    /// A live table on a terminal, lines elsewhere
-    #[default]
-    Auto,
-    /// A live table
-    Bar,
-    /// Lines
-    Lines,
-    /// Nothing
-    None,
-}
-
-impl From<ProgressChoice> for ProgressKind {
-    fn from(choice: ProgressChoice) -> Self {
-        match choice {
-            ProgressChoice::Auto => ProgressKind::Auto,
-            ProgressChoice::Bar => ProgressKind::Bar,
-            ProgressChoice::Lines => ProgressKind::Lines,
-            ProgressChoice::None => ProgressKind::None,
-        }
-    }
-}
-
-impl GlobalArgs {
-    /// Worker threads: `-j`, else one for each core.
-    fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.jobs.map_or_else(cores, usize::from)
-    }
 }
 
 #[derive(Subcommand, Debug)]
@@ -232,7 +164,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Import(arguments) => import::run(arguments, &cli.global, console),
         Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
         Command::Schema(arguments) => schema::run(arguments, console),
-        Command::Completions(arguments) => completions::run(arguments, console),
+        Command::Completions(arguments) => completions::run(arguments, Cli::command(), console),
     }
 }
 

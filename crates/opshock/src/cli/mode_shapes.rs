@@ -1,10 +1,10 @@
 //! `opshock modes --shapes DIR`: the modes of every body as grids and drawings.
 
 use super::failure::{Failure, Fault};
-use super::steady::ModeJson;
+use super::steady_state::ModeJson;
 use anyhow::Context as _;
 use opshock_solver::disk::{DiskBasis, Harmonics};
-use opshock_solver::ramp::RampModel;
+use opshock_solver::ramp::ContactMode;
 use opshock_solver::scene::Scene;
 use opshock_solver::suspension::SuspensionShapes;
 use opshock_study::report::mode_shapes::{
@@ -109,10 +109,8 @@ fn upright(mut shape: Vec<f64>) -> Vec<f64> {
 }
 
 fn ramp(study: &Study, scene: &Scene) -> Result<Option<RampShapes>, Failure> {
-    if !matches!(
-        scene.ramp.model,
-        RampModel::Deformable { .. } | RampModel::Coupled { .. }
-    ) {
+    let contact_modes = scene.ramp.model.modes();
+    if contact_modes.is_empty() {
         return Ok(None);
     }
     if let Some(solid) = study.ramp_solid()? {
@@ -125,33 +123,11 @@ fn ramp(study: &Study, scene: &Scene) -> Result<Option<RampShapes>, Failure> {
             modes,
         }));
     }
-    let mut modes: Vec<ArmShape> = match &scene.ramp.model {
-        RampModel::Deformable { top, bottom } => {
-            let of = |arm: usize, hz: f64, mass_kg: f64| {
-                let mut contact_per_sqrt_kg = [0.0; 2];
-                contact_per_sqrt_kg[arm] = mass_kg.sqrt().recip();
-                ArmShape {
-                    frequency_hz: hz,
-                    contact_per_sqrt_kg,
-                }
-            };
-            let arms = [top, bottom].into_iter().enumerate();
-            arms.flat_map(|(arm, modes)| {
-                modes
-                    .iter()
-                    .map(move |m| of(arm, m.frequency_hz, m.mass_kg))
-            })
-            .collect()
-        }
-        RampModel::Coupled { modes } => modes
-            .iter()
-            .map(|mode| ArmShape {
-                frequency_hz: mode.frequency_hz,
-                contact_per_sqrt_kg: mode.shape_per_sqrt_kg,
-            })
-            .collect(),
-        RampModel::None | RampModel::Rigid => Vec::new(),
+    let shape = |mode: &ContactMode| ArmShape {
+        frequency_hz: mode.frequency_hz,
+        contact_per_sqrt_kg: mode.shape_per_sqrt_kg(),
     };
+    let mut modes: Vec<ArmShape> = contact_modes.iter().map(shape).collect();
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
     let half = 0.5 * scene.disk.thickness_m;
     Ok(Some(RampShapes::Contacts {

@@ -1,13 +1,14 @@
 //! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film; responses.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::mode_shapes;
 use super::responses::responses;
 use super::selection::{PointArgs, unshaken_point};
-use super::steady::{ModeJson, air_bearing_modes};
+use super::steady::air_bearing_modes;
+use super::steady_state::ModeJson;
 use super::study_file;
 use anyhow::Context as _;
 use clap::Args;

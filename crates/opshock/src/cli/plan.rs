@@ -1,9 +1,9 @@
 //! `opshock plan`: what a sweep is going to cost, and a job script for Slurm.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::{matching, memory, slurm, stored, study_file};
 use anyhow::Context as _;
 use clap::Args;

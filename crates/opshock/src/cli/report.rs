@@ -1,9 +1,9 @@
 //! `opshock report`: the table of a store, and its files.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::stored::{self, Stored};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};

@@ -1,13 +1,12 @@
 //! `opshock run`: one shock in full.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::ShockArgs;
 use super::{memory, study_file};
 use clap::Args;
-use opshock_solver::ramp::RampModel;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::Output;
 use opshock_solver::shock::PulseShape;
@@ -203,9 +202,9 @@ pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCapti
         start_s: study.start_s,
         width_s: scene.pulse.width_s,
         t_fail_s: t_fail_s(study, outcome),
-        ramp_clearance_m: match scene.ramp.model {
-            RampModel::None => None,
-            _ => Some((scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m)),
+        ramp_clearance_m: match scene.ramp.model.is_absent() {
+            true => None,
+            false => Some((scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m)),
         },
         fail_below_m: scene.fail_below_m,
     }

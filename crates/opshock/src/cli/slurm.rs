@@ -1,6 +1,6 @@
 //! A job-array script for Slurm: one task per shard, requeued until its part is complete.
 
-use super::GlobalArgs;
+use super::global::GlobalArgs;
 use super::sweep::{quoted, settings};
 use std::path::Path;
 

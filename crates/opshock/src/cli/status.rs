@@ -1,9 +1,9 @@
 //! `opshock status`: how far a sweep has come.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::report::exit_of;
 use super::stored;
 use clap::Args;

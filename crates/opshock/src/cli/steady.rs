@@ -1,27 +1,27 @@
 //! `opshock steady`: the slider flying before the shock, or held at an attitude.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::selection::{PointArgs, unshaken_point};
+use super::steady_state::{
+    ImpedanceJson, LoadJson, LowerJson, Matrix, ModeJson, SteadyJson, as_text,
+};
 use super::{memory, study_file};
 use anyhow::Context as _;
 use clap::Args;
-use nalgebra::Complex;
 use opshock_solver::air_bearing::impedance::{AirBearingMode, SmallMotion};
 use opshock_solver::air_bearing::steady::{
     Equilibrium, SteadyError, fixed_attitude, lower_equilibria,
 };
-use opshock_solver::air_bearing::{Attitude, Film, SurfaceLoad};
+use opshock_solver::air_bearing::{Attitude, Film, GapLoad};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_solver::slider::body::Inertia;
 use opshock_study::study::Study;
 use opshock_study::study::memory::Demand;
-use serde::Serialize;
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -43,78 +43,6 @@ pub struct SteadyArgs {
     /// Stiffness and damping at these frequencies, Hz
     #[arg(long, value_name = "HZ,...", value_delimiter = ',')]
     impedance: Vec<f64>,
-}
-
-/// Rows of a 3x3 matrix in the order (height, pitch, roll).
-type Matrix = [[f64; 3]; 3];
-
-/// `opshock steady --json`. Matrices are -dF/dq in the order (height, pitch, roll).
-#[derive(Debug, Serialize)]
-struct SteadyJson {
-    min_clearance_m: f64,
-    centre_height_m: f64,
-    pitch_rad: f64,
-    roll_rad: f64,
-    lift_n: f64,
-    suction_n: f64,
-    force_n: f64,
-    pitch_moment_n_m: f64,
-    roll_moment_n_m: f64,
-    /// Slider coordinates, m.
-    centre_of_pressure: [f64; 2],
-    p_max_pa: f64,
-    p_min_pa: f64,
-    stiffness: Matrix,
-    damping: Matrix,
-    /// Slider free on its film; null when a held attitude has none.
-    modes: Option<Vec<ModeJson>>,
-    unknowns: usize,
-    /// Equilibria below the flight; null for a held slider.
-    lower: Option<Vec<LowerJson>>,
-    /// What the film's grid leaves out of the air's force, put back.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    correction: Option<LoadJson>,
-    /// Share of the forces between slider and disk beside the air.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    surface_forces: Option<LoadJson>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impedance: Option<Vec<ImpedanceJson>>,
-}
-
-/// Part of the force, the moments and the stiffness above that the film's pressure on its grid does not make.
-#[derive(Debug, Serialize)]
-struct LoadJson {
-    force_n: f64,
-    pitch_moment_n_m: f64,
-    roll_moment_n_m: f64,
-    stiffness: Matrix,
-}
-
-/// An equilibrium below the flight.
-#[derive(Debug, Serialize)]
-struct LowerJson {
-    min_clearance_m: f64,
-    centre_height_m: f64,
-    pitch_rad: f64,
-    roll_rad: f64,
-    stable: bool,
-}
-
-/// A mode of the slider on its film.
-#[derive(Debug, Serialize)]
-pub struct ModeJson {
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
-    /// As [`AirBearingMode::shape`].
-    #[serde(skip)]
-    pub shape: [Complex<f64>; 3],
-}
-
-#[derive(Debug, Serialize)]
-struct ImpedanceJson {
-    frequency_hz: f64,
-    stiffness: Matrix,
-    damping: Matrix,
 }
 
 /// Runs the command.
@@ -257,11 +185,13 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
     let [force_n, pitch_moment_n_m, roll_moment_n_m] =
         film.force(&psi, &attitude, &mut film.scratch());
     let [air_n, air_pitch_n_m, air_roll_n_m] = film.air_force(&psi, &attitude, &mut film.scratch());
-    let part = |load: SurfaceLoad| LoadJson {
+    let part = |load: GapLoad| LoadJson {
         force_n: load.force[0],
         pitch_moment_n_m: load.force[1],
         roll_moment_n_m: load.force[2],
         stiffness: load.by_attitude.map(|row| row.map(|slope| -slope)),
+        drag_n: load.in_plane_n.map(|force| force[0]),
+        outward_n: load.in_plane_n.map(|force| force[1]),
     };
     let [length_m, width_m] = film.extent_m();
     let json = SteadyJson {
@@ -286,7 +216,11 @@ fn described(film: &Film, psi: Vec<f64>, attitude: Attitude) -> State {
         unknowns: n,
         lower: None,
         correction: film.correction(&attitude).map(part),
-        surface_forces: film.surface_load(&attitude).map(part),
+        gap_forces: film
+            .gap_loads(&psi, &attitude, &mut film.scratch())
+            .into_iter()
+            .map(|(name, load)| (name, part(load)))
+            .collect(),
         impedance: None,
     };
     State {
@@ -394,81 +328,5 @@ fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), Failure> {
             allowed: Some("frequencies >= 0".into()),
             ..Fault::new("usage", format!("--impedance {hz}: no frequency"))
         }])),
-    }
-}
-
-fn as_text(steady: &SteadyJson) -> String {
-    let mut text = format!(
-        "clearance      {:.4} nm\n\
-         attitude       centre height {:.4} nm, pitch {:.4} urad, roll {:.4} urad\n\
-         force          {:.4} mN (lift {:.4}, suction {:.4}), moments {:.4e} and {:.4e} N m\n\
-         pressure       {:.5} to {:.5} MPa, centre at x {:.2} um, y {:.2} um\n\
-         unknowns       {}\n",
-        1e9 * steady.min_clearance_m,
-        1e9 * steady.centre_height_m,
-        1e6 * steady.pitch_rad,
-        1e6 * steady.roll_rad,
-        1e3 * steady.force_n,
-        1e3 * steady.lift_n,
-        1e3 * steady.suction_n,
-        steady.pitch_moment_n_m,
-        steady.roll_moment_n_m,
-        1e-6 * steady.p_min_pa,
-        1e-6 * steady.p_max_pa,
-        1e6 * steady.centre_of_pressure[0],
-        1e6 * steady.centre_of_pressure[1],
-        steady.unknowns,
-    );
-    for (name, load) in [
-        ("grid's defect", &steady.correction),
-        ("no air", &steady.surface_forces),
-    ] {
-        let Some(load) = load else { continue };
-        let _ = writeln!(
-            text,
-            "{name:<15}{:.4} mN of the force, moments {:.4e} and {:.4e} N m",
-            1e3 * load.force_n,
-            load.pitch_moment_n_m,
-            load.roll_moment_n_m
-        );
-    }
-    matrix(&mut text, "stiffness", &steady.stiffness);
-    matrix(&mut text, "damping", &steady.damping);
-    for below in steady.lower.iter().flatten() {
-        let kind = if below.stable { "stable" } else { "unstable" };
-        let clearance_nm = 1e9 * below.min_clearance_m;
-        text.push_str(&format!("below          {clearance_nm:.4} nm, {kind}\n"));
-    }
-    for mode in steady.modes.iter().flatten() {
-        let _ = writeln!(
-            text,
-            "mode           {:.2} kHz, damping ratio {:.4}",
-            1e-3 * mode.frequency_hz,
-            mode.damping_ratio
-        );
-    }
-    for row in steady.impedance.iter().flatten() {
-        matrix(
-            &mut text,
-            &format!("K {} Hz", row.frequency_hz),
-            &row.stiffness,
-        );
-        matrix(
-            &mut text,
-            &format!("C {} Hz", row.frequency_hz),
-            &row.damping,
-        );
-    }
-    text
-}
-
-fn matrix(text: &mut String, name: &str, rows: &Matrix) {
-    for (index, row) in rows.iter().enumerate() {
-        let name = if index == 0 { name } else { "" };
-        let _ = writeln!(
-            text,
-            "{name:<15}{:>13.5e} {:>13.5e} {:>13.5e}",
-            row[0], row[1], row[2]
-        );
     }
 }

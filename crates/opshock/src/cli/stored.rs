@@ -1,8 +1,8 @@
 //! The store a command reads: named itself, or by its study.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
 use super::study_file;
 use anyhow::Context as _;
 use opshock_study::report::{RunDot, Saving, ShockFilm, savings};

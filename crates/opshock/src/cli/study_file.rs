@@ -1,8 +1,9 @@
 //! The study a command works on.
 
-use super::GlobalArgs;
-use super::console::{Console, stderr_colour, stderr_width};
+use super::console::Console;
 use super::failure::{Failure, Fault};
+use super::global::GlobalArgs;
+use super::terminal::{stderr_colour, stderr_width};
 use opshock_solver::air_bearing::steady::SteadyError;
 use opshock_solver::head::HeadError;
 use opshock_solver::quantity::GRAM_FORCE_N;

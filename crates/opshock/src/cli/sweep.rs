@@ -1,10 +1,10 @@
 //! `opshock sweep`: the critical shock of every point; run again, it resumes. A study that asks for
 //! touch thresholds alone gets those, without a search.
 
-use super::GlobalArgs;
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
+use super::global::GlobalArgs;
 use super::report::{Told, exit_of};
 use super::stored::{self, Source};
 use super::{memory, study_file, thresholds};

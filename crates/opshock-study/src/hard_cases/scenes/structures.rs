@@ -3,7 +3,7 @@
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, Harmonics};
 use opshock_solver::quantity::{rad_from_deg, rad_per_s_from_rpm};
 use opshock_solver::ramp::{
-    ArmMode, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampModel, RampParameters,
+    ArmMode, Arms, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampBody, RampParameters,
 };
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::structure::{
@@ -58,9 +58,9 @@ impl Structure {
     }
 
     /// The same with another ramp model.
-    pub fn with_ramp(&self, model: RampModel) -> Self {
+    pub fn with_ramp(&self, model: impl Into<RampBody>) -> Self {
         let mut other = self.clone();
-        other.ramp.model = model;
+        other.ramp.model = model.into();
         other
     }
 
@@ -125,15 +125,16 @@ pub fn drive_disk() -> DiskParameters {
     }
 }
 
-fn arms(modes: Vec<ArmMode>) -> RampModel {
-    RampModel::Deformable {
+fn arms(modes: Vec<ArmMode>) -> RampBody {
+    Arms {
         top: modes.clone(),
         bottom: modes,
     }
+    .into()
 }
 
 /// Arms of set S1.
-pub fn s1_arms() -> RampModel {
+pub fn s1_arms() -> RampBody {
     arms(vec![
         ArmMode {
             frequency_hz: 904.704_632_189_596_7,
@@ -151,7 +152,7 @@ pub fn s1_arms() -> RampModel {
 }
 
 /// Arms of the paper's set.
-pub fn paper_arms() -> RampModel {
+pub fn paper_arms() -> RampBody {
     arms(vec![
         ArmMode {
             frequency_hz: 888.0,
@@ -169,7 +170,7 @@ pub fn paper_arms() -> RampModel {
 }
 
 /// Set S1: reference disk, ramp point at 32 mm, slider 20 degrees downstream at 21.25 mm.
-pub fn s1(width_s: f64, model: RampModel) -> Structure {
+pub fn s1(width_s: f64, model: impl Into<RampBody>) -> Structure {
     Structure {
         disk: reference_disk(),
         disk_resolution: DiskResolution {
@@ -179,7 +180,7 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
             static_correction: false,
         },
         ramp: RampParameters {
-            model,
+            model: model.into(),
             clearance_top_m: 100e-6,
             clearance_bottom_m: 100e-6,
             radius_m: 0.032,
@@ -206,7 +207,7 @@ pub fn s1(width_s: f64, model: RampModel) -> Structure {
 }
 
 /// The paper's set at the resolution a user gets.
-pub fn paper(width_s: f64, model: RampModel) -> Structure {
+pub fn paper(width_s: f64, model: impl Into<RampBody>) -> Structure {
     let base = s1(width_s, model);
     Structure {
         disk: drive_disk(),

@@ -1,7 +1,8 @@
 //! A canvas in SVG pixels, y down: texts, lines and marks on it.
 
 use super::colour::Rgb;
-use super::{Dash, Fill, Marker, Series, lines};
+use super::figure::{Dash, Fill, Marker, Series};
+use super::lines;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 

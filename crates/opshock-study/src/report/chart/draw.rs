@@ -1,12 +1,12 @@
 //! Layout of a figure and its primitives.
 
 use super::axis::ResolvedAxis;
+use super::axis::Scale;
 use super::canvas::{Canvas, rgb, text_width};
 use super::colour::{GREY, Rgb};
+use super::figure::{ChartError, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value};
+use super::lines;
 use super::plot::{Plot, abscissae, ordinates};
-use super::{
-    ChartError, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Scale, Series, Value, lines,
-};
 use kuva::backend::raster::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{Primitive, Scene, TextAnchor};

@@ -1,6 +1,6 @@
 //! Polylines: thinning, clipping, dashing. All in pixels.
 
-use super::Dash;
+use super::figure::Dash;
 
 type Point = (f64, f64);
 

@@ -1,7 +1,7 @@
 //! The plotting area of a panel: its axes and where a value lies.
 
 use super::axis::ResolvedAxis;
-use super::{Panel, Rule, Value};
+use super::figure::{Panel, Rule, Value};
 
 /// Plotting area and its axes.
 pub(super) struct Plot {

@@ -5,7 +5,7 @@ use crate::search::lattice::Lattice;
 use crate::search::probe::Retry;
 use opshock_solver::scene::knob::{Knob, Levels};
 
-use super::Bar;
+use super::parts::Bar;
 
 /// Nodes of the bar's lattice per step of the search.
 pub const SUBNODES: i32 = 16;

@@ -10,8 +10,11 @@
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
+use super::ask::{Ask, BarInput, Known, Progress, SUBNODES, Seen};
+use super::parts::{Bar, Part};
+use super::pieces::{self, GROUPS, Pieces};
 use super::verdicts::{self, Bracket};
-use super::{Ask, Bar, BarInput, GROUPS, Known, Part, Pieces, Progress, SUBNODES, Seen, Walk};
+use super::walk::{self, Walk};
 use crate::search::evidence::NodeVerdict;
 use crate::search::outcome::Flag;
 use crate::search::probe::Retry;
@@ -78,10 +81,10 @@ fn climbed(
     let mut kept = Default::default();
     for left in (0..=climbs).rev() {
         let mut walk = Walk::new(&at, lookup, log);
-        let pieces = super::pieces(&mut walk, kept)?;
-        let bar = super::whole(&walk, &pieces);
+        let pieces = pieces::pieces(&mut walk, kept)?;
+        let bar = pieces::whole(&walk, &pieces);
         let exceeds = bar.flags.contains(&Flag::BarExceeds);
-        (at.survivor, at.failure) = super::bracket(&walk);
+        (at.survivor, at.failure) = walk::bracket(&walk);
         if !exceeds || climbs == 0 {
             return Ok(Answer::of(&at, bar));
         }

@@ -6,9 +6,11 @@
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
+use super::ask::{Ask, Known, SUBNODES, Seen};
 use super::judge::{self, Estimate};
+use super::limits::Limits;
 use super::verdicts::{self, DEEP};
-use super::{Ask, Known, Limits, SUBNODES, Seen, Walk};
+use super::walk::Walk;
 use crate::search::evidence::NodeVerdict;
 
 /// Instants this close are one event, s: half a period of the slider on its film and gimbal.

@@ -2,8 +2,10 @@
 
 use opshock_solver::scene::knob::{Knob, Levels};
 
+use super::ask::Ask;
 use super::judge::{self, Estimate};
-use super::{Ask, Limits, Walk};
+use super::limits::Limits;
+use super::walk::Walk;
 use crate::search::evidence::NodeVerdict;
 use crate::search::probe::Retry;
 

@@ -2,11 +2,11 @@
 
 use super::dynamic::{self, Beside};
 use super::matrices::refuse_unaccepted;
-use super::{refused, shown, write_new};
-use crate::cli::GlobalArgs;
+use super::written::{refused, shown, write_new};
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::global::GlobalArgs;
 use clap::Args;
 use opshock_import::cml::dynamic::DynamicFile;
 use opshock_import::cml::study::{Asked, study, surface};

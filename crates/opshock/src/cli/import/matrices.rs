@@ -1,10 +1,10 @@
 //! `opshock import matrices`: mass and stiffness matrices, checked, in SI units.
 
-use super::{refused, shown, write_new};
-use crate::cli::GlobalArgs;
+use super::written::{refused, shown, write_new};
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::global::GlobalArgs;
 use clap::Args;
 use opshock_import::Faults;
 use opshock_import::matrix::dof;

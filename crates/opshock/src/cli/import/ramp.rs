@@ -9,11 +9,11 @@
 //! modes are those of both arms: a node of the mesh is the node of the same number in the matrices.
 
 use super::matrices::{refuse_unaccepted, units};
-use super::{refused, shown, write_new};
-use crate::cli::GlobalArgs;
+use super::written::{refused, shown, write_new};
 use crate::cli::console::Console;
 use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
+use crate::cli::global::GlobalArgs;
 use anyhow::Context as _;
 use clap::Args;
 use opshock_import::gmsh;

@@ -4,10 +4,13 @@ mod climbs;
 mod film;
 mod parts;
 
+use super::limits::Limits;
 use super::*;
 use crate::search::evidence::NodeVerdict;
 use crate::search::lattice::Lattice;
+use crate::search::outcome::Flag;
 use crate::search::probe::Retry;
+use opshock_solver::scene::knob::{Knob, Levels};
 
 /// A law of failure: critical amplitude, G, and clearance at its event, for any setting of knobs.
 struct Law {

@@ -23,11 +23,21 @@
 //! Tribology 124 (2002) 562; Thornton and Bogy, IEEE Trans. Magn. 39 (2003) 2420. Left out: overcoats
 //! and lubricant as layers of their own, roughness, retardation (beyond some tens of nanometres).
 
-use super::faces::{BLOCK, Places};
-use super::mesh::{Mesh, Place};
+use crate::air_bearing::attitude::Attitude;
+use crate::air_bearing::balance::Moments;
+use crate::air_bearing::derivatives::height_by_attitude;
+use crate::air_bearing::faces::{BLOCK, Places, block};
+use crate::air_bearing::film::{CellStates, Element, Film};
+use crate::air_bearing::gap_force::GapForce;
+use crate::air_bearing::gap_load::GapLoad;
+use crate::air_bearing::linearise::Totals;
+use crate::air_bearing::mesh::{Mesh, Place};
+use crate::lanes::{Kernel, total, widest};
 use crate::quantity::VACUUM_PERMITTIVITY_F_PER_M;
+use crate::slider::SliderParameters;
 use crate::slider::surface::Surface;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// What acts between slider and disk beside the air.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -41,13 +51,8 @@ pub struct SurfaceForces {
 }
 
 impl SurfaceForces {
-    /// Whether none of them acts.
-    pub fn is_none(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// `share` of all of them.
-    pub(super) fn times(&self, share: f64) -> Self {
+    fn times(&self, share: f64) -> Self {
         Self {
             hamaker_j: share * self.hamaker_j,
             repulsion_j_m6: share * self.repulsion_j_m6,
@@ -73,27 +78,33 @@ impl SurfaceForces {
     }
 }
 
-/// Force and moments [F_z, M_pitch, M_roll] of the surface forces, N and N m, with derivatives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceLoad {
-    /// Conjugate to (h_c, pitch, roll), as from [`Film::force`](super::Film::force).
-    pub force: [f64; 3],
-    /// Derivatives by (h_c, pitch, roll): `[force][q]`.
-    pub by_attitude: [[f64; 3]; 3],
+impl GapForce for SurfaceForces {
+    fn name(&self) -> &'static str {
+        "head.surface_forces"
+    }
+
+    fn is_active(&self) -> bool {
+        *self != Self::default()
+    }
+
+    fn over(&self, film: &Film, slider: &SliderParameters) -> Arc<dyn Element> {
+        let surface = Surface::new(slider);
+        Arc::new(Interaction::new(*self, &surface, &film.mesh))
+    }
 }
 
 /// Surface forces over the points of one film's cells.
 #[derive(Clone, Debug)]
-pub(super) struct Interaction {
-    pub(super) forces: SurfaceForces,
+struct Interaction {
+    forces: SurfaceForces,
     /// Points; the form holds the recess too.
-    pub(super) places: Places,
-    pub(super) area: Vec<f64>,
+    places: Places,
+    area: Vec<f64>,
 }
 
 impl Interaction {
     /// Points of the cells of `mesh`.
-    pub(super) fn new(forces: SurfaceForces, surface: &Surface, mesh: &Mesh) -> Self {
+    fn new(forces: SurfaceForces, surface: &Surface, mesh: &Mesh) -> Self {
         let mut places = Places::default();
         let mut area = Vec::with_capacity(4 * mesh.cells.len());
         let offset = 0.5 / 3.0_f64.sqrt();
@@ -131,7 +142,102 @@ impl Interaction {
         }
     }
 
-    pub(super) fn forces(&self) -> &SurfaceForces {
-        &self.forces
+    fn posed<'a>(&'a self, film: &'a Film, cells: &CellStates<'a>) -> Posed<'a> {
+        Posed {
+            film,
+            interaction: self,
+            attitude: cells.attitude,
+        }
+    }
+}
+
+impl Element for Interaction {
+    fn force(&self, film: &Film, cells: &CellStates<'_>) -> [f64; 3] {
+        widest(Loads(self.posed(film, cells)))
+    }
+
+    fn load(&self, film: &Film, cells: &CellStates<'_>, _: &mut [Vec<f64>; 3]) -> GapLoad {
+        widest(Linearised(self.posed(film, cells)))
+    }
+
+    fn share_of_attraction(&self, share: f64) -> Option<Arc<dyn Element>> {
+        let mut part = self.clone();
+        part.forces = self.forces.times(share);
+        Some(Arc::new(part))
+    }
+}
+
+/// The points of a film at an attitude.
+struct Posed<'a> {
+    film: &'a Film,
+    interaction: &'a Interaction,
+    attitude: &'a Attitude,
+}
+
+impl Posed<'_> {
+    /// First points of the blocks.
+    #[inline(always)]
+    fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.interaction.area.len()).step_by(BLOCK)
+    }
+
+    /// Height that the film sees, its slope by the true height, and area of a block of points.
+    #[inline(always)]
+    fn block(&self, first: usize) -> ([f64; BLOCK], [f64; BLOCK], &[f64; BLOCK]) {
+        let height = self.interaction.places.heights(first, self.attitude);
+        let [h, floor_slope] = self.film.floored_block(&height, &[0.0; BLOCK]);
+        (h, floor_slope, block(&self.interaction.area, first))
+    }
+}
+
+/// Force and moments as a kernel.
+struct Loads<'a>(Posed<'a>);
+
+impl Kernel for Loads<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn call(self) -> [f64; 3] {
+        let forces = &self.0.interaction.forces;
+        let mut moments = Moments::default();
+        for first in self.0.blocks() {
+            let (h, _, area) = self.0.block(first);
+            let mut load = [0.0; BLOCK];
+            for k in 0..BLOCK {
+                load[k] = area[k] * forces.pressure(h[k]).0;
+            }
+            moments.add(&load, &self.0.interaction.places, first);
+        }
+        moments.total()
+    }
+}
+
+/// Force, moments and derivatives as a kernel.
+struct Linearised<'a>(Posed<'a>);
+
+impl Kernel for Linearised<'_> {
+    type Output = GapLoad;
+
+    #[inline(always)]
+    fn call(self) -> GapLoad {
+        let Interaction { forces, places, .. } = self.0.interaction;
+        let mut totals = Totals::default();
+        for first in self.0.blocks() {
+            let (h, floor_slope, area) = self.0.block(first);
+            let arms = height_by_attitude([block(&places.x, first), block(&places.y, first)]);
+            let (mut load, mut per_height) = ([0.0; BLOCK], [0.0; BLOCK]);
+            for k in 0..BLOCK {
+                let (pressure, slope) = forces.pressure(h[k]);
+                load[k] = area[k] * pressure;
+                per_height[k] = area[k] * slope * floor_slope[k];
+            }
+            totals.moments.add(&load, places, first);
+            totals.add_by_height(&per_height, &arms);
+        }
+        GapLoad {
+            force: totals.moments.total(),
+            by_attitude: totals.force_by_attitude.map(|row| row.map(total)),
+            in_plane_n: None,
+        }
     }
 }

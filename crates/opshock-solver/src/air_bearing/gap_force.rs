@@ -1,0 +1,102 @@
+//! Forces between slider and disk beside the air's pressure: what each of them gives the code that loops over all.
+//!
+//! Such an effect is data of a scene, a [`GapForce`], and over the cells of a film an
+//! [`Element`](super::film::Element). [`GapForces`](super::gap_forces::GapForces) lists them. Plan, mirror,
+//! film, results and output loop over the list and know no effect by name.
+
+use super::attitude::Attitude;
+use super::film::{Element, Film};
+use super::gap_load::GapLoad;
+use super::state::FilmScratch;
+use crate::slider::SliderParameters;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// A force between slider and disk beside the air's pressure, as data of a scene.
+pub trait GapForce: Debug + Send + Sync {
+    /// Name in plans and results: `head.` and the [`GapForce::key`].
+    fn name(&self) -> &'static str;
+
+    /// Name of its part in what `opshock steady` prints.
+    fn key(&self) -> &'static str {
+        let name = self.name();
+        name.strip_prefix("head.").unwrap_or(name)
+    }
+
+    /// Whether the scene has it.
+    fn is_active(&self) -> bool;
+
+    /// The same in the drive upside down; what is told as the slider sees the disk stays.
+    #[must_use]
+    fn mirrored(&self) -> Self
+    where
+        Self: Clone + Sized,
+    {
+        self.clone()
+    }
+
+    /// The force over the cells of `film`, a film under `slider`.
+    fn over(&self, film: &Film, slider: &SliderParameters) -> Arc<dyn Element>;
+}
+
+impl Film {
+    /// The same film with `force` beside it on its `slider`: [`Film::force`] and the linearisation hold it from then
+    /// on, pressures and fluxes do not. It takes the place of one of the same name.
+    #[must_use]
+    pub fn with_gap_force(mut self, slider: &SliderParameters, force: &dyn GapForce) -> Self {
+        self.gap_forces.retain(|(key, _)| *key != force.key());
+        if force.is_active() {
+            let element = force.over(&self, slider);
+            self.gap_forces.push((force.key(), element));
+        }
+        self
+    }
+
+    /// Whether a force beside the air may draw the slider in, so that its flight ends.
+    pub(super) fn is_drawn_in(&self) -> bool {
+        let mut all = self.gap_forces.iter();
+        all.any(|(_, force)| force.share_of_attraction(1.0).is_some())
+    }
+
+    /// The same film with `share` of the forces that may draw the slider in.
+    pub(super) fn with_share_of_attraction(&self, share: f64) -> Self {
+        let mut film = self.clone();
+        for (_, force) in &mut film.gap_forces {
+            if let Some(part) = force.share_of_attraction(share) {
+                *force = part;
+            }
+        }
+        film
+    }
+
+    /// What the forces beside the air do at a state, each with its [`GapForce::key`].
+    ///
+    /// # Panics
+    ///
+    /// When `psi` has not n_cells entries or `scratch` belongs to another film.
+    pub fn gap_loads(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        scratch: &mut FilmScratch,
+    ) -> Vec<(&'static str, GapLoad)> {
+        scratch.fill(self, psi, attitude);
+        let cells = scratch.cell_states(attitude);
+        let mut by_psi = [(); 3].map(|()| vec![0.0; self.n_cells()]);
+        let loads = self.gap_forces.iter();
+        loads
+            .map(|(key, force)| (*key, force.load(self, &cells, &mut by_psi)))
+            .collect()
+    }
+
+    /// Force and moments of all of them at the state in `scratch`.
+    pub(super) fn gap_force(&self, attitude: &Attitude, scratch: &FilmScratch) -> [f64; 3] {
+        let cells = scratch.cell_states(attitude);
+        let mut sum = [0.0; 3];
+        for (_, force) in &self.gap_forces {
+            let part = force.force(self, &cells);
+            (0..3).for_each(|f| sum[f] += part[f]);
+        }
+        sum
+    }
+}

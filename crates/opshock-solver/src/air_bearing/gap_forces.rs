@@ -1,0 +1,53 @@
+//! The list of forces between slider and disk beside the air's pressure, each in a file of its own.
+//!
+//! A new one is a file here, its entry below, and its keys and their reading in a study.
+
+mod surface_forces;
+mod viscous_shear;
+
+use super::gap_force::GapForce;
+pub use surface_forces::SurfaceForces;
+pub use viscous_shear::ViscousShear;
+
+/// The forces of a scene; by default none acts.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct GapForces {
+    /// Van der Waals and electrostatic forces.
+    #[serde(skip_serializing_if = "is_off")]
+    pub surface_forces: SurfaceForces,
+    /// Shear of the film on the slider.
+    #[serde(skip_serializing_if = "is_off")]
+    pub viscous_shear: ViscousShear,
+}
+
+/// A force that does not act is no part of a scene's identity: a new one leaves those of stored results as they are.
+fn is_off(force: &impl GapForce) -> bool {
+    !force.is_active()
+}
+
+impl GapForces {
+    /// Every one, active or not, in the order of plans and results.
+    pub fn all(&self) -> impl Iterator<Item = &dyn GapForce> {
+        // Taken apart by name, so that a new one does not compile until it has its place here.
+        let Self {
+            surface_forces,
+            viscous_shear,
+        } = self;
+        let all: [&dyn GapForce; _] = [surface_forces, viscous_shear];
+        all.into_iter()
+    }
+
+    /// Those that act.
+    pub fn active(&self) -> impl Iterator<Item = &dyn GapForce> {
+        self.all().filter(|force| force.is_active())
+    }
+
+    /// The same in the drive upside down.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            surface_forces: self.surface_forces.mirrored(),
+            viscous_shear: self.viscous_shear.mirrored(),
+        }
+    }
+}
