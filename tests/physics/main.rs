@@ -33,3 +33,4 @@ mod responses;
 mod run_out;
 mod surface_forces;
 mod suspension;
+mod viscoelastic;

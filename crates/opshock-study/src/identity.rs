@@ -9,7 +9,7 @@ use opshock_solver::air_bearing::{FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::disk::{DiskDamping, DiskParameters, DiskResolution, HubParameters, Wave};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::ramp::{
-    CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, ContactMode, RampBody, RampParameters,
+    CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, ContactMode, RampBody, RampParameters, Relaxation,
 };
 use opshock_solver::scene::{Coupling, HeadResolution, Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
@@ -420,7 +420,11 @@ impl Digester {
                 self.numbers(&spring);
             }
         }
-        let RampBody { model, contacts } = model;
+        let RampBody {
+            model,
+            contacts,
+            relaxation,
+        } = model;
         self.text(model);
         let modes = contacts.as_deref().unwrap_or_default();
         // Arms list their modes each, as in a study file.
@@ -448,6 +452,13 @@ impl Digester {
                 self.numbers(&[*frequency_hz]);
                 self.numbers(scale);
                 self.numbers(&[*participation, *damping_ratio]);
+            }
+        }
+        if !relaxation.is_empty() {
+            self.text("relaxation");
+            self.integer(relaxation.len() as u64);
+            for Relaxation { share, time_s } in relaxation {
+                self.numbers(&[*share, *time_s]);
             }
         }
     }

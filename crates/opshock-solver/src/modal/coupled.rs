@@ -10,6 +10,14 @@
 //! is one: the eigenvectors of the state (q, q̇). Every mode η is one complex number, its flow over
 //! any time is e^{sh}, and its forced response is a closed form as in [`super::forcing`].
 //!
+//! A coordinate may be held by Maxwell elements as well, springs k in series with dashpots of relaxation time τ:
+//!
+//! ```text
+//! M q̈ + D q̇ + K q + Σ k y = b f(t),    ẏ = q̇ − y/τ          y: extension of the spring
+//! ```
+//!
+//! one more first-order coordinate each; ½ k y² is stored, k y²/τ is taken.
+//!
 //! Of a real system only one of each conjugate pair is carried, with weights of 2.
 //!
 //! Energies: H = ½ q̇ᴴ M q̇ + ½ qᴴ U q with the real part U of the stiffness that stores energy. The
@@ -25,6 +33,17 @@ use crate::linalg::dense::modes_of_free_body;
 use crate::linalg::general::general_eigen;
 use crate::linalg::{DenseError, SquareMatrix};
 use nalgebra::Complex;
+
+/// A spring in series with a dashpot between a coordinate and the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Maxwell {
+    /// The coordinate.
+    pub coordinate: usize,
+    /// Stiffness k of the spring.
+    pub stiffness: f64,
+    /// Relaxation time τ, s.
+    pub time_s: f64,
+}
 
 /// Matrices of coupled oscillators.
 #[derive(Clone, Debug)]
@@ -42,6 +61,8 @@ pub struct CoupledSystem {
     /// Positive diagonal stiffness with frequencies like the system's: the scale of amplitudes beside
     /// velocities in the eigenproblem.
     pub scale: Vec<f64>,
+    /// Maxwell elements.
+    pub elements: Vec<Maxwell>,
 }
 
 /// Damped modes of a [`CoupledSystem`].
@@ -53,9 +74,11 @@ pub struct CoupledModes {
     /// P and V by coordinate and mode, weights of 2 included.
     position: Vec<Vec<Complex<f64>>>,
     velocity: Vec<Vec<Complex<f64>>>,
+    /// The same of the Maxwell elements' extensions.
+    extension: Vec<Vec<Complex<f64>>>,
     /// Share of each mode per impulse on each coordinate, by mode and coordinate.
     entrance: Vec<Vec<Complex<f64>>>,
-    /// Rows that read q, q̇ (real parts, then imaginary parts of a complex system).
+    /// Rows that read q, q̇ (real parts, then imaginary parts of a complex system), then y likewise.
     rows: Vec<Readout>,
     is_real: bool,
     n_columns: usize,
@@ -93,6 +116,8 @@ pub struct Coordinates {
     pub q: Vec<Complex<f64>>,
     /// q̇.
     pub v: Vec<Complex<f64>>,
+    /// y of the Maxwell elements.
+    pub y: Vec<Complex<f64>>,
 }
 
 /// Response of one first-order mode over one time to the four parts of a [`Phase`].
@@ -110,18 +135,28 @@ impl CoupledSystem {
             stiffness: zero(),
             cross_stiffness: zero(),
             scale,
+            elements: Vec::new(),
         }
     }
 
-    /// ½ q̇ᴴ M q̇, ½ qᴴ U q.
+    /// ½ q̇ᴴ M q̇, ½ qᴴ U q + Σ ½ k |y|².
     pub fn energies(&self, at: &Coordinates) -> (f64, f64) {
         (
             0.5 * hermitian(&self.mass, &at.v),
-            0.5 * hermitian(&self.stiffness, &at.q),
+            0.5 * hermitian(&self.stiffness, &at.q) + 0.5 * self.extended(at, |_| 1.0),
         )
     }
 
-    /// Re(q̇ᴴ D q̇ + q̇ᴴ (K − U) q): power taken from H.
+    /// Σ k |y|² weight.
+    fn extended(&self, at: &Coordinates, weight: impl Fn(&Maxwell) -> f64) -> f64 {
+        let elements = self.elements.iter().zip(&at.y);
+        let of = |(element, y): (&Maxwell, &Complex<f64>)| {
+            element.stiffness * y.norm_sqr() * weight(element)
+        };
+        elements.map(of).sum()
+    }
+
+    /// Re(q̇ᴴ D q̇ + q̇ᴴ (K − U) q) + Σ k |y|²/τ: power taken from H.
     pub fn loss_rate(&self, at: &Coordinates) -> f64 {
         let n = self.scale.len();
         let mut cross = 0.0;
@@ -131,7 +166,9 @@ impl CoupledSystem {
                 cross += k * (at.v[i].im * at.q[j].re - at.v[i].re * at.q[j].im);
             }
         }
-        hermitian(&self.damping, &at.v) + cross
+        hermitian(&self.damping, &at.v)
+            + cross
+            + self.extended(at, |element| element.time_s.recip())
     }
 }
 
@@ -174,7 +211,8 @@ impl CoupledModes {
             Complex::new(re.form(&phi[k], &phi[l]), im.form(&phi[k], &phi[l]))
         };
         let zero = Complex::from(0.0);
-        let mut rows = vec![vec![zero; 2 * n]; 2 * n];
+        let order = 2 * n + system.elements.len();
+        let mut rows = vec![vec![zero; order]; order];
         for k in 0..n {
             rows[k][n + k] = Complex::from(omega[k]);
             for l in 0..n {
@@ -183,9 +221,18 @@ impl CoupledModes {
                 rows[n + k][n + l] = -form(&system.damping, &system.gyroscopic, k, l);
             }
         }
+        // With √k y beside the velocities an element is skew but for what it takes.
+        for (e, element) in system.elements.iter().enumerate() {
+            for k in 0..n {
+                let held = Complex::from(element.stiffness.sqrt() * phi[k][element.coordinate]);
+                rows[n + k][2 * n + e] = -held;
+                rows[2 * n + e][n + k] = held;
+            }
+            rows[2 * n + e][2 * n + e] = Complex::from(-element.time_s.recip());
+        }
         let is_real = rows.iter().flatten().all(|z| z.im == 0.0);
         let eigen = general_eigen(&rows)?;
-        let kept: Vec<usize> = (0..2 * n)
+        let kept: Vec<usize> = (0..order)
             .filter(|&k| !is_real || eigen.values[k].im >= 0.0)
             .filter(|&k| eigen.values[k].norm() < fastest_per_s)
             .collect();
@@ -208,6 +255,12 @@ impl CoupledModes {
                 .map(|i| kept.iter().map(|&k| coordinate(i, k, half)).collect())
                 .collect()
         };
+        let extension = system.elements.iter().enumerate().map(|(e, element)| {
+            let of =
+                |&k: &usize| eigen.vectors[k][2 * n + e] * (weight(k) / element.stiffness.sqrt());
+            kept.iter().map(of).collect()
+        });
+        let extension = extension.collect();
         let entrance = kept
             .iter()
             .map(|&k| {
@@ -220,6 +273,7 @@ impl CoupledModes {
             rates_per_s: kept.iter().map(|&k| eigen.values[k]).collect(),
             position: by_coordinate(0),
             velocity: by_coordinate(1),
+            extension,
             entrance,
             rows: Vec::new(),
             is_real,
@@ -245,6 +299,13 @@ impl CoupledModes {
             self.rows.extend(points.iter().map(|p| p.position.clone()));
             self.rows.extend(points.into_iter().map(|p| p.velocity));
         }
+        for part in &parts[..if self.is_real { 1 } else { 2 }] {
+            let rows = self.extension.iter();
+            let rows: Vec<Readout> = rows
+                .map(|row| self.columns(std::slice::from_ref(row), &[*part]))
+                .collect();
+            self.rows.extend(rows);
+        }
     }
 
     /// Adds a mode that holds u = ∫ f dt and with it the load `b` u: η̇ = s η + w u has the answer
@@ -269,8 +330,8 @@ impl CoupledModes {
             let at = held(row);
             row.push(at);
         }
-        // What a steady load holds does not move.
-        for row in &mut self.velocity {
+        // What a steady load holds does not move, and its Maxwell elements have relaxed.
+        for row in self.velocity.iter_mut().chain(&mut self.extension) {
             row.push(Complex::from(0.0));
         }
         let at = self.rates_per_s.len();
@@ -315,27 +376,29 @@ impl CoupledModes {
         Coordinates {
             q: zero.clone(),
             v: zero,
+            y: vec![Complex::from(0.0); self.extension.len()],
         }
     }
 
     /// What reads Re Σ weights·q.
     pub fn readout(&self, weights: &[Complex<f64>]) -> PointReadout {
-        let columns = |table: &[Vec<Complex<f64>>]| {
-            let mut readout = Readout {
-                re: vec![0.0; self.n_columns],
-                im: vec![0.0; self.n_columns],
-            };
-            for k in 0..self.rates_per_s.len() {
-                let rows = table.iter().zip(weights);
-                let sum: Complex<f64> = rows.map(|(row, weight)| row[k] * weight).sum();
-                (readout.re[k], readout.im[k]) = (sum.re, -sum.im);
-            }
-            readout
-        };
         PointReadout {
-            position: columns(&self.position),
-            velocity: columns(&self.velocity),
+            position: self.columns(&self.position, weights),
+            velocity: self.columns(&self.velocity, weights),
         }
+    }
+
+    fn columns(&self, table: &[Vec<Complex<f64>>], weights: &[Complex<f64>]) -> Readout {
+        let mut readout = Readout {
+            re: vec![0.0; self.n_columns],
+            im: vec![0.0; self.n_columns],
+        };
+        for k in 0..self.rates_per_s.len() {
+            let rows = table.iter().zip(weights);
+            let sum: Complex<f64> = rows.map(|(row, weight)| row[k] * weight).sum();
+            (readout.re[k], readout.im[k]) = (sum.re, -sum.im);
+        }
+        readout
     }
 
     /// w of the generalised force `b` per unit f.
@@ -358,6 +421,13 @@ impl CoupledModes {
             if !self.is_real {
                 at.q[i].im = value(2 * n + i);
                 at.v[i].im = value(3 * n + i);
+            }
+        }
+        let (first, r) = (if self.is_real { 2 * n } else { 4 * n }, at.y.len());
+        for e in 0..r {
+            at.y[e] = Complex::from(value(first + e));
+            if !self.is_real {
+                at.y[e].im = value(first + r + e);
             }
         }
     }
@@ -427,7 +497,10 @@ impl CoupledModes {
         for (a, left) in columns.iter().enumerate() {
             for (b, right) in columns.iter().enumerate() {
                 let both = dot(&left.v, &forces[b]) + dot(&right.v, &forces[a]);
-                form.add(a, b, 0.5 * weight * both);
+                let relaxed: f64 = (self.system.elements.iter().enumerate())
+                    .map(|(e, x)| x.stiffness / x.time_s * dot(&left.y[e..=e], &right.y[e..=e]))
+                    .sum();
+                form.add(a, b, weight * (0.5 * both + relaxed));
             }
         }
     }
@@ -559,6 +632,7 @@ mod tests {
             stiffness: matrix(&[&[5.0, 0.0], &[0.0, 30.0]]),
             cross_stiffness: matrix(&[&[0.2, 0.0], &[0.0, 0.1]]),
             scale: vec![5.0, 31.0],
+            elements: Vec::new(),
         }
     }
 
@@ -575,6 +649,11 @@ mod tests {
         let m = &system.mass;
         let det = m.get(0, 0) * m.get(1, 1) - m.get(0, 1) * m.get(1, 0);
         let rate = |at: &Coordinates| {
+            let pulled = |a: usize| -> Complex<f64> {
+                let pairs = system.elements.iter().zip(&at.y);
+                let own = pairs.filter(|(e, _)| e.coordinate == a);
+                own.map(|(e, y)| y * e.stiffness).sum()
+            };
             let force: Vec<Complex<f64>> = (0..2)
                 .map(|a| {
                     (0..2)
@@ -584,10 +663,14 @@ mod tests {
                                 i * system.cross_stiffness.get(a, b) + system.stiffness.get(a, b);
                             -(d * at.v[b]) - k * at.q[b]
                         })
-                        .sum()
+                        .sum::<Complex<f64>>()
+                        - pulled(a)
                 })
                 .collect();
             Coordinates {
+                y: (system.elements.iter().zip(&at.y))
+                    .map(|(e, y)| at.v[e.coordinate] - y / e.time_s)
+                    .collect(),
                 q: at.v.clone(),
                 v: vec![
                     (force[0] * m.get(1, 1) - force[1] * m.get(0, 1)) / det,
@@ -598,6 +681,7 @@ mod tests {
         let step = |at: &Coordinates, by: &Coordinates, f: f64| Coordinates {
             q: (0..2).map(|j| at.q[j] + by.q[j] * f).collect(),
             v: (0..2).map(|j| at.v[j] + by.v[j] * f).collect(),
+            y: at.y.iter().zip(&by.y).map(|(y, by)| y + by * f).collect(),
         };
         let n = 20_000;
         let dt = h_s / f64::from(n);
@@ -642,6 +726,9 @@ mod tests {
                 for j in 0..2 {
                     assert!((at.q[j] - wanted.q[j]).norm() < 1e-12, "{h_s}");
                     assert!((at.v[j] - wanted.v[j]).norm() < 1e-12, "{h_s}");
+                }
+                for (y, wanted) in at.y.iter().zip(&wanted.y) {
+                    assert!((y - wanted).norm() < 1e-12, "{h_s}");
                 }
                 let booked = state.form(&modes.loss_form(h_s));
                 assert!((booked - lost).abs() < 1e-12, "{h_s}: {booked} {lost}");

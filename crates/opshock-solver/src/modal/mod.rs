@@ -9,7 +9,7 @@ pub mod part_flow;
 pub use bank::{BankFlow, ModalState, Readout};
 pub use coupled::{
     Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, FirstOrderResponse,
-    PointReadout,
+    Maxwell, PointReadout,
 };
 pub use forcing::{ForcedResponse, Phase};
 pub use oscillator::{Flow, LossForm, Oscillator};

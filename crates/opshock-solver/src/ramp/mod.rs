@@ -15,7 +15,7 @@ mod rigid;
 
 pub use arms::Arms;
 pub use error::RampError;
-pub use mode::{ArmMode, ContactMode};
+pub use mode::{ArmMode, ContactMode, Relaxation};
 pub use model::{RampBody, RampModel};
 pub use none::NoRamp;
 pub use one_body::{CoupledMode, OneBody};

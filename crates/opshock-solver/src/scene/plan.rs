@@ -367,6 +367,7 @@ impl Plan {
                 None => effect("head.surface_forces", State::Off, None),
             },
         ];
+        list.extend(scene.ramp.model.relaxes().then(|| on("ramp.relaxation")));
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));
         }
