@@ -2,9 +2,11 @@
 
 use nalgebra::Complex;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::ramp::{ArmMode, Arms, ContactMode, RampBody, RampModel, Relaxation};
+use opshock_solver::ramp::{ArmMode, Arms, ContactMode, POM, RampBody, RampModel, Relaxation};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::structure::{StructureRun, Workspace};
+use opshock_study::study::keys;
+use opshock_tests::scenes;
 use opshock_tests::structures::{Structure, s1, s1_arms};
 use std::f64::consts::TAU;
 
@@ -274,4 +276,40 @@ fn relaxing_arms_agree_with_the_other_contact_method() {
     }
     println!("{errors:?}");
     assert!(errors[1] < 0.1e-6, "{errors:?}");
+}
+
+/// The series that the table of keys shows is that for polyoxymethylene, with the loss factors it names.
+#[test]
+fn a_study_gives_its_ramp_a_series() {
+    let text = keys::find("ramp.deformable.prony").unwrap().example();
+    let scene = scenes::scene(
+        "fig13-stiffness",
+        "deformable",
+        0.5,
+        &[("ramp.deformable.prony", text)],
+    );
+    let elastic = scenes::scene("fig13-stiffness", "deformable", 0.5, &[]);
+    let ramp = &scene.ramp.model;
+    assert_eq!(
+        (ramp.model, ramp.contacts.clone()),
+        ("viscoelastic", elastic.ramp.model.contacts)
+    );
+    for (found, wanted) in ramp.relaxation.iter().zip(&POM) {
+        assert_eq!(found.share, wanted.share);
+        assert!((found.time_s / wanted.time_s - 1.0).abs() < 1e-12);
+    }
+    assert_eq!(ramp.relaxation.len(), POM.len());
+    let modulus = |hz: f64| {
+        let of = |term: &Relaxation| term.share / Complex::new(1.0, TAU * hz * term.time_s);
+        Complex::from(1.0) - POM.iter().map(of).sum::<Complex<f64>>()
+    };
+    for (hz, loss_factor) in [(1e3, 0.0124), (1e4, 0.0213), (1e5, 0.0285)] {
+        let e = modulus(hz);
+        assert!((e.im / e.re - loss_factor).abs() < 5e-5, "{hz}: {e}");
+    }
+    assert!((modulus(1e3).re.recip() - 1.104).abs() < 5e-4);
+    // No series that keeps no stiffness.
+    let mut all = scene.ramp.clone();
+    all.model.relaxation[0].share = 0.92;
+    assert!(all.validate().is_err());
 }

@@ -12,6 +12,7 @@ mod none;
 mod one_body;
 mod parameters;
 mod rigid;
+mod viscoelastic;
 
 pub use arms::Arms;
 pub use error::RampError;
@@ -21,3 +22,4 @@ pub use none::NoRamp;
 pub use one_body::{CoupledMode, OneBody};
 pub use parameters::{CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampParameters};
 pub use rigid::RigidRamp;
+pub use viscoelastic::{POM, Viscoelastic};

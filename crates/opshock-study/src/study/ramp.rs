@@ -4,7 +4,7 @@
 
 use opshock_solver::ramp::{
     ArmMode, Arms, CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, CoupledMode, NoRamp, OneBody,
-    RampBody, RampParameters, RigidRamp,
+    RampBody, RampParameters, Relaxation, RigidRamp, Viscoelastic,
 };
 
 use super::key::Kind::{Number, Tables, Text, Word, Words};
@@ -16,6 +16,9 @@ use super::{ramp_geometry, ramp_mesh};
 
 /// Damping ratio of every mode that has none of its own.
 const DAMPING: &str = "ramp.deformable.damping_ratio";
+
+/// Terms by which the stiffness of every mode relaxes.
+const PRONY: &str = "ramp.deformable.prony";
 
 /// The ramp of one point, the disk's run-out taking `taken_m` of both gaps.
 pub fn parameters(view: &View<'_>, ramp: Ramp, taken_m: f64) -> RampParameters {
@@ -47,7 +50,7 @@ fn model(view: &View<'_>, ramp: Ramp) -> RampBody {
     match ramp {
         Ramp::None => NoRamp.into(),
         Ramp::Rigid => RigidRamp.into(),
-        Ramp::Deformable => deformable(view),
+        Ramp::Deformable => viscoelastic(view, deformable(view)),
     }
 }
 
@@ -66,6 +69,18 @@ fn deformable(view: &View<'_>) -> RampBody {
         _ => arm(view, "ramp.deformable.bottom_modes"),
     };
     Arms { top, bottom }.into()
+}
+
+/// The ramp with what relaxes of its modes; as it is without a series.
+fn viscoelastic(view: &View<'_>, elastic: RampBody) -> RampBody {
+    let prony = view.tables(PRONY, |si| Relaxation {
+        share: si("share"),
+        time_s: si("time_ms"),
+    });
+    match prony.is_empty() {
+        true => elastic,
+        false => Viscoelastic { elastic, prony }.into(),
+    }
 }
 
 /// Modes of one arm, as listed.
@@ -161,5 +176,8 @@ pub static KEYS: &[Key] = &[
     Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass."),
     Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base."),
     Key::optional("ramp.deformable.coupled_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132"),
+    Key::optional("ramp.deformable.prony", Tables, "elastic modes", "[{ share = 0.02, time_ms = 0.1 }, { share = 0.03, time_ms = 0.01 }, { share = 0.05, time_ms = 0.001 }]", "Prony series by which the stiffness of every mode relaxes; frequencies are those of the instantaneous modulus. Damping ratios count beside it.").code("E132"),
+    Key::required("ramp.deformable.prony[].share", Number(open(0.0, 1.0)), "0.02", "Share of the instantaneous modulus that relaxes; the sum stays below 1.").code("E132"),
+    Key::required("ramp.deformable.prony[].time_ms", LENGTH, "0.1", "Relaxation time.").usual(1e-4, 1e3).code("E132"),
     Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132"),
 ];
