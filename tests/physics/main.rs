@@ -37,4 +37,5 @@ mod responses;
 mod run_out;
 mod surface_forces;
 mod suspension;
+mod viscoelastic;
 mod viscous_shear;

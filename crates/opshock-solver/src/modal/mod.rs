@@ -8,7 +8,7 @@ pub mod part_flow;
 
 pub use bank::{BankFlow, ModalState, Readout};
 pub use coupled::{
-    Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, PointReadout,
+    Coordinates, CoupledFlow, CoupledModes, CoupledState, CoupledSystem, Maxwell, PointReadout,
 };
 pub use forcing::{FirstOrderResponse, ForcedResponse, Phase};
 pub use oscillator::{Flow, LossForm, Oscillator};

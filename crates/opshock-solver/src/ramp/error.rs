@@ -21,6 +21,9 @@ pub enum RampError {
         /// Allowed range in words.
         allowed: &'static str,
     },
+    /// The modes of arms that relax cannot be told apart.
+    #[error("the damped modes of a relaxing ramp cannot be taken apart: two of them coincide")]
+    NotSolved,
     /// No mode of the ramp moves a contact point.
     #[error("no mode of the ramp moves its {side} contact point: use a rigid ramp")]
     CannotMove {

@@ -12,12 +12,14 @@ mod none;
 mod one_body;
 mod parameters;
 mod rigid;
+mod viscoelastic;
 
 pub use arms::Arms;
 pub use error::RampError;
-pub use mode::{ArmMode, ContactMode};
+pub use mode::{ArmMode, ContactMode, Relaxation};
 pub use model::{RampBody, RampModel};
 pub use none::NoRamp;
 pub use one_body::{CoupledMode, OneBody};
 pub use parameters::{CONTACT_DAMPING_RATIO, CONTACT_FREQUENCY_HZ, RampParameters};
 pub use rigid::RigidRamp;
+pub use viscoelastic::{POM, Viscoelastic};

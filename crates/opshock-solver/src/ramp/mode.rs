@@ -34,6 +34,19 @@ pub struct ContactMode {
     pub damping_ratio: f64,
 }
 
+/// One term of a modulus that relaxes, E(t) = E∞ + Σ Eᵢ e^{−t/τᵢ} (Prony series).
+///
+/// ```text
+/// m q'' + k₀ (q − Σ gᵢ zᵢ) = f,    τᵢ zᵢ' = q − zᵢ
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Relaxation {
+    /// Share gᵢ = Eᵢ/E₀ of the instantaneous modulus that relaxes.
+    pub share: f64,
+    /// Relaxation time τᵢ, s.
+    pub time_s: f64,
+}
+
 impl ContactMode {
     /// Shape of the mode scaled to unit modal mass, 1/√kg.
     pub fn shape_per_sqrt_kg(&self) -> [f64; 2] {
@@ -77,6 +90,21 @@ impl ContactMode {
                 ratio,
                 ratio >= 0.0,
                 "finite and at least 0",
+            ),
+        ])
+    }
+}
+
+impl Relaxation {
+    pub(super) fn validate(&self) -> Result<(), RampError> {
+        let (share, time_s) = (self.share, self.time_s);
+        first_fault(&[
+            ("relaxing share", share, share > 0.0, "finite and above 0"),
+            (
+                "relaxation time",
+                time_s,
+                time_s > 0.0,
+                "finite and above 0",
             ),
         ])
     }

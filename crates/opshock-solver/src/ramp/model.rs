@@ -1,7 +1,7 @@
 //! What a model of the ramp gives, and what everything else knows of it.
 
-use super::error::RampError;
-use super::mode::{ArmMode, ContactMode};
+use super::error::{RampError, first_fault};
+use super::mode::{ArmMode, ContactMode, Relaxation};
 
 /// Name of the one model with contact points that no mode moves.
 pub(super) const RIGID: &str = "rigid";
@@ -15,6 +15,11 @@ pub trait RampModel {
 
     /// Modes that move the contact points; none of a rigid ramp, `None` without a ramp.
     fn contacts(&self) -> Option<Vec<ContactMode>>;
+
+    /// How the stiffness of all these modes relaxes; none: they are elastic, with damping ratios.
+    fn relaxation(&self) -> Vec<Relaxation> {
+        Vec::new()
+    }
 }
 
 /// A ramp as disk, contact and prints know it, of whatever model.
@@ -24,6 +29,9 @@ pub struct RampBody {
     pub model: &'static str,
     /// Modes that move the contact points; `None` without a ramp.
     pub contacts: Option<Vec<ContactMode>>,
+    /// How the stiffness of every mode relaxes. Its frequency is that of the instantaneous stiffness.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub relaxation: Vec<Relaxation>,
 }
 
 impl<M: RampModel> From<M> for RampBody {
@@ -31,6 +39,7 @@ impl<M: RampModel> From<M> for RampBody {
         Self {
             model: model.name(),
             contacts: model.contacts(),
+            relaxation: model.relaxation(),
         }
     }
 }
@@ -44,6 +53,11 @@ impl RampBody {
     /// Modes; none of a rigid ramp and without a ramp.
     pub fn modes(&self) -> &[ContactMode] {
         self.contacts.as_deref().unwrap_or_default()
+    }
+
+    /// Whether there are modes whose stiffness relaxes.
+    pub fn relaxes(&self) -> bool {
+        !self.modes().is_empty() && !self.relaxation.is_empty()
     }
 
     /// Modes of the top and of the bottom arm where no mode moves both; `None` of one body.
@@ -79,6 +93,9 @@ impl RampBody {
     pub(super) fn validate(&self) -> Result<(), RampError> {
         let modes = self.modes();
         modes.iter().try_for_each(ContactMode::validate)?;
+        self.relaxation.iter().try_for_each(Relaxation::validate)?;
+        let relaxes: f64 = self.relaxation.iter().map(|term| term.share).sum();
+        first_fault(&[("sum of relaxing shares", relaxes, relaxes < 1.0, "below 1")])?;
         let is_rigid = self.is_absent() || self.model == RIGID;
         for (at, side) in ["top", "bottom"].into_iter().enumerate() {
             if !is_rigid && modes.iter().all(|mode| mode.shape[at] == 0.0) {

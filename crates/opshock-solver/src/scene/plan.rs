@@ -373,6 +373,7 @@ impl Plan {
             true => needs(force.name(), Needs::Flight),
             false => effect(force.name(), State::Off, None),
         }));
+        list.extend(scene.ramp.model.relaxes().then(|| on("ramp.relaxation")));
         for name in ["head.film", "head.slider", "head.suspension", "head.dimple"] {
             list.push(needs(name, Needs::Head));
         }

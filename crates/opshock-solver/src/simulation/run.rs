@@ -246,6 +246,7 @@ pub(super) fn effects(model: &Model) -> Vec<&'static str> {
     for (name, is_on) in [
         ("ramp.contact", !ramp.is_absent()),
         ("ramp.arms", !ramp.modes().is_empty()),
+        ("ramp.relaxation", ramp.relaxes()),
         ("disk.travelling_waves", !ramp.is_absent()),
     ] {
         names.extend(is_on.then_some(name));

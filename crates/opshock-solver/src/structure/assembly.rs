@@ -64,7 +64,9 @@ impl StructureModel {
         let modes = DiskModes::new(disk, disk_resolution, &radii, Some(0))?;
         let is_on_hub = disk.hub.is_some();
         // A hub carries n = 1, and waves that grow in air held in space are told before any touch.
-        let is_at_once = is_on_hub || !base.is_empty() || disk.space_fixed_damping_per_s > 0.0;
+        // So does the rotor that carries arms which relax.
+        let has_rotor = is_on_hub || !base.is_empty() || ramp.model.relaxes();
+        let is_at_once = has_rotor || disk.space_fixed_damping_per_s > 0.0;
         let first = match is_at_once {
             true => harmonics,
             false => Harmonics::Symmetric,
@@ -87,7 +89,7 @@ impl StructureModel {
             ramp: ramp.clone(),
             slider,
             oblique: oblique.copied(),
-            is_on_base: !base.is_empty(),
+            has_riding: !base.is_empty() || ramp.model.relaxes(),
             method: resolution.contact,
             step_s,
         };
@@ -163,7 +165,7 @@ struct Assembly {
     ramp: RampParameters,
     slider: SliderPlace,
     oblique: Option<ObliqueShock>,
-    is_on_base: bool,
+    has_riding: bool,
     method: ContactMethod,
     step_s: f64,
 }
@@ -172,7 +174,7 @@ impl Assembly {
     /// Modes of the disk and both arms in one bank, padded.
     fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
         let Self { disk, ramp, .. } = self;
-        let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.is_on_base);
+        let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.has_riding);
         let spring = Spring::of(ramp, self.method, self.step_s);
         let arms = bank.add_ramp(&ramp.model, spring, self.step_s);
         if let Some(shock) = &self.oblique {

@@ -81,7 +81,8 @@ pub(super) struct Bank {
     pub rim: Vec<f64>,
     pub slider: [Readout; 3],
     pub slope_to_pose: [f64; 2],
-    /// Modes of arms that a vibrating base shakes, left to the rotor; `None` on a rigid base.
+    /// Modes of arms that a vibrating base shakes or whose stiffness relaxes, left to the rotor; `None` on a rigid
+    /// base under elastic arms.
     pub riding: Option<Vec<RidingMode>>,
 }
 
@@ -92,7 +93,7 @@ impl Bank {
         disk: &DiskParameters,
         slider: SliderPlace,
         ramp_angle: f64,
-        is_on_base: bool,
+        has_riding: bool,
     ) -> Self {
         let n_disk = padded(modes.len());
         let zero = || vec![0.0; n_disk];
@@ -116,7 +117,7 @@ impl Bank {
                 im: zero(),
             }),
             slope_to_pose: [pitch[0], roll[0]],
-            riding: is_on_base.then(Vec::new),
+            riding: has_riding.then(Vec::new),
         };
         for (i, mode) in modes.iter().enumerate() {
             let n = mode.nodal_diameters as f64;
@@ -179,30 +180,37 @@ impl Bank {
             [[1.0, 0.0], [0.0, 1.0]].map(|contact| spring.map(|spring| spring.at_contact(contact)));
         if ramp.arms().is_none() {
             let springs: Vec<ContactMode> = springs.into_iter().flatten().collect();
-            let arm = self.add_modes(ramp.modes(), &springs, step_s);
+            let arm = self.add_modes(ramp.modes(), &springs, ramp.relaxes(), step_s);
             return [arm.clone(), arm];
         }
         [0, 1].map(|side| {
             let own = |mode: &&ContactMode| mode.shape[side] != 0.0;
             let modes: Vec<ContactMode> = ramp.modes().iter().filter(own).copied().collect();
-            self.add_modes(&modes, springs[side].as_slice(), step_s)
+            self.add_modes(&modes, springs[side].as_slice(), ramp.relaxes(), step_s)
         })
     }
 
     /// Appends `modes` and `springs` behind them. A mode too fast for the step is slowed to
     /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: φ/ω and p/ω, its stiffness and its load, and so all
     /// slow motion stay as they are.
-    fn add_modes(&mut self, modes: &[ContactMode], springs: &[ContactMode], step_s: f64) -> Arm {
+    fn add_modes(
+        &mut self,
+        modes: &[ContactMode],
+        springs: &[ContactMode],
+        relax: bool,
+        step_s: f64,
+    ) -> Arm {
         let start = self.oscillators.len();
         let fastest_hz = fastest_arm_hz(step_s);
-        for mode in modes.iter().chain(springs) {
+        let relaxing = modes.iter().map(|mode| (mode, relax));
+        for (mode, relaxes) in relaxing.chain(springs.iter().map(|mode| (mode, false))) {
             let share = (fastest_hz / mode.frequency_hz).min(1.0);
             self.n_slowed += usize::from(share < 1.0);
             let omega = std::f64::consts::TAU * mode.frequency_hz * share;
             let o = Oscillator::fixed(omega, mode.damping_ratio);
             let gain = share * mode.participation_sqrt_kg();
             let shapes = mode.shape_per_sqrt_kg().map(|shape| share * shape);
-            if self.is_riding(&o, gain, shapes) {
+            if self.is_riding(&o, gain, shapes, relaxes) {
                 continue;
             }
             self.forced_index.push(self.oscillators.len());
@@ -223,10 +231,16 @@ impl Bank {
         Arm { modes: start..end }
     }
 
-    /// Leaves a mode of an arm to the rotor, when there is a base that shakes it.
-    fn is_riding(&mut self, o: &Oscillator, gain: f64, shape_per_sqrt_kg: [f64; 2]) -> bool {
+    /// Leaves a mode of an arm to the rotor, when there is a base that shakes it or its stiffness relaxes.
+    fn is_riding(
+        &mut self,
+        o: &Oscillator,
+        gain: f64,
+        shape_per_sqrt_kg: [f64; 2],
+        relaxes: bool,
+    ) -> bool {
         match &mut self.riding {
-            Some(riding) if gain != 0.0 => {
+            Some(riding) if gain != 0.0 || relaxes => {
                 riding.push(RidingMode {
                     omega_rad_per_s: o.omega_rad_per_s,
                     half_damping_per_s: o.half_damping_per_s,
@@ -245,6 +259,10 @@ impl Bank {
             if *index >= self.n_disk {
                 *gain *= factor;
             }
+        }
+        // No oblique shock has a base: what rides here relaxes.
+        for mode in self.riding.iter_mut().flatten() {
+            mode.participation_sqrt_kg *= factor;
         }
     }
 

@@ -163,6 +163,9 @@ fields! {
     RAMP_DEFORMABLE_COUPLED_MODES_BOTTOM_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass.");
     RAMP_DEFORMABLE_COUPLED_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base.");
     RAMP_DEFORMABLE_COUPLED_MODES_DAMPING_RATIO: Option<f64> = Key::optional("ramp.deformable.coupled_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132");
+    RAMP_DEFORMABLE_PRONY: Tables = Key::optional("ramp.deformable.prony", Kind::Tables, "elastic modes", "[{ share = 0.02, time_ms = 0.1 }, { share = 0.03, time_ms = 0.01 }, { share = 0.05, time_ms = 0.001 }]", "Prony series by which the stiffness of every mode relaxes; frequencies are those of the instantaneous modulus. Damping ratios count beside it.").code("E132");
+    RAMP_DEFORMABLE_PRONY_SHARE: f64 = Key::required("ramp.deformable.prony[].share", Number(open(0.0, 1.0)), "0.02", "Share of the instantaneous modulus that relaxes; the sum stays below 1.").code("E132");
+    RAMP_DEFORMABLE_PRONY_TIME_MS: f64 = Key::required("ramp.deformable.prony[].time_ms", LENGTH, "0.1", "Relaxation time.").usual(1e-4, 1e3).code("E132");
     RAMP_DEFORMABLE_DAMPING_RATIO: f64 = Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132");
     // slider
     SLIDER_RADIUS_MM: f64 = Key::or("slider.radius_mm", LENGTH, "21.0", "Radius of the slider's centre.").usual(5.0, 70.0) => |scene| scene.slider.radius_m;

@@ -3,7 +3,8 @@
 use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
 use opshock_solver::ramp::{
-    ArmMode, Arms, CoupledMode, NoRamp, OneBody, RampParameters, RigidRamp,
+    ArmMode, Arms, CoupledMode, NoRamp, OneBody, RampBody, RampParameters, Relaxation, RigidRamp,
+    Viscoelastic,
 };
 use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
 use opshock_solver::scene::{Scene, Window};
@@ -255,6 +256,21 @@ fn coupled_modes(view: &View<'_>) -> Vec<CoupledMode> {
     (0..count).map(mode).collect()
 }
 
+/// What relaxes of the ramp's modes; nothing without a series.
+fn relax(view: &View<'_>, ramp: &mut RampBody) {
+    let term = |entry| Relaxation {
+        share: view.entry(entry, &fields::RAMP_DEFORMABLE_PRONY_SHARE),
+        time_s: view.entry(entry, &fields::RAMP_DEFORMABLE_PRONY_TIME_MS),
+    };
+    let prony: Vec<Relaxation> = (0..view.get(&fields::RAMP_DEFORMABLE_PRONY))
+        .map(term)
+        .collect();
+    if !prony.is_empty() && !ramp.modes().is_empty() {
+        let elastic = ramp.clone();
+        *ramp = Viscoelastic { elastic, prony }.into();
+    }
+}
+
 /// Model and clearances of the ramp.
 fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
     let damping_ratio =
@@ -297,6 +313,7 @@ fn complete_ramp(view: &View<'_>, ramp: Ramp, parameters: &mut RampParameters) {
             Arms { top, bottom }.into()
         }
     };
+    relax(view, &mut parameters.model);
     let clearance_m = view.get(&fields::RAMP_CLEARANCE_UM);
     let taken_m = gap_taken_m(view);
     let own_m = |own: &Field<Option<f64>>| view.get(own).unwrap_or(clearance_m) - taken_m;

@@ -10,6 +10,14 @@
 //! is one: the eigenvectors of the state (q, q̇). Every mode η is one complex number, its flow over
 //! any time is e^{sh}, and its forced response is a closed form as in [`crate::modal::forcing`].
 //!
+//! A coordinate may be held by Maxwell elements as well, springs k in series with dashpots of relaxation time τ:
+//!
+//! ```text
+//! M q̈ + D q̇ + K q + Σ k y = b f(t),    ẏ = q̇ − y/τ          y: extension of the spring
+//! ```
+//!
+//! one more first-order coordinate each; ½ k y² is stored, k y²/τ is taken.
+//!
 //! Of a real system only one of each conjugate pair is carried, with weights of 2.
 //!
 //! Energies: H = ½ q̇ᴴ M q̇ + ½ qᴴ U q with the real part U of the stiffness that stores energy. The
@@ -24,7 +32,7 @@ mod system;
 
 pub use modes::CoupledModes;
 pub use state::{CoupledFlow, CoupledState, PointReadout};
-pub use system::{Coordinates, CoupledSystem};
+pub use system::{Coordinates, CoupledSystem, Maxwell};
 
 #[cfg(test)]
 mod tests;

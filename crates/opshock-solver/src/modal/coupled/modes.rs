@@ -18,9 +18,11 @@ pub struct CoupledModes {
     /// P and V by coordinate and mode, weights of 2 included.
     position: Vec<Vec<Complex<f64>>>,
     velocity: Vec<Vec<Complex<f64>>>,
+    /// The same of the Maxwell elements' extensions.
+    extension: Vec<Vec<Complex<f64>>>,
     /// Share of each mode per impulse on each coordinate, by mode and coordinate.
     entrance: Vec<Vec<Complex<f64>>>,
-    /// Rows that read q, q̇ (real parts, then imaginary parts of a complex system).
+    /// Rows that read q, q̇ (real parts, then imaginary parts of a complex system), then y likewise.
     rows: Vec<Readout>,
     is_real: bool,
     n_columns: usize,
@@ -54,7 +56,8 @@ impl CoupledModes {
             Complex::new(re.form(&phi[k], &phi[l]), im.form(&phi[k], &phi[l]))
         };
         let zero = Complex::from(0.0);
-        let mut rows = vec![vec![zero; 2 * n]; 2 * n];
+        let order = 2 * n + system.elements.len();
+        let mut rows = vec![vec![zero; order]; order];
         for k in 0..n {
             rows[k][n + k] = Complex::from(omega[k]);
             for l in 0..n {
@@ -63,9 +66,18 @@ impl CoupledModes {
                 rows[n + k][n + l] = -form(&system.damping, &system.gyroscopic, k, l);
             }
         }
+        // With √k y beside the velocities an element is skew but for what it takes.
+        for (e, element) in system.elements.iter().enumerate() {
+            for k in 0..n {
+                let held = Complex::from(element.stiffness.sqrt() * phi[k][element.coordinate]);
+                rows[n + k][2 * n + e] = -held;
+                rows[2 * n + e][n + k] = held;
+            }
+            rows[2 * n + e][2 * n + e] = Complex::from(-element.time_s.recip());
+        }
         let is_real = rows.iter().flatten().all(|z| z.im == 0.0);
         let eigen = general_eigen(&rows)?;
-        let kept: Vec<usize> = (0..2 * n)
+        let kept: Vec<usize> = (0..order)
             .filter(|&k| !is_real || eigen.values[k].im >= 0.0)
             .filter(|&k| eigen.values[k].norm() < fastest_per_s)
             .collect();
@@ -88,6 +100,12 @@ impl CoupledModes {
                 .map(|i| kept.iter().map(|&k| coordinate(i, k, half)).collect())
                 .collect()
         };
+        let extension = system.elements.iter().enumerate().map(|(e, element)| {
+            let of =
+                |&k: &usize| eigen.vectors[k][2 * n + e] * (weight(k) / element.stiffness.sqrt());
+            kept.iter().map(of).collect()
+        });
+        let extension = extension.collect();
         let entrance = kept
             .iter()
             .map(|&k| {
@@ -100,6 +118,7 @@ impl CoupledModes {
             rates_per_s: kept.iter().map(|&k| eigen.values[k]).collect(),
             position: by_coordinate(0),
             velocity: by_coordinate(1),
+            extension,
             entrance,
             rows: Vec::new(),
             is_real,
@@ -125,6 +144,13 @@ impl CoupledModes {
             self.rows.extend(points.iter().map(|p| p.position.clone()));
             self.rows.extend(points.into_iter().map(|p| p.velocity));
         }
+        for part in &parts[..if self.is_real { 1 } else { 2 }] {
+            let rows = self.extension.iter();
+            let rows: Vec<Readout> = rows
+                .map(|row| self.columns(std::slice::from_ref(row), &[*part]))
+                .collect();
+            self.rows.extend(rows);
+        }
     }
 
     /// Adds a mode that holds u = ∫ f dt and with it the load `b` u: η̇ = s η + w u has the answer
@@ -149,8 +175,8 @@ impl CoupledModes {
             let at = held(row);
             row.push(at);
         }
-        // What a steady load holds does not move.
-        for row in &mut self.velocity {
+        // What a steady load holds does not move, and its Maxwell elements have relaxed.
+        for row in self.velocity.iter_mut().chain(&mut self.extension) {
             row.push(Complex::from(0.0));
         }
         let at = self.rates_per_s.len();
@@ -195,27 +221,29 @@ impl CoupledModes {
         Coordinates {
             q: zero.clone(),
             v: zero,
+            y: vec![Complex::from(0.0); self.extension.len()],
         }
     }
 
     /// What reads Re Σ weights·q.
     pub fn readout(&self, weights: &[Complex<f64>]) -> PointReadout {
-        let columns = |table: &[Vec<Complex<f64>>]| {
-            let mut readout = Readout {
-                re: vec![0.0; self.n_columns],
-                im: vec![0.0; self.n_columns],
-            };
-            for k in 0..self.rates_per_s.len() {
-                let rows = table.iter().zip(weights);
-                let sum: Complex<f64> = rows.map(|(row, weight)| row[k] * weight).sum();
-                (readout.re[k], readout.im[k]) = (sum.re, -sum.im);
-            }
-            readout
-        };
         PointReadout {
-            position: columns(&self.position),
-            velocity: columns(&self.velocity),
+            position: self.columns(&self.position, weights),
+            velocity: self.columns(&self.velocity, weights),
         }
+    }
+
+    fn columns(&self, table: &[Vec<Complex<f64>>], weights: &[Complex<f64>]) -> Readout {
+        let mut readout = Readout {
+            re: vec![0.0; self.n_columns],
+            im: vec![0.0; self.n_columns],
+        };
+        for k in 0..self.rates_per_s.len() {
+            let rows = table.iter().zip(weights);
+            let sum: Complex<f64> = rows.map(|(row, weight)| row[k] * weight).sum();
+            (readout.re[k], readout.im[k]) = (sum.re, -sum.im);
+        }
+        readout
     }
 
     /// w of the generalised force `b` per unit f.
@@ -238,6 +266,13 @@ impl CoupledModes {
             if !self.is_real {
                 at.q[i].im = value(2 * n + i);
                 at.v[i].im = value(3 * n + i);
+            }
+        }
+        let (first, r) = (if self.is_real { 2 * n } else { 4 * n }, at.y.len());
+        for e in 0..r {
+            at.y[e] = Complex::from(value(first + e));
+            if !self.is_real {
+                at.y[e].im = value(first + r + e);
             }
         }
     }
@@ -307,7 +342,10 @@ impl CoupledModes {
         for (a, left) in columns.iter().enumerate() {
             for (b, right) in columns.iter().enumerate() {
                 let both = dot(&left.v, &forces[b]) + dot(&right.v, &forces[a]);
-                form.add(a, b, 0.5 * weight * both);
+                let relaxed: f64 = (self.system.elements.iter().enumerate())
+                    .map(|(e, x)| x.stiffness / x.time_s * dot(&left.y[e..=e], &right.y[e..=e]))
+                    .sum();
+                form.add(a, b, weight * (0.5 * both + relaxed));
             }
         }
     }

@@ -3,6 +3,17 @@
 use crate::linalg::SquareMatrix;
 use nalgebra::Complex;
 
+/// A spring in series with a dashpot between a coordinate and the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Maxwell {
+    /// The coordinate.
+    pub coordinate: usize,
+    /// Stiffness k of the spring.
+    pub stiffness: f64,
+    /// Relaxation time τ, s.
+    pub time_s: f64,
+}
+
 /// Matrices of coupled oscillators.
 #[derive(Clone, Debug)]
 pub struct CoupledSystem {
@@ -19,6 +30,8 @@ pub struct CoupledSystem {
     /// Positive diagonal stiffness with frequencies like the system's: the scale of amplitudes beside
     /// velocities in the eigenproblem.
     pub scale: Vec<f64>,
+    /// Maxwell elements.
+    pub elements: Vec<Maxwell>,
 }
 
 /// Coordinates and velocities.
@@ -28,6 +41,8 @@ pub struct Coordinates {
     pub q: Vec<Complex<f64>>,
     /// q̇.
     pub v: Vec<Complex<f64>>,
+    /// y of the Maxwell elements.
+    pub y: Vec<Complex<f64>>,
 }
 
 impl CoupledSystem {
@@ -41,18 +56,28 @@ impl CoupledSystem {
             stiffness: zero(),
             cross_stiffness: zero(),
             scale,
+            elements: Vec::new(),
         }
     }
 
-    /// ½ q̇ᴴ M q̇, ½ qᴴ U q.
+    /// ½ q̇ᴴ M q̇, ½ qᴴ U q + Σ ½ k |y|².
     pub fn energies(&self, at: &Coordinates) -> (f64, f64) {
         (
             0.5 * hermitian(&self.mass, &at.v),
-            0.5 * hermitian(&self.stiffness, &at.q),
+            0.5 * hermitian(&self.stiffness, &at.q) + 0.5 * self.extended(at, |_| 1.0),
         )
     }
 
-    /// Re(q̇ᴴ D q̇ + q̇ᴴ (K − U) q): power taken from H.
+    /// Σ k |y|² weight.
+    fn extended(&self, at: &Coordinates, weight: impl Fn(&Maxwell) -> f64) -> f64 {
+        let elements = self.elements.iter().zip(&at.y);
+        let of = |(element, y): (&Maxwell, &Complex<f64>)| {
+            element.stiffness * y.norm_sqr() * weight(element)
+        };
+        elements.map(of).sum()
+    }
+
+    /// Re(q̇ᴴ D q̇ + q̇ᴴ (K − U) q) + Σ k |y|²/τ: power taken from H.
     pub fn loss_rate(&self, at: &Coordinates) -> f64 {
         let n = self.scale.len();
         let mut cross = 0.0;
@@ -62,7 +87,9 @@ impl CoupledSystem {
                 cross += k * (at.v[i].im * at.q[j].re - at.v[i].re * at.q[j].im);
             }
         }
-        hermitian(&self.damping, &at.v) + cross
+        hermitian(&self.damping, &at.v)
+            + cross
+            + self.extended(at, |element| element.time_s.recip())
     }
 }
 

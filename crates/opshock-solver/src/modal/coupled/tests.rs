@@ -24,6 +24,7 @@ fn whirling() -> CoupledSystem {
         stiffness: matrix(&[&[5.0, 0.0], &[0.0, 30.0]]),
         cross_stiffness: matrix(&[&[0.2, 0.0], &[0.0, 0.1]]),
         scale: vec![5.0, 31.0],
+        elements: Vec::new(),
     }
 }
 
@@ -40,6 +41,11 @@ fn integrate(system: &CoupledSystem, start: &Coordinates, h_s: f64) -> (Coordina
     let m = &system.mass;
     let det = m.get(0, 0) * m.get(1, 1) - m.get(0, 1) * m.get(1, 0);
     let rate = |at: &Coordinates| {
+        let pulled = |a: usize| -> Complex<f64> {
+            let pairs = system.elements.iter().zip(&at.y);
+            let own = pairs.filter(|(e, _)| e.coordinate == a);
+            own.map(|(e, y)| y * e.stiffness).sum()
+        };
         let force: Vec<Complex<f64>> = (0..2)
             .map(|a| {
                 (0..2)
@@ -48,10 +54,14 @@ fn integrate(system: &CoupledSystem, start: &Coordinates, h_s: f64) -> (Coordina
                         let k = i * system.cross_stiffness.get(a, b) + system.stiffness.get(a, b);
                         -(d * at.v[b]) - k * at.q[b]
                     })
-                    .sum()
+                    .sum::<Complex<f64>>()
+                    - pulled(a)
             })
             .collect();
         Coordinates {
+            y: (system.elements.iter().zip(&at.y))
+                .map(|(e, y)| at.v[e.coordinate] - y / e.time_s)
+                .collect(),
             q: at.v.clone(),
             v: vec![
                 (force[0] * m.get(1, 1) - force[1] * m.get(0, 1)) / det,
@@ -62,6 +72,7 @@ fn integrate(system: &CoupledSystem, start: &Coordinates, h_s: f64) -> (Coordina
     let step = |at: &Coordinates, by: &Coordinates, f: f64| Coordinates {
         q: (0..2).map(|j| at.q[j] + by.q[j] * f).collect(),
         v: (0..2).map(|j| at.v[j] + by.v[j] * f).collect(),
+        y: at.y.iter().zip(&by.y).map(|(y, by)| y + by * f).collect(),
     };
     let n = 20_000;
     let dt = h_s / f64::from(n);
@@ -106,6 +117,9 @@ fn flow_and_loss_of_damped_whirling_modes_agree_with_direct_integration() {
             for j in 0..2 {
                 assert!((at.q[j] - wanted.q[j]).norm() < 1e-12, "{h_s}");
                 assert!((at.v[j] - wanted.v[j]).norm() < 1e-12, "{h_s}");
+            }
+            for (y, wanted) in at.y.iter().zip(&wanted.y) {
+                assert!((y - wanted).norm() < 1e-12, "{h_s}");
             }
             let booked = state.form(&modes.loss_form(h_s));
             assert!((booked - lost).abs() < 1e-12, "{h_s}: {booked} {lost}");

@@ -4,10 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use crate::disk::{DiskMode, DiskParameters, HubParameters};
 use crate::linalg::SquareMatrix;
-use crate::modal::CoupledSystem;
+use crate::modal::{CoupledSystem, Maxwell};
+use crate::ramp::Relaxation;
 use crate::shock::BaseMode;
 
-/// A mode of an arm, of unit modal mass, that the base shakes.
+/// A mode of an arm, of unit modal mass, that the base shakes or whose stiffness relaxes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::structure) struct RidingMode {
     pub omega_rad_per_s: f64,
@@ -24,6 +25,8 @@ pub(super) struct Stand<'a> {
     pub hub: Option<&'a HubParameters>,
     pub base: &'a [BaseMode],
     pub arms: &'a [RidingMode],
+    /// How the stiffness of every mode of the arms relaxes.
+    pub relaxation: &'a [Relaxation],
 }
 
 /// Where coordinates begin: modes of the base, the hub, modes of the disk, modes of the arms.
@@ -159,7 +162,17 @@ impl Matrices {
             self.system.mass.add(at, at, 1.0);
             let damping = 2.0 * mode.half_damping_per_s;
             self.system.damping.add(at, at, damping);
-            self.system.stiffness.add(at, at, omega * omega);
+            // What relaxes hangs on Maxwell elements, so that 1 − Σ g of the stiffness stays.
+            let mut lasting = 1.0;
+            for term in stand.relaxation {
+                lasting -= term.share;
+                self.system.elements.push(Maxwell {
+                    coordinate: at,
+                    stiffness: term.share * omega * omega,
+                    time_s: term.time_s,
+                });
+            }
+            self.system.stiffness.add(at, at, lasting * (omega * omega));
         }
         for (k, mode) in stand.base.iter().enumerate() {
             let omega = TAU * mode.frequency_hz;

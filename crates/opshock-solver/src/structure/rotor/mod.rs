@@ -25,6 +25,9 @@
 //!
 //! so that shock and contact find base, hub, disk and arms as one body, each moving the others. Tilts of the base
 //! are left out.
+//!
+//! Arms whose stiffness relaxes ([`crate::ramp::Relaxation`]) hang on Maxwell elements beside it. On a rigid base each
+//! of their modes is a part of its own.
 
 mod body;
 mod exchange;

@@ -29,14 +29,15 @@ impl Rotor {
 
     /// Displacement of an arm's contact point by the base and the modes on it, and its rate.
     pub fn arm(&self, side: usize, state: &RotorState) -> Gap {
-        let Some(arms) = &self.parts[0].arms else {
-            return Gap::default();
-        };
-        let (value_m, rate_m_per_s) = arms.contact[side].read(&state.parts[0]);
-        Gap {
-            value_m,
-            rate_m_per_s,
+        let mut sum = Gap::default();
+        for (part, state) in self.pairs(state) {
+            if let Some(arms) = &part.arms {
+                let (value, rate) = arms.contact[side].read(state);
+                sum.value_m += value;
+                sum.rate_m_per_s += rate;
+            }
         }
+        sum
     }
 
     /// Displacement of the actuator's pivot with the base, and its rate.
@@ -89,7 +90,7 @@ impl Rotor {
     /// Jumps of the rates of the slider's pose and of the pivot per impulse on the disk, on the top and on the
     /// bottom arm; `None` on a rigid base.
     pub fn base_jumps(&self) -> Option<[(DiskPose, f64); 3]> {
-        self.parts[0].arms.as_ref()?;
+        self.has_base.then_some(())?;
         let on_arm = |side: usize| {
             self.jump(move |part| part.arms.as_ref().map(|arms| &arms.entrance[side]))
         };
@@ -111,7 +112,7 @@ impl Rotor {
 
     /// Whether a base moves the actuator's pivot.
     pub fn has_pivot(&self) -> bool {
-        self.parts[0].arms.is_some()
+        self.has_base
     }
 
     /// Whether there is a hub, and a base.
@@ -130,13 +131,13 @@ impl Rotor {
             let hub = part.hub.as_ref().map(|rows| rows.each_ref().map(read));
             match (part.nodal_diameters, hub) {
                 (0, hub) => {
-                    sample.axial_m = hub.map_or(0.0, |[axial, _]| axial);
+                    sample.axial_m += hub.map_or(0.0, |[axial, _]| axial);
                     for (sum, body) in sample.momentum_n_s.iter_mut().zip(&part.bodies) {
                         if let Some(body) = body {
                             *sum = body.momentum.velocity.read(&s.re, &s.im);
                         }
                     }
-                    if let Some(arms) = &part.arms {
+                    if let Some(arms) = part.arms.as_ref().filter(|_| self.has_base) {
                         sample.mounts_m = [&arms.spindle, &arms.ramp, &arms.pivot].map(read);
                     }
                 }

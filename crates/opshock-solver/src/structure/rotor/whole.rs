@@ -8,6 +8,7 @@ use crate::complementarity::moreau_jean::{FirstOrderModes, MoreauJean};
 use crate::disk::{DiskError, DiskMode};
 use crate::modal::oscillator::GAUSS_8;
 use crate::modal::{PointReadout, Readout};
+use crate::ramp::RampError;
 use crate::shock::{BaseMotion, Stretch};
 use crate::structure::error::StructureError;
 use crate::structure::parameters::StructureParameters;
@@ -15,6 +16,8 @@ use crate::structure::parameters::StructureParameters;
 /// Both harmonics; n = 1 only on a hub and where something may drive it.
 pub(in crate::structure) struct Rotor {
     pub parts: Vec<Part>,
+    /// Whether there is a base that vibrates.
+    pub(super) has_base: bool,
     /// A whole step.
     pub step: Leap,
     /// Gauss' rule within a whole step.
@@ -37,7 +40,7 @@ impl Rotor {
     ) -> Result<Option<Self>, StructureError> {
         let (disk, ramp) = (parameters.disk, parameters.ramp);
         let hub = disk.hub.as_ref();
-        if hub.is_none() && parameters.base.is_empty() {
+        if hub.is_none() && parameters.base.is_empty() && arms.is_empty() {
             return Ok(None);
         }
         let place = Places {
@@ -53,16 +56,24 @@ impl Rotor {
             let own = |mode: &&DiskMode| mode.nodal_diameters == n;
             modes.iter().filter(own).collect()
         };
+        let relaxation = &ramp.model.relaxation[..];
+        // Nothing couples what a rigid base carries; equal arms as one system would have equal eigenvalues.
+        let is_rigid = parameters.base.is_empty() || (base.is_empty() && ramp.model.relaxes());
+        let (carried, alone) = arms.split_at(if is_rigid { 0 } else { arms.len() });
         let upright = Stand {
             hub,
             base: &base,
-            arms,
+            arms: carried,
+            relaxation,
         };
-        let coupled = Part::build(0, &upright, &of(0), &place, step_s);
-        let mut parts = vec![coupled.map_err(|source| match parameters.base.is_empty() {
-            true => unsolved(0, source),
-            false => StructureError::Base,
-        })?];
+        let mut parts = Vec::new();
+        if hub.is_some() || !parameters.base.is_empty() {
+            let coupled = Part::build(0, &upright, &of(0), &place, step_s);
+            parts.push(coupled.map_err(|source| match parameters.base.is_empty() {
+                true => unsolved(0, source),
+                false => StructureError::Base,
+            })?);
+        }
         // Without harmonics in the basis nothing drives the tilt.
         if hub.is_some() && has_harmonics {
             let tilted = Stand {
@@ -72,8 +83,18 @@ impl Rotor {
             let tilting = Part::build(1, &tilted, &of(1), &place, step_s);
             parts.push(tilting.map_err(|source| unsolved(1, source))?);
         }
+        for mode in alone {
+            let own = Stand {
+                arms: std::slice::from_ref(mode),
+                relaxation,
+                ..Stand::default()
+            };
+            let part = Part::build(0, &own, &[], &place, step_s);
+            parts.push(part.map_err(|_| RampError::NotSolved)?);
+        }
         let mut rotor = Self {
             parts,
+            has_base: !parameters.base.is_empty(),
             step: Leap::default(),
             quadrature: Vec::new(),
         };
@@ -92,7 +113,7 @@ impl Rotor {
 
     /// Motion of the actuator's pivot under the unit pulse, on a base that vibrates.
     pub fn pivot_motion(&self, stretches: &[Stretch]) -> Option<BaseMotion> {
-        let part = &self.parts[0];
+        let part = self.parts.first().filter(|_| self.has_base)?;
         let (arms, drive) = (part.arms.as_ref()?, part.drive.as_ref()?);
         let rates = part.modes.rates_per_s();
         Some(BaseMotion::new(

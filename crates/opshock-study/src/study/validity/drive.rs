@@ -166,7 +166,8 @@ impl Check<'_, '_> {
             .map(|entry| fields::DISK_WAVES_HARMONIC.of_entry(entry))
             .collect();
         let paths: Vec<&str> = members.iter().map(String::as_str).collect();
-        if !self.sound(&PATHS) || !self.sound(&paths) {
+        // An entry that is no table has no members.
+        if !self.sound(&PATHS) || !self.sound(&[fields::DISK_WAVES.path()]) {
             return;
         }
         let [radius_mm, length_mm] = PATHS.map(|path| self.view.number(path));

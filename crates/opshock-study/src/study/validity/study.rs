@@ -166,6 +166,7 @@ impl Check<'_, '_> {
                     fields::RAMP_DEFORMABLE_DAMPING_RATIO.path(),
                     fields::RAMP_DEFORMABLE_MESH_FILE.path(),
                     fields::RAMP_DEFORMABLE_COUPLED_MODES.path(),
+                    fields::RAMP_DEFORMABLE_PRONY.path(),
                 ],
             ),
         ];
