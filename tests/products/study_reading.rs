@@ -1,15 +1,15 @@
 //! Study files as a user writes them: defaults, axes, `--set`, points, digest.
 
-use opshock_study::study::{AxisValue, Ramp, SetArg, Sign, Study, StudyErrors};
+use opshock_study::study::{Ramp, SetArg, Sign, Study, StudyErrors};
 
-const SHORT: &str = "study_format = 1\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n";
+pub(super) const SHORT: &str = "study_format = 1\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n";
 
-fn read(text: &str, sets: &[&str]) -> Result<Study, StudyErrors> {
+pub(super) fn read(text: &str, sets: &[&str]) -> Result<Study, StudyErrors> {
     let sets: Vec<SetArg> = sets.iter().map(|set| SetArg::parse(set).unwrap()).collect();
     Study::from_text(text, &sets)
 }
 
-fn codes(result: Result<Study, StudyErrors>) -> Vec<&'static str> {
+pub(super) fn codes(result: Result<Study, StudyErrors>) -> Vec<&'static str> {
     result
         .err()
         .map(|errors| errors.errors.iter().map(|e| e.code).collect())
@@ -46,219 +46,9 @@ fn the_resolved_study_reads_back_to_the_same_study() {
 }
 
 #[test]
-fn a_list_makes_an_axis_outside_widths_ramps_and_signs() {
-    let study = read(
-        SHORT,
-        &[
-            "ramp.clearance_um=[60, 80, 100]",
-            "pulse.widths_ms=[0.5, 1, 2]",
-        ],
-    )
-    .unwrap();
-    assert_eq!(study.points.len(), 18);
-    assert_eq!(study.axes[0].column, "clearance_um");
-    let order: Vec<(AxisValue, f64, Sign)> = study
-        .points
-        .iter()
-        .map(|point| (point.axes[0].1.clone(), point.pulse_ms, point.sign))
-        .collect();
-    assert_eq!(order[0], (AxisValue::Number(60.0), 0.5, Sign::Plus));
-    assert_eq!(order[1], (AxisValue::Number(60.0), 0.5, Sign::Minus));
-    assert_eq!(order[2], (AxisValue::Number(60.0), 2.0, Sign::Plus));
-    assert_eq!(order[4], (AxisValue::Number(60.0), 1.0, Sign::Plus));
-    assert_eq!(order[6], (AxisValue::Number(80.0), 0.5, Sign::Plus));
-    assert_eq!(study.points[17].scene.ramp.clearance_bottom_m, 1e-4);
-}
-
-#[test]
 fn errors_are_listed_together() {
     let text = "study_format = 1\n[pulse]\nwidth_ms = 2\n[disk]\nthickness_mm = -1\nrpm = \"5400\"\n[ramp]\nmodels=[\"rigid\"]\n";
     assert_eq!(codes(read(text, &[])), ["E112", "E110", "E130", "E113"]);
-}
-
-#[test]
-fn the_table_of_keys_is_consistent() {
-    use opshock_study::study::key::{Kind, Presence};
-    use opshock_study::study::keys::{CHOICES, KEYS, find};
-    use opshock_study::study::unit;
-
-    // Ratios, shares, exponents and the like: everything else carries its unit.
-    let plain = [
-        "poisson",
-        "modal_ratio",
-        "damping_ratio",
-        "contact_damping_ratio",
-        "participation",
-        "restitution",
-        "rise_share",
-        "decay_share",
-        "approach_share",
-        "head_tolerance",
-        "coupling_tolerance",
-        "table_relative",
-        "base",
-        "held",
-        "in_plane_x",
-        "in_plane_y",
-    ];
-    for (position, key) in KEYS.iter().enumerate() {
-        assert!(
-            KEYS[..position].iter().all(|other| other.path != key.path),
-            "{} twice",
-            key.path
-        );
-        assert!(
-            key.help.ends_with('.') && !key.help.is_empty(),
-            "{}: {:?}",
-            key.path,
-            key.help
-        );
-        assert!(!key.example().is_empty(), "{} has no example", key.path);
-        let number = matches!(
-            key.kind,
-            Kind::Number(_)
-                | Kind::NumberOrWord(..)
-                | Kind::Axis(_)
-                | Kind::Numbers(_)
-                | Kind::Pair(_)
-                | Kind::Points
-        );
-        assert_eq!(
-            number && unit::of_path(key.path).is_none(),
-            number && plain.contains(&key.name()),
-            "{}: {:?}",
-            key.path,
-            unit::of_path(key.path).map(|unit| unit.suffix)
-        );
-        if let (Kind::Number(range), Some((low, high))) = (key.kind, key.usual) {
-            assert!(
-                low < high && (range.contains(low) || low == 0.0) && range.contains(high),
-                "{}",
-                key.path
-            );
-        }
-        if let Presence::Together(_) = key.presence {
-            assert!(CHOICES.iter().any(|choice| {
-                choice
-                    .alternatives
-                    .iter()
-                    .any(|paths| paths.contains(&key.path))
-            }));
-        }
-    }
-    for choice in CHOICES {
-        for path in choice.alternatives.iter().flat_map(|paths| paths.iter()) {
-            assert!(find(path).is_some(), "{path}");
-        }
-    }
-    for unit in unit::UNITS.iter().filter(|unit| unit.in_use) {
-        let used = KEYS
-            .iter()
-            .any(|key| unit::of_path(key.path).is_some_and(|found| found.suffix == unit.suffix));
-        let promised = ["s", "us", "kg", "urad"].contains(&unit.suffix);
-        assert!(used || promised, "no key uses _{}", unit.suffix);
-    }
-}
-
-/// A value of the key that differs from its default and fits a study built around it.
-fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
-    use opshock_study::study::key::Kind;
-    let words = |words: &[&str]| {
-        words
-            .iter()
-            .map(|word| format!("{word:?}"))
-            .collect::<Vec<_>>()
-    };
-    Some(match key.path {
-        "study_format" => return None,
-        "name" => "\"another\"".to_string(),
-        "outputs" => "[\"disk_displacement\"]".to_string(),
-        "ramp.models" => "[\"none\", \"rigid\"]".to_string(),
-        "ramp.radius_mm" => "32.0".to_string(),
-        "pulse.shape" => "\"square\"".to_string(),
-        "pulse.table" | "slider.surface.file" | "slider.surface.preset" | "slider.surface.rail" => {
-            return None;
-        }
-        "pulse.table_time_ms" | "pulse.table_relative" => return None,
-        "ramp.deformable.modes" | "ramp.deformable.bottom_modes" => {
-            "[{ frequency_hz = 900.0, mass_mg = 50.0, participation = 0.2 }]".to_string()
-        }
-        "solver.leave_out" => return None,
-        "solver.not_refined" => "[\"disk_modes\"]".to_string(),
-        // Ways to read files; what they hold takes their place.
-        path if path.starts_with("ramp.deformable.mesh.")
-            || path.starts_with("suspension.imported.")
-            || path.starts_with("base.imported.") =>
-        {
-            return None;
-        }
-        _ => match key.kind {
-            Kind::Flag => "false".to_string(),
-            Kind::Integer(low, _) => (low + 17).to_string(),
-            Kind::Word(all) => words(all).pop()?,
-            Kind::Words(_) => "[\"-\"]".to_string(),
-            Kind::Axis(_) => "[2.5]".to_string(),
-            Kind::Number(_) | Kind::NumberOrWord(..) => match key.example().parse::<f64>().ok()? {
-                0.0 => "0.001".to_string(),
-                value => format!("{:?}", value * 0.99),
-            },
-            _ => return None,
-        },
-    })
-}
-
-/// A hub that is given.
-const HUB: [&str; 3] = [
-    "hub.axial_stiffness_n_per_m=5.0e6",
-    "hub.tilt_stiffness_n_m_per_rad=200.0",
-    "hub.transverse_inertia_mg_mm2=3.5e5",
-];
-
-/// Limiters and lift tab that are given.
-const STOPS: [&str; 2] = [
-    "suspension.limiters.gap_um=92.0",
-    "suspension.lift_tab.gap_um=140.0",
-];
-
-#[test]
-fn every_value_changes_the_digest_and_is_written_out() {
-    use opshock_study::study::keys::KEYS;
-    let base = read(SHORT, &[]).unwrap();
-    let mut tried = 0;
-    for key in KEYS.iter().filter(|key| !key.path.contains("[]")) {
-        let Some(value) = other_value(key) else {
-            continue;
-        };
-        let set = format!("{}={value}", key.path);
-        // A hub has both stiffnesses, an oblique shock a hub, a stop its gap, a contact's spring a stiffness.
-        let around: &[&str] = match key.path {
-            path if path.starts_with("hub.") || key.code == "E138" => &HUB,
-            path if path.starts_with("suspension.li") => &STOPS,
-            "ramp.contact_frequency_khz" | "ramp.contact_damping_ratio" => {
-                &["ramp.contact_stiffness_n_per_m=1.0e6"]
-            }
-            // A repulsion ends an attraction.
-            "surface_forces.repulsion_j_m6" => &["surface_forces.hamaker_j=1.0e-19"],
-            _ => &[],
-        };
-        let without = |set: &&&str| !set.starts_with(&format!("{}=", key.path));
-        let mut sets: Vec<&str> = around.iter().filter(without).copied().collect();
-        sets.push(&set);
-        let study = read(SHORT, &sets).unwrap_or_else(|errors| panic!("{set}: {errors}"));
-        let unset = read(SHORT, around).unwrap();
-        assert_ne!(study.digest, unset.digest, "{set}");
-        assert_ne!(study.digest, base.digest, "{set}");
-        assert!(study.resolved_toml().contains(key.name()), "{set}");
-        let again =
-            read(&study.resolved_toml(), &[]).unwrap_or_else(|errors| panic!("{set}: {errors}"));
-        assert_eq!(again.digest, study.digest, "{set}");
-        tried += 1;
-    }
-    assert!(tried > 80, "{tried}");
-    for rail in ["x_um=[20, 169]", "y_um=[30, 671]", "recess_um=0.26"] {
-        let set = format!("slider.surface.rail[0].{rail}");
-        assert_ne!(read(SHORT, &[&set]).unwrap().digest, base.digest, "{set}");
-    }
 }
 
 #[test]
@@ -393,76 +183,6 @@ fn the_command_line_wins_and_both_values_are_recorded() {
 }
 
 #[test]
-fn an_entry_of_a_default_list_can_be_set_alone() {
-    let study = read(
-        SHORT,
-        &[
-            "ramp.models=deformable",
-            "ramp.deformable.modes[1].mass_mg=[30, 40]",
-        ],
-    )
-    .unwrap();
-    let masses: Vec<f64> = study
-        .points
-        .iter()
-        .map(|point| {
-            let [top, _] = point.scene.ramp.model.arms().expect("separate arms");
-            assert_eq!(top[0].mass_kg, 57.9e-6);
-            top[1].mass_kg
-        })
-        .collect();
-    assert_eq!(masses, [30e-6, 30e-6, 40e-6, 40e-6]);
-    assert_eq!(study.axes[0].path, "ramp.deformable.modes[1].mass_mg");
-    assert_eq!(study.axes[0].column, "mass_mg");
-    assert!(read(SHORT, &["ramp.deformable.modes[2].mass_mg=30"]).is_err());
-}
-
-#[test]
-fn axes_of_words_and_spaced_numbers_expand() {
-    let study = read(
-        SHORT,
-        &[
-            "gas.model=[\"continuum\", \"slip_1\"]",
-            "disk.rpm={ from = 4000, to = 8000, count = 3, spacing = \"log\" }",
-            "pulse.widths_ms={ from = 0.25, to = 4.0, count = 5, spacing = \"log\" }",
-            "pulse.window_ms=[5.0, \"until_decayed\"]",
-            "slider.radius_mm=[20.0, 21.0]",
-            "ramp.radius_mm=[32.0, 32.15]",
-        ],
-    )
-    .unwrap();
-    let columns: Vec<&str> = study.axes.iter().map(|axis| axis.column.as_str()).collect();
-    assert_eq!(
-        columns,
-        [
-            "window_ms",
-            "rpm",
-            "ramp.radius_mm",
-            "slider.radius_mm",
-            "model"
-        ]
-    );
-    assert_eq!(study.points.len(), 2 * 3 * 2 * 2 * 2 * 5 * 2);
-    assert_eq!(study.widths_ms, [0.25, 0.5, 1.0, 2.0, 4.0]);
-    assert_eq!(study.axes[1].values[0], AxisValue::Number(4000.0));
-    assert_eq!(study.axes[1].values[2], AxisValue::Number(8000.0));
-    match study.axes[1].values[1] {
-        AxisValue::Number(rpm) => assert!((rpm - 4000.0 * 2.0_f64.sqrt()).abs() < 1e-9),
-        ref other => panic!("{other:?}"),
-    }
-    let order = study.table_order();
-    assert_eq!(order.len(), study.points.len());
-    let first: Vec<f64> = order[..5]
-        .iter()
-        .map(|&at| study.points[at].pulse_ms)
-        .collect();
-    assert_eq!(first, [0.25, 0.5, 1.0, 2.0, 4.0]);
-    let mut sorted = order.clone();
-    sorted.sort_unstable();
-    assert!(sorted.into_iter().eq(0..study.points.len()));
-}
-
-#[test]
 fn gas_follows_altitude_and_temperature() {
     let sea = read(SHORT, &[]).unwrap().points[0].scene.gas.clone();
     assert_eq!(
@@ -487,81 +207,6 @@ fn gas_follows_altitude_and_temperature() {
     assert!(warm.mean_free_path_m > 63.5e-9);
     let given = read(SHORT, &["gas.temperature_c=60", "gas.mean_free_path_nm=70"]).unwrap();
     assert_eq!(given.points[0].scene.gas.mean_free_path_m, 70e-9);
-}
-
-#[test]
-fn a_single_shock_needs_every_axis_chosen() {
-    use opshock_study::study::{Choice, ChoiceError};
-    let study = read(
-        SHORT,
-        &["ramp.clearance_um=[60, 80]", "pulse.widths_ms=[0.5, 2]"],
-    )
-    .unwrap();
-    match study.select(&Choice::default()) {
-        Err(ChoiceError::Free(free)) => {
-            let options: Vec<&str> = free.iter().map(|axis| axis.option.as_str()).collect();
-            assert_eq!(
-                options,
-                [
-                    "--pulse-ms",
-                    "--sign",
-                    "--set ramp.clearance_um=VALUE",
-                    "--amplitude-g"
-                ]
-            );
-            assert_eq!(free[2].values, ["60", "80"]);
-        }
-        other => panic!("{other:?}"),
-    }
-    let choice = Choice {
-        ramp: Some(Ramp::None),
-        pulse_ms: Some(0.7),
-        sign: Some(Sign::Minus),
-        amplitude_g: Some(100.0),
-    };
-    assert!(matches!(study.select(&choice), Err(ChoiceError::Free(free)) if free.len() == 1));
-    let study = read(SHORT, &["ramp.clearance_um=60"]).unwrap();
-    let shot = study.select(&choice).unwrap();
-    assert_eq!(shot.amplitude_m_per_s2, -980.665);
-    assert_eq!(
-        (shot.point.ramp, shot.point.pulse_width_s),
-        (Ramp::None, 0.0007)
-    );
-    for (pulse_ms, amplitude_g) in [
-        (f64::NAN, 1.0),
-        (0.0, 1.0),
-        (-1.0, 1.0),
-        (1e-320, 1.0),
-        (1.0, f64::NAN),
-        (1.0, -1.0),
-    ] {
-        let wrong = Choice {
-            pulse_ms: Some(pulse_ms),
-            amplitude_g: Some(amplitude_g),
-            ..choice.clone()
-        };
-        assert!(
-            matches!(study.select(&wrong), Err(ChoiceError::Value { .. })),
-            "{pulse_ms} {amplitude_g}"
-        );
-    }
-    let short = Choice {
-        pulse_ms: Some(0.0015),
-        ..choice.clone()
-    };
-    match study.select(&short) {
-        Err(ChoiceError::Study(errors)) => assert_eq!(errors.errors[0].code, "E151"),
-        other => panic!("{other:?}"),
-    }
-    assert!(
-        study
-            .select(&Choice {
-                amplitude_g: Some(0.0),
-                ..choice
-            })
-            .is_ok()
-    );
-    assert!(study.select_drive(&Choice::default()).is_ok());
 }
 
 #[test]
@@ -655,53 +300,6 @@ fn the_coupling_tolerance_follows_a_head_tolerance_set_alone() {
 }
 
 #[test]
-fn the_schema_knows_every_key_and_no_other() {
-    use opshock_study::study::keys::KEYS;
-    let schema = opshock_study::study::schema::json_schema();
-    let mut paths = Vec::new();
-    collect(&schema, "", &mut paths);
-    let mut expected: Vec<String> = KEYS.iter().map(|key| key.path.to_string()).collect();
-    expected.sort();
-    paths.sort();
-    assert_eq!(paths, expected);
-    assert_eq!(
-        schema["required"],
-        serde_json::json!(["study_format", "name", "pulse", "ramp"])
-    );
-    assert_eq!(
-        schema["properties"]["pulse"]["required"],
-        serde_json::json!(["widths_ms"])
-    );
-    assert!(
-        opshock_study::study::schema::units()
-            .iter()
-            .any(|unit| unit.starts_with("_um: "))
-    );
-}
-
-/// Paths of everything in a schema that is described, in the form of the table of keys.
-fn collect(schema: &serde_json::Value, path: &str, paths: &mut Vec<String>) {
-    let Some(properties) = schema["properties"].as_object() else {
-        return;
-    };
-    for (name, child) in properties {
-        let path = if path.is_empty() {
-            name.clone()
-        } else {
-            format!("{path}.{name}")
-        };
-        if child.get("description").is_some() {
-            paths.push(path.clone());
-        }
-        if child.get("items").is_some() {
-            collect(&child["items"], &format!("{path}[]"), paths);
-        } else if child["type"] == "object" {
-            collect(child, &path, paths);
-        }
-    }
-}
-
-#[test]
 fn the_example_study_is_valid_for_any_name() {
     for name in [
         "my drive",
@@ -760,24 +358,6 @@ proptest::proptest! {
             }
         }
     }
-}
-
-#[test]
-fn the_points_of_a_large_study_all_differ() {
-    let study = read(
-        SHORT,
-        &[
-            "disk.rpm={ from = 4000, to = 8000, count = 20 }",
-            "ramp.clearance_um={ from = 50, to = 150, count = 100 }",
-            "pulse.widths_ms=[0.5, 1, 2, 3, 4]",
-        ],
-    )
-    .unwrap();
-    assert_eq!(study.points.len(), 20_000);
-    let mut ids: Vec<_> = study.points.iter().map(|point| point.id).collect();
-    ids.sort();
-    ids.dedup();
-    assert_eq!(ids.len(), 20_000);
 }
 
 /// TOML takes `.1` and `1.` for no numbers; the hint names the digit that is missing.

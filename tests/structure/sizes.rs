@@ -6,47 +6,21 @@ use std::path::Path;
 /// Most lines of a Rust file.
 const MOST_LINES: usize = 500;
 
-/// Longer files that are left, each to be split and then taken off the list.
-const LONGER: &[&str] = &[
-    "crates/opshock-solver/src/air_bearing/flux.rs",
-    "crates/opshock-solver/src/head/stage.rs",
-    "crates/opshock-solver/src/scene/plan.rs",
-    "tests/products/study_reading.rs",
-];
-
 #[test]
-fn no_file_is_long_but_those_listed() {
+fn no_file_is_long() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let files = ["crates", "tests"].map(|folder| sources(&root.join(folder)));
     let mut wrong = Vec::new();
-    let mut listed = LONGER.to_vec();
-    for path in ["crates", "tests"]
-        .map(|folder| sources(&root.join(folder)))
-        .concat()
-    {
-        let name = path
-            .strip_prefix(&root)
-            .expect("inside")
-            .display()
-            .to_string();
-        let n_lines = std::fs::read_to_string(&path)
-            .expect("readable")
-            .lines()
-            .count();
-        let is_listed = listed.contains(&name.as_str());
-        listed.retain(|other| *other != name);
-        if n_lines > MOST_LINES && !is_listed {
-            wrong.push(format!(
-                "{name} has {n_lines} lines, more than {MOST_LINES}"
-            ));
-        }
-        if n_lines <= MOST_LINES && is_listed {
-            wrong.push(format!("{name} has {n_lines} lines: take it off the list"));
+    for path in files.concat() {
+        let text = std::fs::read_to_string(&path).expect("readable");
+        let n_lines = text.lines().count();
+        if n_lines > MOST_LINES {
+            wrong.push(format!("{} has {n_lines} lines", path.display()));
         }
     }
-    wrong.extend(
-        listed
-            .iter()
-            .map(|name| format!("{name} is on the list and does not exist")),
+    assert!(
+        wrong.is_empty(),
+        "more than {MOST_LINES}: {}",
+        wrong.join("\n")
     );
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -36,6 +36,7 @@ mod run;
 mod sample;
 mod stage;
 mod stage_matrix;
+mod stage_scratch;
 mod stops;
 
 pub use model::{HeadError, HeadModel, ShockLoad};

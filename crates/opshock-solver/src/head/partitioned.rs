@@ -6,7 +6,8 @@
 //! cuts the step.
 
 use super::resolution::Coupling;
-use super::stage::{Instant, MechanicalIterate, StageFailure, Stages};
+use super::stage::{Instant, MechanicalIterate, Stages};
+use super::stage_scratch::StageFailure;
 use crate::fixed_point::{Ending, FixedPoint, Method};
 use crate::lanes::sum;
 

@@ -19,21 +19,18 @@
 use super::film_passes::{add_storage, correct_film};
 use super::mechanics::StageState;
 use super::model::{HeadModel, ShockLoad};
-use super::stage_matrix::StageMatrix;
+use super::stage_scratch::{FIRST_CONTRACTION, MatrixKey, StageFailure, StageScratch, columns_of};
 use super::stops::Closed;
-use crate::air_bearing::{Attitude, FilmLinearisation, FilmScratch};
+use crate::air_bearing::Attitude;
 use crate::disk::{DiskMotion, DiskPose};
 use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
 use crate::lanes::{add_scaled, combine, product, products, sum};
-use crate::linalg::banded::BandedLu;
 
 /// Iterations of one stage before it is given up.
 const MAX_ITERATIONS: usize = 14;
 /// Contraction above which the Jacobian is renewed; a renewal costs what eleven iterations cost.
 const SLOW: f64 = 0.1;
-/// Contraction that new factors are trusted to have until a second iterate measures it.
-const FIRST_CONTRACTION: f64 = 0.1;
 /// Power of the contraction taken for the next stage when this one's first iterate told nothing of it:
 /// what was measured long ago counts for less and less, until a second iterate measures again.
 const AGEING: f64 = 0.9;
@@ -45,116 +42,6 @@ const REUSE: f64 = 2.0;
 const MOST_BORROWED: u32 = 32;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;
-
-/// Why a stage was given up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum StageFailure {
-    /// The iteration did not converge; the last estimate of its error relative to the gap.
-    NotConverged(f64),
-    /// A number was not finite.
-    NotFinite(&'static str),
-}
-
-/// Scratch of the stage solves, sized once.
-#[derive(Clone, Debug)]
-pub(super) struct StageScratch {
-    pub film: FilmScratch,
-    linearisation: FilmLinearisation,
-    /// Rounded: the stage's iteration corrects what it solves for.
-    lu: BandedLu<f32>,
-    /// d for which the factors were made; `None`: there are none.
-    factored_d_s: Option<f64>,
-    /// Stages solved since then with another d.
-    n_borrowed: u32,
-    /// Z, column by column.
-    z: [Vec<f64>; 3],
-    /// F_ψ Z − F_q.
-    film_matrix: [[f64; 3]; 3],
-    pub residual: Vec<f64>,
-    pub mechanical: Vec<f64>,
-    pub velocity: Vec<f64>,
-    /// Coordinates, velocities and known velocities over a pivot that moves.
-    seen: [Vec<f64>; 3],
-    /// S + film's condensed stiffness, and what it was made for.
-    matrix: StageMatrix,
-    matrix_key: Option<MatrixKey>,
-    /// Contraction of the last iteration with the present factors.
-    contraction: f64,
-    /// Contacts that were closed at the last mechanical iterate.
-    last_closed: Closed,
-    pub counters: Counters,
-}
-
-/// What the matrix of slider and suspension depends on besides the film's condensed stiffness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct MatrixKey {
-    d_s: f64,
-    closed: Closed,
-    with_film: bool,
-}
-
-/// What the stage solves have cost, and their worst figures.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Counters {
-    pub residuals: u64,
-    pub solves: u64,
-    pub factorisations: u64,
-    pub linearisations: u64,
-    pub max_residual: f64,
-    pub mass_balance_error: f64,
-}
-
-impl StageScratch {
-    pub fn new(model: &HeadModel) -> Self {
-        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
-        let linearisation = model.film.linearisation();
-        let band = linearisation.by_psi.band();
-        Self {
-            film: model.film.scratch(),
-            lu: BandedLu::new(n_cells, band),
-            linearisation,
-            factored_d_s: None,
-            n_borrowed: 0,
-            z: [0, 1, 2].map(|_| vec![0.0; n_cells]),
-            film_matrix: [[0.0; 3]; 3],
-            residual: vec![0.0; n_cells],
-            mechanical: vec![0.0; n],
-            velocity: vec![0.0; n],
-            seen: [0, 1, 2].map(|_| vec![0.0; n]),
-            matrix: StageMatrix::new(model.mechanics.n_modes()),
-            matrix_key: None,
-            contraction: FIRST_CONTRACTION,
-            last_closed: Closed::DIMPLE,
-            counters: Counters::default(),
-        }
-    }
-
-    /// Forgets factors and counts, keeping the storage.
-    pub fn reset(&mut self) {
-        self.forget();
-        self.counters = Counters::default();
-    }
-
-    /// Forgets factors and what the iterations have told of them.
-    pub fn forget(&mut self) {
-        self.factored_d_s = None;
-        self.matrix.forget();
-        self.matrix_key = None;
-        self.contraction = FIRST_CONTRACTION;
-    }
-
-    /// The factors no longer fit the state.
-    pub fn discard_factors(&mut self) {
-        self.factored_d_s = None;
-    }
-
-    /// A⁻¹ applied to `residual` in place, and F_ψ of the result.
-    pub fn solve_film(&mut self) -> [f64; 3] {
-        self.lu.solve(&mut self.residual);
-        self.counters.solves += 1;
-        products(columns_of(&self.linearisation.force_by_psi), &self.residual)
-    }
-}
 
 /// The coupled head as a system of stages, over one step.
 pub(super) struct Stages<'a> {
@@ -523,8 +410,4 @@ impl StageSystem for Stages<'_> {
             *e_x = *x;
         }
     }
-}
-
-fn columns_of(columns: &[Vec<f64>; 3]) -> [&[f64]; 3] {
-    [&columns[0], &columns[1], &columns[2]]
 }

@@ -5,6 +5,7 @@ mod default_drive;
 mod description;
 pub mod knob;
 mod mirror;
+mod output;
 pub mod plan;
 mod refine;
 

@@ -9,7 +9,7 @@ use super::workspace::{HeadWorkspace, pulse_events};
 use crate::disk::DiskMotion;
 use crate::head::model::{HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
-use crate::head::stage::Counters;
+use crate::head::stage_scratch::Counters;
 use crate::slider::clearance::Clearance;
 
 /// How far a head runs, and from where.

@@ -4,7 +4,8 @@ use super::running::{Lowest, Run, TrialStep};
 use crate::head::fields::FieldRecord;
 use crate::head::film_passes::relative_size;
 use crate::head::outcome::{Cause, HeadCost, HeadRun, Place, Verdict};
-use crate::head::stage::{StageFailure, Stages};
+use crate::head::stage::Stages;
+use crate::head::stage_scratch::StageFailure;
 use crate::integrator::StepControl;
 use crate::mutant;
 

@@ -2,7 +2,7 @@
 
 use crate::fixed_point::FixedPoint;
 use crate::head::model::HeadModel;
-use crate::head::stage::StageScratch;
+use crate::head::stage_scratch::StageScratch;
 use crate::integrator::Stepper;
 use crate::shock::{Pulse, PulseShape};
 

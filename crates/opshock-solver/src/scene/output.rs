@@ -1,0 +1,108 @@
+//! What can be asked of a simulation, and how much of a drive each answer takes.
+
+/// What can be asked of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Output {
+    /// Amplitude at which the head-disk interface fails.
+    CriticalShock,
+    /// Smallest clearance.
+    MinClearance,
+    /// Height, pitch and roll of the slider in time.
+    SliderAttitude,
+    /// Pitch of the slider in time.
+    Pitch,
+    /// Force of the film in time.
+    BearingForce,
+    /// Force of the dimple in time.
+    DimpleForce,
+    /// Flying attitude before the shock.
+    SteadyAttitude,
+    /// Amplitude at which the disk first touches the ramp.
+    TouchThreshold,
+    /// Displacement of the disk.
+    DiskDisplacement,
+    /// Displacement of the ramp's arms.
+    RampDisplacement,
+    /// Force and impulse between disk and ramp.
+    ContactForce,
+    /// Pressure and height of the film at [asked times](Plan::with_field_times).
+    PressureField,
+}
+
+impl Output {
+    /// Every output.
+    pub const ALL: [Output; 12] = [
+        Output::CriticalShock,
+        Output::MinClearance,
+        Output::SliderAttitude,
+        Output::Pitch,
+        Output::SteadyAttitude,
+        Output::BearingForce,
+        Output::DimpleForce,
+        Output::DiskDisplacement,
+        Output::RampDisplacement,
+        Output::ContactForce,
+        Output::TouchThreshold,
+        Output::PressureField,
+    ];
+
+    /// Its name in a study.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Output::CriticalShock => "critical_shock",
+            Output::MinClearance => "min_clearance",
+            Output::SliderAttitude => "slider_attitude",
+            Output::Pitch => "pitch",
+            Output::BearingForce => "bearing_force",
+            Output::DimpleForce => "dimple_force",
+            Output::SteadyAttitude => "steady_attitude",
+            Output::TouchThreshold => "touch_threshold",
+            Output::DiskDisplacement => "disk_displacement",
+            Output::RampDisplacement => "ramp_displacement",
+            Output::ContactForce => "contact_force",
+            Output::PressureField => "pressure_field",
+        }
+    }
+
+    /// The output of a name.
+    pub fn from_word(word: &str) -> Option<Output> {
+        Output::ALL
+            .into_iter()
+            .find(|output| output.as_str() == word)
+    }
+
+    /// What it takes beyond disk and ramp.
+    pub const fn needs(self) -> Needs {
+        match self {
+            Output::CriticalShock
+            | Output::MinClearance
+            | Output::SliderAttitude
+            | Output::Pitch
+            | Output::BearingForce
+            | Output::DimpleForce
+            | Output::PressureField => Needs::Head,
+            Output::SteadyAttitude => Needs::Flight,
+            Output::TouchThreshold
+            | Output::DiskDisplacement
+            | Output::RampDisplacement
+            | Output::ContactForce => Needs::Structure,
+        }
+    }
+}
+
+impl std::fmt::Display for Output {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+/// How much of the drive is built; each holds the ones before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Needs {
+    /// Disk and ramp.
+    Structure,
+    /// Also the film and its steady flight.
+    Flight,
+    /// Also slider, suspension and the film in time.
+    Head,
+}
