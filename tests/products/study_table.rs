@@ -26,6 +26,7 @@ fn the_table_of_keys_is_consistent() {
         "held",
         "in_plane_x",
         "in_plane_y",
+        "share",
     ];
     for (position, key) in KEYS.iter().enumerate() {
         assert!(

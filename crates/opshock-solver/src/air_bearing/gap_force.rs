@@ -1,7 +1,7 @@
-//! Forces between slider and disk beside the air's pressure: what each of them gives the code that loops over all.
+//! Forces between slider and disk beside the air's pressure: the interface that each implements.
 //!
-//! Such an effect is data of a scene, a [`GapForce`], and over the cells of a film an
-//! [`Element`](super::film::Element). [`GapForces`](super::gap_forces::GapForces) lists them. Plan, mirror,
+//! Each has two forms: a [`GapForce`], its parameters in a scene, and an [`Element`](super::film::Element), its
+//! evaluation on the cells of a film. [`GapForces`](super::gap_forces::GapForces) lists them. Plan, mirror,
 //! film, results and output loop over the list and know no effect by name.
 
 use super::attitude::Attitude;

@@ -1,20 +1,20 @@
 //! What a film's grid leaves out of force and moments, as a function of the attitude.
 //!
-//! Under a slider held still at q a film of N cells carries F_N(q), and one without grid error F(q). The
+//! Under a slider held still at the attitude q (height, pitch, roll) a film of N cells carries the force and the two
+//! moments F_N(q), and one without grid error F(q). The
 //! difference, the *defect* of the grid, is smooth in q though not in N. It is sampled once, on films held still,
 //! and added to what the film carries in every state:
 //!
 //! ```text
 //! F_N(ψ, q) + P(q),      P = F − F_N on the samples
-//! F = F_ref' + (F_ref' − F_ref)/3
+//! F ≈ F_ref' + (F_ref' − F_ref)/3         ψ: the film's state, p h
 //! ```
 //!
 //! F_ref and F_ref' are forces on a reference grid and on the same with every cell cut in two along both
-//! directions: the error of second order is a quarter there (Roache 1994, J. Fluids Eng. 116, 405).
+//! directions: on the finer one the error of second order is a quarter (Roache 1994, J. Fluids Eng. 116, 405).
 //!
-//! P goes through all samples (`defect`). A film that
-//! follows quickly, not in equilibrium, gets the same correction: what the grid does to the rates of the film
-//! stays.
+//! P interpolates the samples (`defect`). A film in motion gets the same correction: the grid's error in the film's
+//! rates is not corrected.
 //!
 //! Such a correction of a coarse discretisation by a finer one is Brandt's (1977, Math. Comp. 31, 333: the
 //! fine-to-coarse defect τ of multi-level schemes), here of three numbers instead of a field.

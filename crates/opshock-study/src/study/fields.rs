@@ -1,11 +1,12 @@
 //! The table of keys: everything a study file may say, in the order it is written out.
 //!
-//! Reading, messages, defaults, the JSON Schema, `study.resolved.toml`, the digest, the constants by which code reads
-//! a value, and the places of plain values in a scene all come from this table and from nothing else. The defaults
-//! describe one robust 2.5-inch drive (the set of `studies/drive-2.5in`), so that a short study is a valid one.
+//! Reading, messages, defaults, the JSON Schema, `study.resolved.toml`, the digest, the typed constants by which code
+//! reads a value, and the field of a scene that a plain value fills all come from this table and from nothing else. The
+//! defaults are one 2.5-inch drive that survives common shocks (the values of `studies/drive-2.5in`), so that a short
+//! study is a valid one.
 //!
-//! Sources of the default drive: disk, ramp place, ramp clearance: sample data of the CMLAir 8.01
-//! user manual (Mardan and Bogy, 2011). Suspension and air-bearing surface: opshock's own designs.
+//! Dimensions of the disk, position and clearance of the ramp are the sample data of the CMLAir 8.01 user manual
+//! (Mardan and Bogy, 2011); suspension and air-bearing surface are opshock's own designs.
 
 use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;

@@ -57,7 +57,8 @@ impl Check<'_, '_> {
             && self.view.maybe_number(contact[1]).is_some()
             && self.view.number(contact[0]) > 0.0
         {
-            let message = "a contact with a stiffness has hardly a mass that could bounce";
+            let message =
+                "restitution belongs to a hard contact, and contact_stiffness_n_per_m is set";
             let fault = self.fault("E136", &contact, message);
             fault.allowed = "restitution = 0, or no contact_stiffness_n_per_m".to_string();
         }
@@ -315,11 +316,11 @@ impl Check<'_, '_> {
                 let corner = (radius + outward).hypot(along);
                 if corner > outer {
                     over.push(format!(
-                        "{edge} {side} corner at {corner:.3} mm over the rim"
+                        "{edge} {side} corner at radius {corner:.3} mm, beyond the rim"
                     ));
                 } else if corner < inner || radius + outward < 0.0 {
                     over.push(format!(
-                        "{edge} {side} corner at {corner:.3} mm over the clamp"
+                        "{edge} {side} corner at radius {corner:.3} mm, on the clamp"
                     ));
                 }
             }
