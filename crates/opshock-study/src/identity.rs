@@ -3,7 +3,7 @@
 //! A cell is one search: a scene and the sign of its amplitude. Its [`CellId`] and the keys of the
 //! two stages are digests of the scene's SI numbers as JSON, with the shortest digits that read back to the same bits.
 //! Every field of what is digested is in it by itself; a new field of a scene does not compile until it is one of
-//! [`structure`]'s or [`head`]'s.
+//! `structure`'s or `head`'s.
 
 use opshock_solver::scene::Scene;
 use serde::Serialize;

@@ -25,7 +25,7 @@ pub enum Output {
     RampDisplacement,
     /// Force and impulse between disk and ramp.
     ContactForce,
-    /// Pressure and height of the film at [asked times](Plan::with_field_times).
+    /// Pressure and height of the film at [asked times](super::plan::Plan::with_field_times).
     PressureField,
 }
 

@@ -317,9 +317,7 @@ fn refine(view: &View<'_>) -> Option<RefineSettings> {
         closest_pct: view
             .maybe_number(fields::SEARCH_REFINE_CLOSEST_PCT.path())
             .unwrap_or(2.0),
-        most_points: most_points
-            .and_then(|count| usize::try_from(count).ok())
-            .unwrap_or(60),
+        most_points: most_points.unwrap_or(60),
     };
     (refine.tolerance_pct.is_some() || refine.crossing_pct.is_some()).then_some(refine)
 }

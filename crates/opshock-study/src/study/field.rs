@@ -1,6 +1,6 @@
 //! A key of the study file with the Rust type of its value.
 //!
-//! [`fields!`] makes of one line the key, the constant by which code reads it, and, where the value goes into a scene
+//! `fields!` makes of one line the key, the constant by which code reads it, and, where the value goes into a scene
 //! as it is, its place there. A key of another kind than its type does not compile.
 
 use std::marker::PhantomData;
@@ -276,6 +276,8 @@ macro_rules! part {
             const IS: Is = $is;
             const MAY_BE_ABSENT: bool = true;
 
+            // Some of them borrow, some do not.
+            #[allow(clippy::needless_lifetimes)]
             fn read<'a>(_: &str, datum: Option<&'a Datum>) -> $out {
                 match datum {
                     $(Some($pattern))|+ => $value,

@@ -1,6 +1,6 @@
 //! Error bar of a critical shock: what search and resolution add, part by part.
 //!
-//! Each part asks what the answer would be if one knob were turned a step coarser ([`Knob`]), so
+//! Each part asks what the answer would be if one knob were turned a step coarser ([`Knob`](opshock_solver::scene::knob::Knob)), so
 //! that its runs cost less than those of the search, and a step finer where that is not little. All
 //! knobs but the film's grid are turned on a film of a quarter or an eighth of the cells (half where
 //! those answer otherwise), because what such a knob changes hardly depends on the film; and together, in
@@ -20,7 +20,7 @@
 //! another. An error of e above is the ratio 1 + e, and so is one below.
 //!
 //! Where the margin tells the answer, the film's grid is judged by films held still at the lowest attitude
-//! ([`Knob::HeldFilm`]), as far as they say of a quarter of the cells, or of half, what those answered.
+//! ([`Knob::HeldFilm`](opshock_solver::scene::knob::Knob::HeldFilm)), as far as they say of a quarter of the cells, or of half, what those answered.
 //!
 //! [`bar`] is a function of what was simulated: called again with more known runs it goes further,
 //! and the runs it looks at, in that order, are the canonical sequence of the bar.

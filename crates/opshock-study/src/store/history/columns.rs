@@ -28,7 +28,7 @@ pub struct HistoryHeader {
     pub t_fail_s: Option<f64>,
     /// Names of the simulated effects.
     pub effects: Vec<String>,
-    /// The run ([`KeptRun::content`]) when the file belongs to a store; else empty.
+    /// The run ([`KeptRun::content`](super::KeptRun::content)) when the file belongs to a store; else empty.
     pub run: String,
 }
 
