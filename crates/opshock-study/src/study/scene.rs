@@ -37,7 +37,7 @@ fn place(view: &View<'_>, below: &str, scene: &mut Scene) {
 
 /// The scene with z along the drive's axis and a head over the disk.
 fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
-    let mut scene = resolved(view);
+    let mut scene = at_rung(view);
     place(view, "", &mut scene);
     scene.pulse = pulse(view, width_ms);
     scene.oblique = oblique(view);
@@ -65,7 +65,8 @@ pub fn rung(view: &View<'_>) -> Rung {
 
 /// The rung's resolutions with what the study sets itself.
 pub fn resolutions(view: &View<'_>) -> Resolutions {
-    let scene = resolved(view);
+    let mut scene = at_rung(view);
+    place(view, "solver.", &mut scene);
     Resolutions {
         disk: scene.disk_resolution,
         structure: scene.structure_resolution,
@@ -74,8 +75,8 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
     }
 }
 
-/// The default drive at the resolutions of the study.
-fn resolved(view: &View<'_>) -> Scene {
+/// The default drive at the resolutions of the rung, and what follows from single ones that the study sets.
+fn at_rung(view: &View<'_>) -> Scene {
     let mut scene = Scene::default_drive();
     let Resolutions {
         disk,
@@ -101,7 +102,6 @@ fn resolved(view: &View<'_>) -> Scene {
         scene.head_resolution.coupling_tolerance =
             (COUPLING_SHARE * tolerance).max(f64::MIN_POSITIVE);
     }
-    place(view, "solver.", &mut scene);
     scene
 }
 
