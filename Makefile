@@ -16,7 +16,7 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance paper match-paper accuracy bench rungs finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
@@ -30,21 +30,21 @@ fig13-converged: build ## Fig. 13 with converged disk modes, and the paper's sta
 	@$(MAKE) --no-print-directory study NAME=fig13-converged
 	$(OPSHOCK) claims studies/fig13-converged/study.toml --critical results/fig13-converged/table.csv --out results/fig13-converged --quiet -j $(JOBS) > /dev/null
 
-accuracy: build ## what accuracy costs on fig13-stiffness: ladders, plots and table in results/accuracy/
+accuracy: build ## what accuracy costs on fig13-stiffness: refinement studies, plots and table in results/accuracy/
 	$(OPSHOCK) accuracy studies/fig13-stiffness/study.toml --at none:2:- --at deformable:2:- --out results/accuracy
 
-# 0.1 % takes hours: two points tell its time beside the other rungs', and all of fig13-stiffness is swept by a target of its own.
-RUNGS_SUBSET := --set 'ramp.models=["none"]' --set 'pulse.widths_ms=[1.0]' --set search.tolerance_pct=0.1
-FINEST := --set solver.accuracy=0.1% --set search.tolerance_pct=0.1 --set search.climbs=3
+# The preset fine takes hours: two points give its time beside the other presets', and all of fig13-stiffness is swept by a target of its own.
+FINE_SUBSET := --set 'ramp.models=["none"]' --set 'pulse.widths_ms=[1.0]' --set search.tolerance_pct=0.1
+FINEST := --set resolution.preset=fine --set search.tolerance_pct=0.1 --set search.max_refinements=3
 
-.PHONY: accuracy-rungs accuracy-finest
-accuracy-finest: build ## fig13-stiffness at 0.1 %, climbed, in results/accuracy/fig13-0.1/ (40 minutes at a time; goes on where it stopped)
+.PHONY: accuracy-presets accuracy-finest
+accuracy-finest: build ## fig13-stiffness at the preset fine, refined, in results/accuracy/fig13-0.1/ (40 minutes at a time; goes on where it stopped)
 	$(OPSHOCK) sweep studies/fig13-stiffness/study.toml --store results/accuracy/fig13-0.1/fig13.opshock $(FINEST) --budget 40m -j $(JOBS) $(OR_OPEN)
 	$(OPSHOCK) report results/accuracy/fig13-0.1/fig13.opshock --out results/accuracy/fig13-0.1 $(OR_OPEN)
 
-accuracy-rungs: build ## time against the largest bar of each named accuracy on fig13-stiffness, in results/accuracy/rungs.md (needs python3; goes on where it stopped)
-	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 5%,5%+3,1%,1%+3
-	scripts/rungs --program $(OPSHOCK) --jobs $(JOBS) --rungs 0.1%,0.1%+3 -- $(RUNGS_SUBSET)
+accuracy-presets: build ## time against the largest uncertainty of each resolution preset on fig13-stiffness, in results/accuracy/presets.md (needs python3; goes on where it stopped)
+	scripts/presets --program $(OPSHOCK) --jobs $(JOBS) --presets coarse,coarse+3,standard,standard+3
+	scripts/presets --program $(OPSHOCK) --jobs $(JOBS) --presets fine,fine+3 -- $(FINE_SUBSET)
 
 # The drive of both studies is one: what `make fig13` found is Fig. 13 of the figures and of the statements.
 CRITICAL := --critical results/fig13/table.csv
@@ -55,7 +55,7 @@ figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
 claims: build ## the paper's statements judged, in results/paper/claims.md
 	$(OPSHOCK) claims studies/paper-cases/study.toml $(CRITICAL) --out results/paper --quiet -j $(JOBS) > /dev/null
 
-claims-sensitivity: build ## the same, and what each rests on: tornado plot in results/paper/sensitivity.md (20 minutes, resumes)
+claims-sensitivity: build ## the same, and which parameters each depends on: tornado plot in results/paper/sensitivity.md (20 minutes, resumes)
 	$(OPSHOCK) claims studies/paper-cases/study.toml $(CRITICAL) --out results/paper --sensitivity results/paper/sensitivity -j $(JOBS) > /dev/null
 
 .PHONY: match-paper
@@ -84,7 +84,7 @@ check: fmt clippy doc test ## what CI runs
 bench: bootstrap ## benchmarks; what they print is kept in results/bench
 	scripts/bench
 
-bench-against: bootstrap ## processor and wall time against an older revision: make bench-against REV=7e99eeb [CASES="shock sweep climbed"] [PAIRS=3]
+bench-against: bootstrap ## processor and wall time against an older revision: make bench-against REV=7e99eeb [CASES="shock sweep refined"] [PAIRS=3]
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
@@ -93,7 +93,7 @@ verify: verify-film verify-effects verify-durability verify-store verify-search 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
 
-verify-effects: bootstrap ## every condition of every rule deleted; 2000 random scenes as planned against in full (OPSHOCK_SEEDS=first..end goes on)
+verify-effects: bootstrap ## every condition of every rule deleted; 2000 random scenes, reduced model against full model (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --features mutants --test physics -- effects_mutant
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture effects_slow
 
@@ -107,7 +107,7 @@ verify-faults: ## system calls that fail at every place, file systems that fill 
 verify-store: bootstrap ## 2000 kill -9 at random moments (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test durability -- --ignored --nocapture --test-threads=1 store_slow
 
-verify-search: bootstrap ## certify = "full" on 10 000 random tables (OPSHOCK_SEEDS=first..end goes on)
+verify-search: bootstrap ## monotonicity_scan = "full" on 10 000 random tables (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture search_slow
 
 verify-slurm: ## a job array with a killed task on a real Slurm on the loopback address
@@ -137,7 +137,7 @@ verify-ramp: ## a ramp by Gmsh and CalculiX, imported: frequencies and critical 
 verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture --test-threads=1 scenes_slow
 
-verify-accuracy: bootstrap ## do the error bars hold the truth? 300 known answers, 40 ten times finer
+verify-accuracy: bootstrap ## do the uncertainty intervals contain the truth? 300 known answers, 40 ten times finer
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture accuracy_slow
 
 verify-report: ## the report in headless Chromium, series read by VTK (installs both)
@@ -151,7 +151,7 @@ verify-hdf5: ## h5dump and h5py read every dataset with its units
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture hdf5_readers
 
-verify-klu: ## SuiteSparse's KLU, a yardstick of the benchmarks, on a system with a known solution
+verify-klu: ## SuiteSparse's KLU, a reference of the benchmarks, on a system with a known solution
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-klu -- --ignored --nocapture
 

@@ -1,11 +1,11 @@
-//! What leaving out saves: each question as planned against `effects = "full"`, in one run.
+//! What omitting effects saves: each question with the reduced model and with `effects = "full"`, in one run.
 //!
-//! The drive of Fig. 13 at the study's accuracy, 0.5 ms, 5 ms window. A pair is timed in turn, three
+//! The drive of Fig. 13 at the study's resolution, 0.5 ms, 5 ms window. A pair is timed in turn, three
 //! times, and the medians compared: once with building the model (one question asked), once
 //! without (each further shock on the same model). Both answers are compared too.
 //!
 //! Then a whole search on one thread: critical shocks of three ramps and both signs against the
-//! same in full. And 20 slider designs on one drive, sharing against each by itself, design by
+//! same with the full model. And 20 slider designs on one drive, sharing against each by itself, design by
 //! design in turn, so that the load of the machine is on both sides.
 
 use std::hint::black_box;
@@ -24,13 +24,13 @@ use opshock_tests::timing::median;
 
 const ROUNDS: usize = 3;
 
-/// Time of this thread on a processor, s, so that other programs do not count; where the system does
-/// not tell it, time on the clock.
+/// Time of this thread on a processor, s, without that of other programs; where the system does
+/// not report it, time on the clock.
 fn busy_s() -> f64 {
-    // What is told is brought up to date when the thread is scheduled.
+    // The number is updated when the thread is scheduled.
     std::thread::yield_now();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    let reported = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = reported.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
     static BEGIN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     nanoseconds.map_or_else(
         || BEGIN.get_or_init(Instant::now).elapsed().as_secs_f64(),
@@ -40,8 +40,8 @@ fn busy_s() -> f64 {
 
 /// The same of all threads, in hundredths of a second.
 fn all_threads_busy_s() -> f64 {
-    let told = std::fs::read_to_string("/proc/self/stat").ok();
-    let ticks = told.and_then(|text| {
+    let reported = std::fs::read_to_string("/proc/self/stat").ok();
+    let ticks = reported.and_then(|text| {
         let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
         Some(fields.get(11)?.parse::<f64>().ok()? + fields.get(12)?.parse::<f64>().ok()?)
     });
@@ -141,7 +141,7 @@ fn pairs() {
         Output::ContactForce,
         400.0,
     );
-    // The same contacts with shocks that the head survives: in full it runs the whole window.
+    // The same contacts with shocks that the head survives: the full model runs the whole window.
     compare(
         "contact history, rigid, 198 G",
         "rigid",
@@ -168,7 +168,7 @@ fn swept(sets: &[(&str, &str)]) -> SweepEnd {
         ("pulse.widths_ms", "[0.5]"),
         ("search.tolerance_pct", "5"),
         ("output.keep_histories", "\"none\""),
-        ("search.error_bars", "false"),
+        ("search.uncertainty", "false"),
     ];
     all.extend_from_slice(sets);
     let study = scenes::study("fig13-stiffness", &all);
@@ -218,7 +218,7 @@ fn designs() {
     ] {
         let plan = Plan::new(&[output], Mode::Auto);
         let (mut shared_s, mut alone_s) = (0.0, 0.0);
-        let mut donor: Option<Model> = None;
+        let mut shared_model: Option<Model> = None;
         // What a study keeps for its other points: one structural run an amplitude.
         let mut kept: Vec<Option<StructureRun>> = vec![None; SHOCKS_G.len()];
         for design in 0..20 {
@@ -231,7 +231,7 @@ fn designs() {
             );
             let mut shared = || {
                 let start = busy_s();
-                let model = Model::assemble(&scene, &plan, donor.as_ref()).expect("builds");
+                let model = Model::assemble(&scene, &plan, shared_model.as_ref()).expect("builds");
                 let mut workspace = Workspace::default();
                 let mut outcomes = Vec::new();
                 for (amplitude_g, kept) in SHOCKS_G.iter().zip(&mut kept) {
@@ -242,7 +242,7 @@ fn designs() {
                     outcomes.push(simulate_head(&model, &request, Ok(run), &mut workspace));
                 }
                 shared_s += busy_s() - start;
-                donor = Some(model);
+                shared_model = Some(model);
                 outcomes
             };
             let mut alone = || {

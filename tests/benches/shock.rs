@@ -1,7 +1,7 @@
 //! One shock and its parts: what each costs, as a time and as a ratio in the same run.
 //!
 //! The reference scene is the paper's drive with the deformable ramp, 190 g for 0.5 ms, 5 ms
-//! window, at the study's accuracy.
+//! window, at the study's resolution.
 
 use std::hint::black_box;
 
@@ -23,7 +23,7 @@ fn shock(c: &mut Criterion) {
         "fig13-stiffness",
         "deformable",
         0.5,
-        &[("solver.accuracy", "\"5%\"")],
+        &[("resolution.preset", "\"coarse\"")],
     );
     let coarse = Model::build(&coarse, Scope::Full, None).expect("the scene builds");
     let structure = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
@@ -64,7 +64,7 @@ fn shock(c: &mut Criterion) {
     });
     group.bench_function("steady_flight", |b| {
         let mut alone = scene.clone();
-        alone.film_resolution.reference_cells = 0;
+        alone.film_resolution.correction_cells = 0;
         b.iter(|| black_box(Bearing::build(&alone, None)));
     });
     group.bench_function("steady_flight_and_reference", |b| {
@@ -77,7 +77,7 @@ fn shock(c: &mut Criterion) {
     group.bench_function("build_structure", |b| {
         b.iter(|| {
             let model = Model::build(&scene, Scope::Structure, None).expect("the scene builds");
-            model.structure().wake_up().expect("it wakes");
+            model.structure().build_contact_driven().expect("it builds");
             black_box(model)
         });
     });

@@ -40,7 +40,7 @@ fn modes(_: &mut Criterion) {
         scene.disk_resolution.cut_hz = cut_hz;
         let build = median_of(5, || {
             let model = Model::build(&scene, Scope::Structure, None).expect("builds");
-            model.structure().wake_up().expect("builds");
+            model.structure().build_contact_driven().expect("builds");
             black_box(model);
         });
         let model = Model::build(&scene, Scope::Structure, None).expect("builds");
@@ -119,9 +119,9 @@ fn points(_: &mut Criterion) {
 
 fn touch_study(n: usize) -> String {
     format!(
-        "study_format = 1\nname = \"size\"\noutputs = [\"touch_threshold\"]\n\
+        "study_format = 2\nname = \"size\"\noutputs = [\"touch_threshold\"]\n\
          [pulse]\nwidths_ms = {:?}\nsigns = [\"+\", \"-\"]\n\
-         [ramp]\nmodels = [\"rigid\"]\n[solver]\naccuracy = \"5%\"\n\
+         [ramp]\nmodels = [\"rigid\"]\n[resolution]\npreset = \"coarse\"\n\
          [search]\namplitude_g = {{ min = 20.0, max = 2000.0 }}\n",
         widths_ms(n)
     )

@@ -11,7 +11,7 @@ use opshock_tests::seeded::seeds;
 use crate::made::{MAKING, Making, OPSHOCK, Reference};
 use crate::mounted::Mounted;
 
-/// System calls that fail together; a call that this kernel's library does not use counts as none.
+/// System calls that fail together; a call that this kernel's library does not use is ignored.
 const CALLS: [(&str, &str); 3] = [
     (
         "writes",
@@ -36,7 +36,7 @@ fn emptied(folder: &Path) {
     std::fs::create_dir(folder).expect("folder");
 }
 
-/// Fails the N-th call for every N of a thread's calls; how many runs, and how many of them told it.
+/// Fails the N-th call for every N of a thread's calls; how many runs, and how many of them reported it.
 fn failing_calls(reference: &Reference, root: &Path) -> (usize, usize) {
     let (folder, log) = (root.join("disturbed"), root.join("log"));
     let (mut runs, mut refused) = (0, 0);
@@ -67,7 +67,7 @@ fn failing_calls(reference: &Reference, root: &Path) -> (usize, usize) {
     (runs, refused)
 }
 
-/// Runs on file systems of every size, then on the same with room; how many, and how many told it.
+/// Runs on file systems of every size, then on the same with room; how many, and how many reported it.
 fn small_disks(reference: &Reference, root: &Path) -> (usize, usize) {
     let disk = Mounted::tmpfs(&root.join("small"), "size=4k");
     let folder = disk.path().join("disturbed");

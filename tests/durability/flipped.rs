@@ -1,4 +1,4 @@
-//! Flipped bytes at every offset of a journal, and of the results; results cut short everywhere.
+//! Stores with a flipped byte at every offset of the journal and of the results, and with results cut short.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -183,20 +183,25 @@ fn the_program_refuses_or_mends_a_store_with_a_flipped_byte() {
             "byte {place}: {}",
             said(&refused)
         );
-        let told = "error: E182: s.opshock/histories/";
-        assert!(said(&refused).contains(told), "{}", said(&refused));
+        let reported = "error: E182: s.opshock/histories/";
+        assert!(said(&refused).contains(reported), "{}", said(&refused));
         assert!(!folder.join("out").exists());
         sweep.finish(&folder);
     }
     for place in [0, 24, 96, 680, 2048, 5000, 50_000] {
         // With a sound journal the report is whole, its results too, and the next sweep mends.
         flip(&store.join("results.h5"), place);
-        let told = report();
-        assert_eq!(told.status.code(), Some(0), "byte {place}: {}", said(&told));
+        let reported = report();
+        assert_eq!(
+            reported.status.code(),
+            Some(0),
+            "byte {place}: {}",
+            said(&reported)
+        );
         assert!(
-            said(&told).contains("warning: results_damaged: E182: "),
+            said(&reported).contains("warning: results_damaged: E182: "),
             "{}",
-            said(&told)
+            said(&reported)
         );
         let copy = folder.join("out/results.h5");
         results::parse(&copy, &std::fs::read(&copy).expect("reads")).expect("sound");

@@ -1,4 +1,4 @@
-//! Disks that are full, small or may not be written.
+//! Sweeps on disks that are full, small or read-only.
 
 use std::path::Path;
 use std::process::Command;
@@ -52,7 +52,7 @@ fn mounts_a_small_file_system_that_fills_up_ends_with_6_and_keeps_what_was_finis
 
 #[test]
 #[ignore = "needs root, to mount: make verify-mounts"]
-fn mounts_a_file_system_that_is_full_already_is_told_before_computing() {
+fn mounts_a_file_system_that_is_full_already_is_reported_before_computing() {
     let root = tempfile::tempdir().expect("folder");
     let disk = Mounted::tmpfs(&root.path().join("full"), "size=16k");
     let ballast = disk.path().join("ballast");
@@ -68,7 +68,7 @@ fn mounts_a_file_system_that_is_full_already_is_told_before_computing() {
 
 #[test]
 #[ignore = "needs root, to mount: make verify-mounts"]
-fn mounts_a_read_only_file_system_is_told_before_computing() {
+fn mounts_a_read_only_file_system_is_reported_before_computing() {
     let root = tempfile::tempdir().expect("folder");
     let disk = Mounted::tmpfs(&root.path().join("readonly"), "size=4m");
     let folder = disk.path().join("store");
@@ -88,7 +88,7 @@ fn mounts_a_read_only_file_system_is_told_before_computing() {
 }
 
 #[test]
-fn a_folder_without_permission_is_told_before_computing() {
+fn a_folder_without_permission_is_reported_before_computing() {
     use std::os::unix::fs::PermissionsExt as _;
     let root = tempfile::tempdir().expect("folder");
     // Root may write anywhere: the program runs as nobody then, who must be able to start it.
@@ -131,7 +131,7 @@ fn a_folder_without_permission_is_told_before_computing() {
 /// Files longer than a limit cannot be written, for every kind of product: below what the smallest
 /// needs, and below what only the longer ones need.
 #[test]
-fn a_file_that_cannot_grow_is_told_and_never_half_there() {
+fn a_file_that_cannot_grow_is_reported_and_never_half_there() {
     let root = tempfile::tempdir().expect("folder");
     for making in MAKING {
         let reference = Reference::of(making, root.path());

@@ -54,7 +54,7 @@ fn a_name_alone_is_no_finished_history() {
     let unsealed = whole.len() - 40;
     let mut flipped = whole.clone();
     flipped[300] ^= 1;
-    // Nothing, cut, as of before histories were sealed, one bit: damage, which is told.
+    // Nothing, cut, as of before histories were sealed, one bit: damage, which is reported.
     for damaged in [&[][..], &whole[..1000], &whole[..unsealed], &flipped] {
         std::fs::write(&files[0], damaged).expect("writes");
         let error = history::parse(&files[0], damaged).expect_err("is refused");

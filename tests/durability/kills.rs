@@ -32,8 +32,8 @@ fn stored(folder: &Path) -> BTreeMap<RunKey, Vec<u8>> {
     runs
 }
 
-/// Simulations that a killed process had told as done: point and sign, amplitude, window.
-fn told(output: &str) -> Vec<RunKey> {
+/// Simulations that a killed process had reported as done: point and sign, amplitude, window.
+fn reported(output: &str) -> Vec<RunKey> {
     // The last line may be cut.
     let whole = output.rsplit_once('\n').map_or("", |(whole, _)| whole);
     let number = |text: &str| u64::from_str_radix(text, 16).expect("bits");
@@ -46,7 +46,7 @@ fn told(output: &str) -> Vec<RunKey> {
             for (byte, place) in point.0.iter_mut().zip((0..).step_by(2)) {
                 *byte = number(&words[0][place..place + 2]) as u8;
             }
-            let sign = Sign::parse(words[1]).expect("a sign");
+            let sign = Sign::from_word(words[1]).expect("a sign");
             let amplitude = m_per_s2_from_g(f64::from_bits(number(words[2])));
             RunKey {
                 point,
@@ -88,7 +88,7 @@ enum Swept {
 }
 
 impl Swept {
-    /// Ends the sweep in `folder`; simulations made where the sweep itself counts them.
+    /// Ends the sweep in `folder`; the number of simulations made where the sweep itself reports it.
     fn finish(self, folder: &Path) -> Option<u64> {
         let options = SweepOptions::with_threads(1);
         match self {
@@ -112,7 +112,7 @@ impl Swept {
     }
 }
 
-/// Kills of some lives, and those of them after which widths were there that refinement added.
+/// Kills of some lives, and those of them after which added widths were there.
 #[derive(Default)]
 struct Kills {
     all: usize,
@@ -151,8 +151,8 @@ fn life(swept: Swept, seed: u64, expected: &[String], kills: &mut Kills) {
         }
         kills.all += 1;
         let now = stored(&folder);
-        for key in told(&output) {
-            assert!(now.contains_key(&key), "told as done, and lost");
+        for key in reported(&output) {
+            assert!(now.contains_key(&key), "reported as done, and lost");
         }
         for (key, bytes) in &before {
             assert_eq!(now.get(key), Some(bytes), "lost or altered");

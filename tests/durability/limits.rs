@@ -1,4 +1,4 @@
-//! Limits of the process and folders that fail to close: the program itself.
+//! The program under limits of the process, and with folders that fail to close.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -35,7 +35,7 @@ fn run(folder: &Path, before: &[&str], words: &[String]) -> Output {
 
 /// The signal of a file that grows past its limit would end the process with 153, half written.
 #[test]
-fn a_file_size_limit_is_told_as_a_disk_that_is_full() {
+fn a_file_size_limit_is_reported_as_a_disk_that_is_full() {
     let root = tempfile::tempdir().expect("folder");
     // Blocks of 512 or 1024 bytes: below the probe, the journal, the checkpoint, a history; above them all.
     let mut codes = Vec::new();
@@ -57,7 +57,7 @@ fn a_file_size_limit_is_told_as_a_disk_that_is_full() {
     assert_eq!((codes[0], codes[5]), (Some(6), Some(0)), "{codes:?}");
 }
 
-/// Every close of the process told as failed with EIO, one after the other, in the commands that list folders.
+/// Every close of the process reported as failed with EIO, one after the other, in the commands that list folders.
 #[test]
 #[ignore = "needs strace: make verify-faults"]
 fn faults_slow_a_file_or_folder_that_fails_to_close_is_no_panic() {
@@ -72,7 +72,7 @@ fn faults_slow_a_file_or_folder_that_fails_to_close_is_no_panic() {
         words("merge s.opshock"),
         words("status s.opshock"),
     ] {
-        let mut told = 0;
+        let mut reported = 0;
         for nth in 1..=80 {
             let inject = format!("inject=close:error=EIO:when={nth}");
             let strace = [
@@ -96,8 +96,8 @@ fn faults_slow_a_file_or_folder_that_fails_to_close_is_no_panic() {
                 [0, 1, 2, 6].contains(&code) && !said.contains("panicked"),
                 "close {nth} of {command:?}: {code}, {said}"
             );
-            told += usize::from(code != 0);
+            reported += usize::from(code != 0);
         }
-        println!("{}: {told} of 80 told", command[0]);
+        println!("{}: {reported} of 80 reported", command[0]);
     }
 }

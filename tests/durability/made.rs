@@ -163,31 +163,34 @@ impl Reference {
     ///
     /// `is_heard`: standard error was not disturbed itself.
     pub fn judge(&self, folder: &Path, output: &Output, is_heard: bool) {
-        let told = String::from_utf8_lossy(&output.stderr);
+        let reported = String::from_utf8_lossy(&output.stderr);
         let code = output.status.code();
         let code = code.unwrap_or_else(|| panic!("ended by a signal: {output:?}"));
-        assert!(!told.contains("panicked") && code != 101, "{told}");
-        let found = files(folder).unwrap_or_else(|damage| panic!("{damage}\n{code}: {told}"));
+        assert!(!reported.contains("panicked") && code != 101, "{reported}");
+        let found = files(folder).unwrap_or_else(|damage| panic!("{damage}\n{code}: {reported}"));
         for (path, content) in &found {
             let expected = self.files.get(path);
-            assert!(expected.is_some(), "{path:?} was left\n{code}: {told}");
+            assert!(expected.is_some(), "{path:?} was left\n{code}: {reported}");
             assert!(
                 expected == Some(content),
-                "{path:?} differs\n{code}: {told}"
+                "{path:?} differs\n{code}: {reported}"
             );
         }
         match code {
             1 | 6 if !is_heard => {}
             0 => {
                 let missing = self.files.keys().find(|path| !found.contains_key(*path));
-                assert!(missing.is_none(), "{missing:?} is missing\n{told}");
+                assert!(missing.is_none(), "{missing:?} is missing\n{reported}");
                 let is_said = !self.making.says_the_same || output.stdout == self.stdout;
                 assert!(is_said, "other words on standard output");
             }
             // Standard output itself.
-            1 => assert!(told.contains("cannot write to standard output"), "{told}"),
-            6 => assert!(told.contains("E183: "), "{told}"),
-            other => panic!("exit code {other}: {told}"),
+            1 => assert!(
+                reported.contains("cannot write to standard output"),
+                "{reported}"
+            ),
+            6 => assert!(reported.contains("E183: "), "{reported}"),
+            other => panic!("exit code {other}: {reported}"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A small file system of its own.
+//! Mounts a small file system for tests of full disks.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

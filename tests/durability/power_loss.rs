@@ -1,6 +1,6 @@
 //! A journal on a file system that fails, dies or loses power at every system call in turn.
 //!
-//! Promise: a record that was acknowledged (its append returned, or a sitting began with it) is in
+//! Promise: a record that was acknowledged (its append returned, or a session began with it) is in
 //! the journal ever after with the same bytes, once; what was not is simulated again; in the end
 //! the records are those of an undisturbed sweep.
 
@@ -168,7 +168,7 @@ fn no_failing_system_call_costs_a_finished_simulation() {
     assert!(all.len() >= 30, "{} records", all.len());
     let mut cases = 0_u64;
     for scenario in 0..28_u64 {
-        // Counts the calls of a life without faults, broken off once in the middle.
+        // Number of calls of a life without faults, broken off once in the middle.
         let dry = SimFiles::new(scenario);
         let calls = {
             let mut seeded = Seeded::new(scenario);

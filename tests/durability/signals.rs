@@ -1,4 +1,4 @@
-//! Signals, a reader that goes away, two processes on one store: the program itself.
+//! The program under signals, with a reader that goes away, and as two processes on one store.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ fn send(child: &Child, signal: &str) {
     assert!(status.success());
 }
 
-/// Starts the mock and waits until it has told `runs` simulations.
+/// Starts the mock and waits until it has reported `runs` simulations.
 fn start(
     folder: &Path,
     sleep_ms: &str,
@@ -193,7 +193,7 @@ fn the_program_tells_how_to_go_on_after_a_signal() {
         .spawn()
         .expect("starts");
     let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines();
-    // Remarks about the study come first; the counts come when the sweep has begun.
+    // Remarks about the study come first; the numbers come when the sweep has begun.
     while !lines
         .next()
         .expect("a line")

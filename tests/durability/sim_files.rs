@@ -19,11 +19,11 @@ const SECTOR: usize = 64;
 /// What goes wrong at a system call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Nothing happens, and an error is told.
+    /// Nothing happens, and an error is reported.
     Refused,
-    /// It is done, and yet an error is told.
+    /// It is done, and yet an error is reported.
     DoneButRefused,
-    /// A part is done and told (of a write), else refused.
+    /// A part is done and reported (of a write), else refused.
     Short,
     /// A part of a write is done, the next call has no room.
     Full,
@@ -198,7 +198,7 @@ impl Inode {
 }
 
 impl State {
-    /// Counts a call; what is wrong with it.
+    /// Registers a call; what is wrong with it.
     fn call(&mut self, is_write: bool) -> Result<Option<Fault>> {
         if self.is_dead {
             return Err(refused());

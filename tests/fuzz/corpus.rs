@@ -1,4 +1,4 @@
-//! Sound and unsound files that mutations start from.
+//! Sound and unsound files that mutations of the fuzz tests start from.
 
 use std::path::{Path, PathBuf};
 
@@ -22,8 +22,8 @@ pub const N_SOUND_STUDIES: usize = 3;
 pub fn studies() -> Vec<String> {
     let sound: [String; N_SOUND_STUDIES] = [
         opshock_study::study::Study::example("fuzz"),
-        "study_format = 1\nname = \"case\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n".into(),
-        "study_format = 1\nname = \"case\"\n[pulse]\nwidths_ms = [0.5, 2.0]\nsigns = [\"+\", \"-\"]\n\
+        "study_format = 2\nname = \"case\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n".into(),
+        "study_format = 2\nname = \"case\"\n[pulse]\nwidths_ms = [0.5, 2.0]\nsigns = [\"+\", \"-\"]\n\
          [ramp]\nmodels = [\"none\", \"deformable\"]\n[disk]\nrpm = { from = 5400, to = 7200, count = 3 }\n\
          thickness_mm = 0.8\n[slider]\nsurface = { preset = \"femto-2.5in\" }\n"
             .into(),

@@ -1,4 +1,4 @@
-//! Matrices and air-bearing surfaces of other programs: words, lines and bytes exchanged.
+//! Fuzz tests of the importers: words, lines and bytes of other programs' files exchanged.
 
 use std::path::Path;
 
@@ -222,10 +222,10 @@ fn fuzz(
     name: &str,
     (corpus, n_sound): (Vec<Vec<u8>>, usize),
     range: std::ops::Range<u64>,
-    tell_every: u64,
+    report_every: u64,
     read: impl Fn(u64, Source) -> Result<(), Faults>,
 ) {
-    watch::run(name, range, tell_every, |seed| {
+    watch::run(name, range, report_every, |seed| {
         let bytes = mutated(&mut Seeded::new(seed), &corpus, n_sound);
         match Source::of(name, bytes).and_then(|source| read(seed, source)) {
             Ok(()) => true,
@@ -237,21 +237,27 @@ fn fuzz(
     });
 }
 
-fn fuzz_market(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_market(range: std::ops::Range<u64>, report_every: u64) {
     let corpus = corpus("market", &[".mtx", ".txt"]);
-    fuzz("market", (corpus, 4), range, tell_every, |seed, source| {
-        if seed.is_multiple_of(16) {
-            modes::read_frequencies(&source)?;
-        }
-        let matrix = market::read(&source)?;
-        if matrix.n_rows == matrix.n_columns {
-            check_beside_unit_mass(matrix, None)?;
-        }
-        Ok(())
-    });
+    fuzz(
+        "market",
+        (corpus, 4),
+        range,
+        report_every,
+        |seed, source| {
+            if seed.is_multiple_of(16) {
+                modes::read_frequencies(&source)?;
+            }
+            let matrix = market::read(&source)?;
+            if matrix.n_rows == matrix.n_columns {
+                check_beside_unit_mass(matrix, None)?;
+            }
+            Ok(())
+        },
+    );
 }
 
-fn fuzz_calculix(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_calculix(range: std::ops::Range<u64>, report_every: u64) {
     let corpus = corpus("calculix", &[".sti", ".mas", ".dof"]);
     let map = Source::of("map.dof", b"2.3\n3.3\n".to_vec()).expect("text");
     let sound = dof::read(&map).expect("a map");
@@ -259,7 +265,7 @@ fn fuzz_calculix(range: std::ops::Range<u64>, tell_every: u64) {
         "calculix",
         (corpus, 3),
         range,
-        tell_every,
+        report_every,
         |seed, source| {
             if seed.is_multiple_of(4) {
                 let freedoms = dof::read(&source)?;
@@ -277,9 +283,9 @@ fn fuzz_calculix(range: std::ops::Range<u64>, tell_every: u64) {
     );
 }
 
-fn fuzz_dense(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_dense(range: std::ops::Range<u64>, report_every: u64) {
     let corpus = corpus("dense", &[".dat"]);
-    fuzz("dense", (corpus, 3), range, tell_every, |seed, source| {
+    fuzz("dense", (corpus, 3), range, report_every, |seed, source| {
         if seed.is_multiple_of(4) {
             let (freedoms, places) = dense::read_places(&source)?;
             assert!(freedoms.len() == places.len());
@@ -288,12 +294,12 @@ fn fuzz_dense(range: std::ops::Range<u64>, tell_every: u64) {
     });
 }
 
-fn fuzz_rail(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_rail(range: std::ops::Range<u64>, report_every: u64) {
     fuzz(
         "rail",
         (corpus("cmlair", &[".rail.dat"]), 1),
         range,
-        tell_every,
+        report_every,
         |_, source| {
             let file = rail::read(&source)?;
             let again = rail::read(&Source::of("rail.dat", rail::write(&file).into_bytes())?)?;
@@ -309,14 +315,14 @@ fn fuzz_rail(range: std::ops::Range<u64>, tell_every: u64) {
     );
 }
 
-fn fuzz_run(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_run(range: std::ops::Range<u64>, report_every: u64) {
     let slider = corpus("cmlair", &["sound.rail.dat"]).remove(0);
     let slider = rail::read(&Source::of("rail.dat", slider).expect("text")).expect("a surface");
     fuzz(
         "run",
         (corpus("cmlair", &[".run.dat"]), 1),
         range,
-        tell_every,
+        report_every,
         |_, source| {
             let file = run::read(&source)?;
             let again = run::read(&Source::of("run.dat", run::write(&file).into_bytes())?)?;
@@ -334,7 +340,7 @@ fn fuzz_run(range: std::ops::Range<u64>, tell_every: u64) {
     );
 }
 
-fn fuzz_dynamic(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_dynamic(range: std::ops::Range<u64>, report_every: u64) {
     let slider = corpus("cmlair", &["sound.rail.dat"]).remove(0);
     let slider = rail::read(&Source::of("rail.dat", slider).expect("text")).expect("a surface");
     let flights = corpus("cmlair", &["sound.run.dat"]).remove(0);
@@ -343,7 +349,7 @@ fn fuzz_dynamic(range: std::ops::Range<u64>, tell_every: u64) {
         "dynamic",
         (corpus("dynluls", &[".def"]), 1),
         range,
-        tell_every,
+        report_every,
         |seed, source| {
             let file = dynamic::read(&source)?;
             let text = dynamic::write(&file);
@@ -365,12 +371,12 @@ fn fuzz_dynamic(range: std::ops::Range<u64>, tell_every: u64) {
     );
 }
 
-fn fuzz_gmsh(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_gmsh(range: std::ops::Range<u64>, report_every: u64) {
     fuzz(
         "gmsh",
         (corpus("gmsh", &[".msh"]), 1),
         range,
-        tell_every,
+        report_every,
         |_, source| {
             let mesh = gmsh::read(&source)?;
             assert_eq!(mesh.nodes.len(), mesh.node_tags.len());

@@ -1,4 +1,4 @@
-//! Journals: damaged bytes, damaged records under sound checksums, records of other journals.
+//! Fuzz tests of the journal reader: damaged bytes, damaged records under sound checksums, foreign records.
 
 use opshock_study::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
 use opshock_study::store::journal::{self, JournalHeader, JournalWriter};
@@ -108,7 +108,7 @@ fn damage_under_checksum(seeded: &mut Seeded, bytes: &mut Vec<u8>) {
 
 /// What must hold of any answer: a journal that opens has its bytes accounted for, and what it
 /// gives back encodes and decodes to itself; an undamaged one gives back what was written.
-fn fuzz_journals(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_journals(range: std::ops::Range<u64>, report_every: u64) {
     let folder = tempfile::tempdir().expect("a folder");
     let whole: Vec<(Vec<u8>, Vec<Record>)> = (0..40)
         .map(|seed| whole_journal(folder.path(), seed))
@@ -117,7 +117,7 @@ fn fuzz_journals(range: std::ops::Range<u64>, tell_every: u64) {
         let content = journal::parse(Path::new("journal"), bytes).expect("whole");
         assert!(content.damage.is_empty() && content.records.len() == records.len());
     }
-    watch::run("journal", range, tell_every, |seed| {
+    watch::run("journal", range, report_every, |seed| {
         let mut seeded = Seeded::new(seed);
         let mut bytes = seeded.one_of(&whole).0.clone();
         match seeded.below(4) {

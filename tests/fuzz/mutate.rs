@@ -1,4 +1,4 @@
-//! Mutations: of lines as an editor's slip makes them, of bytes as a damaged disk makes them.
+//! Mutations of files for the fuzz tests: of lines as an editor's slip makes them, of bytes as a damaged disk.
 
 use opshock_study::study::keys::KEYS;
 use opshock_tests::seeded::Seeded;
@@ -35,7 +35,7 @@ const VALUES: &[&str] = &[
     "\"x\"",
     "'+'",
     "\"+\"",
-    "\"1%\"",
+    "\"standard\"",
     "\"none\"",
     "\"rigid\"",
     "\"deformable\"",
@@ -127,11 +127,11 @@ pub fn text(seeded: &mut Seeded, base: &str, others: &[String]) -> String {
                 lines.swap(at, other);
             }
             3 => {
-                let donor = seeded.one_of(others);
-                let n = donor.lines().count();
+                let shared_model = seeded.one_of(others);
+                let n = shared_model.lines().count();
                 let from = seeded.below(n);
                 let some = 1 + seeded.below(4);
-                let taken: Vec<String> = donor
+                let taken: Vec<String> = shared_model
                     .lines()
                     .skip(from)
                     .take(some)

@@ -1,4 +1,4 @@
-//! Studies, surfaces and sampled pulses.
+//! Fuzz tests of the readers of studies, surfaces and sampled pulses.
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ fn mutated(seed: u64, corpus: &[String]) -> Result<String, StudyErrors> {
 }
 
 /// What must hold of any answer: a refusal has a code and words for every fault, in the order of
-/// the file and no more than can be read; what is accepted, written out in full, is accepted
+/// the file and no more than can be read; what is accepted, written out with all keys, is accepted
 /// again as the same study.
 fn judge(seed: u64, answer: Result<Study, StudyErrors>) -> bool {
     match answer {
@@ -59,9 +59,9 @@ fn judge(seed: u64, answer: Result<Study, StudyErrors>) -> bool {
     }
 }
 
-fn fuzz_studies(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_studies(range: std::ops::Range<u64>, report_every: u64) {
     let corpus = corpus::studies();
-    watch::run("study", range, tell_every, |seed| {
+    watch::run("study", range, report_every, |seed| {
         match mutated(seed, &corpus) {
             Ok(text) => judge(seed, Study::from_text(&text, &[])),
             Err(refused) => judge(seed, Err(refused)),
@@ -98,24 +98,24 @@ fn fuzz_named(
     study: &str,
     corpus: &[String],
     range: std::ops::Range<u64>,
-    tell_every: u64,
+    report_every: u64,
 ) {
     let folder = scratch();
     let at = |file: &str| -> PathBuf { folder.path().join(file) };
     std::fs::write(at("study.toml"), study).expect("written");
-    watch::run(name, range, tell_every, |seed| {
+    watch::run(name, range, report_every, |seed| {
         std::fs::write(at(name), mutated_file(seed, corpus)).expect("written");
         judge(seed, Study::from_path(&at("study.toml"), &[]))
     });
 }
 
-const HEAD: &str = "study_format = 1\nname = \"case\"\n[ramp]\nmodels = [\"rigid\"]\n";
+const HEAD: &str = "study_format = 2\nname = \"case\"\n[ramp]\nmodels = [\"rigid\"]\n";
 
-fn fuzz_surfaces(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_surfaces(range: std::ops::Range<u64>, report_every: u64) {
     let study = format!(
         "{HEAD}[pulse]\nwidths_ms = [2.0]\nsigns = [\"+\"]\n[slider]\nsurface = {{ file = \"surface\" }}\n"
     );
-    fuzz_named("surface", &study, &corpus::surfaces(), range, tell_every);
+    fuzz_named("surface", &study, &corpus::surfaces(), range, report_every);
 }
 
 /// One in this many pulses is also read as a user's is, by a study that names its file.
@@ -142,13 +142,13 @@ fn judge_samples(answer: Result<Samples, Vec<StudyError>>) -> bool {
     }
 }
 
-fn fuzz_pulses(range: std::ops::Range<u64>, tell_every: u64) {
+fn fuzz_pulses(range: std::ops::Range<u64>, report_every: u64) {
     let study = format!("{HEAD}[pulse]\nwidths_ms = [2.0]\nshape = \"table\"\ntable = \"pulse\"\n");
     let folder = scratch();
     let at = |file: &str| -> PathBuf { folder.path().join(file) };
     std::fs::write(at("study.toml"), study).expect("written");
     let corpus = corpus::pulses();
-    watch::run("pulse", range, tell_every, |seed| {
+    watch::run("pulse", range, report_every, |seed| {
         let bytes = mutated_file(seed, &corpus);
         if seed.is_multiple_of(WHOLE) {
             std::fs::write(at("pulse"), &bytes).expect("written");

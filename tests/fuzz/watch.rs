@@ -1,4 +1,4 @@
-//! Runs seeds one after the other, tells a hang from a slow reader, and watches the memory.
+//! Runs fuzz seeds one after the other, distinguishes a hang from a slow reader, and watches the memory.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -14,11 +14,11 @@ const HANG: Duration = Duration::from_secs(60);
 /// may ask for a ramp of as many finite elements as take 2 GB.
 const MOST_MEMORY_KB: u64 = 5 << 19;
 
-/// Calls `execute` with every seed. Progress goes to standard output every `tell_every` seeds.
+/// Calls `execute` with every seed. Progress goes to standard output every `report_every` seeds.
 ///
 /// # Panics
 /// When memory grew beyond the bound. A hang ends the process, naming the seed.
-pub fn run(name: &str, seeds: Range<u64>, tell_every: u64, mut execute: impl FnMut(u64) -> bool) {
+pub fn run(name: &str, seeds: Range<u64>, report_every: u64, mut execute: impl FnMut(u64) -> bool) {
     let (now, ended) = (AtomicU64::new(seeds.start), AtomicBool::new(false));
     std::thread::scope(|scope| {
         scope.spawn(|| {
@@ -42,7 +42,7 @@ pub fn run(name: &str, seeds: Range<u64>, tell_every: u64, mut execute: impl FnM
             let _named = OnPanic(seed);
             accepted += u64::from(execute(seed));
             let done = seed + 1 - seeds.start;
-            if done.is_multiple_of(tell_every) || seed + 1 == seeds.end {
+            if done.is_multiple_of(report_every) || seed + 1 == seeds.end {
                 println!(
                     "{name}: {done} executions from seed {}, {accepted} files accepted, {:.0} a \
                      second, {} MB at most",
@@ -67,7 +67,7 @@ impl Drop for EndOnDrop<'_> {
 /// Processor time of this process so far; 0 where the system does not say, and then no hang is seen.
 fn processor_time() -> Duration {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // Fields 14 and 15, counted behind the name in brackets, which may hold spaces: hundredths of a
+    // Fields 14 and 15, numbered from the name in brackets, which may hold spaces: hundredths of a
     // second in user and system mode.
     let ticks = stat.rsplit(')').next().map_or(0, |rest| {
         let fields = rest.split_whitespace().skip(11).take(2);

@@ -6,21 +6,21 @@ use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_tests::drives::{GAS_MODELS, drive, most_carried, turned};
 use opshock_tests::seeded::{OnPanic, seeds};
 
-/// Cells of the films that tell independently what a slider carries, and what they and the corrected one may differ by. A
+/// Cells of the films that give independently what a slider carries, and what they and the corrected one may differ by. A
 /// slider with a skew of 3.7 degrees carries 55 mN on 400 cells, 37.5 on 1000 and 35.9 on 4000 and 8000; another 6.5, 4.8,
-/// 4.0, 3.5 and 3.4 mN on 400, 1000, 2000, 4000 and 8000, so that two grids are continued to none.
+/// 4.0, 3.5 and 3.4 mN on 400, 1000, 2000, 4000 and 8000, so that two grids are extrapolated to cells of no size.
 const APART_CELLS: [usize; 3] = [400, 1000, 2000];
 const APART: f64 = 0.12;
 
-/// What is told of a drive.
+/// What is known of a drive.
 #[derive(Clone, Copy)]
-struct Told {
+struct Reported {
     flies: bool,
     /// Relative difference of the clearance to that of the other skew.
     mirrored: Option<f64>,
 }
 
-fn judge(scene: &Scene, gas_model: &str, mirrors: bool) -> Told {
+fn judge(scene: &Scene, gas_model: &str, mirrors: bool) -> Reported {
     match Bearing::build(scene, None) {
         Ok(bearing) => {
             balances(scene, &bearing);
@@ -33,14 +33,14 @@ fn judge(scene: &Scene, gas_model: &str, mirrors: bool) -> Told {
                 assert!(change < 5e-4, "{gas_model}: {one:e} and {other:e} m");
                 change
             });
-            Told {
+            Reported {
                 flies: true,
                 mirrored,
             }
         }
         Err(BuildError::Steady(SteadyError::CannotFly { carried_n, .. })) => {
             cannot(scene, gas_model, carried_n);
-            Told {
+            Reported {
                 flies: false,
                 mirrored: None,
             }
@@ -77,8 +77,8 @@ fn balances(scene: &Scene, bearing: &Bearing) {
     assert!(flight.psi.iter().all(|psi| *psi > 0.0));
 }
 
-/// That no slider held in balance carries the load, nor more than was told: on a coarse film, and where that one says
-/// otherwise on finer ones. Less proves nothing: equilibria of held sliders are sought from a few tilts.
+/// Asserts that no quasi-static film in balance carries the load, nor more than was reported: on a coarse film, and
+/// where that one disagrees on finer ones. Less proves nothing: equilibria are sought from a few tilts.
 fn cannot(scene: &Scene, gas_model: &str, carried_n: f64) {
     let load_n = scene.suspension.gram_load_n;
     let agrees =
@@ -98,7 +98,7 @@ fn cannot(scene: &Scene, gas_model: &str, carried_n: f64) {
         said += &format!(" {most_n:e} N at {clearance_m:e} m on {cells} cells,");
         before = Some((cells, most_n));
     }
-    panic!("{gas_model}: held films carry{said} told {carried_n:e} of {load_n:e} N");
+    panic!("{gas_model}: quasi-static films carry{said} reported {carried_n:e} of {load_n:e} N");
 }
 
 fn all(gas_model: &str, default: std::ops::Range<u64>) {
@@ -111,10 +111,10 @@ fn all(gas_model: &str, default: std::ops::Range<u64>) {
         });
         match judged {
             Err(_) => wrong.push(seed),
-            Ok(told) if told.flies => flown += 1,
+            Ok(reported) if reported.flies => flown += 1,
             Ok(_) => cannot += 1,
         }
-        if let Ok(Told {
+        if let Ok(Reported {
             mirrored: Some(change),
             ..
         }) = judged
@@ -141,11 +141,11 @@ fn random_drives_fly_or_cannot() {
         for seed in 0..6 {
             let _named = OnPanic(seed);
             let mut scene = drive(seed, gas_model);
-            // Cells of the coarsest preset, corrected by half the reference of a skewed slider: seconds in all.
+            // Cells of `coarse`, with half the defect-correction grid of a skewed slider: seconds in all.
             scene.film_resolution.cells = 400;
-            scene.film_resolution.reference_cells = 1000;
-            let told = judge(&scene, gas_model, seed == 4);
-            flown[usize::from(told.flies)] += 1;
+            scene.film_resolution.correction_cells = 1000;
+            let reported = judge(&scene, gas_model, seed == 4);
+            flown[usize::from(reported.flies)] += 1;
         }
     }
     assert!(flown[0] > 0 && flown[1] > 12, "{flown:?}");

@@ -12,7 +12,7 @@ use opshock_tests::heads::{SingleModeDisk, default_resolution, default_slider, s
 use opshock_tests::seeded::{OnPanic, Seeded, seeds};
 use opshock_tests::suspensions::default_suspension;
 
-/// A disk's motion with its roll turned round.
+/// A disk's motion with its roll of the other sign.
 struct OtherSide<'a>(&'a SingleModeDisk);
 
 fn turned(pose: DiskPose) -> DiskPose {
@@ -58,8 +58,8 @@ fn random_head(seeded: &mut Seeded) -> Option<HeadModel> {
         rad_per_s_from_rpm(seeded.between(3600.0, 10_000.0)),
         &FilmResolution {
             cells: 100 + seeded.below(100),
-            floor_m: 0.3e-9,
-            reference_cells: 0,
+            min_height_m: 0.3e-9,
+            correction_cells: 0,
         },
     )
     .expect("film");

@@ -91,7 +91,7 @@ fn random(seeded: &mut Seeded) -> (Structure, f64) {
 /// Depth at which a run warns, m.
 const WARNED_M: f64 = 1e-7;
 
-/// Twice the largest motion of disk and arms in a step, m: nodes see half of a swing.
+/// Twice the largest motion of disk and arms in a step, m: time nodes see half of a swing.
 fn motion_m(run: &StructureRun) -> f64 {
     let columns = run.columns.as_ref().expect("recorded");
     let most = |column: &[f64]| {
@@ -170,7 +170,7 @@ fn slider_distance(a: &StructureRun, b: &StructureRun) -> f64 {
     pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
-/// Other side up: gaps and arms exchanged, the shock turned round. Bit by bit.
+/// Other side up: gaps and arms exchanged, the shock of the other sign. Bit by bit.
 fn mirrored(structure: &Structure) -> Structure {
     let mut other = structure.clone();
     let ramp = &mut other.ramp;

@@ -1,4 +1,4 @@
-//! A base that vibrates: stiff and heavy limits, Duhamel's integral, direct integration, books of energy and
+//! A base that vibrates: stiff and heavy limits, Duhamel's integral, direct integration, balances of energy and
 //! momentum, both methods, a hub on it, what contact does to it.
 
 use std::f64::consts::TAU;
@@ -190,7 +190,7 @@ fn a_mode_of_the_base_moves_by_duhamels_integral() {
 
 /// Through contact with mounts that move against one another, by exact flow and by Moreau-Jean steps.
 #[test]
-fn energy_is_booked_through_contact_with_moving_mounts() {
+fn energy_is_balanced_through_contact_with_moving_mounts() {
     for (model, amplitude_g) in [(RigidRamp.into(), 350.0), (arms(), 450.0), (arms(), -350.0)] {
         let structure = on(&BASE, model);
         let exact = run(&structure, amplitude_g);
@@ -301,7 +301,7 @@ fn a_heavier_base_feels_contact_less_in_proportion() {
     assert!(light[0] < 1e-3 && heavier[0] < 0.5 * light[0]);
 }
 
-/// Hub and base together: each in the limit of the other one stiff, and the books of both.
+/// Hub and base together: each in the limit of the other one stiff, and the balances of both.
 #[test]
 fn a_hub_on_a_base_has_the_limits_of_each_alone() {
     let stiff_hub = HubParameters {
@@ -339,14 +339,17 @@ fn a_hub_on_a_base_has_the_limits_of_each_alone() {
         }
     }
     let run = built(Some(spindle()), &BASE);
-    let books = [
+    let balances = [
         run.hub.expect("a hub").momentum,
         run.base.expect("a base").momentum,
     ];
-    println!("{:.1e}, {books:?}", run.energy.closure);
+    println!("{:.1e}, {balances:?}", run.energy.closure);
     assert!(run.energy.closure < 1e-9);
-    for book in books {
-        assert!(book.closure < 1e-9 && book.contact_n_s != 0.0, "{book:?}");
+    for balance in balances {
+        assert!(
+            balance.closure < 1e-9 && balance.contact_n_s != 0.0,
+            "{balance:?}"
+        );
     }
 }
 

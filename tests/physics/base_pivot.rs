@@ -1,4 +1,4 @@
-//! A suspension whose pivot moves, told as a motion and as a load.
+//! A suspension whose pivot moves, given as a motion and as a load.
 
 use std::f64::consts::TAU;
 
@@ -55,7 +55,7 @@ fn swung(time_s: f64) -> [f64; 2] {
     ]
 }
 
-/// A blow that gives the pivot 4 mm/s from 0.2 ms on, for 0.1 ms.
+/// An impact that gives the pivot 4 mm/s from 0.2 ms on, for 0.1 ms.
 fn struck(time_s: f64) -> [f64; 2] {
     let speed = 4e-3;
     let t = (time_s - 2e-4).clamp(0.0, 1e-4);
@@ -63,8 +63,8 @@ fn struck(time_s: f64) -> [f64; 2] {
     [speed * t, if is_moving { speed } else { 0.0 }]
 }
 
-/// The pivot's motion told as such, or as a load −ü and a disk that moves the other way: the same clearance.
-/// A blow, for which there is no load, is told as one of 10 ns.
+/// The pivot's motion given as such, or as a load −ü and a disk that moves the other way: the same clearance.
+/// An impact, for which there is no load, is given as one of 10 ns.
 #[test]
 fn a_pivot_that_moves_is_a_load_and_a_jump_of_its_velocity_a_short_one() {
     let mut scene = coarse(scenes::scene("fig13-stiffness", "none", 0.5, &[]));
@@ -87,7 +87,7 @@ fn a_pivot_that_moves_is_a_load_and_a_jump_of_its_velocity_a_short_one() {
         width_s: time_s[time_s.len() - 1],
         shape: PulseShape::Table { time_s, relative },
     };
-    // ü of the swings, and of a blow as triangles of 10 ns.
+    // ü of the swings, and of an impact as triangles of 10 ns.
     let omega = TAU / SWING_S;
     let fine: Vec<f64> = (0..=2000).map(|k| 2.5e-7 * f64::from(k)).collect();
     let swings = fine.iter().map(|&t| match t < 1e-4 {
@@ -108,12 +108,12 @@ fn a_pivot_that_moves_is_a_load_and_a_jump_of_its_velocity_a_short_one() {
         &swings,
         0.0,
     );
-    let told: [fn(f64) -> [f64; 2]; 2] = [swung, struck];
+    let reported: [fn(f64) -> [f64; 2]; 2] = [swung, struck];
     for (k, (pulse, allowed)) in [(&swings, 5e-3), (&blow, 5e-2)].into_iter().enumerate() {
         let events_s = vec![0.0, 1e-4, 2e-4, 3e-4];
         let moved = MovedPivot {
             disk_m: rest,
-            pivot_m: told[k],
+            pivot_m: reported[k],
             events_s: events_s.clone(),
         };
         let shaken = MovedPivot {

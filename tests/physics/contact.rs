@@ -176,7 +176,7 @@ fn hard_b1_energy_signs_and_complementarity() {
     }
 }
 
-/// The material energy has its own book: the spindle feeds it through contact.
+/// The material energy has its own balance: the spindle feeds it through contact.
 #[test]
 fn the_material_energy_balances_with_the_spindle() {
     // Without damping: E_end = shock work - impact loss + algorithmic + spindle work.

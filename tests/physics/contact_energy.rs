@@ -54,13 +54,13 @@ fn rise(outcome: &Outcome) -> f64 {
 fn assert_falls(scene: &Scene, name: &str) {
     let run = outcome(scene);
     assert!(run.top.first_touch_s.is_some() && run.bottom.first_touch_s.is_some());
-    let (rise, book) = (rise(&run), &run.energy);
+    let (rise, balance) = (rise(&run), &run.energy);
     println!("{name}: rises by {rise:.1e} of the peak");
     assert!(rise < 1e-10, "{name}: {rise:e}");
-    assert!(book.closure < 1e-9, "{name}: {book:?}");
+    assert!(balance.closure < 1e-9, "{name}: {balance:?}");
     assert!(
-        book.algorithmic_j <= 0.0 && book.damping_loss_j >= 0.0,
-        "{name}: {book:?}"
+        balance.algorithmic_j <= 0.0 && balance.damping_loss_j >= 0.0,
+        "{name}: {balance:?}"
     );
 }
 

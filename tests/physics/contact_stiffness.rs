@@ -32,9 +32,9 @@ fn impulse(outcome: &Outcome) -> f64 {
 fn a_lasting_contact_takes_less_energy_the_finer_the_step() {
     let at = |step_us| {
         let sets = [
-            ("solver.disk_cut_khz", "60"),
-            ("solver.disk_harmonics", "56"),
-            ("solver.structure_step_us", step_us),
+            ("resolution.disk_cut_khz", "60"),
+            ("resolution.disk_harmonics", "56"),
+            ("resolution.structure_step_us", step_us),
         ];
         outcome(&paper("rigid", 2.0, &sets), 400.0)
     };
@@ -57,15 +57,15 @@ fn a_lasting_contact_takes_less_energy_the_finer_the_step() {
     );
 }
 
-/// Under the slider the motion after a blow is that of few modes; a hard contact of the same scene
+/// Under the slider the motion after an impact is that of few modes; a hard contact of the same scene
 /// moves by ten times as much from 120 to 240 kHz.
 #[test]
 fn motion_under_the_slider_converges_with_the_disks_modes() {
     let rate = |is_hard: bool, cut, harmonics, elements| {
         let sets = [
-            ("solver.disk_cut_khz", cut),
-            ("solver.disk_harmonics", harmonics),
-            ("solver.disk_elements", elements),
+            ("resolution.disk_cut_khz", cut),
+            ("resolution.disk_harmonics", harmonics),
+            ("resolution.disk_elements", elements),
         ];
         let mut scene = paper("rigid", 0.5, &sets);
         if is_hard {
@@ -99,8 +99,8 @@ fn motion_under_the_slider_converges_with_the_disks_modes() {
 #[test]
 fn a_rigid_ramp_with_a_stiffness_is_an_arm_of_one_mode() {
     let sets = [
-        ("solver.disk_cut_khz", "20"),
-        ("solver.structure_step_us", "0.03125"),
+        ("resolution.disk_cut_khz", "20"),
+        ("resolution.structure_step_us", "0.03125"),
     ];
     let rigid = paper("rigid", 0.5, &sets);
     let stiffness = rigid

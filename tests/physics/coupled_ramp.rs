@@ -1,4 +1,4 @@
-//! A ramp whose arms are one body: against separate arms, the other contact method, and its books.
+//! A ramp whose arms are one body: against separate arms, the other contact method, and its balances.
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{ArmMode, CoupledMode, OneBody, RampBody, RampError, RigidRamp};
@@ -103,7 +103,7 @@ fn equal_separate_arms_as_one_body_are_what_they_were() {
 }
 
 #[test]
-fn a_push_on_one_arm_moves_the_other_and_the_books_close() {
+fn a_push_on_one_arm_moves_the_other_and_the_balances_close() {
     let structure = s1(2e-3, bolted());
     let touched = run(&structure, 400.0 * G);
     assert!(touched.top.impulse_n_s > 0.0 && touched.bottom.impulse_n_s == 0.0);

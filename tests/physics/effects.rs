@@ -1,6 +1,6 @@
-//! Only what a scene calls for: leaving the rest out changes nothing.
+//! Effects that no output of a scene needs: omitting them changes nothing.
 //!
-//! A pair is one scene as planned and in full: [`opshock_tests::pairs`].
+//! A pair is one scene as reduced and as full model: [`opshock_tests::pairs`].
 
 use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::scene::Scene;
@@ -18,7 +18,7 @@ const STUDIES: [&str; 4] = ["fig13", "fig13-stiffness", "paper-cases", "drive-2.
 fn effects_auto_is_full_for_the_studies() {
     for name in STUDIES {
         let study = scenes::study(name, &[]);
-        let mut donor: Option<Model> = None;
+        let mut shared_model: Option<Model> = None;
         for ramp in &study.ramps {
             let of_ramp = |point: &&opshock_study::study::Point| point.ramp == *ramp;
             let point = study.points.iter().find(of_ramp).expect("a point");
@@ -26,11 +26,11 @@ fn effects_auto_is_full_for_the_studies() {
             let amplitude_g = 150.0 * point.sign.factor();
             let asked = [Output::CriticalShock];
             let auto = Plan::new(&asked, Mode::Auto);
-            let (model, lean) = run(&scene, &auto, amplitude_g, donor.as_ref());
+            let (model, lean) = run(&scene, &auto, amplitude_g, shared_model.as_ref());
             let full = Plan::new(&asked, Mode::Full);
-            let (_, all) = run(&scene, &full, amplitude_g, donor.as_ref());
+            let (_, all) = run(&scene, &full, amplitude_g, shared_model.as_ref());
             assert_same(&lean, &all, Needs::Head, &format!("{name} {ramp}"));
-            donor = Some(model);
+            shared_model = Some(model);
         }
     }
 }
@@ -72,7 +72,7 @@ fn effects_slow_auto_is_full_for_every_point_of_the_studies() {
     for name in STUDIES {
         let study = scenes::study(name, &[]);
         let asked = [Output::CriticalShock, Output::ContactForce];
-        let mut donor: Option<Model> = None;
+        let mut shared_model: Option<Model> = None;
         for (i, point) in study.points.iter().enumerate() {
             let amplitude_g = point.sign.factor() * [80.0, 200.0, 400.0][i % 3];
             let what = format!("{name} {} {amplitude_g} G", point.label());
@@ -84,12 +84,12 @@ fn effects_slow_auto_is_full_for_every_point_of_the_studies() {
                 &point.scene,
                 &asked,
                 amplitude_g,
-                donor.as_ref(),
+                shared_model.as_ref(),
                 pair,
                 &what,
             );
             let plan = Plan::new(&asked, Mode::Auto);
-            donor = Model::assemble(&point.scene, &plan, donor.as_ref()).ok();
+            shared_model = Model::assemble(&point.scene, &plan, shared_model.as_ref()).ok();
         }
         println!("{name}: {} points agree", study.points.len());
     }
@@ -134,7 +134,7 @@ const POISONS: [Poison; 10] = [
             s.slider.length_m = f64::NAN;
             s.slider.width_m = f64::NAN;
             s.slider.surface.crown_m = f64::NAN;
-            s.film_resolution.floor_m = f64::NAN;
+            s.film_resolution.min_height_m = f64::NAN;
         },
     },
     Poison {
@@ -242,7 +242,7 @@ fn effects_poisoned_numbers_of_what_is_left_out_reach_no_output() {
             assert_eq!(limit(&model), limit(&other_model), "{effect}");
         }
     }
-    // Every effect that some plan leaves out is above.
+    // Every effect that some plan omits is above.
     for ramp in ["none", "rigid", "deformable"] {
         let scene = scenes::scene("fig13-stiffness", ramp, 0.5, &[]);
         for output in Output::ALL {

@@ -1,4 +1,4 @@
-//! Every scene of disk, ramp and head on which the hard cases run, as planned and in full. Cases of
+//! Every scene of disk, ramp and head on which the hard cases run, as reduced and as full model. Cases of
 //! films, bodies, searches and single heads under a given disk have no plan to differ in.
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
@@ -45,7 +45,7 @@ fn pairs_of(case: &Case, base: &Scene, is_wanted: impl Fn(&Structure) -> bool) -
         if seen.contains(&key) || !amplitude.is_finite() || !is_wanted(&structure) {
             continue;
         }
-        // Nothing moves that an output could be told from.
+        // Nothing moves, so that no output can differ.
         let asked: &[Output] = match amplitude.abs() > 1e-200 {
             true => &[Output::ContactForce, Output::DiskDisplacement],
             false => &[],

@@ -146,20 +146,20 @@ fn effects_mutants_of_the_conditions_of_sharing_are_caught() {
     });
 }
 
-/// A donor that `change` makes another one than `scene`, which only the condition `name` tells.
+/// A shared model that `change` makes another one than `scene`; only the condition `name` shows the difference.
 fn is_needed(scene: &Scene, name: &'static str, change: Change) {
     let asked = [Output::CriticalShock];
     let plan = Plan::new(&asked, Mode::Auto);
     let mut other = scene.clone();
     change(&mut other);
-    let donor = Model::assemble(&other, &plan, None).expect("the donor builds");
+    let shared_model = Model::assemble(&other, &plan, None).expect("the shared_model builds");
     let shock = |mutant| {
         let pair = Pair {
             with_head: true,
             mutant,
             ..Pair::default()
         };
-        compare(scene, &asked, 250.0, Some(&donor), pair, name);
+        compare(scene, &asked, 250.0, Some(&shared_model), pair, name);
     };
     shock(None);
     assert!(differs(|| shock(Some(name))), "nothing needs {name}");

@@ -21,8 +21,8 @@ const FLOOR_M: f64 = 0.3e-9;
 fn film(slider: &SliderParameters, cells: usize) -> Film {
     let resolution = FilmResolution {
         cells,
-        floor_m: FLOOR_M,
-        reference_cells: 0,
+        min_height_m: FLOOR_M,
+        correction_cells: 0,
     };
     let spin = rad_per_s_from_rpm(5400.0);
     Film::build(
@@ -142,7 +142,7 @@ fn flying_height_converges_with_the_formal_order_on_nested_grids() {
 }
 
 /// Stiffness of the converged flight to 1.5 %, at the same clearance: the reference's two finest
-/// grids (9.66 and 9.37 nm) continued linearly to where 8000 cells fly.
+/// grids (9.66 and 9.37 nm) extrapolated linearly to where 8000 cells fly.
 #[test]
 fn static_stiffness_agrees_where_both_have_converged() {
     let data = reference("head_default_set.json");
@@ -233,7 +233,7 @@ fn impedance_in_flight(film: &Film, frequencies_hz: &[f64]) -> Vec<Matrix3<Compl
     rows.map(|&f| motion.impedance(f).unwrap()).collect()
 }
 
-/// Two grids continued to cells of no size, with the first order that film edges leave.
+/// Two grids extrapolated to cells of no size, with the first order that film edges leave.
 fn continued<T>(coarse: T, fine: T, cuts: [f64; 2]) -> T
 where
     T: std::ops::Mul<f64, Output = T> + std::ops::Sub<Output = T>,
@@ -243,7 +243,7 @@ where
 }
 
 /// The largest |Z − Z_ref|/|Z_ref| over heave, pitch and roll and their coupling. Z_ref: the
-/// independent scheme's grids of 8648 and 34592 cells, continued.
+/// independent scheme's grids of 8648 and 34592 cells, extrapolated.
 fn impedance_error(found: &[Matrix3<Complex<f64>>], wanted: impl Fn(f64) -> bool) -> f64 {
     let data = reference("impedance_plain_scheme.json");
     let [coarse, fine] = [1, 2].map(|k| data["grids"][k]["rows"].as_array().unwrap());
@@ -272,7 +272,7 @@ fn frequencies_hz() -> Vec<f64> {
 /// Impedance from 1 Hz to 500 kHz against a scheme that shares no code with this one, on the grid
 /// laid out for the flying state: 1.8 % at 8118 cells. At 50 and 100 kHz, where gas waves are as long as pads, the
 /// limit of the other scheme is no better known: its finest grids say 1.68e6 + 0.110e6 i and 1.70e6 + 0.069e6 i N/m
-/// for the heave, continued 1.69 + 0.087 and 1.74 + 0.064, and 32058 cells here 1.67 + 0.066 and 1.70 + 0.055 (off those
+/// for the heave, extrapolated 1.69 + 0.087 and 1.74 + 0.064, and 32058 cells here 1.67 + 0.066 and 1.70 + 0.055 (off those
 /// 8220 cells are 1.5 and 1.6 %).
 #[test]
 fn impedance_agrees_with_an_independent_scheme() {
@@ -284,7 +284,7 @@ fn impedance_agrees_with_an_independent_scheme() {
     assert!(waves < 0.1, "{waves}");
 }
 
-/// On one family of grids, continued to cells of no size: within 0.8 % at 1 Hz to 10 kHz and at 500 kHz.
+/// On one family of grids, extrapolated to cells of no size: within 0.8 % at 1 Hz to 10 kHz and at 500 kHz.
 /// In between the film's gas waves, which coarse grids damp, make the approach to the limit oscillate; there the
 /// finest grids are compared as they are (34592 cells each): stiffness within 3 %, and Z within
 /// 2 % at 200 kHz, 3.5 % at 100 kHz and 6.5 % at 50 kHz, where the imaginary parts still move towards each other.
@@ -437,9 +437,9 @@ fn skewed_slider_converges_on_fine_grids() {
     }
 }
 
-/// The load at which the followed flights end is what sliders held still carry at most, and under a little less one flies.
+/// The load at which followed flights end is the most that quasi-static films carry; under a little less one flies.
 #[test]
-fn load_that_cannot_be_carried_is_told_with_the_most_that_can() {
+fn load_that_cannot_be_carried_is_reported_with_the_most_that_can() {
     let film = film(&default_slider(), 300);
     let load_n = 10.0 * GRAM_FORCE_N;
     let Err(SteadyError::CannotFly {

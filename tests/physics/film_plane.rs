@@ -12,7 +12,7 @@ fn richardson(coarse: f64, fine: f64) -> f64 {
 /// Load of every case to 1e-5 and its order in the cell size.
 ///
 /// The order is asked for where the outlet layer (a share 1/Λ of the length) spans cells; beyond,
-/// the layer counts through the profile inside the last cell and errors are small at once.
+/// the layer contributes through the profile inside the last cell and errors are small at once.
 #[test]
 fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
     let data = reference("plane_slider_1d.json");

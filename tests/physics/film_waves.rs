@@ -34,7 +34,7 @@ fn found(n: usize, bearing_number: f64, sigma: f64) -> Complex<f64> {
     let omega = sigma * AMBIENT_PA * TRAILING_M * TRAILING_M
         / (12.0 * VISCOSITY_PA_S * LENGTH_M * LENGTH_M);
     let z = SmallMotion::new(&film, &psi, &attitude).impedance(omega / TAU);
-    // Of the one row, between sides at ambient pressure, half of the excess counts.
+    // Of the one row, between sides at ambient pressure, half of the excess contributes.
     z.unwrap()[(0, 0)] * 2.0 * TRAILING_M / (AMBIENT_PA * slider.width * LENGTH_M * LENGTH_M)
 }
 
@@ -72,13 +72,13 @@ fn storage_loses_no_gas() {
     }
 }
 
-/// In the squeeze of a survivor of Fig. 13 the rates of the force, Z(f) − Z(0), over Z(f), on the grid of the rung 1 %:
+/// Under compression of a survivor of Fig. 13: rates of the force, Z(f) − Z(0), over Z(f), on the grid of `standard`,
 /// 0.3 % off at 25 kHz and 3.3 % at 60 kHz, 1.5 and 7.2 with cells that store their own gas only. The truth is a layout
 /// of 3000 cells with every cell cut in two.
 #[test]
-fn rates_of_a_squeezed_film_on_the_rungs_grid() {
+fn rates_of_a_squeezed_film_on_the_presets_grid() {
     let mut scene = scene("fig13-stiffness", "none", 1.5, &[]);
-    scene.film_resolution.reference_cells = 0;
+    scene.film_resolution.correction_cells = 0;
     let films = [1000, 3000].map(|cells| scene.with_film_cells(cells).film().expect("film"));
     let finest = scene.film_cut_in_two(&films[1]).expect("film");
     let [coarse, fine] = [&films[0], &finest].map(|film| {

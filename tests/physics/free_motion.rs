@@ -1,4 +1,4 @@
-//! The structure before any contact.
+//! Motion of disk and ramp before any contact, against references and relations.
 
 use opshock_solver::disk::{DiskMotion, DiskParameters};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;

@@ -1,4 +1,4 @@
-//! The head when nothing, or hardly anything, happens.
+//! The head (film, slider, suspension) without a shock, or under a negligible one.
 
 use opshock_solver::head::{Cause, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::shock::{Pulse, PulseShape};

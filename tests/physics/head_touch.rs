@@ -1,4 +1,4 @@
-//! Touching the disk: found between steps, in time, in place, and never by a number that is none.
+//! A slider that touches the disk: found between steps, in time and place, and never by a number that is NaN.
 
 use opshock_solver::disk::{DiskMotion, DiskPose};
 use opshock_solver::head::{Cause, HeadModel, HeadRun, HeadWorkspace, ShockLoad, Verdict};
@@ -255,7 +255,7 @@ fn a_breakdown_behind_the_touch_changes_no_answer() {
     let limited = run(&whole, n_steps + 5, false);
     for gone_on in [&broken, &limited] {
         assert!(gone_on.end_s > t_fail_s && gone_on.end_s < t_fail_s + 2.1e-5);
-        let told = |run: &HeadRun| {
+        let reported = |run: &HeadRun| {
             (
                 run.min_clearance_m,
                 run.t_min_clearance_s,
@@ -264,7 +264,7 @@ fn a_breakdown_behind_the_touch_changes_no_answer() {
             )
         };
         assert_eq!(gone_on.verdict, stopped.verdict);
-        assert_eq!(told(gone_on), told(&stopped));
+        assert_eq!(reported(gone_on), reported(&stopped));
         assert!(gone_on.broke_off.is_some() && stopped.broke_off.is_none());
     }
     assert_eq!(limited.cost.steps + limited.cost.rejected, n_steps + 5);

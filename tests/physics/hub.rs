@@ -1,4 +1,4 @@
-//! Disk on a hub with a fluid-dynamic bearing: limits, whirl of a rigid rotor, books, both methods.
+//! Disk on a hub with a fluid-dynamic bearing: limits, whirl of a rigid rotor, balances, both methods.
 
 use std::f64::consts::{PI, TAU};
 
@@ -287,7 +287,7 @@ fn a_flexible_disk_on_its_hub_answers_a_half_sine_as_direct_integration_does() {
 }
 
 #[test]
-fn momentum_and_energy_books_close_through_contact() {
+fn momentum_and_energy_balances_close_through_contact() {
     for amplitude_g in [100.0, 400.0, -400.0] {
         let run = run(&drive(Some(spindle())), amplitude_g);
         let hub = run.hub.expect("a hub");

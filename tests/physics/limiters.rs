@@ -61,7 +61,7 @@ impl Bench {
         model.run(&StillDisk, &load, 2.5e-3, true, true, &mut workspace)
     }
 
-    /// Largest opening at the limiters and largest rise of the tab, told by stops too soft to be felt.
+    /// Largest opening at the limiters and largest rise of the tab, measured by stops too soft to matter.
     fn openings_m(&self) -> [f64; 2] {
         let soft = ContactLaw {
             stiffness_n_per_m: 1e-9,

@@ -27,7 +27,7 @@ fn drive(model: impl Into<RampBody>, hub: HubParameters) -> Scene {
         "fig13-stiffness",
         "rigid",
         0.5,
-        &[("solver.accuracy", "5%")],
+        &[("resolution.preset", "coarse")],
     );
     scene.window = Window::Fixed { length_s: 2e-3 };
     scene.disk_resolution.cut_hz = 12e3;

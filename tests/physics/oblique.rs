@@ -186,7 +186,7 @@ fn the_disk_tilts_as_a_rotor_on_a_base_that_turns_and_is_pushed_aside() {
 }
 
 #[test]
-fn books_close_under_an_oblique_shock_through_contact_by_both_methods() {
+fn balances_close_under_an_oblique_shock_through_contact_by_both_methods() {
     let mut structure = shaken(Some(OBLIQUE));
     structure.ramp.contact_stiffness_n_per_m = None;
     let mut spindle_work = Vec::new();

@@ -5,7 +5,7 @@ use opshock_solver::disk::{
 };
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::ramp::{NoRamp, RampParameters};
-use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_solver::structure::modes;
 use opshock_tests::scenes::scene;
 use opshock_tests::structures::{drive_disk, reference_disk, s1};
@@ -242,7 +242,7 @@ fn the_drive_disk_has_its_documented_frequencies() {
     }
 }
 
-/// Four steps finer than the finest named accuracy a disk would have 448 elements, more than it may. Bending waves
+/// Four steps finer than the preset `fine` a disk would have 448 elements, more than it may. Bending waves
 /// far above the first modes have wave numbers pi / (outer - inner) apart, whatever holds the edges.
 #[test]
 fn the_finest_disk_a_climb_asks_for_is_built_and_carries_waves_to_its_cut() {
@@ -250,9 +250,9 @@ fn the_finest_disk_a_climb_asks_for_is_built_and_carries_waves_to_its_cut() {
         "fig13-stiffness",
         "rigid",
         3.0,
-        &[("solver.accuracy", "0.1%")],
+        &[("resolution.preset", "fine")],
     );
-    let mut finest = named.at_levels(Levels::NONE.turned(Knob::DiskModes, 4));
+    let mut finest = named.at_levels(Levels::NONE.changed(Discretisation::DiskModes, 4));
     finest.disk_resolution.n_harmonics = 1;
     let disk = DiskParameters {
         spin_rad_per_s: 0.0,

@@ -62,8 +62,8 @@ fn even_film(slider: &SliderParameters, n: usize, forces: SurfaceForces) -> Film
 fn default_film(cells: usize) -> Film {
     let resolution = FilmResolution {
         cells,
-        floor_m: FLOOR_M,
-        reference_cells: 0,
+        min_height_m: FLOOR_M,
+        correction_cells: 0,
     };
     let spin = rad_per_s_from_rpm(5400.0);
     let flow = FlowModel::FukuiKaneko;
@@ -193,7 +193,7 @@ fn surface_forces_of_tilted_plates_and_their_order() {
     }
 }
 
-/// Derivatives against differences: of the surface forces above, near and inside the film's floor, and
+/// Derivatives against differences: of the surface forces above, near and below the minimum film height, and
 /// of the whole film's quasi-static stiffness against films held at displaced attitudes.
 #[test]
 fn surface_forces_stiffness_is_the_derivative() {
@@ -235,7 +235,7 @@ fn surface_forces_stiffness_is_the_derivative() {
     }
 }
 
-/// Midpoint rule on a lattice of its own over the slider's true surface.
+/// Midpoint rule on a grid of its own over the slider's true surface.
 fn by_midpoints(forces: &SurfaceForces, attitude: &Attitude) -> Vector3<f64> {
     let slider = default_slider();
     let surface = Surface::new(&slider);
@@ -258,7 +258,7 @@ fn by_midpoints(forces: &SurfaceForces, attitude: &Attitude) -> Vector3<f64> {
 }
 
 /// At the attitude flown under surface forces the air alone, held there, and the closed forms summed
-/// over a lattice of the test's own balance the gram load; weak forces lower the slider by what the
+/// over a grid of the test's own balance the gram load; weak forces lower the slider by what the
 /// air's stiffness gives way.
 #[test]
 fn surface_forces_lower_the_flying_slider_by_the_balance_of_forces() {
@@ -293,7 +293,7 @@ fn surface_forces_lower_the_flying_slider_by_the_balance_of_forces() {
         (found / given[0] - 1.0).abs()
     };
     let (some, tenth) = (drop(0.1), drop(0.01));
-    // What is left falls with the force, down to the lattice's own error.
+    // What is left falls with the force, down to the grid's own error.
     assert!(tenth < 0.005 && some < 0.05, "{some} {tenth}");
 }
 

@@ -202,7 +202,7 @@ fn without_shares_the_arms_are_elastic() {
     }
 }
 
-/// Undamped disk and arms but for what relaxes: energy only falls after the pulse, and the book closes.
+/// Undamped disk and arms but for what relaxes: energy only falls after the pulse, and the balance closes.
 #[test]
 fn arms_that_relax_take_energy_and_give_none() {
     for (g, width_s) in [(400.0, 2e-3), (200.0, 5e-4), (-400.0, 2e-3)] {
@@ -236,7 +236,7 @@ fn arms_that_relax_take_energy_and_give_none() {
 
 /// Equal arms with a vibrating base under them are one system with it.
 #[test]
-fn relaxing_arms_on_a_base_close_their_book_and_tend_to_elastic_ones() {
+fn relaxing_arms_on_a_base_close_their_balance_and_tend_to_elastic_ones() {
     let on_base = |ramp: RampBody| {
         let mut structure = s1(2e-3, ramp);
         structure.base = super::base::BASE.to_vec();

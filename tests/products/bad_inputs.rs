@@ -72,6 +72,7 @@ fn a_file_made_for_one_error_raises_no_other() {
         "e156_negative_range",
         "e110_in_the_surface",
         "e103_three_faults",
+        "e110_keys_of_format_1",
     ];
     for path in cases() {
         let name = stem(&path);
@@ -149,7 +150,7 @@ fn what_is_no_text_file_is_refused_with_the_reason() {
         ("E102", "not UTF-8 at byte 0")
     );
     assert!(utf16.hint.contains("UTF-16"));
-    std::fs::write(at("latin1.toml"), b"study_format = 1\nname = \"\xb5m\"\n").unwrap();
+    std::fs::write(at("latin1.toml"), b"study_format = 2\nname = \"\xb5m\"\n").unwrap();
     let latin = refused(&at("latin1.toml"));
     assert_eq!(
         (latin.code, latin.line, latin.message.as_str()),
@@ -177,7 +178,7 @@ fn what_is_no_text_file_is_refused_with_the_reason() {
     }
 }
 
-const SHORT: &str = "study_format = 1\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n[disk]\nrpm = 5400.0\n";
+const SHORT: &str = "study_format = 2\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n[disk]\nrpm = 5400.0\n";
 
 #[test]
 fn set_arguments_are_checked_like_the_file() {
@@ -255,17 +256,17 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
     assert_eq!(fault["hint"], "-j 5 fits");
     let folder = tempfile::tempdir().unwrap();
     let path = study("fig13").canonicalize().unwrap();
-    let sweep = |gigabytes: &str, climbs: &str| {
+    let sweep = |gigabytes: &str, refinements: &str| {
         let file = path.to_str().unwrap();
-        let size = "solver.film_cells=10000";
-        let climbs = format!("search.climbs={climbs}");
+        let size = "resolution.film_cells=10000";
+        let refinements = format!("search.max_refinements={refinements}");
         let asked = [
             "sweep",
             file,
             "--set",
             size,
             "--set",
-            &climbs,
+            &refinements,
             "-j",
             "3",
             "--memory-gb",
@@ -274,9 +275,9 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
         ];
         Done::of(folder.path(), &asked)
     };
-    // Held still on 40 000 cells, which are 0.4 GB a worker. One climb may make it 160 000, which are 3.2 GB.
-    for (gigabytes, climbs) in [("1.2", "0"), ("0.01", "0"), ("9.5", "1")] {
-        let refused = sweep(gigabytes, climbs);
+    // Quasi-static films on 40 000 cells take 0.4 GB a worker; one refinement may make it 160 000, which take 3.2 GB.
+    for (gigabytes, refinements) in [("1.2", "0"), ("0.01", "0"), ("9.5", "1")] {
+        let refused = sweep(gigabytes, refinements);
         assert_eq!(refused.code, 3, "{}", refused.stderr);
         assert_eq!(refused.errors()[0]["code"], "E186");
     }

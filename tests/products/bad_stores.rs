@@ -89,11 +89,11 @@ fn every_bad_store_gets_its_message_and_stays_as_it_was() {
         }
         count += 1;
     }
-    assert_eq!(count, 5);
+    assert_eq!(count, 6);
 }
 
 #[test]
-fn e183_a_store_that_cannot_be_made_is_told_before_computing() {
+fn e183_a_store_that_cannot_be_made_is_reported_before_computing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
     let done = sweep(folder.path(), "file/s.opshock", &[]);

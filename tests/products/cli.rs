@@ -1,4 +1,4 @@
-//! Running the program: what every test of the command line shares, and what every command keeps.
+//! Runs the program: what every test of the command line shares, and rules that every command keeps.
 
 use assert_cmd::Command;
 use opshock_tests::program::program;
@@ -47,20 +47,20 @@ impl Done {
 
     /// `errors` of the JSON on standard error.
     pub fn errors(&self) -> Vec<Value> {
-        let told: Value = serde_json::from_str(&self.stderr)
+        let reported: Value = serde_json::from_str(&self.stderr)
             .unwrap_or_else(|error| panic!("{error}\n{}", self.stderr));
-        told["errors"].as_array().expect("a list").clone()
+        reported["errors"].as_array().expect("a list").clone()
     }
 }
 
 /// A coarse film and disk and a short window: milliseconds, and the same paths.
 pub const COARSE: [&str; 6] = [
     "--set",
-    "solver.film_cells=300",
+    "resolution.film_cells=300",
     "--set",
     "pulse.window_ms=1.5",
     "--set",
-    "solver.disk_cut_khz=10",
+    "resolution.disk_cut_khz=10",
 ];
 
 /// A study of the repository.
@@ -112,18 +112,18 @@ fn a_wrong_command_line_is_exit_2_on_stderr_also_as_json() {
         &["check"],
         &["check", "s.toml", "--frobnicate"],
     ] {
-        let told = Done::of(folder.path(), arguments);
-        assert_eq!(told.code, 2, "{arguments:?}");
+        let reported = Done::of(folder.path(), arguments);
+        assert_eq!(reported.code, 2, "{arguments:?}");
         assert!(
-            told.stdout.is_empty() && !told.stderr.is_empty(),
+            reported.stdout.is_empty() && !reported.stderr.is_empty(),
             "{arguments:?}"
         );
         let mut with_json = arguments.to_vec();
         with_json.push("--json");
-        let told = Done::of(folder.path(), &with_json);
-        assert_eq!(told.code, 2, "{arguments:?}");
+        let reported = Done::of(folder.path(), &with_json);
+        assert_eq!(reported.code, 2, "{arguments:?}");
         if !arguments.is_empty() {
-            assert_eq!(told.errors()[0]["code"], "usage", "{arguments:?}");
+            assert_eq!(reported.errors()[0]["code"], "usage", "{arguments:?}");
         }
     }
 }

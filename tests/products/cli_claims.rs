@@ -7,11 +7,11 @@ use std::path::Path;
 /// The paper's drive on a coarse film with few disk modes.
 const COARSE: [&str; 6] = [
     "--set",
-    "solver.film_cells=200",
+    "resolution.film_cells=200",
     "--set",
-    "solver.disk_cut_khz=8",
+    "resolution.disk_cut_khz=8",
     "--set",
-    "solver.suspension_modes=4",
+    "resolution.suspension_modes=4",
 ];
 /// A table made up so that the answers are known: none rises with signs apart, with a dip at 0.75 ms, +; rigid falls between
 /// its widths with sign + and rises with sign -; deformable is below rigid at 0.5 ms, above at 2 ms.
@@ -83,9 +83,9 @@ fn statements_are_judged_by_numbers_of_runs_and_of_the_table() {
     let above = claim(&table, "deformable_above_rigid");
     assert_eq!(above["finding"]["parts"].as_array().unwrap().len(), 1);
     same(&above["finding"]["value"], &serde_json::json!(2.0), 1.0);
-    // 300 + 200 over 212 and 297 over 212: rising beyond the bars; 202 / 218 and 198 / 222: falling.
+    // 300 + 200 over 212 and 297 over 212: rising beyond the intervals; 202 / 218 and 198 / 222: falling.
     assert_eq!(
-        claim(&table, "rises_rigid")["beyond_the_bars"],
+        claim(&table, "rises_rigid")["beyond_the_uncertainties"],
         serde_json::json!([2, 2])
     );
 

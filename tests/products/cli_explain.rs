@@ -44,7 +44,7 @@ fn explain_lists_every_rule_for_every_scene() {
         assert_eq!(applied(scene).contains(&"R4"), clear, "{scene:#}");
         let waves = match scene["ramp"] == "none" {
             true => "off",
-            false => "asleep",
+            false => "inactive",
         };
         assert_eq!(state(scene, "disk.travelling_waves"), waves);
         assert_eq!(state(scene, "head.film"), "on");
@@ -57,7 +57,7 @@ fn explain_lists_every_rule_for_every_scene() {
         assert_eq!(state(scene, "disk.travelling_waves"), "on");
     }
     let text = program(folder.path(), "explain", &[]).stdout;
-    assert!(text.contains("asleep R2") && text.contains("R10  yes"));
+    assert!(text.contains("inactive R2") && text.contains("R10  yes"));
     assert_eq!(files(folder.path()).len(), 0);
 }
 
@@ -78,7 +78,7 @@ fn explain_measures_on_request() {
         "--set",
         "outputs=[\"contact_force\"]",
         "--set",
-        "solver.film_cells=300",
+        "resolution.film_cells=300",
         "--set",
         "pulse.window_ms=1.5",
         "--set",
@@ -143,7 +143,7 @@ fn a_steady_attitude_needs_no_moving_head() {
         "--set",
         "outputs=[\"steady_attitude\"]",
         "--set",
-        "solver.film_cells=300",
+        "resolution.film_cells=300",
     ];
     let json = program(folder.path(), "run", &[&shock[..], &asks].concat()).json();
     assert!(json["steady"]["pitch_rad"].as_f64().unwrap() > 1e-5);
@@ -166,9 +166,9 @@ fn a_sweep_in_full_gives_the_planned_critical_shocks() {
             "pulse.widths_ms=[0.5]",
             "pulse.window_ms=1",
             "search.tolerance_pct=20",
-            "search.certify=off",
-            "solver.film_cells=200",
-            "solver.disk_cut_khz=10",
+            "search.monotonicity_scan=off",
+            "resolution.film_cells=200",
+            "resolution.disk_cut_khz=10",
         ] {
             arguments.extend(["--set", set]);
         }

@@ -167,7 +167,7 @@ fn what_cannot_be_drawn_is_said_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("table.csv"), TABLE.replace("203.9", "x")).unwrap();
-    for (more, told) in [
+    for (more, reported) in [
         (
             &["--critical", "table.csv"][..],
             "table.csv, line 2: a_fail_g = \"x\" must be a number",
@@ -181,7 +181,7 @@ fn what_cannot_be_drawn_is_said_and_nothing_is_written() {
     ] {
         let done = figures(folder.path(), more);
         assert_eq!(done.code, 2, "{}", done.stderr);
-        assert!(done.stderr.contains(told), "{}", done.stderr);
+        assert!(done.stderr.contains(reported), "{}", done.stderr);
         assert!(!at("results").exists());
     }
 }
@@ -191,8 +191,8 @@ fn without_a_table_or_a_ramp_model_its_figures_are_left_out_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let done = figures(folder.path(), &["--set", "ramp.models=[\"none\"]"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    for told in ["no figure 2:", "no figures 3 and 7:", "no figure 13:"] {
-        assert!(done.stderr.contains(told), "{}", done.stderr);
+    for reported in ["no figure 2:", "no figures 3 and 7:", "no figure 13:"] {
+        assert!(done.stderr.contains(reported), "{}", done.stderr);
     }
     let written = files(&folder.path().join("results/paper"));
     assert_eq!(written.len(), 9 * 3 + 1);

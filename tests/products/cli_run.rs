@@ -122,7 +122,7 @@ fn a_slider_below_the_limit_at_the_start_is_refused() {
         "--amplitude-g",
         "50",
         "--set",
-        "solver.fail_below_nm=60",
+        "failure.clearance_nm=60",
         "--json",
     ];
     let done = run(folder.path(), &set);
@@ -153,10 +153,10 @@ fn pressure_fields_are_written_beside_the_history() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         done
     };
-    let told = fields("100", "[0.4,0.6]", &[]).stderr;
+    let reported = fields("100", "[0.4,0.6]", &[]).stderr;
     assert!(
-        told.contains("pressure fields are kept with --history FILE"),
-        "{told}"
+        reported.contains("pressure fields are kept with --history FILE"),
+        "{reported}"
     );
     assert_eq!(files(folder.path()).len(), 0);
 
@@ -209,7 +209,7 @@ fn pressure_fields_are_written_beside_the_history() {
     );
 }
 
-/// In full the head goes on behind its touch: the same answer, and the planned histories first.
+/// In the full model the head goes on after its touch: the same answer, and the histories of the reduced model first.
 #[test]
 fn a_run_in_full_goes_on_behind_the_touch() {
     let folder = tempfile::tempdir().unwrap();
@@ -218,7 +218,7 @@ fn a_run_in_full_goes_on_behind_the_touch() {
         let mut json = run(folder.path(), &[&set[..], more].concat()).json();
         assert_eq!(json["verdict"], "fails");
         let answer = json.as_object_mut().unwrap();
-        // Work, what was built and left out, and the book that agrees to rounding.
+        // Work, what was built and omitted, and the balance that agrees to rounding.
         for key in ["cost", "effects", "rules", "energy"] {
             assert!(answer.remove(key).is_some(), "{key}");
         }
@@ -334,7 +334,7 @@ fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
             "--set",
             "search.tolerance_pct=20",
             "--set",
-            "search.certify=off",
+            "search.monotonicity_scan=off",
         ];
         Done::of(place, &[&arguments[..], &WIDTHS, &COARSE, more].concat())
     };
@@ -398,7 +398,7 @@ fn doctor_runs_the_hard_cases_and_tells_figure_and_bound() {
     }
     assert_eq!(files(folder.path()).len(), 0);
     let text = Done::of(folder.path(), &["doctor", "--hard-cases"]).stdout;
-    // The program, a line a case, the count.
+    // The program, a line a case, the number of cases.
     assert_eq!(text.lines().count(), 68, "{text}");
 }
 

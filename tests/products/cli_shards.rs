@@ -12,9 +12,9 @@ const SMALL: [&str; 8] = [
     "ramp.models=[\"none\", \"rigid\"]",
     "pulse.window_ms=0.8",
     "search.tolerance_pct=5",
-    "search.error_bars=false",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
+    "search.uncertainty=false",
+    "resolution.film_cells=200",
+    "resolution.disk_cut_khz=10",
     "output.keep_histories=\"none\"",
 ];
 
@@ -108,11 +108,11 @@ fn the_plan_holds_what_the_sweep_takes() {
     assert!(!folder.path().join("s.opshock").exists(), "nothing written");
     let swept = Done::of(folder.path(), &words("sweep", file, &["--json", "-j2"])).json();
     let runs = swept["totals"]["runs"].as_f64().unwrap();
-    let told = |key: &str| plan["runs"][key].as_f64().unwrap();
-    assert!(told("min") < told("likely") && told("likely") < told("max"));
+    let reported = |key: &str| plan["runs"][key].as_f64().unwrap();
+    assert!(reported("min") < reported("likely") && reported("likely") < reported("max"));
     // The made-up tables are wide on purpose: what a real one takes lies within.
     assert!(
-        told("min") * 0.5 < runs && runs < told("max") * 1.5,
+        reported("min") * 0.5 < runs && runs < reported("max") * 1.5,
         "{runs} runs, planned {}",
         plan["runs"]
     );
@@ -169,11 +169,11 @@ fn another_study_takes_what_is_finished_and_a_watch_ends_with_the_sweep() {
     other[place] = "other.opshock";
     let second = Done::of(folder.path(), &other);
     assert_eq!(second.code, first.code, "{}", second.stderr);
-    let told = second
+    let reported = second
         .stderr
         .lines()
         .find(|line| line.contains("taken from other stores"));
-    assert!(told.unwrap().ends_with(", 0 made"), "{}", second.stderr);
+    assert!(reported.unwrap().ends_with(", 0 made"), "{}", second.stderr);
     assert_eq!(second.json()["points"], first.json()["points"]);
 
     let once = Done::of(

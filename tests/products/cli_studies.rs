@@ -46,7 +46,7 @@ fn check_writes_out_every_default_and_that_reads_back_to_the_same_digest() {
 }
 
 #[test]
-fn set_reaches_root_keys_nested_keys_and_lists_and_is_told() {
+fn set_reaches_root_keys_nested_keys_and_lists_and_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
     let done = Done::of(
@@ -101,7 +101,7 @@ fn a_set_that_is_no_assignment_is_exit_2_and_a_wrong_key_or_value_exit_3() {
 }
 
 #[test]
-fn faults_are_told_all_at_once_with_their_place_and_nothing_is_written() {
+fn faults_are_reported_all_at_once_with_their_place_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
     let path = folder.path().join("s.toml");
@@ -121,8 +121,10 @@ fn faults_are_told_all_at_once_with_their_place_and_nothing_is_written() {
         assert!(unknown["hint"].as_str().unwrap().contains("rpm"));
         assert_eq!(of("disk.thickness_mm")["value"], "-0.5");
         // The same for a person: one line each, with file and line.
-        let told = Done::of(folder.path(), &[command, "s.toml"]);
-        assert!(told.stderr.contains("s.toml:") && told.stderr.contains("did you mean rpm?"));
+        let reported = Done::of(folder.path(), &[command, "s.toml"]);
+        assert!(
+            reported.stderr.contains("s.toml:") && reported.stderr.contains("did you mean rpm?")
+        );
     }
     assert_eq!(files(folder.path()), [path]);
 }
@@ -196,7 +198,7 @@ fn modes_tell_responses_of_every_point_and_the_film() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
     let asked = |more: &[&str]| {
-        let cells = ["--set", "solver.film_cells=500", "--json"];
+        let cells = ["--set", "resolution.film_cells=500", "--json"];
         let all: Vec<&str> = ["modes", "s.toml"]
             .iter()
             .chain(&cells)
@@ -339,7 +341,7 @@ fn holding_the_slider_where_it_flies_gives_the_load_back() {
     }
 }
 
-/// What `steady`, `run` and the film's bars fly on is one film: the same clearance to the last bit.
+/// What `steady`, `run` and the film's intervals fly on is one film: the same clearance to the last bit.
 #[test]
 fn steady_and_run_fly_alike() {
     let folder = tempfile::tempdir().unwrap();
@@ -347,7 +349,7 @@ fn steady_and_run_fly_alike() {
     for set in [
         "slider.skew_deg=0",
         "slider.skew_deg=-5",
-        "solver.accuracy=5%",
+        "resolution.preset=coarse",
     ] {
         let steady = Done::of(folder.path(), &["steady", "s.toml", "--json", "--set", set]).json();
         let shock = "--ramp none --pulse-ms 0.5 --sign + --amplitude-g 1";
@@ -366,8 +368,8 @@ fn steady_and_run_fly_alike() {
 fn skews_of_either_sign_fly_alike() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
-    for (accuracy, skew) in [("5%", "8"), ("1%", "5")] {
-        let accuracy = format!("solver.accuracy={accuracy}");
+    for (accuracy, skew) in [("coarse", "8"), ("standard", "5")] {
+        let accuracy = format!("resolution.preset={accuracy}");
         let [one, other] = ["", "-"].map(|sign| {
             let skew = format!("slider.skew_deg={sign}{skew}");
             let arguments = [
@@ -388,7 +390,7 @@ fn skews_of_either_sign_fly_alike() {
 }
 
 #[test]
-fn a_slider_that_cannot_fly_is_told_with_the_load_it_could_carry() {
+fn a_slider_that_cannot_fly_is_reported_with_the_load_it_could_carry() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
     let set = |gf: f64| format!("suspension.gram_load_gf={gf}");

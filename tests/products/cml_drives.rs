@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 fn steady(at: &Path, study: &str) -> serde_json::Value {
-    let set = "solver.film_cells=800";
+    let set = "resolution.film_cells=800";
     let done = Done::of(
         at,
         &["steady", study, "--set", set, "--json", "--accept", "W201"],
@@ -135,7 +135,7 @@ fn a_dynamic_run_takes_the_matrices_beside_it() {
         "--out",
         "susp",
     ];
-    let geometry = "study_format = 1\nname = \"suspension\"\n[pulse]\nwidths_ms = [0.5]\n\
+    let geometry = "study_format = 2\nname = \"suspension\"\n[pulse]\nwidths_ms = [0.5]\n\
          [ramp]\nmodels = [\"none\"]\n";
     std::fs::write(at.join("geometry.toml"), geometry).unwrap();
     assert_eq!(Done::of(at, &export).code, 0);
@@ -166,7 +166,7 @@ fn a_dynamic_run_takes_the_matrices_beside_it() {
     put("susp_K.dat", &held("susp_K.dat", 3));
     put("susp_cords.dat", &places);
     let sound = std::fs::read_to_string(folder("dynluls").join("sound.DynLULS.def")).unwrap();
-    let told = |size: usize, row: usize| {
+    let reported = |size: usize, row: usize| {
         let numbers = format!("size  dtfac\n{size}  0.1\n");
         let freedoms = format!("slider_z  slider_p  slider_r  tab_z\n{row}  0  0  0\n");
         let text = sound.replace("size  dtfac\n250  0.1\n", &numbers);
@@ -186,11 +186,11 @@ fn a_dynamic_run_takes_the_matrices_beside_it() {
         assert_eq!(done.errors()[0]["code"], code, "{}", done.stderr);
         assert!(!at.join("refused").exists());
     };
-    told(250, row);
+    reported(250, row);
     refused("E161");
-    told(n_rows, 0);
+    reported(n_rows, 0);
     refused("E169");
-    told(n_rows, row);
+    reported(n_rows, row);
     let done = import("out", &[]);
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert!(
@@ -199,7 +199,7 @@ fn a_dynamic_run_takes_the_matrices_beside_it() {
             .contains("its node is the dimple")
     );
     let modes = |study: &str| {
-        let set = "solver.film_cells=300";
+        let set = "resolution.film_cells=300";
         let done = Done::of(at, &["modes", study, "--set", set, "--json"]);
         assert_eq!(done.code, 0, "{}", done.stderr);
         done.json()["suspension"].clone()

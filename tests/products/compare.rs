@@ -33,7 +33,7 @@ fn swept(folder: &Path, widths_ms: &[f64], factor: f64, resolved: &str) {
 }
 
 #[test]
-fn only_what_differs_is_told_and_whether_it_is_beyond_the_errors() {
+fn only_what_differs_is_reported_and_whether_it_is_beyond_the_errors() {
     let folder = tempfile::tempdir().unwrap();
     let store = |name: &str| folder.path().join(name);
     let text =
@@ -75,7 +75,7 @@ fn only_what_differs_is_told_and_whether_it_is_beyond_the_errors() {
             "{point}"
         );
     }
-    // Neither has error bars: what is known of the errors decides nothing.
+    // Neither has uncertainty intervals: what is known of the errors decides nothing.
     assert_eq!(point["significance"], "beyond_brackets");
     assert!(point["a"]["err_high_g"].is_null(), "{point}");
     let change_pct = point["change_pct"].as_f64().unwrap();
@@ -85,7 +85,7 @@ fn only_what_differs_is_told_and_whether_it_is_beyond_the_errors() {
     for line in [
         "settings that differ: 1\n  ramp.clearance_um: 100.0 | 120.0\n",
         "points of both: 1 differ, 1 equal\n",
-        "beyond brackets, no bars",
+        "beyond brackets, no intervals",
         "points of A only: 2\n  none 0.5 ms +\n  none 0.5 ms -\n",
         "points of B only: 2\n",
     ] {
@@ -116,7 +116,7 @@ fn what_cannot_be_compared_is_refused_with_its_code() {
     std::fs::create_dir(folder.path().join("empty.opshock")).unwrap();
     std::fs::write(
         folder.path().join("bad.toml"),
-        "study_format = 1\nnme = 3\n",
+        "study_format = 2\nnme = 3\n",
     )
     .unwrap();
     let fig13 = shipped("fig13").display().to_string();

@@ -1,41 +1,39 @@
-//! A store of commit 7e99eeb (`tests/fixtures/fig13-7e99eeb`): what reads it today gives its table.
+//! A store of an older format (commit 7e99eeb, `tests/fixtures/fig13-7e99eeb`) is refused by its format and stays as
+//! it is.
 
 use super::cli::Done;
 use std::path::Path;
 
-fn frozen() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/fig13-7e99eeb")
-}
-
 #[test]
-fn a_store_of_7e99eeb_is_read() {
+fn a_store_of_an_older_format_is_refused_and_left_alone() {
+    let frozen = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/fig13-7e99eeb/store");
     let folder = tempfile::tempdir().unwrap();
     let store = folder.path().join("s.opshock");
     std::fs::create_dir(&store).unwrap();
-    for name in ["journal", "results.h5", "study.resolved.toml", "study.toml"] {
-        std::fs::copy(frozen().join("store").join(name), store.join(name)).unwrap();
+    let names = ["journal", "results.h5", "study.resolved.toml", "study.toml"];
+    for name in names {
+        std::fs::copy(frozen.join(name), store.join(name)).unwrap();
     }
-    let study = frozen().join("study.toml").display().to_string();
-    let table = std::fs::read_to_string(frozen().join("store/table.csv")).unwrap();
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies/fig13/study.toml");
+    let study = study.display().to_string();
     for words in [
         &["report", "s.opshock", "--format", "csv"][..],
         &["report", "s.opshock", "--out", "r"],
         &["status", "s.opshock"],
         &["export", "s.opshock"],
-        &["compare", "s.opshock", "s.opshock"],
-        &["plan", &study, "--store", "s.opshock"],
+        &["sweep", &study, "--store", "s.opshock"],
     ] {
         let done = Done::of(folder.path(), words);
-        assert_eq!(done.code, 0, "{words:?}: {}", done.stderr);
-        assert!(!done.stdout.is_empty(), "{words:?}");
-        if words.contains(&"csv") {
-            assert_eq!(done.stdout, table);
-        }
+        assert_eq!(done.code, 6, "{words:?}: {}", done.stderr);
+        assert!(
+            done.stderr.contains("E181") && done.stderr.contains("sweep the study anew"),
+            "{words:?}: {}",
+            done.stderr
+        );
     }
-    // The numbers are those of 7e99eeb, whatever program wrote the page.
-    let page = std::fs::read_to_string(folder.path().join("r/table.md")).unwrap();
-    assert!(
-        page.contains("\nopshock 0.1.0 (7e99eeb266b3, physics 7/11), study "),
-        "{page}"
-    );
+    for name in names {
+        let [now, before] = [&store, &frozen].map(|at| std::fs::read(at.join(name)).unwrap());
+        assert!(now == before, "{name}");
+    }
+    assert!(!folder.path().join("r").exists());
 }

@@ -11,14 +11,14 @@ use opshock_tests::hdf5_dump::dump;
 /// Prints a line per dataset: path, units, number of entries.
 const H5PY: &str = r#"
 import sys, h5py
-def told(name, item):
+def reported(name, item):
     if isinstance(item, h5py.Dataset):
         units = item.attrs["units"]
         units = units.decode() if isinstance(units, bytes) else units
         values = item[()]
         print("/" + name, repr(units), values.size)
 with h5py.File(sys.argv[1], "r") as file:
-    file.visititems(told)
+    file.visititems(reported)
 "#;
 
 /// A small sweep with its histories; its HDF5 files.
@@ -102,8 +102,8 @@ fn h5dump_and_h5py_read_every_dataset_with_units() {
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{}: {said}", file.display());
-        let told = String::from_utf8(output.stdout).unwrap();
-        let mut found: Vec<&str> = told
+        let reported = String::from_utf8(output.stdout).unwrap();
+        let mut found: Vec<&str> = reported
             .lines()
             .filter_map(|line| line.split(' ').next())
             .collect();

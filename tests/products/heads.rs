@@ -12,7 +12,7 @@ use opshock_study::study::{Faces, SetArg, Study, StudyErrors};
 use opshock_study::sweep::{Physics, Simulator};
 use opshock_tests::pairs::assert_same_answers;
 
-const DRIVE: &str = r#"study_format = 1
+const DRIVE: &str = r#"study_format = 2
 name = "heads"
 [pulse]
 widths_ms = [0.5]
@@ -20,8 +20,8 @@ signs = ["+"]
 window_ms = 0.8
 [ramp]
 models = ["rigid"]
-[solver]
-accuracy = "5%"
+[resolution]
+preset = "coarse"
 film_cells = 150
 disk_cut_khz = 10
 [slider.surface]
@@ -289,16 +289,16 @@ fn the_way_a_head_faces_is_a_key_of_the_study_too() {
     faces("[\"up\", \"down\"]");
     let path = at.join("study.toml");
     let words = ["explain", path.to_str().unwrap(), "--json"];
-    let told = Done::of(at, &words).json();
+    let reported = Done::of(at, &words).json();
     let state = |scene: usize| {
-        let rows = told["scenes"][scene]["effects"].as_array().unwrap();
+        let rows = reported["scenes"][scene]["effects"].as_array().unwrap();
         let row = rows.iter().find(|row| row["effect"] == "head.faces_up");
         row.unwrap()["state"].clone()
     };
     assert_eq!([state(0), state(1)], ["on", "off"]);
 }
 
-/// What is wrong with a head's matrices is told with the head and the file.
+/// Faults of a head's matrices are reported with the head and the file.
 #[test]
 fn damaged_matrices_of_a_head_name_it() {
     let folder = folder();

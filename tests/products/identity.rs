@@ -1,4 +1,4 @@
-//! What the identities of cells and stages depend on.
+//! What the digests by which stored simulations and built stages are found depend on.
 
 use opshock_solver::scene::Scene;
 use opshock_study::identity::{CellId, head_key, structure_key};
@@ -20,7 +20,7 @@ fn the_structure_does_not_depend_on_the_head() {
     let base = scene("");
     for head_only in [
         "suspension.gram_load_gf=2.3",
-        "solver.film_cells=1999",
+        "resolution.film_cells=1999",
         "gas.pressure_pa=9e4",
     ] {
         let other = scene(head_only);
@@ -36,7 +36,7 @@ fn the_structure_does_not_depend_on_the_head() {
     for both in [
         "disk.rpm=5401",
         "slider.angle_deg=7.1",
-        "solver.structure_step_us=0.4",
+        "resolution.structure_step_us=0.4",
     ] {
         let other = scene(both);
         assert_ne!(structure_key(&base, 1), structure_key(&other, 1), "{both}");

@@ -12,7 +12,7 @@ fn exported(at: &Path) {
     let done = Done::of(at, &[&words[..], &["--out", "susp"]].concat());
     assert_eq!(done.code, 0, "{}", done.stderr);
     let section = std::fs::read_to_string(at.join("susp/suspension.toml")).unwrap();
-    let of_geometry = "study_format = 1\nname = \"suspension\"\noutputs = [\"min_clearance\"]\n\
+    let of_geometry = "study_format = 2\nname = \"suspension\"\noutputs = [\"min_clearance\"]\n\
          [pulse]\nwidths_ms = [0.5]\nsigns = [\"+\"]\n[ramp]\nmodels = [\"none\"]\n";
     std::fs::write(at.join("geometry.toml"), of_geometry).unwrap();
     let of_matrices = of_geometry.to_owned() + &section;
@@ -24,7 +24,7 @@ fn number(value: &Value, pointer: &str) -> f64 {
     found.unwrap_or_else(|| panic!("{pointer}\n{value:#}"))
 }
 
-fn told(at: &Path, words: &[&str]) -> Value {
+fn reported(at: &Path, words: &[&str]) -> Value {
     let done = Done::of(at, &[words, &COARSE, &["--json"]].concat());
     assert_eq!(done.code, 0, "{}", done.stderr);
     done.json()
@@ -37,7 +37,7 @@ fn the_default_suspension_as_matrices_flies_and_is_shaken_as_before() {
     let at = at.path();
     exported(at);
     let both = |words: &dyn Fn(&'static str) -> Vec<&'static str>| {
-        ["geometry.toml", "susp/study.toml"].map(|file| told(at, &words(file)))
+        ["geometry.toml", "susp/study.toml"].map(|file| reported(at, &words(file)))
     };
     let [a, b] = both(&|file| vec!["modes", file]);
     for key in [
@@ -73,7 +73,7 @@ fn the_inertia_of_the_base_counts() {
     let at = tempfile::tempdir().unwrap();
     let at = at.path();
     exported(at);
-    let modes = told(at, &["modes", "susp/study.toml"]);
+    let modes = reported(at, &["modes", "susp/study.toml"]);
     let with_base = number(&modes, "/suspension/effective_shock_mass_kg");
     // The same matrices without the root's three rows: numbers as before, of one node less.
     let strip = |name: &str, columns: bool| {
@@ -102,7 +102,7 @@ fn the_inertia_of_the_base_counts() {
         .replace("base = [1]\n", "")
         .replace(line, &format!("dimple = {}", dimple - 1));
     std::fs::write(path, text).unwrap();
-    let modes = told(at, &["modes", "susp/study.toml"]);
+    let modes = reported(at, &["modes", "susp/study.toml"]);
     let without = number(&modes, "/suspension/effective_shock_mass_kg");
     let lost = 1.0 - without / with_base;
     assert!((1e-6..0.05).contains(&lost), "{with_base} {without}");

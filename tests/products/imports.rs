@@ -1,5 +1,5 @@
 //! Other programs' files: sound ones give what they say, and every damaged one under
-//! `tests/bad_inputs/imports/` gets its message. Its name tells its code, what stands behind the
+//! `tests/bad_inputs/imports/` gets its message. Its name gives its code, what stands behind the
 //! first point which of the files of its folder it replaces.
 
 use crate::cli::{Done, files};
@@ -314,9 +314,9 @@ fn files_that_are_missing_and_freedoms_that_are_not_there_are_named() {
 }
 
 #[test]
-fn sound_matrices_are_told_and_written_in_si_units() {
+fn sound_matrices_are_reported_and_written_in_si_units() {
     let at = tempfile::tempdir().unwrap();
-    let told = |importer: &str, more: &[&str]| {
+    let reported = |importer: &str, more: &[&str]| {
         let mut words = matrices(importer, None);
         words.extend(more.iter().map(|word| (*word).to_owned()));
         let done = run(at.path(), &words);
@@ -324,7 +324,7 @@ fn sound_matrices_are_told_and_written_in_si_units() {
         done.json()
     };
     // mm, N, t: eigenvalue of 1e3 [2 -1; -1 1] against 1e-7 [2 .5; .5 1] by the quadratic formula.
-    let two = told("calculix", &["--out", "si"]);
+    let two = reported("calculix", &["--out", "si"]);
     let value: f64 = (5.0 - (25.0_f64 - 4.0 * 1.75).sqrt()) / (2.0 * 1.75) * 1e10;
     let hertz = value.sqrt() / std::f64::consts::TAU;
     assert!(
@@ -358,8 +358,8 @@ fn sound_matrices_are_told_and_written_in_si_units() {
     assert_eq!(run(at.path(), &again).json()["lowest_hz"], two["lowest_hz"]);
     let once_more = [again, vec!["--out".to_owned(), "si".to_owned()]].concat();
     assert_eq!(run(at.path(), &once_more).code, 2);
-    // A cantilever's end in mN, mm, kg: rotations count in rad.
-    let beam = told("dense", &[]);
+    // A cantilever's end in mN, mm, kg: rotations are in rad.
+    let beam = reported("dense", &[]);
     assert_eq!(beam["freedoms"], 2);
     // Warnings are accepted by their code.
     let soft = folder("market").join("w206_soft.stiffness.mtx");
@@ -398,8 +398,8 @@ fn a_ramp_from_calculix_matrices_moves_as_they_do() {
     };
     let done = run(at.path(), &words("13.3", "arm"));
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let told = done.json();
-    let modes = told["modes"].as_array().unwrap();
+    let reported = done.json();
+    let modes = reported["modes"].as_array().unwrap();
     let number = |mode: &serde_json::Value, key: &str| mode[key].as_f64().unwrap();
     let stiffness = |mode| (std::f64::consts::TAU * number(mode, "frequency_hz")).powi(2);
     let flexibility: f64 = modes
@@ -420,7 +420,7 @@ fn a_ramp_from_calculix_matrices_moves_as_they_do() {
     );
     assert!(
         (number(&modes[0], "frequency_hz") / 16_352.578_65 - 1.0).abs() < 1e-6,
-        "{told}"
+        "{reported}"
     );
     let study = std::fs::read_to_string(crate::cli::study("fig13")).unwrap();
     let start = study.find("[ramp.deformable]").unwrap();

@@ -1,4 +1,4 @@
-//! The doubled window goes on where the study's window ended.
+//! A run in the doubled window goes on where the study's window ended.
 
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::simulation::{Model, Request, Scope, Workspace, simulate};
@@ -14,8 +14,8 @@ fn of(ramp: &str, window: &[(&str, &str)]) -> Study {
     let mut sets = vec![
         ("pulse.widths_ms", "[0.5]"),
         ("ramp.models", ramp.as_str()),
-        ("solver.film_cells", "300"),
-        ("solver.disk_cut_khz", "20"),
+        ("resolution.film_cells", "300"),
+        ("resolution.disk_cut_khz", "20"),
     ];
     sets.extend(window);
     study("fig13-stiffness", &sets)
@@ -32,9 +32,9 @@ fn shaken(physics: &Physics, amplitude_g: f64) -> [ProbeResult; 2] {
     })
 }
 
-/// What survives the study's window is not run again up to its end: the answer and the work told are to the last
-/// bit those of a run from the onset, in full too, without and with contact, in windows of fixed length and of motion
-/// that decays.
+/// What survives the study's window is not run again up to its end: the answer and the reported work are to the last
+/// bit those of a run from the onset, with the full model too, without and with contact, in windows of fixed length
+/// and of motion that decays.
 #[test]
 fn the_second_half_has_the_bits_of_a_run_from_the_onset() {
     let decays = [

@@ -11,8 +11,8 @@ use opshock_solver::simulation::Model;
 use opshock_study::study::Study;
 use opshock_tests::pairs;
 
-const DRIVE: &str = "study_format = 1\nname = \"gap\"\noutputs = [\"contact_force\"]\n\
-    [pulse]\nwidths_ms = [0.5]\nsigns = [\"+\", \"-\"]\nwindow_ms = 3.0\n[solver]\naccuracy = \"5%\"\n\
+const DRIVE: &str = "study_format = 2\nname = \"gap\"\noutputs = [\"contact_force\"]\n\
+    [pulse]\nwidths_ms = [0.5]\nsigns = [\"+\", \"-\"]\nwindow_ms = 3.0\n[resolution]\npreset = \"coarse\"\n\
     [ramp]\nmodels = [\"rigid\"]\nradius_mm = 32.15\nclearance_um = 100.0\n";
 const RUN_OUT: &str = "[disk]\nouter_radius_mm = 32.5\nrun_out_um = 5.0\n";
 /// Amplitude at the ramp.
@@ -30,7 +30,7 @@ fn touch(scene: &Scene) -> [f64; 2] {
 }
 
 /// Without the key run-out does not reach the ramp. With it the scene is that of narrower gaps, whose first touch is
-/// theirs to the share of the gap, as the motion before is linear; waves of any harmonic count whole.
+/// theirs to the share of the gap, as the motion before is linear; waves of any harmonic are included whole.
 #[test]
 fn the_gap_is_narrower_by_the_run_out_at_the_ramp() {
     let plane = &study("").points[0].scene;
@@ -120,8 +120,8 @@ fn the_lowest_gap_is_explained() {
     let state = |more: &str| {
         std::fs::write(at.join("study.toml"), format!("{DRIVE}{more}")).unwrap();
         let path = at.join("study.toml");
-        let told = Done::of(at, &["explain", path.to_str().unwrap(), "--json"]).json();
-        let rows = told["scenes"][0]["effects"].as_array().unwrap().clone();
+        let reported = Done::of(at, &["explain", path.to_str().unwrap(), "--json"]).json();
+        let rows = reported["scenes"][0]["effects"].as_array().unwrap().clone();
         let row = rows
             .into_iter()
             .find(|row| row["effect"] == "ramp.lowest_gap");

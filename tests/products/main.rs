@@ -1,6 +1,7 @@
 //! Study files, search, store, report and command line.
 
 mod accuracy;
+mod added_points;
 mod bad_inputs;
 mod bad_stores;
 mod cli;
@@ -12,7 +13,6 @@ mod cli_shards;
 mod cli_studies;
 mod cml_drives;
 mod compare;
-mod error_bars;
 mod frozen_store;
 mod hdf5_readers;
 mod heads;
@@ -30,7 +30,6 @@ mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
 mod real_sweep;
-mod refine;
 mod report_files;
 mod report_page;
 mod report_run;
@@ -49,4 +48,5 @@ mod sweep_audit;
 mod sweep_repeatability;
 mod sweep_sharing;
 mod sweep_trouble;
+mod uncertainty;
 mod vtk_series;

@@ -1,4 +1,4 @@
-//! `opshock match`: planted truths are kept, conflicts and shares are right, runs resume, bad input is told.
+//! `opshock match`: planted truths are kept, conflicts and shares are right, runs resume, bad input is reported.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub(super) fn small(folder: &Path, observations: &str) -> PathBuf {
     let text = format!(
         "match_format = 1\nname = \"small\"\nstudy = {:?}\n[draws]\ndisk_and_ramp = 40\n[waves]\ncount = 1\nsamples = 10\n\
          [refinement]\nevaluations = 12\nstarts = 1\n[numerics]\nprobes = 2\n[settings]\ndisk_and_ramp = \
-         [\"solver.accuracy=\\\"5%\\\"\"]\n[[parameter]]\nname = \"gap\"\nkeys = [\"ramp.clearance_um\"]\nuniform = [60.0, \
+         [\"resolution.preset=\\\"coarse\\\"\"]\n[[parameter]]\nname = \"gap\"\nkeys = [\"ramp.clearance_um\"]\nuniform = [60.0, \
          140.0]\nsource = \"test\"\n[[parameter]]\nname = \"contact\"\nkeys = [\"ramp.contact_stiffness_n_per_m\"]\n\
          log_uniform = [3e5, 1e7]\nunset_share = 0.5\nsource = \"test\"\n{}",
         shipped("paper-cases"),
@@ -55,11 +55,11 @@ pub(super) fn matched(file: &Path, store: &Path, more: &[&str]) -> (Option<i32>,
 }
 
 #[test]
-fn conflicts_are_told_with_their_bound() {
+fn conflicts_are_reported_with_their_bound() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = small(folder.path(), TWO);
-    let (code, json, told) = matched(&file, &folder.path().join("store"), &[]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, json, reported) = matched(&file, &folder.path().join("store"), &[]);
+    assert_eq!(code, Some(0), "{reported}");
     assert_eq!(json["n_matching"], 0);
     let conflicts = json["conflicts"].as_array().expect("a list");
     let names: Vec<&Value> = conflicts.iter().map(|one| &one["observations"]).collect();
@@ -87,8 +87,8 @@ fn an_interrupted_match_ends_with_the_same_bytes_on_any_threads() {
     let one = TWO.split("[[observation]]").nth(1).expect("the first");
     let file = small(folder.path(), &format!("[[observation]]{one}"));
     let store = |name: &str| folder.path().join(name);
-    let (code, whole, told) = matched(&file, &store("whole"), &["-j", "1"]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, whole, reported) = matched(&file, &store("whole"), &["-j", "1"]);
+    assert_eq!(code, Some(0), "{reported}");
     assert!(whole["n_matching"].as_u64() > Some(0));
     let (code, ..) = matched(&file, &store("parts"), &["--budget", "0s"]);
     assert_eq!(code, Some(5));
@@ -107,13 +107,13 @@ fn an_interrupted_match_ends_with_the_same_bytes_on_any_threads() {
         let _ = child.kill();
         let _ = child.wait();
     }
-    let (code, parts, told) = matched(&file, &store("parts"), &["-j", "4"]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, parts, reported) = matched(&file, &store("parts"), &["-j", "4"]);
+    assert_eq!(code, Some(0), "{reported}");
     assert_eq!(parts, whole);
     // Nothing is left to simulate.
-    let (_, again, told) = matched(&file, &store("parts"), &[]);
+    let (_, again, reported) = matched(&file, &store("parts"), &[]);
     assert_eq!(again, whole);
-    assert!(told.contains("0 simulated"), "{told}");
+    assert!(reported.contains("0 simulated"), "{reported}");
 }
 
 /// With searches for every conflict instead of a refinement.
@@ -137,8 +137,8 @@ fn conflicts_are_searched_for_a_set_that_disproves_them() {
     let searches = "[conflicts]\nsearches = 3\nevaluations = 90";
     let file = small(folder.path(), TWO);
     with_searches(&file, searches);
-    let (code, json, told) = matched(&file, &folder.path().join("store"), &[]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, json, reported) = matched(&file, &folder.path().join("store"), &[]);
+    assert_eq!(code, Some(0), "{reported}");
     let conflict = &json["conflicts"][0];
     assert_eq!(conflict["observations"], serde_json::json!(["near", "far"]));
     // Three populations of six, and 90 children each.
@@ -152,10 +152,10 @@ fn conflicts_are_searched_for_a_set_that_disproves_them() {
     let thin = thin.replace("[60e-6, 90e-6]", "[85.00e-6, 85.05e-6]");
     let file = small(folder.path(), &format!("[[observation]]{thin}"));
     with_searches(&file, searches);
-    let (code, json, told) = matched(&file, &folder.path().join("thin"), &[]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, json, reported) = matched(&file, &folder.path().join("thin"), &[]);
+    assert_eq!(code, Some(0), "{reported}");
     assert_eq!(json["observations"][0]["share"]["with"], 0, "{json}");
-    assert_eq!(json["conflicts"], serde_json::json!([]), "{told}");
+    assert_eq!(json["conflicts"], serde_json::json!([]), "{reported}");
     assert!(json["n_matching"].as_u64() > Some(0));
 }
 
@@ -174,8 +174,8 @@ fn every_choice_of_a_parameter_has_a_search_of_its_own() {
     let file = small(folder.path(), TWO);
     let speeds = "keys = [\"disk.rpm\"]\nchoices = [4200, 5400, 7200]";
     with_choices(&file, speeds, "pads");
-    let (code, json, told) = matched(&file, &folder.path().join("store"), &[]);
-    assert_eq!(code, Some(0), "{told}");
+    let (code, json, reported) = matched(&file, &folder.path().join("store"), &[]);
+    assert_eq!(code, Some(0), "{reported}");
     let choices = json["best_of_each"]["choices"].as_array().expect("a list");
     assert_eq!(choices.len(), 3);
     let place = json["parameters"].as_array().expect("a list").len() - 1;
@@ -210,8 +210,8 @@ fn of_two_that_contradict_each_other_the_one_with_more_weight_holds() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = small(folder.path(), TWO);
         with_weights(&file, weights);
-        let (code, json, told) = matched(&file, &folder.path().join("store"), &[]);
-        assert_eq!(code, Some(0), "{told}");
+        let (code, json, reported) = matched(&file, &folder.path().join("store"), &[]);
+        assert_eq!(code, Some(0), "{reported}");
         assert_eq!(json["nearest"]["fails"], serde_json::json!([lacks]));
     }
 }
@@ -232,13 +232,13 @@ fn matching_studies_have_the_values_and_say_so() {
         "matching-99.toml",
         "# match \"small\": every observation holds\n",
     );
-    let own = of_before("matching-98.toml", "study_format = 1\n");
-    let (code, json, told) = matched(
+    let own = of_before("matching-98.toml", "study_format = 2\n");
+    let (code, json, reported) = matched(
         &file,
         &folder.path().join("store"),
         &["--out", out.to_str().expect("a path")],
     );
-    assert_eq!(code, Some(0), "{told}");
+    assert_eq!(code, Some(0), "{reported}");
     // What an earlier match wrote goes, what somebody wrote stays.
     assert!(!old.exists() && own.exists());
     let first = out.join("matching-1.toml");
@@ -281,11 +281,11 @@ fn a_store_of_another_match_is_refused() {
     assert_eq!(matched(&file, &store, &["--budget", "0s"]).0, Some(5));
     let other = folder.path().join("other.toml");
     std::fs::copy(&file, &other).expect("copied");
-    let (code, _, told) = matched(&other, &store, &[]);
+    let (code, _, reported) = matched(&other, &store, &[]);
     assert_eq!(code, Some(6));
     assert!(
-        told.contains("E188") && told.contains("match.toml"),
-        "{told}"
+        reported.contains("E188") && reported.contains("match.toml"),
+        "{reported}"
     );
 }
 
@@ -296,14 +296,14 @@ fn outputs_are_those_of_the_commands() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     let study = shipped("paper-cases").display().to_string();
     let coarse = [
-        "solver.film_cells=250",
-        "solver.film_reference_cells=0",
+        "resolution.film_cells=250",
+        "resolution.film_correction_cells=0",
         "ramp.models=[\"none\"]",
         "pulse.widths_ms=[2.0]",
         "outputs=[\"critical_shock\", \"disk_displacement\"]",
         "search.tolerance_pct=5.0",
-        "search.certify=\"off\"",
-        "search.error_bars=false",
+        "search.monotonicity_scan=\"off\"",
+        "search.uncertainty=false",
     ];
     let run = |words: &[&str]| {
         let sets = coarse.iter().flat_map(|set| ["--set", set]);
@@ -313,9 +313,9 @@ fn outputs_are_those_of_the_commands() {
             .arg("--json")
             .output()
             .expect("the program runs");
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let reported = String::from_utf8_lossy(&output.stderr).into_owned();
         serde_json::from_slice::<Value>(&output.stdout)
-            .unwrap_or_else(|_| panic!("{words:?}: {told}"))
+            .unwrap_or_else(|_| panic!("{words:?}: {reported}"))
     };
     let shock = [
         "--ramp",
@@ -363,12 +363,16 @@ fn outputs_are_those_of_the_commands() {
     let file = folder.path().join("match.toml");
     std::fs::write(&file, text).expect("written");
     let out = folder.path().join("out");
-    let (code, json, told) = matched(
+    let (code, json, reported) = matched(
         &file,
         &folder.path().join("store"),
         &["--out", out.to_str().expect("a path")],
     );
-    assert_eq!((code, &json["n_matching"]), (Some(0), &1.into()), "{told}");
+    assert_eq!(
+        (code, &json["n_matching"]),
+        (Some(0), &1.into()),
+        "{reported}"
+    );
     let samples = std::fs::read_to_string(out.join("samples.csv")).expect("samples");
     let last: Vec<&str> = samples
         .lines()

@@ -1,4 +1,4 @@
-//! Match files: weights, choices and numbers that cannot be are told.
+//! Match files: impossible weights, choices and numbers are reported.
 
 use serde_json::Value;
 
@@ -10,7 +10,7 @@ fn weights_are_positive_and_of_observations() {
     let open = "[[observation]]\nname = \"open\"\noutput = \"run.disk.rim_max_m\"\nSHOCK\n";
     let file = small(folder.path(), &format!("{TWO}{open}"));
     with_weights(&file, "{ nea = 3, far = 0, open = 2 }");
-    let (code, _, told) = matched(&file, &folder.path().join("store"), &[]);
+    let (code, _, reported) = matched(&file, &folder.path().join("store"), &[]);
     assert_eq!(code, Some(3));
     for said in [
         "refinement.weights.nea",
@@ -18,7 +18,7 @@ fn weights_are_positive_and_of_observations() {
         "refinement.weights.far",
         "refinement.weights.open",
     ] {
-        assert!(told.contains(said), "{said}: {told}");
+        assert!(reported.contains(said), "{said}: {reported}");
     }
 }
 
@@ -31,12 +31,12 @@ fn a_search_of_each_choice_needs_choices() {
         "keys = [\"disk.rpm\"]\nchoices = [4200, 5400]",
         "gap",
     );
-    let (code, _, told) = matched(&file, &folder.path().join("store"), &[]);
+    let (code, _, reported) = matched(&file, &folder.path().join("store"), &[]);
     assert_eq!(code, Some(3));
     let said = "refinement.each = \\\"gap\\\": is no parameter with choices";
     assert!(
-        told.contains("E193") && told.contains("pads"),
-        "{said}: {told}"
+        reported.contains("E193") && reported.contains("pads"),
+        "{said}: {reported}"
     );
 }
 
@@ -55,9 +55,9 @@ fn numbers_belong_to_the_files_that_choices_name() {
     with_choices(&file, &pads, "pads");
     let store = folder.path().join("store");
     let simulated = || -> u64 {
-        let (code, _, told) = matched(&file, &store, &[]);
-        assert_eq!(code, Some(0), "{told}");
-        let words = told.split(" simulated sets").next().expect("a count");
+        let (code, _, reported) = matched(&file, &store, &[]);
+        assert_eq!(code, Some(0), "{reported}");
+        let words = reported.split(" simulated sets").next().expect("a count");
         let count = words.rsplit(|c: char| !c.is_ascii_digit()).next();
         count
             .and_then(|digits| digits.parse().ok())
@@ -71,7 +71,7 @@ fn numbers_belong_to_the_files_that_choices_name() {
 }
 
 #[test]
-fn every_fault_of_a_match_file_is_told_at_once() {
+fn every_fault_of_a_match_file_is_reported_at_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = small(
         folder.path(),
@@ -85,11 +85,11 @@ fn every_fault_of_a_match_file_is_told_at_once() {
          [[observation]]\nname = \"f\"\nhistory = \"disk_slider_m\"\nfile = \"no.csv\"\nSHOCK\nrange = [0.0, 1e-6]\n",
     );
     let store = folder.path().join("store");
-    let (code, json, told) = matched(&file, &store, &[]);
+    let (code, json, reported) = matched(&file, &store, &[]);
     assert_eq!((code, json), (Some(3), Value::Null));
     // Errors are on standard error, as JSON.
-    let errors: Value = serde_json::from_str(&told).expect("JSON");
-    let told: Vec<(&str, &str)> = errors["errors"]
+    let errors: Value = serde_json::from_str(&reported).expect("JSON");
+    let reported: Vec<(&str, &str)> = errors["errors"]
         .as_array()
         .expect("a list")
         .iter()
@@ -110,7 +110,7 @@ fn every_fault_of_a_match_file_is_told_at_once() {
         ("E193", "observation[2].statement"),
         ("E193", "observation[3].equals"),
     ] {
-        assert!(told.contains(&wanted), "{wanted:?} of {told:?}");
+        assert!(reported.contains(&wanted), "{wanted:?} of {reported:?}");
     }
     for fault in errors["errors"].as_array().expect("a list") {
         assert_ne!(fault["allowed"].as_str(), Some(""), "{fault}");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use opshock_paper::claims::Paper;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
 use opshock_study::matching::{Evaluations, MatchAnswer, MatchProblem, Printed, RULED_OUT, search};
@@ -84,7 +84,10 @@ fn planted(seed: u64, has_head: bool, effort: &str) -> Planted {
         [2.0, seeded.between(350.0, 450.0)],
         [0.5, seeded.between(180.0, 260.0)],
     ];
-    let settings = ["solver.accuracy=\"5%\"", "ramp.models=[\"deformable\"]"];
+    let settings = [
+        "resolution.preset=\"coarse\"",
+        "ramp.models=[\"deformable\"]",
+    ];
     let own = Study::from_path(&shipped("fig13-stiffness"), &[]).expect("a study");
     let resolved: toml::Table = own.resolved_toml().parse().expect("TOML");
     let mut sets: Vec<SetArg> = settings
@@ -150,9 +153,11 @@ fn refined(study: &Study, pulse_ms: f64, amplitude_g: f64, has_head: bool) -> Va
     let shot = study.select(&choice).expect("a shock");
     let scene = &shot.point.scene;
     let levels = scene
-        .knobs()
+        .discretisations()
         .into_iter()
-        .fold(Levels::NONE, |levels, knob| levels.turned(knob, 1));
+        .fold(Levels::NONE, |levels, discretisation| {
+            levels.changed(discretisation, 1)
+        });
     let outputs: &[Output] = match has_head {
         true => &[
             Output::MinClearance,
@@ -178,7 +183,7 @@ fn refined(study: &Study, pulse_ms: f64, amplitude_g: f64, has_head: bool) -> Va
 }
 
 /// Whether the truth is never ruled out and lies in every final range; the width that is left of the ranges, on average, all of
-/// it where none is told.
+/// it where none is reported.
 fn is_kept(planted: &Planted) -> (bool, f64) {
     let problem = MatchProblem::from_path(&planted.file, &[], &Paper).expect("a match problem");
     let mut evaluations = Evaluations::new(&problem, &Json, None, &|| false, &|_, _, _| {});
@@ -191,7 +196,7 @@ fn is_kept(planted: &Planted) -> (bool, f64) {
     let ranged = problem.observations.iter().zip(&truth.numbers);
     let implausible = ranged.filter_map(|(one, (known, u))| one.implausibility(*known, *u));
     let worst = implausible.fold(0.0, f64::max);
-    // A range that is not told excludes nothing.
+    // A range that is not reported excludes nothing.
     let ends = answer
         .parameters
         .iter()

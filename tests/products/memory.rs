@@ -2,7 +2,7 @@
 
 use super::cli::{Done, OPSHOCK, opshock, study};
 use opshock_solver::scene::plan::Plan;
-use opshock_study::search::bar::most_film_steps;
+use opshock_study::search::uncertainty::most_film_steps;
 use opshock_study::study::memory::Demand;
 use opshock_study::study::{Choice, Ramp, SetArg, Sign, Study};
 use opshock_tests::program::program;
@@ -72,19 +72,27 @@ fn estimates_of_single_shocks_hold_against_peaks() {
         "pulse.window_ms=20",
     ];
     for (what, sets, kept) in [
-        ("film", &["solver.film_cells=12000"][..], &[][..]),
-        ("correction", &["solver.film_reference_cells=2500"], &[]),
-        ("window", &["solver.film_cells=300", long], &[]),
+        ("film", &["resolution.film_cells=12000"][..], &[][..]),
+        (
+            "correction",
+            &["resolution.film_correction_cells=2500"],
+            &[],
+        ),
+        ("window", &["resolution.film_cells=300", long], &[]),
         ("hub", &hub, &[]),
         (
             "history",
-            &["solver.film_cells=300", long],
+            &["resolution.film_cells=300", long],
             &["--history", "h.h5"],
         ),
-        ("drawn", &["solver.film_cells=300", long], &["--plots", "p"]),
+        (
+            "drawn",
+            &["resolution.film_cells=300", long],
+            &["--plots", "p"],
+        ),
         (
             "fields",
-            &["solver.film_cells=10000", &fields, outputs],
+            &["resolution.film_cells=10000", &fields, outputs],
             &["--history", "f.h5"],
         ),
     ] {
@@ -101,7 +109,7 @@ fn estimates_of_single_shocks_hold_against_peaks() {
         words.extend(kept);
         judge(what, &words, sets, demand.bytes(1));
     }
-    let sets = ["solver.film_cells=8000"];
+    let sets = ["resolution.film_cells=8000"];
     let scene = &read(&sets).points[0].scene;
     let words = ["steady", "--quiet"];
     judge("steady", &words, &sets, Demand::impedance(scene).bytes(1));
@@ -116,9 +124,9 @@ fn the_estimate_of_a_sweep_holds_against_its_peak() {
                 "pulse.widths_ms=[0.5, 1.0]",
                 "ramp.models=[\"none\", \"rigid\"]",
                 "pulse.window_ms=20",
-                "search.error_bars=false",
+                "search.uncertainty=false",
                 "search.tolerance_pct=10",
-                "solver.film_cells=300",
+                "resolution.film_cells=300",
             ],
         ),
         (
@@ -127,14 +135,14 @@ fn the_estimate_of_a_sweep_holds_against_its_peak() {
                 "pulse.widths_ms=[1.0]",
                 "ramp.models=[\"none\"]",
                 "pulse.window_ms=3",
-                "search.error_bars=true",
+                "search.uncertainty=true",
                 "search.tolerance_pct=10",
-                "solver.film_reference_cells=1500",
+                "resolution.film_correction_cells=1500",
             ],
         ),
     ] {
         let study = read(&sets);
-        let finer = f64::from(most_film_steps(study.search.climbs)).exp2();
+        let finer = f64::from(most_film_steps(study.search.max_refinements)).exp2();
         let demand = Demand::sweep(&study, finer);
         judge(
             what,
@@ -145,13 +153,13 @@ fn the_estimate_of_a_sweep_holds_against_its_peak() {
     }
 }
 
-/// A grid that corrects is cut in four, and in a bar one of twice its cells is: 8 times, where 4 were counted.
+/// A defect-correction grid is cut in four; an uncertainty cuts one of twice its cells: 8 times, where 4 were assumed.
 #[test]
 fn the_correction_counts_every_cell_it_builds() {
     let scene = |cells: usize, reference: usize| {
         let sets = [
-            format!("solver.film_cells={cells}"),
-            format!("solver.film_reference_cells={reference}"),
+            format!("resolution.film_cells={cells}"),
+            format!("resolution.film_correction_cells={reference}"),
         ];
         read(&[&sets[0], &sets[1]])
     };
@@ -208,7 +216,7 @@ fn every_command_that_simulates_is_refused_where_it_does_not_fit() {
             [&shock[..], &at, &["--format", "vtu", "--out", "v"]].concat(),
         ),
     ] {
-        let set = ["--set", "solver.film_cells=1000000", "--json"];
+        let set = ["--set", "resolution.film_cells=1000000", "--json"];
         let all = [words, &[&file], &more, &set].concat();
         let done = limited(folder.path(), 4_000_000, &all);
         assert_eq!(done.code, 3, "{words:?}: {}", done.stderr);
@@ -244,7 +252,7 @@ fn every_command_that_simulates_is_refused_where_it_does_not_fit() {
 
 /// With `--memory-gb` the program takes the user's word; what the machine then refuses is a message, not a signal.
 #[test]
-fn memory_that_is_refused_in_the_end_is_told_with_exit_code_1() {
+fn memory_that_is_refused_in_the_end_is_reported_with_exit_code_1() {
     let folder = tempfile::tempdir().unwrap();
     let file = fig13();
     for kilobytes in (60_000..180_000).step_by(20_000) {
@@ -254,18 +262,18 @@ fn memory_that_is_refused_in_the_end_is_told_with_exit_code_1() {
             "pulse.widths_ms=[0.5]",
             "ramp.models=[\"none\"]",
             "pulse.window_ms=200",
-            "search.error_bars=false",
-            "solver.film_cells=300",
+            "search.uncertainty=false",
+            "resolution.film_cells=300",
         ] {
             words.extend(["--set", set]);
         }
         words.extend(["--memory-gb", "100"]);
         let done = limited(folder.path(), kilobytes, &words);
         assert_eq!(done.code, 1, "{kilobytes}: {}", done.stderr);
-        let told = done.stderr.lines().next().unwrap_or_default();
+        let reported = done.stderr.lines().next().unwrap_or_default();
         assert!(
-            told.starts_with("memory allocation of ") && told.ends_with(" bytes failed"),
-            "{told}"
+            reported.starts_with("memory allocation of ") && reported.ends_with(" bytes failed"),
+            "{reported}"
         );
     }
 }

@@ -8,7 +8,7 @@ use opshock_study::study::{SetArg, Study};
 use std::path::Path;
 
 /// What both tests run: few modes on a coarse film.
-const COARSE: [&str; 2] = ["solver.film_cells=150", "solver.disk_cut_khz=9"];
+const COARSE: [&str; 2] = ["resolution.film_cells=150", "resolution.disk_cut_khz=9"];
 
 /// Runs `modes --shapes v` on a study of the repository; gives the study and what was printed.
 fn shapes(folder: &Path, name: &str, sets: &[&str]) -> (Study, serde_json::Value) {
@@ -85,7 +85,7 @@ fn distance_from_unit(columns: &[Vec<f64>], product: impl Fn(&[f64], &[f64]) -> 
 #[test]
 fn every_body_has_a_grid_and_a_drawing_with_the_printed_frequencies() {
     let folder = tempfile::tempdir().unwrap();
-    let (_, told) = shapes(folder.path(), "paper-cases", &[]);
+    let (_, reported) = shapes(folder.path(), "paper-cases", &[]);
     for body in ["disk", "ramp", "suspension", "head"] {
         for ending in ["svg", "png", "csv"] {
             let file = folder.path().join(format!("v/{body}_modes.{ending}"));
@@ -93,14 +93,17 @@ fn every_body_has_a_grid_and_a_drawing_with_the_printed_frequencies() {
         }
     }
     let hz = |body: &str, key: &str| -> Vec<f64> {
-        let rows = told[body].as_array().unwrap().iter();
+        let rows = reported[body].as_array().unwrap().iter();
         rows.map(|row| row[key].as_f64().unwrap()).collect()
     };
     let of_grid = |body: &str| array(&grid(folder.path(), body), "frequency_hz");
-    let assert_same = |found: &[f64], told: &[f64]| {
-        assert_eq!(found.len(), told.len());
+    let assert_same = |found: &[f64], reported: &[f64]| {
+        assert_eq!(found.len(), reported.len());
         let far = |(a, b): (&f64, &f64)| (a / b - 1.0).abs() > 1e-9;
-        assert!(!found.iter().zip(told).any(far), "{found:?} {told:?}");
+        assert!(
+            !found.iter().zip(reported).any(far),
+            "{found:?} {reported:?}"
+        );
     };
     assert_same(&of_grid("disk"), &hz("disk", "rotating_frame_hz"));
     assert_same(&of_grid("head"), &hz("head", "frequency_hz"));
@@ -115,17 +118,17 @@ fn every_body_has_a_grid_and_a_drawing_with_the_printed_frequencies() {
         "torsion_free_hz",
         "torsion_pinned_hz",
     ] {
-        let all = told["suspension"][family].as_array().unwrap().iter();
+        let all = reported["suspension"][family].as_array().unwrap().iter();
         suspension.extend(all.map(|hz| hz.as_f64().unwrap()));
     }
     assert_same(&of_grid("suspension"), &suspension);
 }
 
-/// 2 n changes of sign around the rim, as many circles as told along a radius, and ∫ ρ h φᵢ φⱼ dA = δᵢⱼ.
+/// 2 n changes of sign around the rim, as many circles as named along a radius, and ∫ ρ h φᵢ φⱼ dA = δᵢⱼ.
 #[test]
 fn modes_of_the_disk_have_their_nodes_and_are_orthonormal() {
     let folder = tempfile::tempdir().unwrap();
-    let (study, told) = shapes(folder.path(), "paper-cases", &[]);
+    let (study, reported) = shapes(folder.path(), "paper-cases", &[]);
     let disk = &study.points[0].scene.disk;
     let text = grid(folder.path(), "disk");
     let points = array(&text, "points");
@@ -139,7 +142,7 @@ fn modes_of_the_disk_have_their_nodes_and_are_orthonormal() {
     let per_area =
         disk.density_kg_per_m3 * disk.thickness_m * std::f64::consts::TAU / around as f64;
     let mut columns = Vec::new();
-    let rows = told["disk"].as_array().unwrap();
+    let rows = reported["disk"].as_array().unwrap();
     assert_eq!(modes(&text).len(), rows.len());
     assert!(rows.len() >= 10);
     for (name, row) in modes(&text).iter().zip(rows) {
@@ -279,7 +282,7 @@ fn modes_of_a_solid_ramp_are_orthonormal_in_its_mass() {
         "ramp.deformable.geometry.mesh_size_mm=2.5",
         "ramp.deformable.geometry.mount_thickness_mm=0.8",
     ];
-    let (study, told) = shapes(folder.path(), "fig13-geometry", &coarse);
+    let (study, reported) = shapes(folder.path(), "fig13-geometry", &coarse);
     let solid = study.ramp_solid().unwrap().expect("a solid");
     let system = solid.mesh.system(&solid.material, solid.mount).unwrap();
     let text = grid(folder.path(), "ramp");
@@ -308,7 +311,7 @@ fn modes_of_a_solid_ramp_are_orthonormal_in_its_mass() {
     };
     let worst = distance_from_unit(&columns, product);
     assert!(worst < 1e-8, "{worst:e}");
-    let rows = told["ramp"].as_array().unwrap();
+    let rows = reported["ramp"].as_array().unwrap();
     assert!(names.len() > 5 && names.len() < rows.len());
     for (name, row) in names.iter().zip(rows) {
         let vectors = array(&text, name);
@@ -321,10 +324,10 @@ fn modes_of_a_solid_ramp_are_orthonormal_in_its_mass() {
                 .map(|(node, w)| w / contact.area_m2 * vectors[3 * node + 2])
                 .sum();
             // Those of the study are rounded to nine digits.
-            let told = row[key].as_f64().unwrap();
+            let reported = row[key].as_f64().unwrap();
             assert!(
-                (mean - told).abs() < 1e-7 * told.abs().max(1.0),
-                "{name}: {mean} {told}"
+                (mean - reported).abs() < 1e-7 * reported.abs().max(1.0),
+                "{name}: {mean} {reported}"
             );
         }
     }
@@ -350,7 +353,7 @@ fn shapes_go_nowhere_else_than_into_a_folder() {
         std::fs::read_to_string(folder.path().join("taken")).unwrap(),
         "a file"
     );
-    // A folder below a file cannot be made: told with its name, and nothing is printed.
+    // A folder below a file cannot be made: reported with its name, and nothing is printed.
     let done = modes("taken/below");
     assert_ne!(done.code, 0);
     assert_eq!(done.stdout, "");

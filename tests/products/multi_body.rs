@@ -15,11 +15,11 @@ const SMALL: [&str; 10] = [
     "ramp.models=[\"rigid\"]",
     "pulse.window_ms=0.8",
     "search.tolerance_pct=5",
-    "search.certify=off",
-    "search.error_bars=false",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
-    "solver.accuracy=5%",
+    "search.monotonicity_scan=off",
+    "search.uncertainty=false",
+    "resolution.film_cells=200",
+    "resolution.disk_cut_khz=10",
+    "resolution.preset=coarse",
 ];
 
 /// 15 g on a bearing of 300 N m/rad; the axial stiffness is up to the test.
@@ -62,7 +62,7 @@ fn number(point: &Value, key: &str) -> f64 {
     point[key].as_f64().expect("a number")
 }
 
-/// The limit of a bearing that does not yield is the clamped disk: the same bracket on the lattice, and the
+/// The limit of a bearing that does not yield is the clamped disk: the same bracket on the amplitude grid, and the
 /// first touch to what 1e18 N/m leaves of it.
 #[test]
 fn a_sweep_over_bearings_ends_at_the_clamped_critical_shock() {
@@ -202,7 +202,7 @@ fn a_shock_names_its_head_and_the_resolved_study_keeps_them() {
     assert_eq!(chosen.json()["verdict"], "survives");
 }
 
-/// Rows of `explain`, and the hub's columns of a history: its largest travel and tilt are those told.
+/// Rows of `explain`, and the hub's columns of a history: its largest travel and tilt are those reported.
 #[test]
 fn hub_and_direction_are_explained_and_the_hub_is_in_the_history() {
     let folder = tempfile::tempdir().expect("folder");
@@ -218,7 +218,7 @@ fn hub_and_direction_are_explained_and_the_hub_is_in_the_history() {
         assert_eq!(row.expect(effect)["state"], "on");
     }
     let shock = ["run", "--json", "--amplitude-g", "300", "--history"];
-    let told = program(folder.path(), &[&shock[..], &["run.csv"]].concat(), &set).json();
+    let reported = program(folder.path(), &[&shock[..], &["run.csv"]].concat(), &set).json();
     let text = std::fs::read_to_string(folder.path().join("run.csv")).expect("a table");
     let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let names = rows.next().expect("names");
@@ -233,7 +233,7 @@ fn hub_and_direction_are_explained_and_the_hub_is_in_the_history() {
     assert!(travel > 1e-6 && tilt > 1e-6, "{travel:e} {tilt:e}");
     // But for the last digit, which reading JSON may lose.
     for (key, wanted) in [("axial_max_m", travel), ("tilt_max_rad", tilt)] {
-        let share = number(&told["hub"], key) / wanted;
+        let share = number(&reported["hub"], key) / wanted;
         assert!((share - 1.0).abs() < 1e-15, "{key}: {share}");
     }
 }

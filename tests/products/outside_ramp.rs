@@ -75,7 +75,7 @@ fn driven_hz(modes: &Value) -> Vec<f64> {
     list.map(|mode| number(mode, "frequency_hz")).collect()
 }
 
-/// The study of the deformable ramp with this section, at the 5 % rung.
+/// The study of the deformable ramp with this section, at the preset `coarse`.
 fn write_study(folder: &Path, name: &str, section: &str) -> String {
     let text = std::fs::read_to_string(study("fig13-geometry")).unwrap();
     let (before, rest) = text.split_once("[ramp.deformable.geometry]").unwrap();
@@ -84,13 +84,13 @@ fn write_study(folder: &Path, name: &str, section: &str) -> String {
     let text = format!("{before}{section}\n{after}")
         .replace("../fig13/surface.toml", surface.to_str().unwrap())
         .replace("[0.5, 1.0, 2.0, 3.0]", "[1.0]")
-        .replace("accuracy = \"1%\"", "accuracy = \"5%\"");
+        .replace("preset = \"standard\"", "preset = \"coarse\"");
     let file = format!("{name}.toml");
     std::fs::write(folder.join(&file), text).unwrap();
     file
 }
 
-/// A critical shock with its bar, g.
+/// A critical shock with its interval, g.
 struct Critical {
     sign: String,
     value: f64,
@@ -103,8 +103,8 @@ fn critical(folder: &Path, file: &str) -> Vec<Critical> {
     let words = ["sweep", file, "--store", &store, "-j", "2", "--json"];
     let done = Done::of(folder, &words);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let told = done.json();
-    let points = told["points"].as_array().unwrap().iter();
+    let reported = done.json();
+    let points = reported["points"].as_array().unwrap().iter();
     points
         .map(|point| {
             let number = |key: &str| point[key].as_f64().unwrap();
@@ -177,7 +177,7 @@ fn outside_slow_ramp_by_gmsh_and_calculix() {
         let found = critical(folder, &file);
         for c in &found {
             println!(
-                "{name:<10} 1 ms {}: critical shock {:.1} g, bar {:.1} to {:.1} g",
+                "{name:<10} 1 ms {}: critical shock {:.1} g, interval {:.1} to {:.1} g",
                 c.sign, c.value, c.low, c.high
             );
         }

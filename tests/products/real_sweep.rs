@@ -1,4 +1,4 @@
-//! The program sweeping the physics: threads, kills and torn journals leave no trace in the
+//! Sweeps by the program with the real physics: threads, kills and torn journals leave no trace in the
 //! answers.
 
 use std::fs::OpenOptions;
@@ -22,13 +22,13 @@ const SMALL: &[&str] = &[
     "ramp.models=[\"none\", \"rigid\"]",
     "pulse.window_ms=0.8",
     "search.tolerance_pct=5",
-    "solver.accuracy=\"5%\"",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
+    "resolution.preset=\"coarse\"",
+    "resolution.film_cells=200",
+    "resolution.disk_cut_khz=10",
 ];
 
 /// All of figure 13 at 5 %.
-const WHOLE: &[&str] = &["search.tolerance_pct=5", "solver.accuracy=\"5%\""];
+const WHOLE: &[&str] = &["search.tolerance_pct=5", "resolution.preset=\"coarse\""];
 
 /// Everything a user reads out of a finished store.
 #[derive(Debug, PartialEq)]

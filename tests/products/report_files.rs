@@ -1,12 +1,12 @@
 //! Tables, figure and HTML page made from a summary.
 
-use opshock_study::accuracy::{Accuracy, Measured, PointLadders, RungRow};
+use opshock_study::accuracy::{Accuracy, Measured, PointStudies, SettingRow};
 use opshock_study::report::html::html;
 use opshock_study::report::{ReportSource, RunDot, critical_shock_figure, report_files, table};
 use opshock_study::search::Sign;
 use opshock_study::store::aside::write_all;
 use opshock_study::store::summary::{
-    AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals,
+    AxisValue, Contribution, Flag, PointSummary, Status, Summary, Totals,
 };
 
 const PROGRAM: &str = "opshock 1 (abc)";
@@ -22,7 +22,7 @@ fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary 
         a_fail_g: (status != Status::AboveRange).then_some(369.5),
         err_low_g: known.then_some(1.5),
         err_high_g: known.then_some(3.25),
-        err_parts: vec![],
+        contributions: vec![],
         levels: String::new(),
         onset_g: (ramp != "none").then_some(195.5),
         runs: 12,
@@ -33,7 +33,7 @@ fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary 
             vec![Flag::Retry, Flag::NonMonotone]
         },
         brackets_g: vec![],
-        certified_from_g: None,
+        scanned_from_g: None,
         largest_gap_pct: None,
     }
 }
@@ -170,7 +170,7 @@ fn the_figure_is_nested_svg_and_a_png_three_times_its_size() {
     assert!(svg.starts_with("<svg viewBox=\"0 0 972 "), "{}", &svg[..80]);
     assert!(svg.contains("Critical shock (G)") && svg.contains("Pulse width (ms)"));
     assert!(!svg.contains("<script"), "names of studies are text");
-    // One mark for each row, with what a pointer resting on it tells.
+    // One mark for each row, with what a pointer resting on it shows.
     assert_eq!(svg.matches("<title>").count(), 8);
     let png = figure.png().expect("a picture");
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
@@ -206,10 +206,10 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
     assert!(page.contains("name = &quot;&lt;b&gt;&quot;"));
 }
 
-/// A joint ladder of two settings, the first on the front.
+/// A joint refinement study of two settings, the first on the front.
 fn accuracy() -> Accuracy {
-    let rung = |value: &str, error: f64, wall_s: f64, is_on_front: bool| RungRow {
-        ladder: "joint".into(),
+    let setting = |value: &str, error: f64, wall_s: f64, is_on_front: bool| SettingRow {
+        parameter: "joint".into(),
         value: value.into(),
         fineness: 1.0 / error,
         is_reference: false,
@@ -222,24 +222,27 @@ fn accuracy() -> Accuracy {
         study: "small".into(),
         digest: "4567".into(),
         program: "opshock 1 (abc)".into(),
-        points: vec![PointLadders {
+        points: vec![PointStudies {
             label: "rigid 0.5 ms +".into(),
             probe_g: 180.0,
-            rungs: vec![rung("5%", 0.04, 0.25, true), rung("1%", 0.05, 0.5, false)],
+            settings: vec![
+                setting("coarse", 0.04, 0.25, true),
+                setting("standard", 0.05, 0.5, false),
+            ],
             orders: Vec::new(),
         }],
     }
 }
 
 #[test]
-fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
+fn the_page_says_what_uncertainties_are_made_of_and_what_accuracy_costs() {
     let mut summary = summary();
-    let part = |high_g: f64, factor: f64| ErrorPart {
+    let part = |high_g: f64, factor: f64| Contribution {
         low_g: high_g,
         high_g,
         factor,
     };
-    summary.points[2].err_parts = vec![
+    summary.points[2].contributions = vec![
         ("search".to_owned(), part(3.6625, 1.0)),
         ("disk_modes".to_owned(), part(7.325, 3.0)),
     ];
@@ -252,12 +255,12 @@ fn the_page_tells_what_bars_are_made_of_and_what_accuracy_costs() {
     let page = html(&source);
     assert_nested(&page, &["meta", "br"]);
     assert_eq!(page.matches(">Accuracy</h2>").count(), 1);
-    // 1 % and 2 % of 366.25 G, the second with the wide factor.
+    // 1 % and 2 % of 366.25 G, the second with safety factor 3.
     assert!(page.contains("<td class=\"n\">1.00</td>"));
     assert!(page.contains("<td class=\"n\">2.00 x3</td>"));
     assert!(page.contains("aria-label=\"Error against time, rigid 0.5 ms +\""));
-    assert!(page.contains("<td><strong>5%</strong></td>"));
-    assert!(page.contains("<td>1%</td>"));
+    assert!(page.contains("<td><strong>coarse</strong></td>"));
+    assert!(page.contains("<td>standard</td>"));
     assert!(page.contains("<td class=\"n\">0.250</td>"));
     assert!(page.contains(
         "<td class=\"wrap\">disk</td><td class=\"wrap\">hub</td><td class=\"wrap\">R4</td>"

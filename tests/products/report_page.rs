@@ -36,14 +36,14 @@ fn summary() -> Summary {
                     a_fail_g: Some(1.01 * crit),
                     err_low_g: Some(0.05 * crit),
                     err_high_g: Some(0.06 * crit),
-                    err_parts: vec![],
+                    contributions: vec![],
                     levels: String::new(),
                     onset_g: (ramp != "none").then_some(0.8 * crit),
                     runs: 3,
                     status: Status::Ok,
                     flags: if ms < 1.0 { vec![Flag::Window] } else { vec![] },
                     brackets_g: vec![[crit, 1.01 * crit]],
-                    certified_from_g: None,
+                    scanned_from_g: None,
                     largest_gap_pct: None,
                 });
             }
@@ -105,64 +105,64 @@ fn film() -> ShockFilm {
 /// Runs after the page's own script: acts as a person would and writes down what came of it.
 const PROBE: &str = r##"<script>
 addEventListener("load", () => {
-  const told = { ready: document.documentElement.dataset.ready ?? "no" };
+  const reported = { ready: document.documentElement.dataset.ready ?? "no" };
   const all = (selector, of = document) => [...of.querySelectorAll(selector)];
   const plot = name => document.querySelector(`.plot[data-plot="${name}"] svg`);
   const marks = name => all(".mark", plot(name));
-  told.marks = Object.fromEntries(["critical", "map", "margin"].map(name => [name, marks(name).length]));
-  told.static_hidden = all("figure.static").every(f => getComputedStyle(f).display === "none");
+  reported.marks = Object.fromEntries(["critical", "map", "margin"].map(name => [name, marks(name).length]));
+  reported.static_hidden = all("figure.static").every(f => getComputedStyle(f).display === "none");
   // Texts of a plot must not lie on one another.
   const cross = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
-  told.text_overlaps = all(".plot svg").map(svg => {
+  reported.text_overlaps = all(".plot svg").map(svg => {
     const boxes = all("text", svg).map(t => t.getBoundingClientRect());
     return boxes.reduce((n, a, i) => n + boxes.slice(i + 1).filter(b => cross(a, b)).length, 0);
   });
   const sections = all("main > section").map(s => s.getBoundingClientRect());
-  told.section_overlaps = sections.slice(1).filter((s, i) => s.top < sections[i].bottom - 1).length;
-  told.empty_sections = all("main > section").filter(s => s.getBoundingClientRect().height < 40).map(s => s.id);
-  told.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
-  told.unnamed = all("svg:not([aria-label]), button:empty, input:not([aria-label])")
+  reported.section_overlaps = sections.slice(1).filter((s, i) => s.top < sections[i].bottom - 1).length;
+  reported.empty_sections = all("main > section").filter(s => s.getBoundingClientRect().height < 40).map(s => s.id);
+  reported.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  reported.unnamed = all("svg:not([aria-label]), button:empty, input:not([aria-label])")
     .filter(e => !e.closest("label") && !e.closest("svg svg")).map(e => e.outerHTML.slice(0, 60).replace(/[<>&]/g, " "));
   // Linked zoom.
   const ticks = name => all("text", plot(name)).map(t => t.textContent).join(" ");
   const before = ticks("critical");
   all(".tools button", plot("map").parentElement)[0].click();
-  told.linked = ticks("critical") !== before;
-  told.fewer = marks("map").length < told.marks.map;
+  reported.linked = ticks("critical") !== before;
+  reported.fewer = marks("map").length < reported.marks.map;
   all(".tools button", plot("map").parentElement)[2].click();
-  told.back = ticks("critical") === before && marks("map").length === told.marks.map;
+  reported.back = ticks("critical") === before && marks("map").length === reported.marks.map;
   // One ramp model hidden.
   const boxes = all("#controls input");
   boxes[0].click();
-  told.without_first = marks("critical").length;
+  reported.without_first = marks("critical").length;
   boxes[0].click();
   // Sorting by critical shock.
   const heads = all("#table th button"), first = () => document.querySelector("#table tbody tr").cells[3].dataset.v;
-  heads[3].click(); told.lowest = Number(first());
-  heads[3].click(); told.highest = Number(first());
-  told.sorted = heads[3].closest("th").getAttribute("aria-sort");
+  heads[3].click(); reported.lowest = Number(first());
+  heads[3].click(); reported.highest = Number(first());
+  reported.sorted = heads[3].closest("th").getAttribute("aria-sort");
   // Comparing the first point with the last.
   const selects = all("#compare-tool select");
   selects[1].value = String(selects[1].options.length - 1);
   selects[1].dispatchEvent(new Event("change"));
-  told.compared = document.querySelector("#compare-tool td:last-child").textContent;
-  told.csv = document.getElementById("csv").textContent.split("\n").length;
+  reported.compared = document.querySelector("#compare-tool td:last-child").textContent;
+  reported.csv = document.getElementById("csv").textContent.split("\n").length;
   // The animation.
   const clock = document.querySelector("#film-stage input");
   const frame = () => document.querySelector("#film-stage path").getAttribute("d");
   const still = frame();
   clock.value = "7"; clock.dispatchEvent(new Event("input"));
-  told.moves = frame() !== still;
+  reported.moves = frame() !== still;
   // A click opens a point's page.
   const mark = marks("critical")[5];
-  told.clicked = mark.dataset.point;
+  reported.clicked = mark.dataset.point;
   mark.dispatchEvent(new MouseEvent("click", { bubbles: true }));
   setTimeout(() => {
-    told.open = all(".page").filter(p => getComputedStyle(p).display !== "none").map(p => p.id);
-    told.focused = document.activeElement.id;
+    reported.open = all(".page").filter(p => getComputedStyle(p).display !== "none").map(p => p.id);
+    reported.focused = document.activeElement.id;
     const pre = document.createElement("pre");
     pre.id = "probe";
-    pre.textContent = JSON.stringify(told);
+    pre.textContent = JSON.stringify(reported);
     document.body.append(pre);
   }, 50);
 });
@@ -235,8 +235,8 @@ impl Page {
 
     /// What the page wrote to the console, and what it asked of the network.
     fn assert_quiet(&self, output: &Output) {
-        let told = String::from_utf8_lossy(&output.stderr);
-        let console: Vec<&str> = told
+        let reported = String::from_utf8_lossy(&output.stderr);
+        let console: Vec<&str> = reported
             .lines()
             .filter(|line| line.contains("CONSOLE"))
             .collect();
@@ -297,35 +297,35 @@ fn decoded(path: &Path) -> (usize, Vec<bool>) {
 #[ignore = "needs Chromium: make verify-report"]
 fn the_report_works_in_a_browser_and_asks_nothing_of_the_network() {
     let page = Page::new(chromium());
-    let told = page.probe(&["--window-size=1200,900"]);
-    assert_eq!(told["ready"], "yes");
-    assert_eq!(told["marks"]["critical"], 24, "{told}");
-    assert_eq!(told["marks"]["map"], 72);
-    assert_eq!(told["marks"]["margin"], 72);
-    assert_eq!(told["static_hidden"], true);
+    let reported = page.probe(&["--window-size=1200,900"]);
+    assert_eq!(reported["ready"], "yes");
+    assert_eq!(reported["marks"]["critical"], 24, "{reported}");
+    assert_eq!(reported["marks"]["map"], 72);
+    assert_eq!(reported["marks"]["margin"], 72);
+    assert_eq!(reported["static_hidden"], true);
     assert_eq!(
-        told["text_overlaps"],
+        reported["text_overlaps"],
         serde_json::json!([0, 0, 0]),
-        "{told}"
+        "{reported}"
     );
-    assert_eq!(told["section_overlaps"], 0);
-    assert_eq!(told["empty_sections"], serde_json::json!([]));
-    assert_eq!(told["overflow"], 0);
-    assert_eq!(told["unnamed"], serde_json::json!([]));
+    assert_eq!(reported["section_overlaps"], 0);
+    assert_eq!(reported["empty_sections"], serde_json::json!([]));
+    assert_eq!(reported["overflow"], 0);
+    assert_eq!(reported["unnamed"], serde_json::json!([]));
     for act in ["linked", "fewer", "back", "moves"] {
-        assert_eq!(told[act], true, "{act}: {told}");
+        assert_eq!(reported[act], true, "{act}: {reported}");
     }
-    assert_eq!(told["without_first"], 16);
+    assert_eq!(reported["without_first"], 16);
     // 150 + 60 * 0.5 - 12 and 150 + 180 + 180 + 12.
-    assert_eq!(told["lowest"], 168.0);
-    assert_eq!(told["highest"], 522.0);
-    assert_eq!(told["sorted"], "descending");
+    assert_eq!(reported["lowest"], 168.0);
+    assert_eq!(reported["highest"], 522.0);
+    assert_eq!(reported["sorted"], "descending");
     // 498 over 192.
-    assert_eq!(told["compared"], "159.4 %");
-    assert_eq!(told["csv"], 1 + 24 + 1);
-    let open = format!("point-{}", told["clicked"].as_str().unwrap());
-    assert_eq!(told["open"], serde_json::json!([open]));
-    assert_eq!(told["focused"], open.as_str());
+    assert_eq!(reported["compared"], "159.4 %");
+    assert_eq!(reported["csv"], 1 + 24 + 1);
+    let open = format!("point-{}", reported["clicked"].as_str().unwrap());
+    assert_eq!(reported["open"], serde_json::json!([open]));
+    assert_eq!(reported["focused"], open.as_str());
 }
 
 #[test]
@@ -347,14 +347,14 @@ fn the_report_is_not_blank_with_and_without_its_script() {
         narrow.iter().all(|share| (0.005..0.6).contains(share)),
         "{narrow:?}"
     );
-    let told = page.probe(&["--window-size=500,900"]);
+    let reported = page.probe(&["--window-size=500,900"]);
     assert_eq!(
-        told["overflow"], 0,
-        "a phone needs no scrolling sideways: {told}"
+        reported["overflow"], 0,
+        "a phone needs no scrolling sideways: {reported}"
     );
     assert_eq!(
-        told["text_overlaps"],
+        reported["text_overlaps"],
         serde_json::json!([0, 0, 0]),
-        "{told}"
+        "{reported}"
     );
 }

@@ -1,7 +1,7 @@
 //! JSON, text and pictures of one simulation.
 
 use opshock_solver::simulation::{
-    ArmContact, Cause, Complementarity, Cost, DimpleRecord, DiskExtremes, EnergyBook, Episode,
+    ArmContact, Cause, Complementarity, Cost, DimpleRecord, DiskExtremes, EnergyBalance, Episode,
     HeadColumns, History, Outcome, Place, SteadyState, StructureColumns, Verdict, Warning,
 };
 use opshock_study::report::{RunCaption, RunJson, run_figures, run_text, write_figures};
@@ -13,13 +13,13 @@ fn failing() -> Outcome {
     Outcome {
         hub: None,
         base: None,
-        verdict: Verdict::Fails {
+        verdict: Some(Verdict::Fails {
             t_fail_s: 1.25e-3,
             place: Place {
                 x_m: 8.3e-4,
                 y_m: 2.5e-4,
             },
-        },
+        }),
         min_clearance_m: Some(0.0),
         t_min_clearance_s: Some(1.25e-3),
         lowest: None,
@@ -52,7 +52,7 @@ fn failing() -> Outcome {
         }),
         limiters: None,
         lift_tab: None,
-        energy: EnergyBook::default(),
+        energy: EnergyBalance::default(),
         complementarity: Complementarity::default(),
         rules: vec!["R2", "R10"],
         effects: vec!["disk", "ramp.rigid", "head"],
@@ -161,12 +161,12 @@ fn times_are_on_the_studys_axis() {
 #[test]
 fn what_does_not_exist_is_null_and_never_a_verdict() {
     let mut outcome = failing();
-    outcome.verdict = Verdict::Undecided {
+    outcome.verdict = Some(Verdict::Undecided {
         cause: Cause::StepLimit {
             time_s: 1e-3,
             max_steps: 500,
         },
-    };
+    });
     outcome.min_clearance_m = None;
     outcome.t_min_clearance_s = None;
     outcome.steady = None;

@@ -9,7 +9,9 @@
 
 use std::f64::consts::PI;
 
-use opshock_study::search::{Certify, PointSearch, Probe, SearchSettings, Start, Status, Verdict};
+use opshock_study::search::{
+    MonotonicityScan, PointSearch, Probe, SearchSettings, Start, Status, Verdict,
+};
 
 const FREQUENCY_HZ: f64 = 1000.0;
 const TRAVEL_M: f64 = 100e-6;
@@ -64,18 +66,24 @@ fn search(
     width_ms: f64,
     noise: impl Fn(f64) -> f64,
 ) -> (PointSearch, SearchSettings) {
-    let settings = SearchSettings::new((20.0, 2000.0), tolerance, Certify::Staggered, 0.1, true)
-        .expect("settings");
+    let settings = SearchSettings::new(
+        (20.0, 2000.0),
+        tolerance,
+        MonotonicityScan::Sampled,
+        0.1,
+        true,
+    )
+    .expect("settings");
     let start = Start {
         hint_g: None,
-        onset_node: None,
+        onset_amplitude: None,
         width_rank: 0,
     };
     let peak = peak_s2(width_ms * 1e-3);
     let mut search = PointSearch::new(settings, start);
     while let Some(asked) = search.ask() {
         let Probe { index, .. } = asked.probe;
-        let amplitude = settings.lattice.amplitude_g(index) * G;
+        let amplitude = settings.grid.amplitude_g(index) * G;
         let travel = amplitude * peak * noise(amplitude);
         search.tell(&if travel >= TRAVEL_M {
             Verdict::Fails {
@@ -91,17 +99,17 @@ fn search(
 }
 
 #[test]
-fn the_known_critical_shock_lies_in_the_bar_and_the_bar_is_as_asked() {
+fn the_known_critical_shock_lies_in_the_uncertainty_and_the_uncertainty_is_as_asked() {
     for tolerance in [0.05, 0.01, 0.001] {
         for (width_ms, critical_g) in KNOWN {
             let (search, settings) = search(tolerance, width_ms, |_| 1.0);
             let findings = search.findings();
             assert_eq!(findings.status, Status::Ok);
             let low = settings
-                .lattice
+                .grid
                 .amplitude_g(findings.survivor.expect("survivor"));
             let high = settings
-                .lattice
+                .grid
                 .amplitude_g(findings.failure.expect("failure"));
             assert!(
                 low < critical_g && critical_g <= high,
@@ -113,7 +121,7 @@ fn the_known_critical_shock_lies_in_the_bar_and_the_bar_is_as_asked() {
 }
 
 #[test]
-fn noise_below_the_tolerance_moves_the_bar_by_no_more_than_itself() {
+fn noise_below_the_tolerance_moves_the_uncertainty_by_no_more_than_itself() {
     // A seeded flutter of 0.3 % on the travel, different at every amplitude.
     let noise = |amplitude: f64| {
         let mixed = amplitude.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
@@ -124,13 +132,13 @@ fn noise_below_the_tolerance_moves_the_bar_by_no_more_than_itself() {
         let findings = search.findings();
         assert_eq!(findings.status, Status::Ok);
         let low = settings
-            .lattice
+            .grid
             .amplitude_g(findings.survivor.expect("survivor"));
         let high = settings
-            .lattice
+            .grid
             .amplitude_g(findings.failure.expect("failure"));
         assert!(low * 0.997 < critical_g && critical_g <= high * 1.0031);
-        // Never narrower than a step of the lattice.
-        assert!(high / low - 1.0 > 0.9 * settings.lattice.step());
+        // Never narrower than a step of the amplitude grid.
+        assert!(high / low - 1.0 > 0.9 * settings.grid.step());
     }
 }

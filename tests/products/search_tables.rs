@@ -1,11 +1,13 @@
-//! Random tables of failure with windows: what plain bisection misses, what the search misses, and
+//! Random tables with non-monotone intervals of failure: what plain bisection misses, what the search misses, and
 //! that nothing but the table decides the answer.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use opshock_study::search::{Campaign, SearchSettings};
-use opshock_study::search::{Certify, Coordinates, Flag, RampClass, Sign, Status, Touch, Verdict};
+use opshock_study::search::{
+    Coordinates, Flag, MonotonicityScan, RampClass, Sign, Status, Touch, Verdict,
+};
 use opshock_study::sweep::{
     Ending, MergeEnd, Silent, StopFlag, SweepInput, SweepOptions, SweepPoint, merge, shard, sweep,
 };
@@ -33,8 +35,8 @@ impl Misses {
             && found != truth
         {
             self.missed += 1;
-            let lattice = settings(Certify::Full).lattice;
-            let ratio = lattice.amplitude_g(found) / lattice.amplitude_g(truth);
+            let grid = settings(MonotonicityScan::Full).grid;
+            let ratio = grid.amplitude_g(found) / grid.amplitude_g(truth);
             self.worst = self.worst.max(ratio - 1.0);
         }
     }
@@ -60,34 +62,34 @@ impl Misses {
     }
 }
 
-/// Nodes of a window from first touch up.
+/// Grid points of a failing interval from first touch up.
 fn nodes_of(point: &TablePoint, settings: &SearchSettings, window: (f64, f64)) -> Vec<i32> {
-    let SearchSettings { lattice, range, .. } = settings;
-    let onset = point.onset_g.map_or(range.low, |g| lattice.at_or_above(g));
+    let SearchSettings { grid, range, .. } = settings;
+    let onset = point.onset_g.map_or(range.low, |g| grid.at_or_above(g));
     (onset.max(range.low)..=range.high)
-        .filter(|&node| (window.0..window.1).contains(&lattice.amplitude_g(node)))
+        .filter(|&node| (window.0..window.1).contains(&grid.amplitude_g(node)))
         .collect()
 }
 
 #[test]
 fn ten_thousand_tables_with_windows_of_failure() {
     let mut plain = Misses::default();
-    let [mut off, mut staggered, mut full] = [(); 3].map(|()| Misses::default());
+    let [mut off, mut sampled, mut full] = [(); 3].map(|()| Misses::default());
     for seed in 0..TABLES {
         let table = Table::random(seed);
-        for (certify, misses) in [
-            (Certify::Off, &mut off),
-            (Certify::Staggered, &mut staggered),
-            (Certify::Full, &mut full),
+        for (monotonicity_scan, misses) in [
+            (MonotonicityScan::Off, &mut off),
+            (MonotonicityScan::Sampled, &mut sampled),
+            (MonotonicityScan::Full, &mut full),
         ] {
             // A full scan is long: a tenth here, all of them with `make verify-search`.
-            if certify == Certify::Full && seed % 10 != 0 {
+            if monotonicity_scan == MonotonicityScan::Full && seed % 10 != 0 {
                 continue;
             }
-            let settings = settings(certify);
-            let found = table.search(certify, &mut Seeded::new(seed));
+            let settings = settings(monotonicity_scan);
+            let found = table.search(monotonicity_scan, &mut Seeded::new(seed));
             if seed % 20 == 0 {
-                let other = table.search(certify, &mut Seeded::new(seed ^ 0xbeef));
+                let other = table.search(monotonicity_scan, &mut Seeded::new(seed ^ 0xbeef));
                 assert_eq!(found, other, "seed {seed}: the order of answers shows");
             }
             for (point, searched) in table.0.iter().zip(&found) {
@@ -99,7 +101,7 @@ fn ten_thousand_tables_with_windows_of_failure() {
                 assert_eq!(findings.status, Status::Ok, "seed {seed}");
 
                 // Evidence: flagged exactly when a survivor lies above a failure.
-                let fails = |node: i32| point.fails(settings.lattice.amplitude_g(node));
+                let fails = |node: i32| point.fails(settings.grid.amplitude_g(node));
                 let lowest = searched.tested.iter().copied().find(|&node| fails(node));
                 let above = lowest.is_some_and(|lowest| {
                     searched
@@ -113,9 +115,9 @@ fn ten_thousand_tables_with_windows_of_failure() {
                 if point.at.ramp_class == RampClass::None {
                     continue;
                 }
-                match certify {
-                    Certify::Full => assert_eq!(findings.failure, truth, "seed {seed}"),
-                    Certify::Staggered => {
+                match monotonicity_scan {
+                    MonotonicityScan::Full => assert_eq!(findings.failure, truth, "seed {seed}"),
+                    MonotonicityScan::Sampled => {
                         for &window in &point.windows_g {
                             let nodes = nodes_of(point, &settings, window);
                             let is_wide = nodes.len() >= settings.scan_gap as usize;
@@ -123,12 +125,12 @@ fn ten_thousand_tables_with_windows_of_failure() {
                             // The scan ends one gap above first touch.
                             assert!(
                                 !is_wide || reported <= nodes[0],
-                                "seed {seed}: a window of {} nodes missed",
+                                "seed {seed}: an interval of {} grid points missed",
                                 nodes.len()
                             );
                         }
                     }
-                    Certify::Off => {
+                    MonotonicityScan::Off => {
                         let fails = |amplitude_g| point.fails(amplitude_g);
                         let (found, runs) = plain_bisection(&settings, fails);
                         plain.count(Some(found), truth, runs);
@@ -138,20 +140,20 @@ fn ten_thousand_tables_with_windows_of_failure() {
         }
     }
     plain.tell("plain bisection");
-    off.tell("certify = \"off\"");
-    staggered.tell("certify = \"staggered\"");
-    full.tell("certify = \"full\"");
+    off.tell("monotonicity_scan = \"off\"");
+    sampled.tell("monotonicity_scan = \"sampled\"");
+    full.tell("monotonicity_scan = \"full\"");
     assert_eq!(full.missed, 0);
     // Windows up to 25 % wide in two thirds of the tables: bisection misses many of them.
     assert!(plain.missed * 10 > plain.points, "{} missed", plain.missed);
     assert!(
-        staggered.missed * 4 < plain.missed,
+        sampled.missed * 4 < plain.missed,
         "{} missed",
-        staggered.missed
+        sampled.missed
     );
 }
 
-/// `certify = "full"` on every table, in parts that threads take in turn.
+/// `monotonicity_scan = "full"` on every table, in parts that threads take in turn.
 #[test]
 #[ignore = "minutes: make verify-search"]
 fn search_slow_full_on_ten_thousand_tables() {
@@ -166,9 +168,9 @@ fn search_slow_full_on_ten_thousand_tables() {
             }
             let _on_panic = OnPanic(seed);
             let table = Table::random(seed);
-            let found = table.search(Certify::Full, &mut Seeded::new(seed));
+            let found = table.search(MonotonicityScan::Full, &mut Seeded::new(seed));
             for (point, searched) in table.0.iter().zip(&found) {
-                let truth = point.lowest_failure(&settings(Certify::Full));
+                let truth = point.lowest_failure(&settings(MonotonicityScan::Full));
                 assert_eq!(searched.findings.failure, truth, "seed {seed}");
                 if point.at.ramp_class != RampClass::None {
                     misses.count(searched.findings.failure, truth, searched.findings.runs);
@@ -184,7 +186,7 @@ fn search_slow_full_on_ten_thousand_tables() {
             all.with(&part.expect("ends"))
         })
     });
-    all.tell(&format!("certify = \"full\", seeds {seeds:?}"));
+    all.tell(&format!("monotonicity_scan = \"full\", seeds {seeds:?}"));
 }
 
 fn input(table: &Table) -> SweepInput {
@@ -196,7 +198,7 @@ fn input(table: &Table) -> SweepInput {
             coordinates: point.at.clone(),
             axes: Vec::new(),
             digest: mock_sweep::digest(&format!("{} {}", point.at.ramp, point.at.pulse_ms)),
-            bar: None,
+            uncertainty: None,
         })
         .collect();
     input
@@ -278,7 +280,7 @@ fn runs_per_point_on_figure_13() {
         .map(|line| {
             let cells: Vec<&str> = line.split(',').collect();
             let number = |cell: usize| cells[cell].parse::<f64>().ok();
-            let sign = Sign::parse(cells[2]).expect("a sign");
+            let sign = Sign::from_word(cells[2]).expect("a sign");
             TablePoint {
                 at: Coordinates {
                     ramp_class: match cells[0] {
@@ -301,15 +303,15 @@ fn runs_per_point_on_figure_13() {
         .collect();
     assert_eq!(points.len(), 36);
     let mut most = Vec::new();
-    for (certify, window_check) in [
-        (Certify::Staggered, true),
-        (Certify::Staggered, false),
-        (Certify::Off, true),
-        (Certify::Off, false),
+    for (monotonicity_scan, window_check) in [
+        (MonotonicityScan::Sampled, true),
+        (MonotonicityScan::Sampled, false),
+        (MonotonicityScan::Off, true),
+        (MonotonicityScan::Off, false),
     ] {
         let settings = SearchSettings {
             window_check,
-            ..settings(certify)
+            ..settings(monotonicity_scan)
         };
         let coordinates: Vec<Coordinates> = points.iter().map(|point| point.at.clone()).collect();
         let mut campaign = Campaign::new(settings, &coordinates);
@@ -323,12 +325,12 @@ fn runs_per_point_on_figure_13() {
             let asks = |&place: &usize| campaign.ask(place).is_some();
             let place = (0..points.len()).find(asks).expect("somebody asks");
             let probe = campaign.ask(place).expect("asks").probe;
-            let amplitude_g = settings.lattice.amplitude_g(probe.index);
+            let amplitude_g = settings.grid.amplitude_g(probe.index);
             if points[place].fails(amplitude_g) {
                 campaign.tell(place, &failure());
             } else {
                 let margin = Some(points[place].margin_m(amplitude_g));
-                campaign.tell_margin(place, &Verdict::Survives, margin);
+                campaign.report_margin(place, &Verdict::Survives, margin);
             }
         }
         let mut runs = 0;
@@ -343,11 +345,11 @@ fn runs_per_point_on_figure_13() {
         }
         let a_point = runs as f64 / points.len() as f64;
         println!(
-            "{certify:?}, window check {window_check}: {a_point:.2} runs a point {purposes:?}"
+            "{monotonicity_scan:?}, window check {window_check}: {a_point:.2} runs a point {purposes:?}"
         );
         most.push(a_point);
     }
-    let settings = settings(Certify::Off);
+    let settings = settings(MonotonicityScan::Off);
     let (_, plain) = plain_bisection(&settings, |amplitude_g| amplitude_g > 300.0);
     println!("plain bisection: {plain} runs a point");
     assert!(plain >= 11);

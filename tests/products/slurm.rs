@@ -14,9 +14,9 @@ const SMALL: [&str; 8] = [
     "ramp.models=[\"none\", \"rigid\"]",
     "pulse.window_ms=1.0",
     "search.tolerance_pct=1",
-    "search.error_bars=false",
-    "solver.film_cells=300",
-    "solver.disk_cut_khz=10",
+    "search.uncertainty=false",
+    "resolution.film_cells=300",
+    "resolution.disk_cut_khz=10",
     "output.keep_histories=\"none\"",
 ];
 
@@ -157,7 +157,7 @@ fn a_job_array_with_a_killed_task_gives_the_table_of_one_machine() {
     let job = slurm.ask(&parts, &["sbatch", "--parsable", "job.sh"]);
     let job = job.trim();
 
-    // One task is killed in the middle of its work, told as failed, and requeued.
+    // One task is killed in the middle of its work, reported as failed, and requeued.
     let store = parts.join("s.opshock");
     let victim = store.join("shards/2-of-4");
     // Stopped at every look, so that it cannot end before it is killed, however slow the looks are.

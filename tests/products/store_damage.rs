@@ -1,4 +1,4 @@
-//! Torn, flipped, missing, foreign and newer files.
+//! Stores with torn, flipped, missing, foreign and newer files.
 
 use std::path::Path;
 
@@ -89,7 +89,7 @@ fn a_journal_cut_anywhere_loses_only_what_was_cut() {
 }
 
 #[test]
-fn a_flipped_bit_is_detected_told_and_costs_one_record() {
+fn a_flipped_bit_is_detected_reported_and_costs_one_record() {
     let (_folder, input, reference, journal, content) = swept();
     for place in places(60, journal.len()) {
         let mut bytes = journal.clone();
@@ -245,7 +245,7 @@ fn a_newer_store_and_another_study_are_refused_by_name() {
 }
 
 #[test]
-fn a_second_writer_is_told_who_holds_the_store() {
+fn a_second_writer_is_reported_who_holds_the_store() {
     let folder = tempfile::tempdir().expect("folder");
     let input = input();
     let (_store, _) = Store::open(folder.path(), &input.texts, &session(1)).expect("opens");
@@ -259,7 +259,7 @@ fn a_second_writer_is_told_who_holds_the_store() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_told_before_computing() {
+fn a_folder_that_cannot_be_written_is_reported_before_computing() {
     let file = tempfile::NamedTempFile::new().expect("file");
     let input = input();
     let simulator = MockSimulator::new(&input);

@@ -131,7 +131,7 @@ fn one_store_never_takes_two_studies() {
     let truth = swept(root, "a.toml", &["--store", "s.opshock"]);
     let bytes = || std::fs::read(root.join("s.opshock/results.h5")).unwrap();
     let before = bytes();
-    // Another file is refused from any directory, for writing and for reading, and told what differs.
+    // Another file is refused from any directory, for writing and for reading, with what differs.
     let elsewhere = root.join("two");
     for (at, file, store) in [
         (root, "c.toml", "s.opshock"),
@@ -173,7 +173,7 @@ fn an_edited_study_goes_on_in_its_store_and_shows_nothing_of_before() {
     write(&new.join("a.toml"), &drive(0.9));
     let said = refused(&Done::of(&new, &["status", "a.toml"]));
     assert!(said.contains("disk.thickness_mm 0.635 -> 0.9"), "{said}");
-    // What the command line sets counts as an edit.
+    // What the command line sets is an edit.
     let as_before = [
         "report",
         "a.toml",

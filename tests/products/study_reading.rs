@@ -2,7 +2,7 @@
 
 use opshock_study::study::{Ramp, SetArg, Sign, Study, StudyErrors};
 
-pub(super) const SHORT: &str = "study_format = 1\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n";
+pub(super) const SHORT: &str = "study_format = 2\nname = \"short\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\n";
 
 pub(super) fn read(text: &str, sets: &[&str]) -> Result<Study, StudyErrors> {
     let sets: Vec<SetArg> = sets.iter().map(|set| SetArg::parse(set).unwrap()).collect();
@@ -34,7 +34,11 @@ fn a_short_study_takes_the_default_drive() {
 
 #[test]
 fn the_resolved_study_reads_back_to_the_same_study() {
-    let study = read(SHORT, &["ramp.clearance_um=[60, 80]", "solver.accuracy=5%"]).unwrap();
+    let study = read(
+        SHORT,
+        &["ramp.clearance_um=[60, 80]", "resolution.preset=coarse"],
+    )
+    .unwrap();
     let again = read(&study.resolved_toml(), &[])
         .unwrap_or_else(|e| panic!("{e}\n{}", study.resolved_toml()));
     assert_eq!(study.resolved_toml(), again.resolved_toml());
@@ -47,14 +51,14 @@ fn the_resolved_study_reads_back_to_the_same_study() {
 
 #[test]
 fn errors_are_listed_together() {
-    let text = "study_format = 1\n[pulse]\nwidth_ms = 2\n[disk]\nthickness_mm = -1\nrpm = \"5400\"\n[ramp]\nmodels=[\"rigid\"]\n";
+    let text = "study_format = 2\n[pulse]\nwidth_ms = 2\n[disk]\nthickness_mm = -1\nrpm = \"5400\"\n[ramp]\nmodels=[\"rigid\"]\n";
     assert_eq!(codes(read(text, &[])), ["E112", "E110", "E130", "E113"]);
 }
 
 #[test]
 fn the_digest_does_not_see_order_spelling_and_comments() {
-    let one = "study_format = 1\nname = \"d\"\n[pulse]\nwidths_ms = [0.5, 2.0]\n[disk]\nrpm = 5400.0\nthickness_mm = 0.635\n[ramp]\nmodels = [\"none\", \"rigid\"]\nclearance_um = 100.0\n";
-    let other = "# a comment\nname = 'd'\nramp = { clearance_um = 1e2, models = [\"none\", \"rigid\"] }\n\ndisk.thickness_mm = 0.63500\nstudy_format = 0x1\npulse.widths_ms = [\n  0.5, # short\n  2,\n]\ndisk.rpm = 5_400\n";
+    let one = "study_format = 2\nname = \"d\"\n[pulse]\nwidths_ms = [0.5, 2.0]\n[disk]\nrpm = 5400.0\nthickness_mm = 0.635\n[ramp]\nmodels = [\"none\", \"rigid\"]\nclearance_um = 100.0\n";
+    let other = "# a comment\nname = 'd'\nramp = { clearance_um = 1e2, models = [\"none\", \"rigid\"] }\n\ndisk.thickness_mm = 0.63500\nstudy_format = 0x2\npulse.widths_ms = [\n  0.5, # short\n  2,\n]\ndisk.rpm = 5_400\n";
     let (one, other) = (read(one, &[]).unwrap(), read(other, &[]).unwrap());
     assert_eq!(one.digest, other.digest);
     assert_eq!(one.resolved_toml(), other.resolved_toml());
@@ -87,7 +91,7 @@ fn an_identity_depends_on_the_scene_and_on_nothing_else() {
         "outputs=[\"min_clearance\"]",
         "search.tolerance_pct=2",
         "output.checkpoint_s=60",
-        "solver.not_refined=[\"disk_modes\"]",
+        "resolution.not_refined=[\"disk_modes\"]",
         "pulse.start_ms=1",
         "ramp.clearance_top_um=100",
         "gas.altitude_m=0",
@@ -109,18 +113,22 @@ fn an_identity_depends_on_the_scene_and_on_nothing_else() {
 
 #[test]
 fn a_value_of_the_model_is_not_refined() {
-    use opshock_solver::scene::knob::{Knob, Levels};
+    use opshock_solver::scene::discretisation::{Discretisation, Levels};
     let sets = [
-        "solver.not_refined=[\"disk_modes\"]",
-        "solver.disk_cut_khz=40",
+        "resolution.not_refined=[\"disk_modes\"]",
+        "resolution.disk_cut_khz=40",
     ];
     let study = read(SHORT, &sets).unwrap();
     let scene = &study.points[0].scene;
-    assert!(!scene.knobs().contains(&Knob::DiskModes));
-    assert!(scene.knobs().contains(&Knob::StructureStep));
+    assert!(!scene.discretisations().contains(&Discretisation::DiskModes));
+    assert!(
+        scene
+            .discretisations()
+            .contains(&Discretisation::StructureStep)
+    );
     let finer = Levels::NONE
-        .turned(Knob::DiskModes, 1)
-        .turned(Knob::StructureStep, 1);
+        .changed(Discretisation::DiskModes, 1)
+        .changed(Discretisation::StructureStep, 1);
     let finer = scene.at_levels(finer);
     assert_eq!(finer.disk_resolution, scene.disk_resolution);
     let step_s = scene.structure_resolution.step_s;
@@ -128,13 +136,13 @@ fn a_value_of_the_model_is_not_refined() {
     let values = "values of the model, not refined: disk modes to 40 kHz";
     assert_eq!(study.not_refined().as_deref(), Some(values));
     assert_eq!(read(SHORT, &sets[1..]).unwrap().not_refined(), None);
-    let unknown = read(SHORT, &["solver.not_refined=[\"disk\"]"]).unwrap_err();
+    let unknown = read(SHORT, &["resolution.not_refined=[\"disk\"]"]).unwrap_err();
     assert!(unknown.to_string().contains("disk_modes"), "{unknown}");
 }
 
 #[test]
 fn the_command_line_wins_and_both_values_are_recorded() {
-    let text = "study_format = 1\nname = \"w\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\nclearance_top_um = 90.0\nclearance_bottom_um = 110.0\n[disk]\nrpm = 5400.0\ndamping = { rayleigh = { alpha_per_s = 25.0, beta_s = 1.0e-7 } }\n";
+    let text = "study_format = 2\nname = \"w\"\n[pulse]\nwidths_ms = [2.0]\n[ramp]\nmodels = [\"rigid\"]\nclearance_top_um = 90.0\nclearance_bottom_um = 110.0\n[disk]\nrpm = 5400.0\ndamping = { rayleigh = { alpha_per_s = 25.0, beta_s = 1.0e-7 } }\n";
     let study = read(text, &[
         "disk.rpm=7200",
         "disk.damping.modal_ratio=0.004",
@@ -244,18 +252,26 @@ fn clockwise_and_closed_polygons_become_counter_clockwise_and_open() {
 }
 
 #[test]
-fn rungs_set_the_resolutions_and_single_keys_override_them() {
-    let fine = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=500"]).unwrap();
+fn presets_set_the_resolutions_and_single_keys_override_them() {
+    let fine = read(
+        SHORT,
+        &["resolution.preset=fine", "resolution.film_cells=500"],
+    )
+    .unwrap();
     let scene = &fine.points[0].scene;
     assert_eq!(scene.film_resolution.cells, 500);
     assert_eq!(scene.structure_resolution.step_s, 0.125e-6);
-    let spelt = read(SHORT, &["solver.accuracy=0.1%", "solver.film_cells=5e2"]).unwrap();
+    let spelt = read(
+        SHORT,
+        &["resolution.preset=fine", "resolution.film_cells=5e2"],
+    )
+    .unwrap();
     assert_eq!(spelt.digest, fine.digest);
-    for rung in ["5%", "1%", "0.1%"] {
-        // What the resolved study writes out must give back the rung's own bits.
-        let study = read(SHORT, &[&format!("solver.accuracy={rung}")]).unwrap();
+    for preset in ["coarse", "standard", "fine"] {
+        // What the resolved study writes out must give back the preset's own bits.
+        let study = read(SHORT, &[&format!("resolution.preset={preset}")]).unwrap();
         let again = read(&study.resolved_toml(), &[]).unwrap();
-        assert_eq!(study.points[0].scene, again.points[0].scene, "{rung}");
+        assert_eq!(study.points[0].scene, again.points[0].scene, "{preset}");
     }
 }
 
@@ -282,18 +298,18 @@ fn the_coupling_tolerance_follows_a_head_tolerance_set_alone() {
         pairs.dedup();
         pairs
     };
-    let rung = tolerances(&["solver.accuracy=1%"]);
-    assert_eq!(rung, [[2e-2, 2e-4]]);
+    let preset = tolerances(&["resolution.preset=standard"]);
+    assert_eq!(preset, [[2e-2, 2e-4]]);
     assert_eq!(
-        tolerances(&["solver.head_tolerance=1e-3"]),
+        tolerances(&["resolution.head_tolerance=1e-3"]),
         [[1e-3, 0.01 * 1e-3]]
     );
     let both = [
-        "solver.head_tolerance=1e-3",
-        "solver.coupling_tolerance=1e-8",
+        "resolution.head_tolerance=1e-3",
+        "resolution.coupling_tolerance=1e-8",
     ];
     assert_eq!(tolerances(&both), [[1e-3, 1e-8]]);
-    let mut axis = tolerances(&["solver.head_tolerance=[1e-2, 1e-3]"]);
+    let mut axis = tolerances(&["resolution.head_tolerance=[1e-2, 1e-3]"]);
     axis.sort_by(|a, b| a[0].total_cmp(&b[0]));
     axis.dedup();
     assert_eq!(axis, [[1e-3, 0.01 * 1e-3], [1e-2, 0.01 * 1e-2]]);
@@ -362,7 +378,7 @@ proptest::proptest! {
 
 /// TOML takes `.1` and `1.` for no numbers; the hint names the digit that is missing.
 #[test]
-fn a_number_without_a_digit_beside_its_point_is_told_so() {
+fn a_number_without_a_digit_beside_its_point_is_reported_so() {
     let text = Study::example("point");
     for (value, hint) in [
         (
@@ -384,8 +400,11 @@ fn a_number_without_a_digit_beside_its_point_is_told_so() {
         ("thin", "for example thickness_mm = "),
     ] {
         let set = format!("disk.thickness_mm={value}").parse().unwrap();
-        let told = Study::from_text(&text, &[set]).unwrap_err().to_string();
-        assert!(told.contains("E113") && told.contains(hint), "{told}");
+        let reported = Study::from_text(&text, &[set]).unwrap_err().to_string();
+        assert!(
+            reported.contains("E113") && reported.contains(hint),
+            "{reported}"
+        );
     }
 }
 

@@ -127,7 +127,7 @@ fn read_with(name: &str, set: &str) -> Study {
 fn clearance_and_geometry_have_the_drive_of_fig13_stiffness_but_for_what_they_ask() {
     let geometry = read("fig13-geometry");
     let (coarse, figure) = (
-        read_with("fig13-stiffness", "solver.accuracy=5%"),
+        read_with("fig13-stiffness", "resolution.preset=coarse"),
         read("fig13-stiffness"),
     );
     let cases = [(&coarse, read("clearance"), 144), (&figure, geometry, 16)];
@@ -204,7 +204,7 @@ fn the_paper_cases_use_the_drive_of_fig13() {
 #[test]
 fn the_default_drive_is_what_short_studies_get() {
     let written_out = read("drive-2.5in");
-    let short = "study_format = 1\nname = \"short\"\n[pulse]\nwidths_ms = [0.5, 1.0, 2.0, 3.0]\n[ramp]\nmodels = [\"none\", \"rigid\", \"deformable\"]\n";
+    let short = "study_format = 2\nname = \"short\"\n[pulse]\nwidths_ms = [0.5, 1.0, 2.0, 3.0]\n[ramp]\nmodels = [\"none\", \"rigid\", \"deformable\"]\n";
     let short = Study::from_text(short, &[]).unwrap();
     assert_eq!(written_out.points.len(), short.points.len());
     for (a, b) in written_out.points.iter().zip(&short.points) {

@@ -111,7 +111,7 @@ fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
             "[{ frequency_hz = 900.0, mass_mg = 50.0, participation = 0.2 }]".to_string()
         }
         "solver.leave_out" => return None,
-        "solver.not_refined" => "[\"disk_modes\"]".to_string(),
+        "resolution.not_refined" => "[\"disk_modes\"]".to_string(),
         // Ways to read files; what they hold takes their place.
         path if path.starts_with("ramp.deformable.mesh.")
             || path.starts_with("suspension.imported.")

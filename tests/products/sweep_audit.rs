@@ -1,4 +1,4 @@
-//! `opshock sweep --audit`: finished simulations against the same ones in full.
+//! `opshock sweep --audit`: finished simulations against the same ones with the full model.
 
 use std::path::Path;
 
@@ -12,9 +12,9 @@ const SMALL: &[&str] = &[
     "ramp.models=[\"none\", \"rigid\"]",
     "pulse.window_ms=0.8",
     "search.tolerance_pct=20",
-    "solver.accuracy=\"5%\"",
-    "solver.film_cells=100",
-    "solver.disk_cut_khz=10",
+    "resolution.preset=\"coarse\"",
+    "resolution.film_cells=100",
+    "resolution.disk_cut_khz=10",
     "output.keep_histories=\"none\"",
 ];
 
@@ -44,7 +44,7 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         "{page}"
     );
 
-    // What the rules saved, counted by hand; explain tells the same.
+    // What the rules saved, added up by hand; explain says the same.
     let (_, stored) = load(&folder.path().join("clean")).expect("loads");
     let stored = stored.expect("results");
     let onset_g = stored.summary.points[1].onset_g.expect("an onset");
@@ -71,8 +71,8 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
     // Seconds are steps at the sweep's own seconds a step.
     let made: u64 = stored.runs.iter().map(|row| row.result().cost.steps).sum();
     let wall_s: f64 = stored.runs.iter().map(|row| row.run.machine.wall_s).sum();
-    let told = opshock_study::report::savings(&stored);
-    let seconds = told[3].seconds.expect("head steps");
+    let reported = opshock_study::report::savings(&stored);
+    let seconds = reported[3].seconds.expect("head steps");
     assert!((seconds / (wall_s * steps as f64 / made as f64) - 1.0).abs() < 1e-9);
     // Without ramp no harmonics; every run but the first of each of the two models took it over;
     // one film for both points.
@@ -84,7 +84,7 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
     assert_eq!(saved[2]["runs"], count(1));
     assert_eq!(saved[4]["runs"], count(0) + count(1) - 2);
     assert_eq!(saved[8]["runs"], 1);
-    assert!(told[0].seconds.is_none() && saved[6]["runs"] == 0);
+    assert!(reported[0].seconds.is_none() && saved[6]["runs"] == 0);
     assert!(
         saved[3]["seconds"].is_null(),
         "a sweep done again gives the same JSON"
@@ -115,7 +115,7 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
     assert_eq!(plan["outputs"], serde_json::json!(["critical_shock"]));
     let ramp = |ramp: &str| plan["ramps"][ramp].clone();
     assert_eq!(ramp("none")["effects"]["disk.travelling_waves"], "off");
-    assert_eq!(ramp("rigid")["effects"]["ramp.contact"], "asleep");
+    assert_eq!(ramp("rigid")["effects"]["ramp.contact"], "inactive");
     let has_r4 = |rules: &str| {
         let rules = ramp("rigid")[rules].clone();
         rules.as_array().unwrap().iter().any(|rule| rule == "R4")
@@ -148,7 +148,7 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
     drop(store);
     let found = sweep(folder.path(), "altered", "1.0");
     assert_eq!(found.code, 7, "{}", found.stderr);
-    let named = format!("h_min_m is {false_m:e} as stored and {true_m:e} in full");
+    let named = format!("h_min_m is {false_m:e} as stored and {true_m:e} with the full model");
     assert!(found.stderr.contains(&named), "{}", found.stderr);
     assert_eq!(found.stderr.matches("as stored").count(), 1);
     let kept = report("altered").json()["audit"]["differences"].clone();

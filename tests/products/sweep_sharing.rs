@@ -18,9 +18,9 @@ fn designs(effects: &str) -> Study {
             ("ramp.models", "[\"rigid\"]"),
             ("slider.surface.crown_nm", "[12, 18]"),
             ("gas.altitude_m", "[0, 3000]"),
-            ("solver.accuracy", "\"5%\""),
-            ("solver.film_cells", "150"),
-            ("solver.disk_cut_khz", "10"),
+            ("resolution.preset", "\"coarse\""),
+            ("resolution.film_cells", "150"),
+            ("resolution.disk_cut_khz", "10"),
             ("solver.effects", effects),
         ],
     );

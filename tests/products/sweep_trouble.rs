@@ -1,4 +1,4 @@
-//! What goes wrong in one point stays there; what is told is on the disk.
+//! Sweeps with simulations that fail: trouble stays in its point, and what is reported is on the disk.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -60,7 +60,7 @@ fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
             // from other runs.
             let answer = |row: &PointSummary| PointSummary {
                 runs: 0,
-                certified_from_g: None,
+                scanned_from_g: None,
                 largest_gap_pct: None,
                 ..row.clone()
             };
@@ -70,9 +70,9 @@ fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
     assert_eq!(
         causes,
         [
-            vec![Flag::UndecidedNode, Flag::Panicked],
-            vec![Flag::UndecidedNode, Flag::NotFinite],
-            vec![Flag::UndecidedNode, Flag::NotConverged],
+            vec![Flag::UndecidedAmplitude, Flag::Panicked],
+            vec![Flag::UndecidedAmplitude, Flag::NotFinite],
+            vec![Flag::UndecidedAmplitude, Flag::NotConverged],
         ]
     );
 
@@ -96,14 +96,14 @@ fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
 /// Looks at the journal at every event.
 struct Auditor {
     journal: PathBuf,
-    told: Mutex<usize>,
+    reported: Mutex<usize>,
 }
 
 impl Progress for Auditor {
     fn event(&self, event: &Event) {
         if let Event::ProbeDone { .. } = event {
-            let mut told = self.told.lock().expect("not poisoned");
-            *told += 1;
+            let mut reported = self.reported.lock().expect("not poisoned");
+            *reported += 1;
             let content = journal::read(&self.journal)
                 .expect("reads")
                 .expect("is there");
@@ -113,18 +113,18 @@ impl Progress for Auditor {
                 .filter(|record| matches!(record, Record::Run(_)))
                 .count();
             assert!(content.damage.is_empty());
-            assert!(runs >= *told, "{told} told, {runs} on the disk");
+            assert!(runs >= *reported, "{reported} reported, {runs} on the disk");
         }
     }
 }
 
 #[test]
-fn what_is_told_is_on_the_disk() {
+fn what_is_reported_is_on_the_disk() {
     let input = study(&[RampClass::None, RampClass::Rigid], &[1.0]);
     let folder = tempfile::tempdir().expect("folder");
     let auditor = Auditor {
         journal: folder.path().join("journal"),
-        told: Mutex::new(0),
+        reported: Mutex::new(0),
     };
     let end = sweep(
         &input,
@@ -134,12 +134,12 @@ fn what_is_told_is_on_the_disk() {
         &auditor,
     )
     .expect("sweeps");
-    let told = *auditor.told.lock().expect("not poisoned") as u64;
-    assert_eq!(told, end.summary.totals.runs);
+    let reported = *auditor.reported.lock().expect("not poisoned") as u64;
+    assert_eq!(reported, end.summary.totals.runs);
 }
 
 #[test]
-fn a_failure_found_outside_the_search_is_told_and_not_used() {
+fn a_failure_found_outside_the_search_is_reported_and_not_used() {
     let input = study(&[RampClass::None], &[1.0]);
     let folder = tempfile::tempdir().expect("folder");
     let options = SweepOptions::with_threads(1);

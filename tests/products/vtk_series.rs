@@ -9,13 +9,13 @@ const COARSE: [&str; 10] = [
     "--set",
     "pulse.widths_ms=[1.0]",
     "--set",
-    "solver.film_cells=150",
+    "resolution.film_cells=150",
     "--set",
-    "solver.disk_cut_khz=4",
+    "resolution.disk_cut_khz=4",
     "--set",
     "pulse.window_ms=1.0",
     "--set",
-    "solver.structure_step_us=4",
+    "resolution.structure_step_us=4",
 ];
 
 fn export(folder: &Path, amplitude_g: &str, more: &[&str]) -> Done {
@@ -90,7 +90,7 @@ fn a_shock_becomes_three_series_that_hold_its_motion() {
     let done = export(folder.path(), "400", &["--out", "v"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
     let read = |name: &str| std::fs::read_to_string(folder.path().join("v").join(name)).unwrap();
-    // 400 G for 1 ms is too much: the film ends at touch, which is told; disk and ramp go on.
+    // 400 G for 1 ms is too much: the film ends at touch, which is reported; disk and ramp go on.
     let film = read("film.pvd").matches("<DataSet ").count();
     assert!(film < 3);
     assert!(
@@ -193,7 +193,7 @@ fn report_slow_vtk_reads_every_series() {
     assert_eq!(export(folder.path(), "150", &["--out", "v"]).code, 0);
     let script = r#"
 import json, sys, vtk
-told = {}
+reported = {}
 for part in ("disk", "ramp", "film"):
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(f"{sys.argv[1]}/{part}_0002.vtu")
@@ -204,14 +204,14 @@ for part in ("disk", "ramp", "film"):
     size.Update()
     out = size.GetOutput().GetCellData()
     name = "Volume" if part == "ramp" else "Area"
-    told[part] = {
+    reported[part] = {
         "error": reader.GetErrorCode(),
         "cells": grid.GetNumberOfCells(),
         "size": sum(out.GetArray(name).GetValue(k) for k in range(grid.GetNumberOfCells())),
         "arrays": sorted([grid.GetPointData().GetArrayName(k) for k in range(grid.GetPointData().GetNumberOfArrays())]
                          + [grid.GetCellData().GetArrayName(k) for k in range(grid.GetCellData().GetNumberOfArrays())]),
     }
-print(json.dumps(told))
+print(json.dumps(reported))
 "#;
     let output = Command::new(python)
         .args(["-c", script])
@@ -223,25 +223,25 @@ print(json.dumps(told))
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let reported: Value = serde_json::from_slice(&output.stdout).unwrap();
     for part in ["disk", "ramp", "film"] {
-        assert_eq!(told[part]["error"], 0, "{told}");
+        assert_eq!(reported[part]["error"], 0, "{reported}");
     }
-    assert_eq!(told["disk"]["cells"], 12 * 48);
+    assert_eq!(reported["disk"]["cells"], 12 * 48);
     assert_eq!(
-        told["disk"]["arrays"],
+        reported["disk"]["arrays"],
         serde_json::json!(["deflection_m", "displacement_m"])
     );
     assert_eq!(
-        told["ramp"]["arrays"],
+        reported["ramp"]["arrays"],
         serde_json::json!(["contact_force_n", "displacement_m"])
     );
     assert_eq!(
-        told["film"]["arrays"],
+        reported["film"]["arrays"],
         serde_json::json!(["gap_m", "pressure_pa"])
     );
     // The slider's face, 0.85 mm by 0.70 mm.
-    let face = told["film"]["size"].as_f64().unwrap();
+    let face = reported["film"]["size"].as_f64().unwrap();
     assert!((face / (0.85e-3 * 0.70e-3) - 1.0).abs() < 1e-9, "{face}");
-    assert_eq!(told["ramp"]["cells"], 2);
+    assert_eq!(reported["ramp"]["cells"], 2);
 }

@@ -1,9 +1,9 @@
-//! Who may import whom: a module uses modules of lower floors and itself.
+//! Which module may import which: a module uses modules of lower layers and itself.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Module of the solver, its floor.
+/// Module of the solver, its layer.
 const SOLVER: &[(&str, u8)] = &[
     ("quantity", 0),
     ("elementary", 0),
@@ -28,7 +28,7 @@ const SOLVER: &[(&str, u8)] = &[
     ("simulation", 5),
 ];
 
-/// Imports that cross one floor on purpose, with the reason.
+/// Imports that cross one layer on purpose, with the reason.
 const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[
     (
         "complementarity",
@@ -47,7 +47,7 @@ const SOLVER_EXCEPTIONS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Module of the crate of importers, its floor.
+/// Module of the crate of importers, its layer.
 const IMPORT: &[(&str, u8)] = &[
     ("fault", 0),
     ("text", 1),
@@ -56,7 +56,7 @@ const IMPORT: &[(&str, u8)] = &[
     ("gmsh", 2),
 ];
 
-/// Module of the crate of solid elements, its floor.
+/// Module of the crate of solid elements, its layer.
 const SOLID: &[(&str, u8)] = &[
     ("material", 0),
     ("sparse", 0),
@@ -68,12 +68,12 @@ const SOLID: &[(&str, u8)] = &[
     ("ramp", 6),
 ];
 
-/// Module of the study crate, its floor.
+/// Module of the study crate, its layer.
 const STUDY: &[(&str, u8)] = &[
     ("identity", 0),
     ("provenance", 0),
+    ("search", 0),
     ("study", 1),
-    ("search", 1),
     ("store", 2),
     ("sweep", 3),
     ("accuracy", 3),
@@ -82,7 +82,7 @@ const STUDY: &[(&str, u8)] = &[
     ("report", 5),
 ];
 
-/// Module of the paper's crate, its floor.
+/// Module of the paper's crate, its layer.
 const PAPER: &[(&str, u8)] = &[("claims", 0), ("figures", 0)];
 
 pub fn sources(folder: &Path) -> Vec<PathBuf> {
@@ -171,7 +171,7 @@ fn check(crate_folder: &str, floors: &[(&str, u8)], exceptions: &[(&str, &str, &
         seen.insert(module.clone());
         let text = std::fs::read_to_string(&path).expect("readable source");
         for name in imported(&text) {
-            // Names that are no module (macros, re-exports at the root) have no floor to break.
+            // Names that are no module (macros, re-exports at the root) have no layer.
             let Some(&other) = floor.get(name.as_str()) else {
                 continue;
             };
@@ -266,7 +266,7 @@ fn libraries_stay_in_their_place() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Files get their names in one place, where every error is told; the journal's system calls and
+/// Files get their names in one place, where every error is reported; the journal's system calls and
 /// the lock are the others that write, and HDF5 files are made in memory.
 #[test]
 fn files_are_written_in_one_place() {

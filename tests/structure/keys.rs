@@ -1,4 +1,4 @@
-//! Code reads a study by the constants of its table: a key's path in quotes elsewhere would compile with a slip of the pen.
+//! Code reads a study by the constants of its table: a key's path in quotes would compile with a typing error.
 
 use crate::floors::{code, sources};
 use opshock_study::study::keys::KEYS;

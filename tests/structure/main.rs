@@ -1,4 +1,4 @@
-//! Floors, circles, lengths, names, architecture page, committed results.
+//! Tests of the source tree: layers, circular imports, lengths, names, architecture page, committed results.
 
 mod architecture;
 mod circles;

@@ -39,20 +39,20 @@ fn physics(text: &str) -> Vec<[u32; 2]> {
         let end = text.find(|c: char| !c.is_ascii_digit());
         text[..end.unwrap_or(text.len())].parse::<u32>().ok()
     };
-    let told = text.match_indices("physics ").filter_map(|(at, word)| {
+    let reported = text.match_indices("physics ").filter_map(|(at, word)| {
         let (structure, head) = text[at + word.len()..].split_once('/')?;
         let all_digits = structure.bytes().all(|byte| byte.is_ascii_digit());
         Some([number(structure).filter(|_| all_digits)?, number(head)?])
     });
-    told.collect()
+    reported.collect()
 }
 
 /// What is wrong with one committed file of results, by its path and text.
 fn fault(name: &str, text: &str) -> Option<String> {
     let today = [PHYSICS_STRUCTURE, PHYSICS_HEAD];
-    let told = physics(text);
+    let reported = physics(text);
     let must_tell = name.ends_with(".md") || name.ends_with(".json") || name.ends_with(".txt");
-    let is_today = told.iter().all(|&one| one == today) && !(must_tell && told.is_empty());
+    let is_today = reported.iter().all(|&one| one == today) && !(must_tell && reported.is_empty());
     let folder = name.split('/').next().unwrap_or_default();
     let first = text.lines().next().unwrap_or_default();
     // JSON has no first line; the Markdown beside it speaks for it.
@@ -60,7 +60,7 @@ fn fault(name: &str, text: &str) -> Option<String> {
         && (!physics(first).is_empty() || !(name.ends_with(".md") || name.ends_with(".txt")));
     (!is_today && !is_known_older).then(|| {
         format!(
-            "results/{name}: physics {told:?}, today's is {today:?}; `make results` makes it anew"
+            "results/{name}: physics {reported:?}, today's is {today:?}; `make results` makes it anew"
         )
     })
 }
@@ -78,10 +78,10 @@ fn an_older_result_is_found_and_an_older_measurement_says_so_first() {
     assert!(fault("fig13/table.md", &older).is_some());
     assert!(fault("fig13/table.md", &format!("{today}{older}")).is_some());
     assert!(fault("fig13/table.md", "opshock 0.1.0 (30625cb7dff8)").is_some());
-    assert!(fault("accuracy/rungs.md", &older).is_some());
+    assert!(fault("accuracy/presets.md", &older).is_some());
     assert_eq!(
         fault(
-            "accuracy/rungs.md",
+            "accuracy/presets.md",
             &format!("Measured at 30625cb, physics 6/11.\n{older}")
         ),
         None

@@ -4,10 +4,10 @@
 pub const SEARCH: [&str; 6] = [
     "pulse.window_ms=0.8",
     "search.tolerance_pct=20",
-    "search.certify=off",
-    "search.error_bars=false",
-    "solver.film_cells=200",
-    "solver.disk_cut_khz=10",
+    "search.monotonicity_scan=off",
+    "search.uncertainty=false",
+    "resolution.film_cells=200",
+    "resolution.disk_cut_khz=10",
 ];
 
 /// One width, no ramp: two points, of both signs, in a second.

@@ -12,8 +12,8 @@ use crate::seeded::Seeded;
 /// Every `gas.model` of a study.
 pub const GAS_MODELS: [&str; 4] = ["continuum", "slip_1", "slip_2", "fukui_kaneko"];
 
-/// Every named accuracy, in turns of the seeds.
-const PRESETS: [&str; 3] = ["5%", "1%", "0.1%"];
+/// Every resolution preset, in turns of the seeds.
+const PRESETS: [&str; 3] = ["coarse", "standard", "fine"];
 
 /// Ranges of what drives differ in.
 const LOAD_GF: [f64; 2] = [0.3, 5.0];
@@ -44,7 +44,7 @@ pub fn drive(seed: u64, gas_model: &str) -> Scene {
         ("slider.skew_deg", skew),
         ("slider.radius_mm", radius),
     ];
-    let words = [("gas.model", gas_model), ("solver.accuracy", preset)];
+    let words = [("gas.model", gas_model), ("resolution.preset", preset)];
     let sets: Vec<(&str, String)> = numbers
         .iter()
         .map(|(key, value)| (*key, value.to_string()))
@@ -74,7 +74,7 @@ pub fn drive(seed: u64, gas_model: &str) -> Scene {
     scene
 }
 
-/// The same drive with the skew turned round.
+/// The same drive with the skew of the other sign.
 #[must_use]
 pub fn turned(scene: &Scene) -> Scene {
     let mut other = scene.clone();
@@ -83,7 +83,7 @@ pub fn turned(scene: &Scene) -> Scene {
 }
 
 /// The most that a film carries without a moment where pitch and roll are stable, N, and the clearance there, m: of
-/// sliders held still at clearances from 50 nm down to the film's minimum height, each at least `ratio` of the one before, by forces alone.
+/// quasi-static films from 50 nm down to the minimum film height, each at least `ratio` of the one before.
 pub fn most_carried(film: &Film, ratio: f64) -> (f64, f64) {
     let mut most = (f64::NEG_INFINITY, f64::NAN);
     let usual = film.usual_attitude();
@@ -102,10 +102,10 @@ pub fn most_carried(film: &Film, ratio: f64) -> (f64, f64) {
             most = (load_n, clearance_m);
         }
         last = found.map(|(_, tilt)| tilt);
-        if clearance_m <= film.floor_m() {
+        if clearance_m <= film.min_height_m() {
             return most;
         }
-        clearance_m = (clearance_m * ratio).max(film.floor_m());
+        clearance_m = (clearance_m * ratio).max(film.min_height_m());
     }
 }
 

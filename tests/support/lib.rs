@@ -3,8 +3,8 @@
 pub mod coarse;
 pub mod drives;
 pub mod hdf5_dump;
-pub mod mock_bars;
 pub mod mock_sweep;
+pub mod mock_uncertainty;
 pub mod pairs;
 pub mod program;
 pub mod refined;

@@ -8,7 +8,7 @@ use std::time::Duration;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::simulation::{self, History, Outcome, StructureColumns};
 use opshock_study::search::{
-    Certify, Coordinates, Probe, ProbeResult, RampClass, RunCost, SearchSettings, Sign,
+    Coordinates, MonotonicityScan, Probe, ProbeResult, RampClass, RunCost, SearchSettings, Sign,
     UndecidedCause, Verdict,
 };
 use opshock_study::store::{PointDigest, StudyTexts};
@@ -40,7 +40,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
                     },
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),
-                    bar: None,
+                    uncertainty: None,
                 });
             }
         }
@@ -56,7 +56,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
         plan: "{}".into(),
         axes: Vec::new(),
         points,
-        settings: settings(Certify::Staggered),
+        settings: settings(MonotonicityScan::Sampled),
         checkpoint: Duration::from_secs(30),
         start_s: 5e-4,
         keep_histories: KeepHistories::Bracket,
@@ -72,8 +72,8 @@ pub fn fig13() -> SweepInput {
 }
 
 /// 20 to 2000 G, 1 %, gaps of at most 10 %, window check on.
-pub fn settings(certify: Certify) -> SearchSettings {
-    SearchSettings::new((20.0, 2000.0), 0.01, certify, 0.10, true).expect("settings")
+pub fn settings(monotonicity_scan: MonotonicityScan) -> SearchSettings {
+    SearchSettings::new((20.0, 2000.0), 0.01, monotonicity_scan, 0.10, true).expect("settings")
 }
 
 /// A digest out of a text: two FNV hashes, enough to tell test points apart.
@@ -143,7 +143,7 @@ impl<'a> MockSimulator<'a> {
     }
 }
 
-/// Critical amplitudes shaped like the paper's, with windows of failure for the deformable ramp at
+/// Critical amplitudes shaped like the paper's, with intervals of failure for the deformable ramp at
 /// short positive pulses and a late failure for the rigid ramp at 2 ms.
 pub fn fails(at: &Coordinates, amplitude_g: f64, window_factor: u8) -> bool {
     let none = if at.sign == Sign::Plus { 500.0 } else { 380.0 } * at.pulse_ms.powf(-0.2);
@@ -252,11 +252,11 @@ impl Simulator for MockSimulator<'_> {
             hub: None,
             base: None,
             verdict: match result.verdict {
-                Verdict::Survives => simulation::Verdict::Survives,
-                Verdict::Fails { t_fail_s, x_m, y_m } => simulation::Verdict::Fails {
+                Verdict::Survives => Some(simulation::Verdict::Survives),
+                Verdict::Fails { t_fail_s, x_m, y_m } => Some(simulation::Verdict::Fails {
                     t_fail_s,
                     place: simulation::Place { x_m, y_m },
-                },
+                }),
                 Verdict::Undecided { .. } => unreachable!("only decided runs are kept"),
             },
             min_clearance_m: result.h_min_m,

@@ -1,4 +1,4 @@
-//! A program under test, started.
+//! Starts the program under test and collects what it prints.
 
 use std::process::Command;
 

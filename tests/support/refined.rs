@@ -1,11 +1,11 @@
-//! Studies that refine themselves, with critical shocks that are known: two power laws that cross,
-//! one of them with a kink, and error bars that make points climb.
+//! Studies to which a sweep adds widths, with critical shocks that are known: two power laws that cross,
+//! one of them with a kink, and uncertainties for which points are refined.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
-use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_study::search::{Probe, ProbeResult, RunCost, Verdict};
 use opshock_study::store::Summary;
 use opshock_study::study::{Ramp, SetArg, Study};
@@ -20,7 +20,7 @@ use crate::tables::failure;
 pub const KINK_MS: f64 = 0.8;
 
 /// Share by which the film's grid, as the study has it, moves the rigid ramp's answers where error
-/// bars are asked for; halved by twice the cells.
+/// intervals are asked for; halved by twice the cells.
 pub const GRID_ERROR: f64 = 0.02;
 
 /// Critical shocks in G: two power laws that meet at 1.66 ms, one of them with a kink.
@@ -57,7 +57,7 @@ impl Law {
         let points = order.map(|place| &study.points[place]);
         Law {
             points: points.map(|point| (point.ramp, point.pulse_ms)).collect(),
-            has_grid_error: study.search.error_bars,
+            has_grid_error: study.search.uncertainty,
             sleep: Duration::ZERO,
         }
     }
@@ -65,7 +65,7 @@ impl Law {
     fn critical_g(&self, point: usize, levels: Levels) -> f64 {
         let (ramp, pulse_ms) = self.points[point];
         let is_moved = self.has_grid_error && ramp == Ramp::Rigid;
-        let halvings = -f64::from(levels.of(Knob::FilmGrid));
+        let halvings = -f64::from(levels.of(Discretisation::FilmGrid));
         let error = if is_moved {
             GRID_ERROR * halvings.exp2()
         } else {
@@ -101,7 +101,7 @@ impl Simulator for Law {
     }
 }
 
-/// Three widths, three ramp models, positive shocks, no error bars; and what else is set.
+/// Three widths, three ramp models, positive shocks, no uncertainty intervals; and what else is set.
 ///
 /// # Panics
 /// When a setting is none.
@@ -110,8 +110,8 @@ pub fn study(more: &[&str]) -> Study {
         "pulse.widths_ms=[0.5, 1.0, 3.0]",
         "pulse.signs=[\"+\"]",
         "ramp.models=[\"none\", \"rigid\", \"deformable\"]",
-        "search.error_bars=false",
-        "search.refine.closest_pct=1.0",
+        "search.uncertainty=false",
+        "search.added_points.closest_pct=1.0",
         "output.keep_histories=\"none\"",
     ];
     let sets: Vec<SetArg> = sets
@@ -129,8 +129,8 @@ pub fn study(more: &[&str]) -> Study {
 /// The study that is refined to 3 % and crossings of 4 %.
 pub fn refined_study() -> Study {
     study(&[
-        "search.refine.tolerance_pct=3",
-        "search.refine.crossing_pct=4",
+        "search.added_points.tolerance_pct=3",
+        "search.added_points.crossing_pct=4",
     ])
 }
 
@@ -146,14 +146,14 @@ pub fn sweep_rounds(
     rounds: u32,
 ) -> (Study, Summary) {
     let sleep = Duration::ZERO;
-    sweep_told(study, store, options, rounds, sleep, |_| Box::new(Silent))
+    sweep_reported(study, store, options, rounds, sleep, |_| Box::new(Silent))
 }
 
-/// As [`sweep_rounds`], each simulation taking a while and told to the progress of its round.
+/// As [`sweep_rounds`], each simulation taking a while and reported to the progress of its round.
 ///
 /// # Panics
 /// As there.
-pub fn sweep_told(
+pub fn sweep_reported(
     study: &Study,
     store: &Path,
     options: &SweepOptions,

@@ -1,11 +1,11 @@
-//! Random tables of failure: a critical amplitude for every point, first touch below it, and windows
-//! of failure in between that shift with the width.
+//! Random tables of failure: a critical amplitude for every point, first touch below it, and non-monotone
+//! intervals (failure) in between that shift with the pulse width.
 
 use std::collections::BTreeSet;
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_study::search::{
-    Campaign, Certify, Coordinates, Findings, Probe, ProbeResult, RampClass, RunCost,
+    Campaign, Coordinates, Findings, MonotonicityScan, Probe, ProbeResult, RampClass, RunCost,
     SearchSettings, Sign, Touch, Verdict,
 };
 use opshock_study::sweep::{Onset, Simulator};
@@ -25,7 +25,7 @@ pub struct TablePoint {
     pub critical_g: f64,
     /// First touch, G; `None` without ramp.
     pub onset_g: Option<f64>,
-    /// Windows of failure, G, low end included, high end not.
+    /// Intervals of failure, G, low end included, high end not.
     pub windows_g: Vec<(f64, f64)>,
     /// The clearance falls to nothing at the critical amplitude.
     pub has_margin: bool,
@@ -51,13 +51,13 @@ impl TablePoint {
         }
     }
 
-    /// Lowest failing node of a lattice within its range.
+    /// Lowest failing point of an amplitude grid within its range.
     pub fn lowest_failure(&self, settings: &SearchSettings) -> Option<i32> {
-        let SearchSettings { lattice, range, .. } = settings;
-        (range.low..=range.high).find(|&node| self.fails(lattice.amplitude_g(node)))
+        let SearchSettings { grid, range, .. } = settings;
+        (range.low..=range.high).find(|&node| self.fails(grid.amplitude_g(node)))
     }
 
-    /// First touch as a search counts it.
+    /// First touch as a search receives it.
     pub fn touch(&self) -> Touch {
         match self.onset_g {
             None => Touch::NoRamp,
@@ -128,10 +128,14 @@ impl Table {
     ///
     /// # Panics
     /// When nobody asks and not everything is answered.
-    pub fn search(&self, certify: Certify, seeded: &mut Seeded) -> Vec<Searched> {
+    pub fn search(
+        &self,
+        monotonicity_scan: MonotonicityScan,
+        seeded: &mut Seeded,
+    ) -> Vec<Searched> {
         let settings = SearchSettings {
             window_check: false,
-            ..settings(certify)
+            ..settings(monotonicity_scan)
         };
         let coordinates: Vec<Coordinates> = self.0.iter().map(|point| point.at.clone()).collect();
         let mut campaign = Campaign::new(settings, &coordinates);
@@ -155,13 +159,13 @@ impl Table {
                 continue;
             };
             let probe = asked.probe;
-            let amplitude_g = settings.lattice.amplitude_g(probe.index);
+            let amplitude_g = settings.grid.amplitude_g(probe.index);
             let point = &self.0[place];
             if point.fails(amplitude_g) {
                 campaign.tell(place, &failure());
             } else {
                 let margin = Some(point.margin_m(amplitude_g));
-                campaign.tell_margin(place, &Verdict::Survives, margin);
+                campaign.report_margin(place, &Verdict::Survives, margin);
             }
         }
         assert!(campaign.is_done(), "nobody asks");
@@ -176,12 +180,12 @@ impl Table {
     }
 }
 
-/// What a search found, and the nodes it tested.
+/// What a search found, and the grid points that it tested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Searched {
     /// The answer.
     pub findings: Findings,
-    /// Nodes.
+    /// Points of the amplitude grid.
     pub tested: BTreeSet<i32>,
 }
 
@@ -194,15 +198,15 @@ pub fn failure() -> Verdict {
     }
 }
 
-/// Halves the whole range down to neighbouring nodes, failure taken to be monotone: lowest failing
-/// node found and simulations made.
+/// Halves the whole range down to neighbouring grid points, failure taken to be monotone: lowest failing
+/// point found and simulations made.
 pub fn plain_bisection(settings: &SearchSettings, fails: impl Fn(f64) -> bool) -> (i32, u64) {
-    let SearchSettings { lattice, range, .. } = settings;
+    let SearchSettings { grid, range, .. } = settings;
     let (mut low, mut high, mut runs) = (range.low, range.high, 2);
     while high - low > 1 {
         let middle = low + (high - low) / 2;
         runs += 1;
-        if fails(lattice.amplitude_g(middle)) {
+        if fails(grid.amplitude_g(middle)) {
             high = middle;
         } else {
             low = middle;

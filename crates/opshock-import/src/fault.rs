@@ -1,8 +1,8 @@
-//! What is wrong with a file, and where.
+//! Faults of an imported file, each with its place and code.
 
 use std::fmt;
 
-/// Faults listed at most for one file; a damaged matrix would fill the screen.
+/// Most faults listed for one file; a damaged matrix would fill the screen.
 pub const MAX_LISTED: usize = 50;
 
 /// A fault with its place.
@@ -20,11 +20,11 @@ pub struct Fault {
     pub what: String,
     /// Value found, as written.
     pub value: String,
-    /// What would be valid.
+    /// Valid values.
     pub allowed: String,
-    /// What to do.
+    /// Suggested remedy.
     pub hint: String,
-    /// What is wrong, a fragment.
+    /// Description of the fault, a fragment.
     pub message: String,
 }
 
@@ -72,14 +72,14 @@ impl Fault {
         self
     }
 
-    /// With what would be valid.
+    /// With the valid values.
     #[must_use]
     pub fn allowed(mut self, allowed: impl Into<String>) -> Self {
         self.allowed = allowed.into();
         self
     }
 
-    /// With what to do.
+    /// With a suggested remedy.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = hint.into();
@@ -121,7 +121,7 @@ impl std::error::Error for Fault {}
 pub struct Faults {
     /// The faults listed.
     pub listed: Vec<Fault>,
-    /// How many more there were.
+    /// Number of further faults.
     pub unlisted: usize,
 }
 

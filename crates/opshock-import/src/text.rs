@@ -1,4 +1,4 @@
-//! Files as lines of words with their places, and numbers as other programs write them.
+//! Text files as lines of words with their places, and numbers in other programs' notations.
 
 use crate::fault::{Fault, Faults};
 use std::path::Path;
@@ -15,7 +15,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Text of a file's bytes. UTF-8 where they are that, else Latin-1: these formats are older.
+    /// Text of a file's bytes: UTF-8 if valid, else Latin-1, which these older formats use.
     ///
     /// # Errors
     /// E160 for an empty file and for bytes that are no text.
@@ -98,7 +98,7 @@ impl Source {
     }
 }
 
-/// A system's reason without its number.
+/// The operating system's reason without its error number.
 fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error")

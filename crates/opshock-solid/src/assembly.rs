@@ -1,11 +1,11 @@
-//! Stiffness and mass of a mesh held at some of its nodes, and its load under base acceleration.
+//! Stiffness and mass matrices of a mesh supported at some of its nodes, and its load under base acceleration.
 //!
 //! ```text
 //! M u'' + K u = W λ + M 1z a(t)        u relative to the base, a(t) the inertia load per mass
 //! ```
 //!
-//! Held unknowns are left out of the equations, their mass stays in the load of the others. An
-//! elastic mount adds ∫ k N Nᵀ dA over its faces to K.
+//! Fixed unknowns are removed from the equations; their mass stays in the load of the others. An elastic mount adds ∫ k
+//! N Nᵀ dA over its faces to K.
 
 use crate::element::{self, face_integrals};
 use crate::material::{Material, MaterialError};
@@ -48,7 +48,7 @@ pub struct SolidSystem {
     unknown: Vec<[usize; 3]>,
 }
 
-/// Why a mesh has no equations.
+/// Errors of assembling a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AssemblyError {
     /// Mesh.
@@ -57,16 +57,16 @@ pub enum AssemblyError {
     /// Material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// Everything is held.
+    /// Every node is fixed.
     #[error("every node of the mesh is held")]
     NothingMoves,
 }
 
 impl SolidSystem {
-    /// Puts the elements of a mesh together.
+    /// Assembles the elements of a mesh.
     ///
     /// # Errors
-    /// A mesh or material that is none, a folded element, nothing left to move.
+    /// An invalid mesh or material, a folded element, or no free unknown.
     ///
     /// # Panics
     /// When the support names a node or direction that is not there.
@@ -115,10 +115,10 @@ impl SolidSystem {
         Ok(system)
     }
 
-    /// Equations of matrices that another program assembled, both of one pattern.
+    /// Equations from matrices that another program assembled, both of one pattern.
     ///
-    /// `base_load_kg` is M times a unit displacement of all along x, y, z. Nodes are not known here:
-    /// [`SolidSystem::unknown`] has none.
+    /// `base_load_kg` is M times a unit displacement of all nodes along x, y, z. Nodes are unknown here:
+    /// [`SolidSystem::unknown`] returns `None`.
     ///
     /// # Panics
     /// When a load has another length than the matrices.
@@ -139,7 +139,7 @@ impl SolidSystem {
         }
     }
 
-    /// The same motion of `copies` equal solids side by side.
+    /// The equations of `copies` equal solids side by side, with the same motion.
     #[must_use]
     pub fn times(mut self, copies: f64) -> Self {
         self.stiffness = self.stiffness.scaled(copies);
@@ -163,7 +163,7 @@ impl SolidSystem {
         Some(unknown[direction]).filter(|&i| i != HELD)
     }
 
-    /// The column that reads Σ weight × displacement, and loads with the same shares.
+    /// The column that gives Σ weight × displacement; as a load, it distributes a force with the same weights.
     pub fn column(&self, weights: &[(usize, f64)], direction: usize) -> Vec<f64> {
         let mut column = vec![0.0; self.order()];
         for &(node, weight) in weights {

@@ -1,8 +1,7 @@
 //! Isotropic linear elastic materials, by name or by value.
 //!
-//! Moduli are those of the data sheets at 23 °C and slow loading. Polymers are stiffer at
-//! shock rates by 5 to 20 % and moulded fibre grades are not isotropic: a study that rests on the
-//! modulus gives its own.
+//! Moduli are those of the data sheets at 23 °C and slow loading. Polymers are stiffer at shock rates by 5 to 20 %, and
+//! moulded fibre grades are not isotropic. A study that depends on the modulus should give its own.
 
 /// An isotropic linear elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +25,7 @@ pub struct NamedMaterial {
     pub source: &'static str,
 }
 
-/// What is wrong with a material.
+/// Errors of a material.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{name} = {value:e} is outside its range ({allowed})")]
 pub struct MaterialError {
@@ -56,12 +55,12 @@ const fn named(
     }
 }
 
-/// Materials known by name. The polymers are those that ramps are moulded from (US patent
-/// 6 903 902 names acetal, polyetherimide, polyphenylene sulfide; liquid crystal polymer is used
-/// as well). Poisson's ratios of the polymers are usual values, not from the sheets.
+/// Materials known by name. The polymers are those that ramps are moulded from (US patent 6 903 902 names acetal,
+/// polyetherimide, polyphenylene sulfide; liquid crystal polymer is used as well). Poisson's ratios of the polymers are
+/// usual values, not from the sheets.
 ///
-/// `source` says what each number was compared with; "not seen" marks a sheet that was not at hand,
-/// whose numbers then only lie in the range that is told.
+/// `source` names what each number was compared with. "not seen" marks a sheet that was not available; its numbers were
+/// only checked against the range given.
 pub const MATERIALS: &[NamedMaterial] = &[
     named(
         "POM",
@@ -125,7 +124,7 @@ pub const MATERIALS: &[NamedMaterial] = &[
 ];
 
 impl Material {
-    /// The material of that name, letters of either case.
+    /// The material of that name, in upper or lower case.
     pub fn by_name(name: &str) -> Option<Self> {
         let same = |known: &&NamedMaterial| known.name.eq_ignore_ascii_case(name);
         MATERIALS.iter().find(same).map(|known| known.material)

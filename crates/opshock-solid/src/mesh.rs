@@ -1,4 +1,4 @@
-//! Meshes of one kind of element: nodes, elements, faces on the surface.
+//! Meshes of one element type: nodes, elements, surface faces.
 
 use crate::element::{Shape, face_integrals};
 use std::collections::HashMap;
@@ -14,7 +14,7 @@ pub struct Mesh {
     pub connectivity: Vec<usize>,
 }
 
-/// Why a mesh is of no use.
+/// Errors of a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// No element.
@@ -60,7 +60,7 @@ pub enum MeshError {
     },
 }
 
-/// Weights of nodes that stand for a distribution over faces.
+/// Nodal weights of a distribution over faces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FaceWeights {
     /// Area, m².
@@ -137,7 +137,7 @@ impl Mesh {
                 let mut key = nodes.clone();
                 key.sort_unstable();
                 order += 1;
-                // A face between two elements is met twice and is not of the surface.
+                // A face between two elements occurs twice and is not on the surface.
                 if seen.remove(&key).is_none() {
                     seen.insert(key, (order, nodes));
                 }
@@ -148,8 +148,7 @@ impl Mesh {
         faces.into_iter().map(|(_, nodes)| nodes).collect()
     }
 
-    /// Mean direction at right angles to faces, of length 1 and of either sense; 0 without area. The
-    /// faces may be listed either way round.
+    /// Mean unit normal of faces, of either sense; 0 without area. The faces may be listed either way round.
     pub fn mean_normal(&self, faces: &[Vec<usize>]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for face in faces {

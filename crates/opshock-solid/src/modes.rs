@@ -1,16 +1,16 @@
-//! Natural modes of a held or elastically mounted solid, all of them below a frequency.
+//! Finds all natural modes of a supported solid below a frequency.
 //!
 //! ```text
-//! K x = ω² M x,    optionally with Wᵀ x = 0 (points held still by forces on the columns of W)
+//! K x = ω² M x,    optionally with Wᵀ x = 0 (points fixed by forces on the columns of W)
 //! ```
 //!
 //! * **Count.** K − s M = L D Lᵀ has as many negative pivots as there are ω² below s (Sylvester's
-//!   law of inertia). With m columns W held, the bordered matrix gives the count
+//!   law of inertia). With m columns W fixed, the bordered matrix gives the count
 //!   n₋(A) + n₋(−Wᵀ A⁻¹ W) − m.
 //! * **Pairs.** Block Lanczos steps with P K⁻¹ M find the largest 1/ω² first, where
-//!   P = 1 − Ψ Wᵀ with Ψ = K⁻¹ W (Wᵀ K⁻¹ W)⁻¹ takes the motion of the held points out. Every new
-//!   vector is made orthogonal to all before it, twice. Steps end when the residual of each pair
-//!   below the limit is small and their number is the counted one: none is missed.
+//!   P = 1 − Ψ Wᵀ with Ψ = K⁻¹ W (Wᵀ K⁻¹ W)⁻¹ removes the motion of the fixed points. Every new
+//!   vector is orthogonalised against all before it, twice. Steps end when the residual of each pair
+//!   below the limit is small and their number equals the count, so that none is missed.
 //!
 //! Source: Parlett, *The Symmetric Eigenvalue Problem* (1998), chapters 3 and 13; Wittrick and
 //! Williams (1971), Q. J. Mech. Appl. Math. 24, 263, for the count with constraints.
@@ -20,14 +20,14 @@ use crate::sparse::{Cholesky, SparseError, dense_eigen, dot};
 
 /// Vectors added at once: pairs of equal frequency need as many.
 const BLOCK: usize = 4;
-/// Residual |K⁻¹Mx − θx| relative to θ at which a pair is taken; its eigenvalue has the square.
+/// Residual |K⁻¹Mx − θx| relative to θ at which a pair is accepted; its eigenvalue's error is the square.
 const RESIDUAL: f64 = 1e-9;
-/// A new vector that shrinks to this share was in the basis.
+/// A new vector that shrinks to this share was already in the basis.
 const ROUNDING: f64 = 1e-13;
 /// Most steps per wanted pair, and besides.
 const MOST_STEPS: [usize; 2] = [4, 120];
 
-/// The basis grows by this part of it between two looks at its pairs.
+/// The basis grows by this part of it between two computations of its pairs.
 const LOOK_SHARE: usize = 20;
 
 /// Natural modes, lowest first.
@@ -39,12 +39,12 @@ pub struct SolidModes {
     pub shapes: Vec<Vec<f64>>,
 }
 
-/// Static answers of a system: its factor and the motion of points pulled at.
+/// Static responses of a system: its factors, and its displacements under forces at the points.
 pub struct StaticSolver {
     factor: Cholesky,
     /// Columns W.
     columns: Vec<Vec<f64>>,
-    /// Ψ: displacement with 1 at one point and 0 at the others.
+    /// Ψ: displacement of 1 at one point and 0 at the others.
     pulled: Vec<Vec<f64>>,
     /// (Wᵀ K⁻¹ W)⁻¹, N/m.
     stiffness: Vec<Vec<f64>>,
@@ -53,10 +53,10 @@ pub struct StaticSolver {
 }
 
 impl StaticSolver {
-    /// Factorises K + `shift` M and pulls at each column of `columns`.
+    /// Factorises K + `shift` M and solves for each column of `columns`.
     ///
     /// # Errors
-    /// K + shift M not positive definite: the solid is not held.
+    /// K + shift M not positive definite: the solid is not supported.
     pub fn new(
         system: &SolidSystem,
         columns: Vec<Vec<f64>>,
@@ -86,7 +86,7 @@ impl StaticSolver {
         })
     }
 
-    /// Displacement with 1 at one point and 0 at the others, per point.
+    /// Displacement of 1 at one point and 0 at the others, per point.
     pub fn constraint_modes(&self) -> &[Vec<f64>] {
         &self.pulled
     }
@@ -96,7 +96,7 @@ impl StaticSolver {
         &self.stiffness
     }
 
-    /// P K⁻¹ of each load: static displacement with the points held still.
+    /// P K⁻¹ of each load: static displacement with the points fixed.
     pub(crate) fn answer(&self, loads: &mut [Vec<f64>]) {
         self.factor.solve(loads);
         for x in loads {
@@ -107,7 +107,7 @@ impl StaticSolver {
         }
     }
 
-    /// Modes with ω² below `limit` with the points held still.
+    /// Modes with ω² below `limit` with the points fixed.
     ///
     /// # Errors
     /// A limit that is an eigenvalue, or no convergence.
@@ -129,14 +129,14 @@ impl StaticSolver {
         self.find(system, count, |value| value < limit)
     }
 
-    /// The lowest `wanted` modes with the points held still.
+    /// The lowest `wanted` modes with the points fixed.
     ///
     /// # Errors
     /// No convergence.
     pub fn lowest(&self, system: &SolidSystem, wanted: usize) -> Result<SolidModes, SparseError> {
         let mut modes = self.find(system, wanted, |_| true)?;
         if let Some(last) = modes.omega_squared.last() {
-            // None missed: as many as are counted below the last one found.
+            // None is missed: the count below the last one found equals their number.
             let limit = (last + self.shift) * (1.0 + 1e-6) - self.shift;
             modes = self.modes_below(system, limit)?;
             modes.omega_squared.truncate(wanted);
@@ -145,7 +145,7 @@ impl StaticSolver {
         Ok(modes)
     }
 
-    /// Number of ω² below `limit` with the points held still.
+    /// Number of ω² below `limit` with the points fixed.
     ///
     /// # Errors
     /// A limit that is an eigenvalue.
@@ -192,7 +192,7 @@ impl StaticSolver {
                 append(system, vector, &mut basis, &mut masses, ROUNDING);
             }
             if basis.len() == before && before < free.min(most) {
-                // The space is exhausted: every mode that the start can reach is in it.
+                // The Krylov space is exhausted: it contains every mode that the start can reach.
                 return Err(SparseError::NotConverged { order: n });
             }
             let mut next: Vec<Vec<f64>> = masses[before..].to_vec();
@@ -204,7 +204,7 @@ impl StaticSolver {
             images.extend(next.iter().cloned());
             let size = basis.len();
             if size >= next_look.min(most) {
-                // A look costs size³: with a large basis, not after every block.
+                // Computing the pairs costs size³, so with a large basis not after every block.
                 next_look = size + size / LOOK_SHARE;
                 let (values, vectors) = dense_eigen(&projected)?;
                 let largest = (0..count).map(|k| size - 1 - k);
@@ -261,19 +261,19 @@ impl StaticSolver {
         Some(modes)
     }
 
-    /// Answers to base motion in three directions and to loads without any symmetry.
+    /// Responses to base motion in three directions, and to loads without any symmetry.
     fn first_block(&self, system: &SolidSystem) -> Vec<Vec<f64>> {
         let n = system.order();
         let mut block: Vec<Vec<f64>> = system.base_load_kg.to_vec();
         while block.len() < BLOCK.max(4) {
             let seed = block.len() as f64;
-            // Weyl's sequence: the same everywhere, blind to no mode.
+            // Weyl's sequence: the same on every machine, orthogonal to no mode.
             let scattered = |i: usize| ((i + 1) as f64 * 0.618_033_988_749_894_9 * seed).fract();
             let load: Vec<f64> = (0..n).map(|i| scattered(i) - 0.5).collect();
             block.push(system.mass.times(&load));
         }
         self.answer(&mut block);
-        // Base motion alone may excite nothing that the scattered load does not.
+        // Base motion alone may excite nothing that the irregular loads do not.
         block.reverse();
         block
     }

@@ -1,24 +1,24 @@
-//! Craig-Bampton reduction of a solid to points that other bodies touch.
+//! Craig-Bampton reduction of a solid to the points at which it touches other bodies.
 //!
 //! ```text
 //! u ≈ Ψ x + Φ η + Χ ξ    Ψ constraint modes: 1 at one point, 0 at the others, unloaded elsewhere
-//!                        Φ modes with the points held still, all below the cut
-//!                        Χ what the modes above the cut answer to MΨ and to base motion, statically
+//!                        Φ modes with the points fixed, all below the cut frequency
+//!                        Χ static response of the modes above the cut to MΨ and to base motion
 //! Kr = [S 0 0; 0 Λ 0; 0 0 ΧᵀKΧ]    S = (Wᵀ K⁻¹ W)⁻¹
 //! Mr = [ΨᵀMΨ ΨᵀMΦ ΨᵀMΧ; · 1 0; · · 1]
 //! ```
 //!
-//! Ψ and Φ alone are the method of Craig and Bampton. Leaving out the modes above the cut then costs
-//! a share (ω/ω_cut)² of what they contribute; with their static answer Χ, one vector per point and
-//! one for the base, it is (ω/ω_cut)⁴.
+//! Ψ and Φ alone are the method of Craig and Bampton. Neglecting the modes above the cut then costs a share (ω/ω_cut)²
+//! of their contribution. With their static response Χ, one vector per point and one for the base, the share is
+//! (ω/ω_cut)⁴.
 //!
-//! A point is a patch: x = wᵀ u is the mean displacement over it and a force acts on it with the
-//! same shares, because a force on a true point of a solid sinks in without bound as the mesh is
-//! refined. Static motion of the points under any force on them and under steady acceleration is
-//! exact; dynamics is so below the cut.
+//! A point is a patch: x = wᵀ u is the mean displacement over it, and a force acts on it with the same weights. The
+//! displacement under a force on a single point of a solid would grow without bound as the mesh is refined. Static
+//! motion of the points under any force on them and under steady acceleration is exact; dynamic motion is accurate
+//! below the cut.
 //!
-//! The reduced system is small enough to be diagonalised whole: every mode then is an oscillator
-//! with a shape at each point and a participation in the base's acceleration.
+//! The reduced system is small enough to be diagonalised completely: every mode then is an oscillator with a shape at
+//! each point and a participation in the base's acceleration.
 //!
 //! ```text
 //! q'' + 2 ζ ω q' + ω² q = Σ φ_point λ_point + p a(t),    x_point = Σ φ_point q
@@ -31,10 +31,10 @@ use crate::assembly::SolidSystem;
 use crate::modes::{SolidModes, StaticSolver, append, combination};
 use crate::sparse::{Dense, SparseError, SymmetricMatrix, dense_general_eigen, dot};
 
-/// A correction of which the modes hold all but this share is left out.
+/// A correction is dropped when the modes contain all of it but this share.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Reduced matrices: points first, then modes, then corrections for the modes left out.
+/// Reduced matrices: points first, then modes, then corrections for the neglected modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReducedSolid {
     /// Points.
@@ -49,8 +49,8 @@ pub struct ReducedSolid {
     pub basis: Vec<Vec<f64>>,
 }
 
-/// Most modes with the points held that a reduction keeps: far more than a ramp has below any cut
-/// that its contact excites, and what bounds time and memory of a shape that is all wrong.
+/// Most modes with fixed points that a reduction keeps. A ramp has far fewer below any cut that its contact excites;
+/// the limit bounds time and memory for an unsuitable shape.
 pub const MOST_MODES: usize = 100;
 
 /// An oscillator of the reduced solid.
@@ -64,11 +64,11 @@ pub struct PointMode {
     pub participation: f64,
 }
 
-/// Reduces a system to the points read by `columns`, with fixed-interface modes below `cut_hz`.
+/// Reduces a system to the points given by `columns`, with fixed-interface modes below `cut_hz`.
 ///
 /// # Errors
-/// A solid that is not held, points that move together only, more than [`MOST_MODES`] modes below
-/// the cut, no convergence.
+/// A solid without support, points that cannot move independently, more than [`MOST_MODES`] modes below the cut, no
+/// convergence.
 pub fn reduce(
     system: &SolidSystem,
     columns: Vec<Vec<f64>>,
@@ -131,8 +131,8 @@ pub fn reduce(
     })
 }
 
-/// Static answers to MΨ and to base motion along z with the points held, without their share in the
-/// modes, of unit mass and orthogonal.
+/// Static responses to MΨ and to base motion along z with the points fixed, without their share in the modes, of unit
+/// mass and orthogonal.
 fn corrections(system: &SolidSystem, statics: &StaticSolver, modes: &SolidModes) -> Vec<Vec<f64>> {
     let mut answers: Vec<Vec<f64>> = statics
         .constraint_modes()
@@ -149,8 +149,8 @@ fn corrections(system: &SolidSystem, statics: &StaticSolver, modes: &SolidModes)
     kept.split_off(modes.shapes.len())
 }
 
-/// Every oscillator of a small system, lowest first, with its shape read by `columns`: nothing is
-/// reduced. Solved as M x = μ K x, so that the low modes keep all their digits.
+/// Every oscillator of a small system without reduction, lowest first, with its shape given by `columns`. Solved as M x
+/// = μ K x, so that the low modes keep all their digits.
 ///
 /// # Errors
 /// A stiffness that is not positive definite, no convergence.
@@ -211,7 +211,7 @@ impl ReducedSolid {
         let pairs = values.iter().zip(vectors);
         Ok(pairs
             .map(|(value, mut vector)| {
-                // The sign of a mode is free: that of a number which is not rounding alone.
+                // The sign of a mode is free: that of an entry larger than rounding is used.
                 let points = &vector[..self.n_points];
                 let largest = points.iter().fold(0.0_f64, |most, s| s.abs().max(most));
                 let sign = points.iter().find(|s| s.abs() > 1e-3 * largest);

@@ -1,4 +1,4 @@
-//! Symmetric sparse matrices and small dense ones; the only module that names the matrix library.
+//! Symmetric sparse matrices and small dense ones; the only module that uses the matrix library.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::cholesky::{
@@ -10,7 +10,7 @@ use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, Par, Side, c64};
 use std::sync::Arc;
 
-/// Places of the lower triangle of a symmetric matrix, column by column, diagonal included.
+/// Sparsity pattern of the lower triangle of a symmetric matrix, column by column, diagonal included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymmetricPattern {
     column_start: Vec<usize>,
@@ -24,7 +24,7 @@ pub struct SymmetricMatrix {
     values: Vec<f64>,
 }
 
-/// Why a sparse problem has no answer.
+/// Errors of a sparse problem.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SparseError {
     /// A pivot of the Cholesky factorisation is not positive.
@@ -39,7 +39,7 @@ pub enum SparseError {
         /// Order of the matrix.
         order: usize,
     },
-    /// More modes below a frequency than are looked for.
+    /// More modes below the cut frequency than are kept.
     #[error("{count} modes lie below the cut; at most {most} are kept")]
     TooManyModes {
         /// Modes counted.

@@ -1,5 +1,5 @@
-//! Frequencies of a ramp and of a cantilever against CalculiX on the same mesh: an outside program with
-//! its own elements (C3D20, C3D10), assembly and eigenvalue solver. Needs `ccx`, Debian package calculix-ccx.
+//! Compares frequencies of a ramp and of a cantilever with CalculiX on the same mesh: an independent program with its
+//! own elements (C3D20, C3D10), assembly and eigenvalue solver. Needs `ccx`, Debian package calculix-ccx.
 
 mod block;
 
@@ -182,9 +182,9 @@ fn frequencies_are_those_of_calculix_on_the_same_mesh() {
     }
 }
 
-/// A cantilever clamped over its whole root, slender enough that its first bending frequency is the thin beam's
-/// of 1.8751² √(EI/ρA)/(2π l²) within 1 %: the clamp, which hinders strain across, and shear, which is 0.2 %,
-/// make the rest.
+/// A cantilever clamped over its whole root. It is slender enough for its first bending frequency to agree within 1 %
+/// with the thin beam's 1.8751² √(EI/ρA)/(2π l²). The difference is due to the clamp, which hinders lateral strain, and
+/// to shear (0.2 %).
 #[test]
 #[ignore = "needs CalculiX: make verify-solid"]
 fn a_cantilever_vibrates_as_calculix_has_it_on_the_same_mesh() {

@@ -1,4 +1,4 @@
-//! Elements and modes against closed forms of three-dimensional elasticity and of beams.
+//! Elements and modes against closed-form solutions of three-dimensional elasticity and of beams.
 
 mod block;
 
@@ -28,8 +28,8 @@ fn nodes_where(mesh: &Mesh, on: impl Fn([f64; 3]) -> bool) -> Vec<usize> {
     nodes.filter(|(_, x)| on(**x)).map(|(a, _)| a).collect()
 }
 
-/// Holds axial motion of the root and motion across on its middle lines only: a full clamp hinders
-/// lateral strain and warping, which beams do not know.
+/// Fixes the root's axial motion, and its lateral motion on the middle lines only: a full clamp hinders lateral strain
+/// and warping, which beam theory neglects.
 fn hold_as_a_beam(support: &mut Support<'_>, mesh: &Mesh, root: &[usize], size_m: [f64; 2]) {
     support.held = root.iter().map(|&a| (a, 0)).collect();
     for (direction, size_m) in [(1, size_m[0]), (2, size_m[1])] {
@@ -50,7 +50,7 @@ fn an_irregular_patch_takes_any_uniform_strain_exactly() {
     for shape in [Shape::Hexahedron20, Shape::Tetrahedron10] {
         let mut mesh = block(shape, [1e-3; 3], [3, 3, 3]);
         let inside = |x: [f64; 3]| x.iter().all(|&c| c > 1e-9 && c < 1e-3 - 1e-9);
-        // Corners move at random, middles of edges stay in the middle.
+        // Corners move at random, midside nodes stay in the middle.
         let mut seed = 1_u64;
         let mut random = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -120,7 +120,7 @@ fn an_irregular_patch_takes_any_uniform_strain_exactly() {
     }
 }
 
-/// A free solid has six motions without strain and no other near them.
+/// A free solid has six motions without strain, and no other eigenvalue near zero.
 #[test]
 fn a_free_solid_has_six_modes_at_zero() {
     for (shape, cells) in [
@@ -136,7 +136,7 @@ fn a_free_solid_has_six_modes_at_zero() {
             assert!(value.abs() < 1e-10 * scale, "{shape:?} {value:e}");
         }
         assert!(modes.omega_squared[6] > 0.05 * scale, "{shape:?}");
-        // Without the shift the solid is refused: nothing holds it.
+        // Without the shift the solid is rejected, because it has no support.
         assert!(
             StaticSolver::new(&system, Vec::new(), 0.0).is_err()
                 || solver.count_below(&system, 1.0).unwrap() >= 1
@@ -208,9 +208,9 @@ fn modes_between_smooth_walls_converge_with_order_four() {
     }
 }
 
-/// Tip deflection of a cantilever under an end load: P l³/3EI + P l/(κ G A), Timoshenko with κ of a
-/// rectangle for ν = 0 (5/6, Cowper 1966). One element through the thickness: what locks loses
-/// more as the beam gets thinner.
+/// Tip deflection of a cantilever under an end load: P l³/3EI + P l/(κ G A), Timoshenko with κ of a rectangle for ν = 0
+/// (5/6, Cowper 1966). With one element through the thickness, elements that lock lose accuracy as the beam gets
+/// thinner.
 #[test]
 fn thin_cantilevers_neither_lock_in_shear_nor_in_volume() {
     for (length_m, height_m, poisson, tolerance) in [
@@ -314,8 +314,8 @@ fn timoshenko_hz(length: f64, width: f64, height: f64, m: &Material, wanted: usi
     found
 }
 
-/// Bending frequencies of a cantilever against Timoshenko's beam (Cowper's shear coefficient). The
-/// root is held as a beam's.
+/// Bending frequencies of a cantilever against Timoshenko's beam (Cowper's shear coefficient), with the root supported
+/// as a beam's.
 #[test]
 fn cantilever_frequencies_are_those_of_the_timoshenko_beam() {
     let (length, width, height) = (20e-3, 0.8e-3, 1e-3);
@@ -363,7 +363,7 @@ fn a_block_on_springs_is_an_oscillator_in_each_direction() {
     let mesh = block(Shape::Hexahedron20, [2e-3, 2e-3, 0.5e-3], [2, 2, 1]);
     let faces = mesh.surface_faces(|x| near(x[2], 0.0));
     let area_m2 = 4e-6;
-    // Soft springs far apart in stiffness; rocking is held by the same springs.
+    // Soft springs of very different stiffness; the same springs resist rocking.
     let stiffness = [40.0, 50.0, 90.0];
     let support = Support {
         held: Vec::new(),

@@ -18,7 +18,7 @@ fn ramp(cut_hz: f64) -> SolidRamp {
     }
 }
 
-/// What drives a mode.
+/// Excitation of a mode.
 type Input = fn(&PointMode) -> f64;
 type Change = fn(&mut SolidRamp);
 
@@ -72,12 +72,12 @@ fn contact_response_is_that_of_the_full_model_below_half_the_cut() {
             }
         }
     }
-    // The comparison is of two different models.
+    // The comparison is between two different models.
     assert!(worst > 1e-8, "{worst:e}");
 }
 
-/// Static motion of the contacts under forces on them and under steady acceleration is exact
-/// whatever the cut: here without a single fixed-interface mode.
+/// Static motion of the contacts under forces on them and under steady acceleration is exact for any cut: here without
+/// a single fixed-interface mode.
 #[test]
 fn static_answers_are_exact_for_any_cut() {
     let ramp = ramp(1.0);
@@ -105,8 +105,8 @@ fn static_answers_are_exact_for_any_cut() {
     }
 }
 
-/// On springs nothing is held: all mass is driven, Σ p² over all modes is the ramp's mass, and the
-/// modes below a high cut hold nearly all of it.
+/// On springs all mass is driven: Σ p² over all modes is the ramp's mass, and the modes below a high cut contain nearly
+/// all of it.
 #[test]
 fn participations_add_up_to_the_mass_on_an_elastic_mount() {
     let mut ramp = ramp(100e3);
@@ -121,13 +121,13 @@ fn participations_add_up_to_the_mass_on_an_elastic_mount() {
         let below = modes.modes.iter().filter(|m| m.frequency_hz < below_hz);
         below.map(|m| m.participation.powi(2)).sum::<f64>() / expected
     };
-    // Momentum cannot exceed the mass; what is missing lies above the cut.
+    // Momentum cannot exceed the mass; the rest lies above the cut.
     assert!(
         share(f64::MAX) < 1.0 && share(f64::MAX) > 0.95,
         "{}",
         share(f64::MAX)
     );
-    // Steady acceleration: springs carry the whole weight, whatever bends.
+    // Steady acceleration: the springs carry the whole weight, however the ramp bends.
     let (mesh, system) = ramp.system(Extent::Half).unwrap();
     let mut answer = vec![system.base_load_kg[2].clone()];
     system.stiffness.cholesky().unwrap().solve(&mut answer);
@@ -141,14 +141,14 @@ fn participations_add_up_to_the_mass_on_an_elastic_mount() {
     assert!((2e6 * sag / expected - 1.0).abs() < 1e-9);
 }
 
-/// Half a ramp with a plane of symmetry is the whole one: every driven mode.
+/// Half a ramp with a plane of symmetry has every driven mode of the whole one.
 #[test]
 fn half_a_ramp_moves_as_the_whole() {
     let ramp = ramp(40e3);
     let modes = [Extent::Half, Extent::Whole].map(|extent| {
         let (mesh, system) = ramp.system(extent).unwrap();
         let all = ramp.reduce(&mesh, &system).unwrap().point_modes().unwrap();
-        // Modes of the whole that are odd in y have no part in the motion of the contacts.
+        // Modes of the whole that are odd in y do not move the contacts.
         all.into_iter()
             .filter(|m| m.shape[0].hypot(m.shape[1]) > 1e-3)
             .collect::<Vec<_>>()
@@ -163,7 +163,7 @@ fn half_a_ramp_moves_as_the_whole() {
     }
 }
 
-/// The mesh of the default size is within some thousandths of a finer one, and frequencies fall.
+/// The mesh of the default size agrees within a few thousandths with a finer one, and frequencies fall with refinement.
 #[test]
 fn frequencies_fall_towards_those_of_a_finer_mesh() {
     let modes = [1.4e-3, 0.7e-3].map(|mesh_size_m| {
@@ -179,7 +179,7 @@ fn frequencies_fall_towards_those_of_a_finer_mesh() {
     }
 }
 
-/// A very stiff mount is a bolted one.
+/// A very stiff mount approaches a bolted one.
 #[test]
 fn an_ever_stiffer_mount_becomes_a_bolted_one() {
     let bolted = ramp(20e3).modes().unwrap().modes[0].frequency_hz;

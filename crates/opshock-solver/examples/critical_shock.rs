@@ -1,4 +1,4 @@
-//! The critical shock of both signs, without a ramp and with a rigid one.
+//! Finds the critical shock of both signs, without a ramp and with a rigid one.
 //!
 //! `cargo run --release -p opshock-solver --example critical_shock`
 

@@ -1,4 +1,4 @@
-//! One shock: does the slider touch the disk, and when?
+//! Runs one shock: does the slider touch the disk, and when?
 //!
 //! `cargo run --release -p opshock-solver --example one_shock -- 400 2` (peak in g, width in ms)
 
@@ -25,11 +25,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let outcome = simulate(&model, &request, &mut Workspace::default());
 
     match &outcome.verdict {
-        Verdict::Survives => println!("survives"),
-        Verdict::Fails { t_fail_s, .. } => {
+        Some(Verdict::Survives) => println!("survives"),
+        Some(Verdict::Fails { t_fail_s, .. }) => {
             println!("touches {:.4} ms after the onset", 1e3 * t_fail_s)
         }
-        Verdict::Undecided { cause } => println!("no answer: {cause}"),
+        Some(Verdict::Undecided { cause }) => println!("no answer: {cause}"),
+        None => println!("no head was simulated"),
     }
     if let Some(clearance_m) = outcome.min_clearance_m {
         println!("smallest clearance {:.3} nm", 1e9 * clearance_m);

@@ -1,4 +1,4 @@
-//! A pulse from samples: what a sawtooth does that a half-sine of the same peak and width does not.
+//! Compares a pulse from samples, a sawtooth, with a half-sine of the same peak and width.
 //!
 //! `cargo run --release -p opshock-solver --example own_pulse`
 

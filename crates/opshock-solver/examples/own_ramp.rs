@@ -1,5 +1,5 @@
-//! A ramp model of one's own: a spring of so many N/m behind each contact point, as a static test of one arm
-//! gives it, with the mass that moves along; against a rigid ramp.
+//! Uses a ramp model of one's own, beside a rigid ramp: a spring behind each contact point, whose stiffness in N/m a
+//! static test of one arm gives, with the mass that moves along.
 //!
 //! `cargo run --release -p opshock-solver --example own_ramp`
 

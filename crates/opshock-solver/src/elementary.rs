@@ -1,8 +1,8 @@
-//! Exponential and logarithm without calls, tables or branches.
+//! Computes exponential, logarithm, sine and cosine without calls, tables or branches.
 //!
-//! A loop over these compiles to vector instructions of whatever width the processor has, and every
-//! lane does the same additions and multiplications in the same order, so results are the same
-//! bits on every machine. Accuracy: 2 units in the last place over the stated ranges.
+//! A loop over these functions compiles to vector instructions of whatever width the processor has. Every lane does the
+//! same operations in the same order, so results have the same bits on every machine. Accuracy: 2 units in the last
+//! place over the stated ranges.
 //!
 //! ```text
 //! eˣ = 2ᵏ eʳ,   k = round(x/ln 2),  |r| <= ln 2/2, Taylor to r¹³
@@ -13,10 +13,10 @@
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// ln 2 in two parts: the first has 33 bits, so that its product with k is exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
-/// Arguments of eˣ are kept within this.
+/// Arguments of eˣ are limited to this magnitude.
 const LARGEST: f64 = 700.0;
 
-/// eˣ; arguments beyond ±700 count as ±700. NaN stays NaN.
+/// eˣ; arguments beyond ±700 are taken as ±700. NaN stays NaN.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
     let x = if x > LARGEST { LARGEST } else { x };
@@ -52,7 +52,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     for k in (0..10).rev() {
         cosine = cosine.mul_add(square, COSINE[k]);
     }
-    // The leading term apart: its rounding is the last one.
+    // The leading term is added last, so that its rounding is the last one.
     ((sine * square).mul_add(x, x), cosine.mul_add(square, 1.0))
 }
 

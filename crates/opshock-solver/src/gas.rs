@@ -1,4 +1,4 @@
-//! Air at a temperature and an altitude: pressure, viscosity, mean free path.
+//! Gives the state of air at a temperature and an altitude: pressure, viscosity, mean free path.
 
 /// State of the gas around the drive.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

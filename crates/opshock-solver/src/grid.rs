@@ -1,4 +1,4 @@
-//! Graded tensor grids: cells, faces, spacing.
+//! Describes graded tensor grids by their lines: cells, faces, spacing.
 //!
 //! A [`Lines`] is a strictly rising list of grid lines; cells lie between neighbours, their
 //! centres half way. Lines of a tensor grid run through every edge they are given, and between two
@@ -15,15 +15,6 @@ impl Lines {
     pub fn new(lines: Vec<f64>) -> Option<Self> {
         let rising = lines.windows(2).all(|w| w[0] < w[1]) && lines.iter().all(|x| x.is_finite());
         (lines.len() >= 2 && rising).then_some(Self { lines })
-    }
-
-    /// `n` equal cells from `from` to `to`.
-    pub fn uniform(from: f64, to: f64, n: usize) -> Option<Self> {
-        Self::new(
-            (0..=n)
-                .map(|i| from + (to - from) * (i as f64 / n as f64))
-                .collect(),
-        )
     }
 
     /// Number of cells.
@@ -56,7 +47,7 @@ mod tests {
         assert!(Lines::new(vec![0.0]).is_none());
         assert!(Lines::new(vec![0.0, 1.0, 1.0]).is_none());
         assert!(Lines::new(vec![0.0, f64::NAN]).is_none());
-        let lines = Lines::uniform(1.0, 3.0, 4).unwrap();
+        let lines = Lines::new(vec![1.0, 1.5, 2.0, 2.5, 3.0]).unwrap();
         assert_eq!(
             (lines.n_cells(), lines.centre(1), lines.width(3)),
             (4, 1.75, 0.5)

@@ -1,11 +1,10 @@
-//! Vector instructions of the processor at hand, without asking for them when compiling.
+//! Runs loops with the widest vector instructions of the processor at hand, chosen when the program runs.
 //!
-//! A kernel is a struct whose `call` is marked `#[inline(always)]`; [`widest`] compiles it once for
-//! every instruction set and picks the widest that the processor has. Loops that the compiler does
-//! not turn into vector code by itself say so with [`WithSimd`]. A product and a sum are fused, that is rounded
-//! once, only where `mul_add` says so, which every processor rounds alike, and every element of a loop is
-//! computed alone: all sets give the same bits. One without fused instructions (x86-64 before 2013) computes
-//! them one by one by a library.
+//! A kernel is a struct whose `call` is marked `#[inline(always)]`; [`widest`] compiles it once for every instruction
+//! set and picks the widest that the processor has. Loops that the compiler does not turn into vector code by itself
+//! use [`WithSimd`]. A product and a sum are fused, that is rounded once, only where `mul_add` is written, which every
+//! processor rounds alike, and every element of a loop is computed alone: all sets give the same bits. On a processor
+//! without fused instructions (x86-64 before 2013) a library computes them one by one.
 
 pub use pulp::{NullaryFnOnce as Kernel, Simd, WithSimd};
 
@@ -30,8 +29,8 @@ pub fn product(row: &[f64], x: &[f64]) -> f64 {
     abreast([[row, x]])[0]
 }
 
-/// Scalar products of pairs of a row and a vector, side by side: one alone waits for its sums. Each has
-/// the bits of [`product`].
+/// Scalar products of pairs of a row and a vector, side by side, since a single one waits for its sums. Each has the
+/// bits of [`product`].
 ///
 /// # Panics
 ///
@@ -171,8 +170,8 @@ struct Abreast<'a, const K: usize> {
 }
 
 impl<const K: usize> WithSimd for Abreast<'_, K> {
-    /// Sums kept apart, and those of what is left. Added up in here they would lead the compiler to
-    /// pairs of numbers and shuffles in place of whole registers.
+    /// Separate sums, and those of the remaining elements. If they were added up here, the compiler would use pairs of
+    /// numbers and shuffles instead of whole registers.
     type Output = ([[f64; SUMS]; K], [f64; K]);
 
     #[inline(always)]

@@ -19,18 +19,9 @@
 #![forbid(unsafe_code)]
 
 pub mod air_bearing;
-pub mod complementarity;
 pub mod disk;
-pub mod elementary;
-pub mod fixed_point;
 pub mod gas;
-pub mod grid;
 pub mod head;
-pub mod integrator;
-pub mod lanes;
-pub mod linalg;
-pub mod modal;
-pub mod mutant;
 pub mod quantity;
 pub mod ramp;
 pub mod scene;
@@ -39,3 +30,25 @@ pub mod simulation;
 pub mod slider;
 pub mod structure;
 pub mod suspension;
+
+pub use scene::Scene;
+pub use simulation::{Model, Outcome, Request, Verdict, Workspace, critical_shock, simulate};
+
+mod elementary;
+mod grid;
+
+// Numerical methods. Other crates of this workspace check them; they are no part of the interface.
+#[doc(hidden)]
+pub mod complementarity;
+#[doc(hidden)]
+pub mod fixed_point;
+#[doc(hidden)]
+pub mod integrator;
+#[doc(hidden)]
+pub mod lanes;
+#[doc(hidden)]
+pub mod linalg;
+#[doc(hidden)]
+pub mod modal;
+#[doc(hidden)]
+pub mod mutant;

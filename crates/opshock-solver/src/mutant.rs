@@ -1,9 +1,8 @@
-//! Rules with one condition deleted, for the tests that must notice it.
+//! Deletes one condition of a rule, for the tests that must notice it.
 //!
-//! With the feature `mutants`, which only `make verify-effects` asks for, `with` runs a closure in which
-//! `is_on` is true of one name. Without it `is_on` is the constant `false` and leaves nothing
-//! behind. Names are a rule and the condition it loses; they are asked for while a model is built
-//! or a run begins, never in the middle of the arithmetic.
+//! With the feature `mutants`, which only `make verify-effects` enables, `with` runs a closure in which `is_on` is true
+//! for one name. Without it `is_on` is the constant `false` and compiles to nothing. A name consists of a rule and the
+//! condition it loses. Names are queried while a model is built or a run begins, never within the arithmetic.
 
 #[cfg(feature = "mutants")]
 mod switch {

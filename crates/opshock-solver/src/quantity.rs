@@ -1,4 +1,4 @@
-//! Constants and the only conversions from engineers' units into SI.
+//! Physical constants, and the only conversions from engineers' units into SI.
 
 /// Standard gravity, m/s2 (CGPM 1901).
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;

@@ -1,9 +1,9 @@
-//! Identities by content: equal inputs have equal names, on every machine and in every study.
+//! Identities by content: digests of cells and of the stages of a simulation.
 //!
-//! A cell is one search: a scene and the sign of its amplitude. Its [`CellId`] and the keys of the
-//! two stages are digests of the scene's SI numbers as JSON, with the shortest digits that read back to the same bits.
-//! Every field of what is digested is in it by itself; a new field of a scene does not compile until it is one of
-//! `structure`'s or `head`'s.
+//! Equal inputs have equal identities, on every machine and in every study. A cell is one search: a scene and the sign
+//! of its amplitude. Its [`CellId`] and the keys of the two stages are digests of the scene's SI numbers as JSON, with
+//! the shortest digits that read back to the same bits. New fields are digested without further code; a new field of a
+//! scene does not compile until it is one of `structure`'s or `head`'s.
 
 use opshock_solver::scene::Scene;
 use serde::Serialize;
@@ -60,7 +60,7 @@ pub fn head_key(scene: &Scene, structure_version: u32, head_version: u32) -> [u8
     digest("opshock head 2", &(versions, structure(scene), head(scene)))
 }
 
-/// Everything disk, ramp and their motion at the slider depend on.
+/// Everything that disk, ramp and their motion at the slider depend on.
 fn structure(scene: &Scene) -> impl Serialize {
     let Scene {
         pulse,

@@ -2,7 +2,7 @@
 //!
 //! `sweep-mock FOLDER THREADS SLEEP_MS [CHECKPOINT_MS] [refined]`
 //!
-//! Prints `ready`, and a line for every simulation once it is told as done: from then on it must
+//! Prints `ready`, and a line for every simulation once it is reported as done: from then on it must
 //! never be lost; and `begun` for one that outlasts any test. `refined` sweeps a study that adds widths, round by round.
 
 use std::io::Write as _;
@@ -12,23 +12,23 @@ use std::time::Duration;
 use opshock_study::store::StoreError;
 use opshock_study::sweep::{Ending, Event, Progress, SweepInput, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
-use opshock_tests::refined::{refined_study, sweep_told};
+use opshock_tests::refined::{refined_study, sweep_reported};
 
-/// Prints what is told as done: the point's digest and sign, the amplitude's bits, the window.
-struct Told(Vec<String>);
+/// Prints what is reported as done: the point's digest and sign, the amplitude's bits, the window.
+struct Reported(Vec<String>);
 
-impl Told {
-    fn of(input: &SweepInput) -> Told {
+impl Reported {
+    fn of(input: &SweepInput) -> Reported {
         let points = input.points.iter();
         let name = points.map(|point| {
             let digest: String = point.digest.0.iter().map(|b| format!("{b:02x}")).collect();
             format!("{digest} {}", point.coordinates.sign.as_str())
         });
-        Told(name.collect())
+        Reported(name.collect())
     }
 }
 
-impl Progress for Told {
+impl Progress for Reported {
     fn event(&self, event: &Event) {
         if let Event::ProbeDone {
             point,
@@ -70,9 +70,16 @@ fn main() -> ExitCode {
     options.stop.listen().expect("signal handlers");
     println!("ready");
     if is_refined {
-        let told = |input: &SweepInput| Box::new(Told::of(input)) as Box<dyn Progress>;
+        let reported = |input: &SweepInput| Box::new(Reported::of(input)) as Box<dyn Progress>;
         let sleep = milliseconds(sleep_ms);
-        sweep_told(&refined_study(), folder.as_ref(), &options, 99, sleep, told);
+        sweep_reported(
+            &refined_study(),
+            folder.as_ref(),
+            &options,
+            99,
+            sleep,
+            reported,
+        );
         return ExitCode::SUCCESS;
     }
     let mut input = fig13();
@@ -84,7 +91,7 @@ fn main() -> ExitCode {
         &simulator,
         folder.as_ref(),
         &options,
-        &Told::of(&input),
+        &Reported::of(&input),
     ) {
         Ok(end) => match end.ending {
             Ending::Complete => ExitCode::SUCCESS,

@@ -1,5 +1,4 @@
-//! A surface on the drive of a dynamic run: what `DynLULS.def` says of slider, pulse, disk and ramp as
-//! sections of a study.
+//! Converts a dynamic run of the CMLAir family (`DynLULS.def`) into sections of a study: slider, pulse, disk and ramp.
 //!
 //! The ramp's place follows from the actuator's pivot P. The arm, of length L, reaches from there to the
 //! slider at the radius r, whose skew s is the angle between arm and track:
@@ -7,13 +6,13 @@
 //! ```text
 //! c² = r² + L² − 2 r L sin s               c from P to the disk's centre
 //! cos γ = (c² + L² − r²) / (2 c L)         γ at P, between c and the arm
-//! R² = c² + x² − 2 c x cos(γ + a)          ramp at x from P, turned by a from the slider outwards
+//! R² = c² + x² − 2 c x cos(γ + a)          ramp at x from P, rotated by a from the slider outwards
 //! ```
 //!
-//! The angle at the disk's centre from ramp to slider, in the sense of rotation, is the difference of
-//! their polar angles there. With the sample drive of the CMLAir 8.01 manual R is 32.15 mm, inside its rim of
-//! 32.5 mm, and the angle 7.0 degrees. A skew that grows outwards, as of a rotary actuator, is what this sign
-//! means: the same arm has −6.1 degrees at 17.9 mm.
+//! The angle at the disk's centre from ramp to slider, in the sense of rotation, is the difference of their polar
+//! angles there. With the sample drive of the CMLAir 8.01 manual R is 32.15 mm, inside its rim of 32.5 mm, and the
+//! angle 7.0 degrees. This sign means a skew that grows outwards, as of a rotary actuator: the same arm has −6.1
+//! degrees at 17.9 mm.
 
 use super::dynamic::layout;
 use super::dynamic::{DynamicFile, Gas, Shape, Shock};
@@ -29,8 +28,8 @@ const SAME: f64 = 1e-6;
 /// Time constants after which a decaying sine is cut: 0.1 % is left.
 const DECAYED: f64 = 7.0;
 
-/// The study of a surface on the drive of a dynamic run. What `run.dat` says beside it holds where the dynamic
-/// run says nothing: gas, forces other than the air's. `imported` are the keys of a suspension by matrices.
+/// The study of a surface on the drive of a dynamic run. `run.dat` supplies what the dynamic run does not give: gas,
+/// and forces other than the air's. `imported` are the keys of a suspension by matrices.
 ///
 /// # Errors
 /// E175 for a slider of another size than the surface, a place of the ramp that is not over the disk, and as
@@ -57,10 +56,10 @@ pub fn study(
         let _ = writeln!(study.suspension, "[suspension.imported]\n{imported}");
     }
     if run.is_some() {
-        // Its places, speeds and load are not taken, so nothing has to be said of them.
+        // The places, speeds and load of `run.dat` are not used, so no note is needed.
         left_out.retain(|note| !["radii", "speeds", "xf0, yf0"].contains(&note.what.as_str()));
     }
-    left_out.extend(told(
+    left_out.extend(reported(
         file,
         name,
         run.is_some(),
@@ -73,7 +72,7 @@ pub fn study(
     })
 }
 
-/// Ramp and slider as seen from the disk's centre.
+/// Polar coordinates of ramp and slider about the disk's centre.
 #[derive(Clone, Copy)]
 struct Place {
     /// Radius of the ramp, m.
@@ -202,7 +201,7 @@ fn other_slider(rail: &RailFile, file: &DynamicFile, name: &str) -> Faults {
     faults
 }
 
-/// Where ramp and slider are; nothing without an arm.
+/// Places of ramp and slider; `None` without an arm.
 ///
 /// # Errors
 /// E175 for a ramp that is not over the disk.
@@ -241,8 +240,8 @@ fn place(file: &DynamicFile, name: &str) -> Result<Option<Place>, Faults> {
     }))
 }
 
-/// What was assumed of the file, and what of it was not taken along.
-fn told(
+/// Notes on assumptions about the file, and on values that are not imported.
+fn reported(
     file: &DynamicFile,
     name: &str,
     has_run: bool,
@@ -257,7 +256,7 @@ fn told(
     note("f0", load, "read in kg of force, as in run.dat");
     let skew = format!("{} deg", file.skew_deg);
     note("skew", skew, "read in degrees");
-    tell_shock(file, &mut note);
+    report_shock(file, &mut note);
     let [inner, outer] = file.disk.radii_m;
     note(
         "radii and thickness of the disk",
@@ -307,12 +306,12 @@ fn told(
             "the suspension is that of the default drive with this load",
         ),
     }
-    tell_rest(file, has_matrices, &mut note);
+    report_rest(file, has_matrices, &mut note);
     notes
 }
 
-/// How the pulse was read.
-fn tell_shock(file: &DynamicFile, note: &mut impl FnMut(&str, String, &str)) {
+/// Notes on how the pulse was read.
+fn report_shock(file: &DynamicFile, note: &mut impl FnMut(&str, String, &str)) {
     let Some(shock) = &file.shock else {
         let message = "no pulse: half-sines of three widths are searched";
         note("shock", "mode 0".to_owned(), message);
@@ -347,8 +346,8 @@ fn tell_shock(file: &DynamicFile, note: &mut impl FnMut(&str, String, &str)) {
     }
 }
 
-/// What is told and not taken along.
-fn tell_rest(file: &DynamicFile, has_matrices: bool, note: &mut impl FnMut(&str, String, &str)) {
+/// Notes on values that are not imported.
+fn report_rest(file: &DynamicFile, has_matrices: bool, note: &mut impl FnMut(&str, String, &str)) {
     note(
         "dt, tf",
         format!("{:?} s, {:?} s", file.step_s, file.end_s),

@@ -1,9 +1,8 @@
-//! Text files of the CMLAir family: air-bearing surfaces ([`rail`]), static runs ([`run`]) and dynamic
+//! Reads and writes text files of the CMLAir family: air-bearing surfaces ([`rail`]), static runs ([`run`]) and dynamic
 //! ones ([`dynamic`]).
 //!
-//! All values are SI. Versions other than 7.0 and 8.0 are refused by name: their layouts differ.
-//! [`study`] writes what they say as a study file and a surface file; [`drive`] adds what a dynamic run says
-//! of pulse, disk and ramp.
+//! All values are SI. Versions other than 7.0 and 8.0 are rejected by name, because their layouts differ. [`study`]
+//! converts the files into a study file and a surface file; [`drive`] adds pulse, disk and ramp of a dynamic run.
 
 pub mod drive;
 pub mod dynamic;

@@ -1,4 +1,4 @@
-//! `rail.dat`: an air-bearing surface.
+//! Reads and writes `rail.dat`, an air-bearing surface of the CMLAir family.
 //!
 //! ```text
 //! CML Version 8.0 …             two lines of header
@@ -60,7 +60,7 @@ pub struct RailFile {
 pub struct Rail {
     /// Corners, m.
     pub corners_m: Vec<[f64; 2]>,
-    /// Wall profile along the edge from each corner, counted from 1; 0 for none.
+    /// Wall profile along the edge from each corner, numbered from 1; 0 for none.
     pub walls: Vec<usize>,
     /// Depth.
     pub recess: Recess,
@@ -97,7 +97,7 @@ pub fn read(source: &Source) -> Result<RailFile, Faults> {
     let mut faults = std::mem::take(&mut reader.faults);
     match result {
         Ok(file) => {
-            // What could not be read counts as 0: its consequences are no faults of their own.
+            // Unreadable values are set to 0; checks of them would only repeat the fault.
             if faults.is_empty() {
                 faults = outside(&file, reader.file);
             }
@@ -212,7 +212,7 @@ fn rail(reader: &mut Reader<'_>, k: usize, n_walls: usize) -> Result<Rail, Fault
 
 fn walls(reader: &mut Reader<'_>, n: usize) -> Result<Vec<Wall>, Faults> {
     if n == 0 {
-        // The line of counts may be there, empty of meaning: "0".
+        // The line of profile points may be present without meaning: "0".
         let is_zero = |line: &crate::text::Line<'_>| line.text.trim() == "0";
         reader.lines.next_if(is_zero);
         return Ok(Vec::new());
@@ -255,7 +255,7 @@ fn list(reader: &mut Reader<'_>, what: &str, n: usize) -> Result<Vec<f64>, Fault
     let (line, words) = reader.words(what)?;
     if words.len() != n {
         return Err(
-            Fault::of("E175", reader.file, "another number of values than told")
+            Fault::of("E175", reader.file, "not the declared number of values")
                 .line(line)
                 .what(what)
                 .value(format!("{} values", words.len()))
@@ -282,7 +282,7 @@ fn points(reader: &mut Reader<'_>) -> Result<Vec<[f64; 2]>, Faults> {
     Ok(x.into_iter().zip(y).map(|(x, y)| [x, y]).collect())
 }
 
-/// E175 for every value that no slider has.
+/// E175 for every value that no slider can have.
 fn outside(file: &RailFile, name: &str) -> Faults {
     let mut faults = Faults::default();
     let mut check = |what: String, line: usize, value: f64, (low, high): (f64, f64), unit: &str| {
@@ -346,7 +346,7 @@ fn outside(file: &RailFile, name: &str) -> Faults {
                 "m",
             );
         }
-        // Corners may lie on the edge; a nanometre beyond it is rounding.
+        // Corners may lie on the edge; up to a nanometre outside is rounding.
         for (corner, [x, y]) in (1..).zip(&rail.corners_m) {
             let at = |axis: &str| format!("{axis} of corner {corner} of rail {k}");
             check(at("x"), rail.line, *x, (-1e-9, file.length_m + 1e-9), "m");

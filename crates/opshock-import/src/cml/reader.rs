@@ -1,4 +1,4 @@
-//! Lines of a file of the family: its version, its numbers, and what is wrong with them.
+//! Line reader for files of the CMLAir family: version, numbers and the faults found in them.
 
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Source, Word};
@@ -6,10 +6,10 @@ use crate::text::{Line, NotANumber, Source, Word};
 /// Versions whose layout is read.
 pub const VERSIONS: [&str; 2] = ["7.0", "8.0"];
 
-/// Largest number of anything that a file of this family counts.
+/// Largest allowed number of items of any kind in a file of this family.
 pub(super) const MAX_COUNT: usize = 1000;
 
-/// Lines of a file, taken one after the other, blank ones left out.
+/// Lines of a file in order, without blank ones.
 pub(super) struct Reader<'a> {
     pub(super) file: &'a str,
     pub(super) lines: std::iter::Peekable<std::vec::IntoIter<Line<'a>>>,
@@ -18,7 +18,7 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Checks the header and goes behind it.
+    /// Checks the header and skips it.
     ///
     /// # Errors
     /// As [`Reader::of_any`], and E173 for the dynamic program's file.
@@ -27,7 +27,7 @@ impl<'a> Reader<'a> {
         Self::of_any(source)
     }
 
-    /// Checks the header and goes behind it.
+    /// Checks the header and skips it.
     ///
     /// # Errors
     /// E160 for another header, E173 for another version.
@@ -46,7 +46,7 @@ impl<'a> Reader<'a> {
         };
         let version = version(rest);
         if !VERSIONS.contains(&version.as_str()) {
-            let (message, told) = if version.is_empty() {
+            let (message, reported) = if version.is_empty() {
                 ("the first line names no version", text)
             } else {
                 ("files of this version are not read", version.as_str())
@@ -54,7 +54,7 @@ impl<'a> Reader<'a> {
             return Err(Fault::of("E173", &source.name, message)
                 .line(1)
                 .what("version")
-                .value(told)
+                .value(reported)
                 .allowed(VERSIONS.join(", "))
                 .hint("save it as version 8.0")
                 .into());
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
         Ok(values)
     }
 
-    /// Counts on the next line, each at most [`MAX_COUNT`].
+    /// Whole numbers on the next line, each at most [`MAX_COUNT`].
     pub(super) fn counts<const N: usize>(
         &mut self,
         names: [&str; N],
@@ -135,10 +135,10 @@ impl<'a> Reader<'a> {
 /// Name of the dynamic program's file.
 const DYNAMIC_FILE: &str = "dynluls.def";
 
-/// Names that only the dynamic program's file has: its solver's option, and its radii.
+/// Names that only the dynamic program's file has: an option of its solver, and its radii.
 const DYNAMIC_NAMES: [&str; 3] = ["iqpo", "ra_if", "ra_of"];
 
-/// Refuses `DynLULS.def` in the place of another file: its first line need not say what it is.
+/// Rejects `DynLULS.def` in the place of another file: its first line need not identify it.
 fn refuse_dynamic(source: &Source) -> Result<(), Faults> {
     let named = source.name.to_lowercase().ends_with(DYNAMIC_FILE);
     let is_name = |word: Word<'_>| {
@@ -185,7 +185,7 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// A real number; a fault and 0 for what is none.
+/// A real number; for other words a fault, and 0.
 pub(super) fn real(file: &str, word: &Word<'_>, name: &str, faults: &mut Faults) -> f64 {
     let message = match word.real() {
         Ok(value) => return value,
@@ -203,7 +203,7 @@ pub(super) fn real(file: &str, word: &Word<'_>, name: &str, faults: &mut Faults)
     0.0
 }
 
-/// A number within a range; a fault where it is none or outside.
+/// A number within a range; a fault for other words and values.
 pub(super) fn within(
     file: &str,
     word: &Word<'_>,

@@ -1,19 +1,18 @@
-//! `run.dat`: the settings of static runs.
+//! Reads and writes `run.dat`, the settings of static runs of the CMLAir family.
 //!
-//! Two lines of header, then sections that a line of asterisks opens. In a section a line of names is
-//! followed by a line of values; behind `irad irpm ialt` come the radii, their skews, the speeds
-//! and the altitudes, a line each. What is read here: places and speeds, the gas, the load, the
-//! slip model, the forces between slider and disk beside the air; the rest are settings of another
-//! solver.
+//! Two lines of header, then sections that a line of asterisks opens. In a section a line of names is followed by a
+//! line of values. After `irad irpm ialt` come the radii, their skews, the speeds and the altitudes, a line each. Read
+//! are places and speeds, the gas, the load, the slip model, and the forces between slider and disk other than the
+//! air's. The rest are settings of another solver.
 //!
-//! `A` and `B` are short enough to be anything's names: they are read beside `icmodel` alone.
+//! `A` and `B` are short enough to name anything, so they are read only beside `icmodel`.
 
 use super::reader::{Reader, within};
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Source, Word};
 use std::collections::HashMap;
 
-/// Flights that a file asks for.
+/// Static flights requested by a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFile {
     /// Version of the format.
@@ -34,9 +33,9 @@ pub struct RunFile {
     pub viscosity_pa_s: f64,
     /// Load, kg of force.
     pub load_kgf: f64,
-    /// Point of the load from the slider's centre, m, as far as told.
+    /// Point of the load from the slider's centre, m; 0 where not given.
     pub load_point_m: [f64; 2],
-    /// Static pitch and roll angles of the suspension, rad, as far as told.
+    /// Static pitch and roll angles of the suspension, rad; 0 where not given.
     pub static_angles_rad: [f64; 2],
     /// Slip model.
     pub slip: Slip,
@@ -50,14 +49,14 @@ pub struct RunFile {
     pub potential_v: f64,
 }
 
-/// Pressures that are read.
+/// Range of pressures that are read.
 pub(super) const PRESSURE_PA: (f64, f64) = (1e3, 1e6);
-/// Mean free paths that are read.
+/// Range of mean free paths that are read.
 pub(super) const MEAN_FREE_PATH_M: (f64, f64) = (1e-9, 1e-5);
-/// Viscosities that are read.
+/// Range of viscosities that are read.
 pub(super) const VISCOSITY_PA_S: (f64, f64) = (1e-6, 1e-3);
 
-/// How the flow is rarefied.
+/// Rarefaction model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slip {
     /// First-order slip.
@@ -68,7 +67,7 @@ pub enum Slip {
     FukuiKaneko,
 }
 
-/// Names with the words that stand for them.
+/// Names with their values.
 type Settings<'a> = HashMap<String, (Word<'a>, usize)>;
 
 /// Reads a file.
@@ -137,7 +136,7 @@ fn plain(word: &Word<'_>) -> String {
         .to_lowercase()
 }
 
-/// Puts names and values together. The number of the line of values of `irad`, where it is here.
+/// Pairs names with values. Returns the number of the line of values of `irad`, where it is here.
 fn name_values<'a>(
     reader: &Reader<'_>,
     section: &[Line<'a>],
@@ -147,7 +146,7 @@ fn name_values<'a>(
     let mut lines = section.iter().peekable();
     while let Some(line) = lines.next() {
         let names: Vec<Word<'a>> = line.words().collect();
-        // Numbers behind a line of values: lists, grids.
+        // Numbers after a line of values: lists, grids.
         if names.first().is_none_or(is_numeric) {
             continue;
         }
@@ -197,7 +196,7 @@ const WANTED: [&str; 15] = [
     "icmodel", "usestiff", "elecpot",
 ];
 
-/// Names that are read where `icmodel` is one of the line's.
+/// Names that are read where the line also has `icmodel`.
 const BESIDE_CONTACT: [&str; 2] = ["a", "b"];
 
 fn flights(
@@ -254,14 +253,12 @@ fn flights(
             let words = rows.next().unwrap_or_default();
             if words.len() != n {
                 let at = words.first().map_or(line, |word| word.line);
-                return Err(
-                    Fault::of("E175", file, "another number of values than told")
-                        .line(at)
-                        .what(name)
-                        .value(format!("{} values", words.len()))
-                        .allowed(n.to_string())
-                        .into(),
-                );
+                return Err(Fault::of("E175", file, "not the declared number of values")
+                    .line(at)
+                    .what(name)
+                    .value(format!("{} values", words.len()))
+                    .allowed(n.to_string())
+                    .into());
             }
             let values = words
                 .iter()

@@ -1,20 +1,20 @@
-//! What the files say, as a study file and a surface file of opshock (TOML).
+//! Converts files of the CMLAir family into a study file and a surface file of opshock (TOML).
 
 use super::rail::{RailFile, Recess};
 use super::run::{RunFile, Slip};
 use crate::fault::{Fault, Faults};
 use std::fmt::Write as _;
 
-/// A file's text, and what of its source it could not take along.
+/// Text of a written file, and notes on what was not imported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// TOML.
     pub text: String,
-    /// N207 for each thing left out.
+    /// N207 for each value that was not imported.
     pub left_out: Vec<Fault>,
 }
 
-/// A number in another unit with the fewest digits that give it back.
+/// A number in another unit, with the fewest digits that reproduce it.
 pub(super) fn shortest(value: f64, per: f64) -> String {
     let scaled = value * per;
     for digits in 0..17 {
@@ -72,7 +72,7 @@ pub fn surface(file: &RailFile, name: &str) -> Result<Written, Faults> {
             .corners_m
             .iter()
             .map(|[x, y]| {
-                // Rounding beyond the edges of the slider is taken back.
+                // Rounding beyond the edges of the slider is removed.
                 let (x, y) = (x.clamp(0.0, file.length_m), y.clamp(0.0, file.width_m));
                 format!("[{}, {}]", um(x), um(y))
             })
@@ -102,7 +102,7 @@ pub fn surface(file: &RailFile, name: &str) -> Result<Written, Faults> {
     faults.or(Written { text, left_out })
 }
 
-/// Where files are, and what is taken of them.
+/// Names of the files, and the selected flight.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// Name of the study.
@@ -111,9 +111,9 @@ pub struct Asked<'a> {
     pub surface_file: &'a str,
     /// Name of `run.dat`, for faults.
     pub run_file: &'a str,
-    /// Which radius, counted from 1.
+    /// Selected radius, numbered from 1.
     pub radius: usize,
-    /// Which speed, counted from 1.
+    /// Selected speed, numbered from 1.
     pub speed: usize,
 }
 
@@ -131,7 +131,7 @@ pub(super) struct Sections {
 }
 
 impl Sections {
-    /// What is known without a file but the surface.
+    /// The sections that follow from the surface alone.
     fn of(rail: &RailFile) -> Self {
         Self {
             pulse: "[pulse]\nwidths_ms = [0.5, 1.0, 2.0]\nsigns = [\"+\", \"-\"]\n\n".to_owned(),
@@ -149,7 +149,7 @@ impl Sections {
         }
     }
 
-    /// Takes from `run.dat` one of its flights.
+    /// Takes one of the flights from `run.dat`.
     fn fly(&mut self, run: &RunFile, asked: Asked<'_>) -> Result<(), Faults> {
         let of = |list: &[f64], k: usize, what: &str| {
             let found = k.checked_sub(1).and_then(|k| list.get(k)).copied();
@@ -188,7 +188,7 @@ impl Sections {
     /// The study.
     pub(super) fn text(&self, asked: Asked<'_>) -> String {
         let mut text = format!(
-            "study_format = 1\nname = {}\noutputs = [\"critical_shock\"]\n\n",
+            "study_format = 2\nname = {}\noutputs = [\"critical_shock\"]\n\n",
             quoted(asked.name)
         );
         for section in [
@@ -231,7 +231,7 @@ pub(super) fn suspension(load_kgf: f64) -> String {
     format!("[suspension]\ngram_load_gf = {load_gf}\n\n")
 }
 
-/// Sections of a surface flown as `run.dat` says, and what of that was left out; without one, on the
+/// Sections of a surface flown according to `run.dat`, and notes on what was not imported; without `run.dat`, on the
 /// default drive.
 ///
 /// # Errors
@@ -249,7 +249,7 @@ pub(super) fn sections(
     Ok((sections, run_left_out(run, asked.run_file)))
 }
 
-/// The study of a surface flown as `run.dat` says; without one, on the default drive.
+/// The study of a surface flown according to `run.dat`; without it, on the default drive.
 ///
 /// # Errors
 /// E175 when there is no such radius or speed.
@@ -261,7 +261,7 @@ pub fn study(rail: &RailFile, run: Option<&RunFile>, asked: Asked<'_>) -> Result
     })
 }
 
-/// Section of the forces that the file has; nothing without one.
+/// Section of the forces that the file gives; empty without any.
 fn surface_forces(run: &RunFile) -> String {
     let mut text = String::new();
     for (key, value) in [

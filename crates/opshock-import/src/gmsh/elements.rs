@@ -1,15 +1,15 @@
-//! Gmsh's types of elements and the order of their nodes.
+//! Gmsh's element types and the order of their nodes.
 
 use super::mesh::Solid;
 
-/// What an element of a file is here.
+/// Meaning of an element type here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A solid element with the place of each of its nodes in the file's order.
     Solid(Solid, &'static [usize]),
-    /// A face of so many nodes that count.
+    /// A face, with the number of its nodes that are used.
     Face(usize),
-    /// A point or line, not looked at.
+    /// A point or line, ignored.
     Left,
     /// A solid or face that is not read, with its name.
     Refused(&'static str),

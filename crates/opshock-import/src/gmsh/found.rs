@@ -1,10 +1,10 @@
-//! What the sections of a `.msh` file hold, and the solid that it makes.
+//! Contents of the sections of a `.msh` file, and the solid built from them.
 
 use super::mesh::{BODY, Face, MeshFile, Solid};
 use crate::fault::{Fault, Faults};
 use std::collections::{BTreeMap, HashMap};
 
-/// What the sections hold.
+/// Contents of the sections.
 #[derive(Default)]
 pub(super) struct Found {
     /// Names of physical groups by dimension and number.
@@ -93,7 +93,7 @@ impl Found {
         }
         for face in &self.faces {
             for name in self.names_of(2, face.entity) {
-                // A node outside the solid makes a face of none of its elements.
+                // A node outside the solid: then the face belongs to none of its elements.
                 mesh.surfaces
                     .entry(name.to_owned())
                     .or_default()

@@ -1,9 +1,9 @@
-//! A solid with named surfaces: its elements' faces, its outside, its pieces.
+//! A solid mesh with named surfaces: faces of its elements, its boundary, its connected pieces.
 
 use crate::fault::{Fault, Faults};
 use std::collections::{BTreeMap, HashMap};
 
-/// Physical volumes that are the solid, where any is named.
+/// Name of the physical volumes that form the solid, where any volume is named.
 pub const BODY: &str = "body";
 
 /// Kind of all solid elements of a file.
@@ -118,7 +118,7 @@ impl MeshFile {
         faults.or(faces.iter().map(|face| face.nodes.clone()).collect())
     }
 
-    /// Whether every element hangs on every other by shared nodes.
+    /// Whether shared nodes connect all elements.
     ///
     /// # Errors
     /// E179 with the number of an element of another piece than the first.
@@ -146,14 +146,14 @@ impl MeshFile {
     }
 }
 
-/// Nodes that say which face it is, whichever corner it begins with.
+/// Nodes that identify the face, whichever corner it begins with.
 pub(super) fn key(nodes: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut key: Vec<usize> = nodes.collect();
     key.sort_unstable();
     key
 }
 
-/// Representative of a node's piece; paths are halved on the way.
+/// Representative of a node's piece; paths are halved in passing.
 fn root(parent: &mut [usize], mut node: usize) -> usize {
     while parent[node] != node {
         parent[node] = parent[parent[node]];

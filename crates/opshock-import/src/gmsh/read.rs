@@ -1,4 +1,4 @@
-//! The sections of a `.msh` file.
+//! Reads the sections of a Gmsh mesh file (`.msh`).
 
 use super::elements::{Kind, kind};
 use super::found::{Element, Found};
@@ -11,9 +11,9 @@ use std::collections::HashSet;
 /// Reads a file.
 ///
 /// # Errors
-/// E160 for a file that is none of Gmsh or is cut short; E173 for another version and for a binary
-/// one; E177 for words that are no numbers, counts that are not those told, nodes that are not there
-/// or are there twice; E178 for elements that are not read, and for none.
+/// E160 for a file that is not Gmsh's or is cut short; E173 for another version and for a binary file; E177 for words
+/// that are no numbers, numbers of items other than declared, and nodes that are missing or repeated; E178 for elements
+/// that are not read, and for a mesh without elements.
 pub fn read(source: &Source) -> Result<MeshFile, Faults> {
     let mut reader = Reader::new(&source.name, source.lines());
     reader.header()?;
@@ -149,7 +149,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
     fn nodes(&mut self, found: &mut Found) -> Result<(), Faults> {
         found.has_nodes = true;
         let n_blocks = self.count("blocks of nodes")?;
-        let told = self.count("nodes")?;
+        let reported = self.count("nodes")?;
         self.count("lowest number of a node")?;
         self.count("highest number of a node")?;
         for _ in 0..n_blocks {
@@ -189,12 +189,12 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                 found.nodes.push(place);
             }
         }
-        self.as_told("nodes", told, found.nodes.len())
+        self.as_reported("nodes", reported, found.nodes.len())
     }
 
     fn elements(&mut self, found: &mut Found) -> Result<(), Faults> {
         let n_blocks = self.count("blocks of elements")?;
-        let told = self.count("elements")?;
+        let reported = self.count("elements")?;
         self.count("lowest number of an element")?;
         self.count("highest number of an element")?;
         let mut there = 0;
@@ -272,6 +272,6 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                 });
             }
         }
-        self.as_told("elements", told, there)
+        self.as_reported("elements", reported, there)
     }
 }

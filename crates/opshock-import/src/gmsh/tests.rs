@@ -1,4 +1,4 @@
-//! Meshes that Gmsh itself wrote.
+//! Tests on meshes that Gmsh itself wrote.
 
 use super::mesh::key;
 use super::*;
@@ -11,7 +11,7 @@ fn mesh(name: &str) -> MeshFile {
     read(&Source::read(&folder.join(name)).unwrap()).unwrap()
 }
 
-/// Edges whose middles are the nodes behind the corners, in CalculiX's order.
+/// Edges whose middle nodes follow the corners, in CalculiX's order.
 fn edges(solid: Solid) -> &'static [[usize; 2]] {
     match solid {
         Solid::Tetrahedron => &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
@@ -36,8 +36,7 @@ fn between(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| 0.5 * (a[i] + b[i]))
 }
 
-/// The blocks have straight edges: a node that is not in the middle of its edge is in a wrong place
-/// of the list.
+/// The blocks have straight edges: a node that is not in the middle of its edge is at a wrong place of the list.
 #[test]
 fn nodes_behind_the_corners_are_in_the_middle_of_their_edges() {
     for (name, solid) in [
@@ -98,7 +97,7 @@ fn meshes_go_round() {
     }
 }
 
-/// What a writer may stumble over: numbers that are taken, a face outside, names without letters.
+/// Difficult cases for a writer: numbers in use, a face outside, names without letters.
 #[test]
 fn odd_meshes_go_round() {
     let mut odd = mesh("tet10.msh");
@@ -118,7 +117,7 @@ fn odd_meshes_go_round() {
     assert_eq!(content(&again), inside);
 }
 
-/// Each face of the outside is met once: 26 faces of five blocks less 4 pairs that touch.
+/// Each face of the boundary occurs once: 26 faces of five blocks less 4 pairs that touch.
 #[test]
 fn the_outside_of_the_blocks_is_closed() {
     let mesh = mesh("hex20.msh");

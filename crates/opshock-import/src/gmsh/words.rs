@@ -1,4 +1,4 @@
-//! Words of a `.msh` file, section by section; faults where they are more, fewer or other than told.
+//! Reads the words of a `.msh` file by section; faults where they differ in number or kind from the declared ones.
 
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, NotANumber, Word};
@@ -34,7 +34,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         Some(line)
     }
 
-    /// The line that opens the next section.
+    /// The mark that opens the next section.
     pub(super) fn next_section(&mut self) -> Option<Line<'a>> {
         self.words = Vec::new().into_iter();
         loop {
@@ -45,7 +45,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         }
     }
 
-    /// Leaves the lines before the next mark.
+    /// Skips the lines before the next mark.
     pub(super) fn skip(&mut self) {
         self.words = Vec::new().into_iter();
         while self.lines.peek().is_some_and(|line| !is_mark(line)) {
@@ -70,7 +70,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
             }
             next = line.words().next();
         };
-        let fault = Fault::of("E177", self.file, "more words than the counts tell");
+        let fault = Fault::of("E177", self.file, "more words than declared");
         Err(fault
             .at(word.place())
             .what(name)
@@ -92,7 +92,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                     self.line();
                     continue;
                 }
-                Some(_) => ("E177", "fewer words than the counts tell"),
+                Some(_) => ("E177", "fewer words than declared"),
                 None => ("E160", "the file is cut short"),
             };
             let fault = Fault::of(code, self.file, message);
@@ -114,7 +114,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         })
     }
 
-    /// A number of an entity or group: below 0 where it is turned round.
+    /// Number of an entity or group; a negative sign, which reverses orientation, is dropped.
     pub(super) fn signed(&mut self, what: &str) -> Result<usize, Faults> {
         let word = self.word(what)?;
         let number = word
@@ -149,16 +149,21 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         self.last
     }
 
-    pub(super) fn as_told(&self, what: &str, told: usize, there: usize) -> Result<(), Faults> {
-        if told == there {
+    pub(super) fn as_reported(
+        &self,
+        what: &str,
+        reported: usize,
+        there: usize,
+    ) -> Result<(), Faults> {
+        if reported == there {
             return Ok(());
         }
-        let fault = Fault::of("E177", self.file, "another number than the section tells");
+        let fault = Fault::of("E177", self.file, "not the declared number");
         Err(fault
             .line(self.at())
             .what(what)
             .value(there.to_string())
-            .allowed(told.to_string())
+            .allowed(reported.to_string())
             .into())
     }
 }

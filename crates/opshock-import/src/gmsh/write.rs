@@ -1,4 +1,4 @@
-//! A mesh as Gmsh writes it.
+//! Writes a mesh in Gmsh's format.
 
 use super::elements::{HEXAHEDRON, TETRAHEDRON};
 use super::mesh::{BODY, MeshFile, Solid};
@@ -8,20 +8,20 @@ use std::fmt::Write as _;
 /// Text of a mesh, format 4.1 in ASCII: one volume named [`BODY`], a surface for each name, numbers with
 /// all their digits. [`super::read`] gives the same mesh back.
 ///
-/// Faces with nodes that are none of the solid's are left out: no element has them. So are surfaces of
-/// nothing else.
+/// Faces with nodes outside the solid are not written, because no element has them; nor are surfaces of such faces
+/// only.
 pub fn write(mesh: &MeshFile) -> String {
     let mut text = String::from("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     let surfaces = surfaces(mesh);
     let n_surfaces = surfaces.len();
     let _ = writeln!(text, "$PhysicalNames\n{}", n_surfaces + 1);
     for (number, name) in (1..).zip(surfaces.iter().map(|surface| surface.0)) {
-        // A name of blanks alone is one, nothing between the quotes is none.
+        // A name of blanks alone is a name; nothing between the quotes is none.
         let name = if name.is_empty() { " " } else { name };
         let _ = writeln!(text, "2 {number} \"{name}\"");
     }
     let _ = writeln!(text, "3 1 \"{BODY}\"\n$EndPhysicalNames");
-    // Points and curves are construction; the boxes are those of the whole.
+    // Points and curves are not needed; every box is that of the whole solid.
     let _ = writeln!(text, "$Entities\n0 0 {n_surfaces} 1");
     let [low, high] = bounds(&mesh.nodes);
     let box_of = |number: usize| {
@@ -89,7 +89,7 @@ struct Block {
 }
 
 fn elements(mesh: &MeshFile, surfaces: &Surfaces<'_>, text: &mut String) {
-    // Faces have no numbers of their own: they take those that are free.
+    // Faces have no numbers of their own; they get unused ones.
     let taken: HashSet<usize> = mesh.element_tags.iter().copied().collect();
     let mut free = (1..).filter(|tag| !taken.contains(tag));
     let mut blocks = Vec::new();

@@ -1,8 +1,7 @@
-//! CalculiX matrices: what `*FREQUENCY, SOLVER=MATRIXSTORAGE` writes.
+//! Reads matrices of CalculiX, as written by `*FREQUENCY, SOLVER=MATRIXSTORAGE`.
 //!
-//! `name.sti` and `name.mas` hold a line "row column value" for each entry of the upper triangle,
-//! counted from 1; `name.dof` holds a line "node.direction" for each row. The program's own units
-//! are whatever the model was written in, most often N, mm, s, t.
+//! `name.sti` and `name.mas` hold a line "row column value" for each entry of the upper triangle, with indices from 1.
+//! `name.dof` holds a line "node.direction" for each row. The units are those of the model, most often N, mm, s, t.
 
 use super::dof::Freedoms;
 use super::entries::{Listed, Stored, refuse_large};
@@ -54,7 +53,7 @@ pub fn read(source: &Source, freedoms: &Freedoms) -> Result<Matrix, Faults> {
                 .allowed(format!("entries in each of {n} rows")),
         );
     }
-    // Both triangles are read too: some programs write them.
+    // Entries of both triangles are accepted: some programs write them.
     let both = listed.entries.iter().any(|(e, _)| e.row < e.column)
         && listed.entries.iter().any(|(e, _)| e.row > e.column);
     let stored = if both {

@@ -1,10 +1,9 @@
-//! Whether matrices can be a structure's: symmetric, M positive definite, K positive
-//! semi-definite, no motion without stiffness unless it is meant to be free.
+//! Checks that matrices can be those of a structure: symmetric, M positive definite, K positive semi-definite, and no
+//! motion without stiffness unless the structure is free.
 //!
-//! With λ = ω² the eigenvalues of K x = λ M x, the signs of the pivots of K ± ε M tell how many λ lie
-//! below ∓ε. ε is 1e-11 of the largest λ: rounding of K moves an eigenvalue by less. Of what lies
-//! between, a rigid motion is told from a soft spring beside stiff ones by its forces: they cancel in every
-//! row.
+//! With λ = ω² the eigenvalues of K x = λ M x, the signs of the pivots of K ± ε M give the number of λ below ∓ε. ε is
+//! 1e-11 of the largest λ; rounding of K moves an eigenvalue by less. Between −ε and ε, a rigid motion is distinguished
+//! from a soft spring beside stiff ones by its forces: they cancel in every row.
 
 use super::entries::place;
 use super::envelope::{Envelope, Factors, MAX_ENVELOPE};
@@ -15,36 +14,36 @@ use crate::fault::{Fault, Faults};
 /// Asymmetry that is averaged, relative to the diagonals of row and column.
 pub const SMALL_ASYMMETRY: f64 = 1e-8;
 
-/// Share of the largest eigenvalue below which one counts as zero.
+/// Share of the largest eigenvalue below which an eigenvalue is taken as zero.
 const ZERO_SHARE: f64 = 1e-11;
 
-/// Shift of inverse iteration, of the largest eigenvalue.
+/// Shift of inverse iteration, relative to the largest eigenvalue.
 const LOW_SHARE: f64 = 1e-13;
 
-/// Modes of low frequency looked at one by one.
+/// Most modes of low frequency that are examined one by one.
 const MANY: usize = 12;
 
-/// Share of what a row's stiffness could make of a motion that is left as force in a rigid one.
+/// Largest force of a rigid motion that remains in a row, relative to what the row's stiffness could produce.
 const RIGID: f64 = 1e-10;
 
-/// Share of its diagonal below which a pivot of M counts as zero.
+/// Share of its diagonal below which a pivot of M is taken as zero.
 const ZERO_PIVOT: f64 = 1e-14;
 
-/// A ratio of eigenvalues beyond which half of the digits of a double are gone (W205).
+/// Ratio of eigenvalues beyond which half of the digits of a double are lost (W205).
 const LARGEST_RATIO: f64 = 1e14;
 
-/// What was found of sound matrices.
+/// Figures of accepted matrices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Largest asymmetry of M and K, relative; averaged.
     pub asymmetry: f64,
-    /// Sum of M over displacements along x, y, z, kg; none when freedoms are not known.
+    /// Sum of M over displacements along x, y, z, kg; `None` when freedoms are not known.
     pub total_mass_kg: Option<[f64; 3]>,
     /// Motions without stiffness.
     pub n_rigid: usize,
-    /// Lowest frequency of those with, Hz; none when there is none or it did not converge.
+    /// Lowest frequency of the other motions, Hz; `None` when there is none or it did not converge.
     pub lowest_hz: Option<f64>,
-    /// About the highest frequency, Hz.
+    /// Approximate highest frequency, Hz.
     pub highest_hz: f64,
     /// Warnings: W205 conditioning, W206 unusual mass or frequency.
     pub warnings: Vec<Fault>,
@@ -200,7 +199,7 @@ fn definite_mass<'a>(system: &System, envelope: &'a Envelope) -> Result<Factors<
         .into())
 }
 
-/// Largest λ of K x = λ M x, to a few per cent, by powers of M⁻¹ K.
+/// Largest λ of K x = λ M x, to a few per cent, by power iteration with M⁻¹ K.
 fn highest_eigenvalue(system: &System, mass: &Factors<'_>) -> f64 {
     let n = system.n();
     let mut x: Vec<f64> = (0..n).map(mixed).collect();
@@ -217,12 +216,12 @@ fn highest_eigenvalue(system: &System, mass: &Factors<'_>) -> f64 {
         highest = highest.max(size / before);
         x.iter_mut().zip(&image).for_each(|(x, y)| *x = y / size);
     }
-    // A matrix of zeros has its scale from the mass alone.
+    // A zero stiffness matrix gets its scale from the mass alone.
     if highest > 0.0 { highest } else { 1.0 }
 }
 
-/// Modes with λ below the zero share, at most [`MANY`], and the one above: inverse iteration, each
-/// orthogonal to those before. None when it does not converge on numbers.
+/// Modes with λ below the zero share, at most [`MANY`], and the one above: inverse iteration, each orthogonal to those
+/// before. `None` when it does not converge to finite numbers.
 fn lowest_modes(
     system: &System,
     shifted: &Factors<'_>,
@@ -264,8 +263,8 @@ fn lowest_modes(
     Some(found)
 }
 
-/// Whether the forces K x are nothing beside what each row's stiffness could make of the motion: they
-/// cancel. A soft spring has a force of its own, however stiff its neighbours are.
+/// Whether the forces K x cancel: whether they are negligible beside what each row's stiffness could produce. A soft
+/// spring has a force of its own, however stiff its neighbours are.
 fn is_rigid(stiffness: &Matrix, x: &[f64]) -> bool {
     let largest = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     (0..stiffness.n_rows).all(|row| {
@@ -280,7 +279,7 @@ fn is_rigid(stiffness: &Matrix, x: &[f64]) -> bool {
 
 /// E164 with the lowest eigenvalue.
 fn negative_stiffness(system: &System, envelope: &Envelope, highest: f64) -> Fault {
-    // Below `low` lies no eigenvalue, below `high` lies one.
+    // No eigenvalue lies below `low`, one lies below `high`.
     let n_below = |value: f64| {
         let factors = envelope.factor(&system.stiffness, -value, Some(&system.mass));
         factors.n_negative().unwrap_or(1)
@@ -313,7 +312,7 @@ fn negative_stiffness(system: &System, envelope: &Envelope, highest: f64) -> Fau
         .hint("is a sign lost, or the model loaded beyond buckling?")
 }
 
-/// E165 with the number of motions.
+/// E165 with the number of motions without stiffness.
 fn loose(system: &System, n_rigid: usize, free: bool) -> Fault {
     let fault = Fault::of("E165", &system.stiffness.file, "motions without stiffness")
         .value(n_rigid.to_string());
@@ -389,7 +388,7 @@ fn units_hint() -> String {
     "units are si (N, m, kg), mm_mn (mN, mm, kg) or mm_n (N, mm, t)".to_owned()
 }
 
-/// A number between -1 and 1 that no eigenvector knows.
+/// A number between -1 and 1, unrelated to any eigenvector.
 fn mixed(k: usize) -> f64 {
     let bits = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
     bits as f64 / f64::from(1_u32 << 30) - 1.0

@@ -1,6 +1,6 @@
-//! Matrices as rows of numbers, such as `susp_M.dat` and `susp_K.dat` of the CML family, and the
-//! freedoms of their rows, `susp_cords.dat`: a line "x y z type" for each row, type 1 to 6 for
-//! displacements along and rotations about x, y, z.
+//! Reads matrices written as rows of numbers, such as `susp_M.dat` and `susp_K.dat` of the CML family, and the freedoms
+//! of their rows, `susp_cords.dat`: a line "x y z type" for each row, type 1 to 6 for displacements along and rotations
+//! about x, y, z.
 
 use super::dof::{Direction, Freedom, Freedoms};
 use super::entries::{place, real, refuse_large};
@@ -64,8 +64,8 @@ pub fn read(source: &Source, square: bool) -> Result<Matrix, Faults> {
     Ok(Matrix::of(&source.name, n_rows, n_columns, entries))
 }
 
-/// Reads the places and kinds of the freedoms: lengths in mm. Rows of one place are one node, in
-/// the order in which they come, from 1.
+/// Reads the places, in mm, and kinds of the freedoms. Rows of one place are one node; nodes are numbered from 1 in
+/// order of appearance.
 ///
 /// # Errors
 /// E160 for a line of another length, E166 and E171 as [`read`], E171 for another type and for a

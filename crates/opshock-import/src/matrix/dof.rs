@@ -1,4 +1,4 @@
-//! Which freedom of which node a row belongs to.
+//! Maps the rows of a matrix to degrees of freedom: node and direction.
 
 use crate::fault::{Fault, Faults};
 use crate::text::Source;
@@ -14,7 +14,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Direction of a number from 1 to 6.
+    /// Direction from its number, 1 to 6.
     pub fn of(number: u64) -> Option<Self> {
         match number {
             1..=3 => Some(Direction::Along(number as u8 - 1)),
@@ -49,13 +49,13 @@ pub struct Freedom {
 /// Freedoms of the rows of a matrix, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Freedoms {
-    /// File they came from: that of the matrix when nothing tells them.
+    /// File they came from: that of the matrix when no map is given.
     pub file: String,
     list: Vec<Option<Freedom>>,
 }
 
 impl Freedoms {
-    /// Rows of a matrix's file of which nothing is known.
+    /// Freedoms of a matrix without a map.
     pub fn unnamed(file: &str, n: usize) -> Self {
         Self {
             file: file.to_owned(),
@@ -111,7 +111,7 @@ impl Freedoms {
         }
     }
 
-    /// Row of "node.direction", or of "row", counted from 1, where nothing is named.
+    /// Row of "node.direction"; where nothing is named, of "row", numbered from 1.
     ///
     /// # Errors
     /// E169 with the nearest names.

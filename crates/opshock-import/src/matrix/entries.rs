@@ -1,4 +1,4 @@
-//! Entries of a matrix as files list them: places, values, which of them are stored.
+//! Entries of a matrix as files list them: places, values, and which triangle is stored.
 
 use super::sparse::{Entry, Matrix};
 use crate::fault::{Fault, Faults};
@@ -13,7 +13,7 @@ pub(super) struct Listed {
     pub(super) entries: Vec<(Entry, usize)>,
 }
 
-/// What a file stores of a matrix.
+/// Part of a matrix that a file stores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
     All,
@@ -22,7 +22,7 @@ pub(super) enum Stored {
 }
 
 impl Listed {
-    /// Adds "row column value", counted from 1 and at most `n_rows` and `n_columns`.
+    /// Adds "row column value", with indices from 1 to at most `n_rows` and `n_columns`.
     pub(super) fn push(
         &mut self,
         file: &str,
@@ -124,12 +124,12 @@ impl Listed {
     }
 }
 
-/// "(row, column)", counted from 1.
+/// "(row, column)", numbered from 1.
 pub(super) fn place(row: usize, column: usize) -> String {
     format!("({}, {})", row + 1, column + 1)
 }
 
-/// An index counted from 1, as counted from 0.
+/// Converts an index that starts at 1 to one that starts at 0.
 fn index(file: &str, word: &Word<'_>, what: &str, n: usize, faults: &mut Faults) -> Option<usize> {
     let fault = |message: &str| {
         Fault::of("E171", file, message)
@@ -177,7 +177,7 @@ pub(super) fn real(file: &str, word: &Word<'_>, what: &str, faults: &mut Faults)
     None
 }
 
-/// Refuses more rows than are read.
+/// Rejects more rows than are read.
 pub(super) fn refuse_large(file: &str, n_rows: usize, n_columns: usize) -> Result<(), Faults> {
     if n_rows.max(n_columns) <= MAX_ROWS {
         return Ok(());

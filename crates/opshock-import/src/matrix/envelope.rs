@@ -1,11 +1,11 @@
-//! Factors of large symmetric matrices within their envelope.
+//! Factorisation of large sparse symmetric matrices within their envelope.
 //!
 //! ```text
 //! P A Pᵀ = L D Lᵀ
 //! ```
 //!
-//! The signs of D are those of the eigenvalues of A (Sylvester). No pivots are chosen: the order P
-//! is that of Cuthill and McKee, reversed, which keeps the envelope small.
+//! The signs of D are those of the eigenvalues of A (Sylvester). There is no pivoting: the order P is reverse
+//! Cuthill-McKee, which keeps the envelope small.
 
 use super::sparse::Matrix;
 use std::collections::VecDeque;
@@ -35,8 +35,8 @@ pub struct Factors<'a> {
 }
 
 impl Envelope {
-    /// Envelope of the union of patterns, all symmetric and of one size; none when it has more than
-    /// [`MAX_ENVELOPE`] numbers.
+    /// Envelope of the union of patterns, all symmetric and of one size; `None` when it has more than [`MAX_ENVELOPE`]
+    /// numbers.
     pub fn of(matrices: &[&Matrix]) -> Option<Self> {
         let n = matrices.first().map_or(0, |matrix| matrix.n_rows);
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); n];
@@ -124,13 +124,13 @@ impl Envelope {
 }
 
 impl Factors<'_> {
-    /// Eigenvalues below zero; none when a pivot is zero or no number.
+    /// Number of negative eigenvalues; `None` when a pivot is zero or NaN.
     pub fn n_negative(&self) -> Option<usize> {
         let sound = self.pivots.iter().all(|d| d.is_finite() && *d != 0.0);
         sound.then(|| self.pivots.iter().filter(|d| **d < 0.0).count())
     }
 
-    /// First row whose pivot is not above `least` of it, with the pivot.
+    /// First row whose pivot is not above `least` of that row, with the pivot.
     pub fn first_not_above(&self, least: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let pairs = self.envelope.order.iter().zip(&self.pivots);
         let mut pairs = pairs.map(|(&row, &pivot)| (row, pivot));

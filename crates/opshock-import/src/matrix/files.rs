@@ -1,4 +1,4 @@
-//! Matrices and maps of freedoms by the endings of their files.
+//! Chooses the reader of a matrix or a map of freedoms by the extension of its file.
 
 use super::dof::{self, Freedoms};
 use super::sparse::Matrix;
@@ -7,7 +7,7 @@ use crate::fault::{Fault, Faults};
 use crate::text::Source;
 use std::path::Path;
 
-/// The map of freedoms, from whichever file is named: a `.dof` file or a list of places.
+/// The map of freedoms, from the given file: a `.dof` file or a list of places.
 ///
 /// # Errors
 /// Those of the reader.

@@ -1,4 +1,4 @@
-//! Matrix Market: coordinate and array, real or integer, general, symmetric or skew-symmetric.
+//! Reads Matrix Market files: coordinate and array, real or integer, general, symmetric or skew-symmetric.
 //!
 //! ```text
 //! %%MatrixMarket matrix coordinate real symmetric
@@ -22,9 +22,9 @@ const HEADER: &str =
 /// Reads a matrix.
 ///
 /// # Errors
-/// E160 for another header, or fewer or more entries than told; E161 for sizes; E166 for values
-/// that are not finite; E171 for indices outside, entries given twice, words that are no numbers;
-/// E172 for a diagonal of a skew matrix.
+/// E160 for another header, or fewer or more entries than declared; E161 for sizes; E166 for values that are not
+/// finite; E171 for indices outside, entries given twice, words that are no numbers; E172 for a diagonal of a skew
+/// matrix.
 pub fn read(source: &Source) -> Result<Matrix, Faults> {
     let (coordinate, stored) = header(source)?;
     let mut lines = source
@@ -104,7 +104,7 @@ fn read_coordinates<'a>(
     source: &Source,
     lines: impl Iterator<Item = Line<'a>>,
     shape: (usize, usize),
-    told: usize,
+    reported: usize,
     stored: Stored,
 ) -> Result<Matrix, Faults> {
     let (mut listed, mut faults, mut found) = (Listed::default(), Faults::default(), 0);
@@ -113,28 +113,28 @@ fn read_coordinates<'a>(
         listed.push(&source.name, &words, shape, &mut faults);
         found += 1;
     }
-    faults.append(counted(source, "entries", told, found));
+    faults.append(counted(source, "entries", reported, found));
     let matrix = listed.finish(&source.name, shape, stored, &mut faults);
     faults.or(matrix)
 }
 
-/// E160 when a file holds another number of items than it tells.
-fn counted(source: &Source, of: &str, told: usize, found: usize) -> Faults {
-    if told == found {
+/// E160 when a file holds another number of items than it declares.
+fn counted(source: &Source, of: &str, reported: usize, found: usize) -> Faults {
+    if reported == found {
         return Faults::default();
     }
-    let message = if found < told {
-        format!("the file is cut short: {told} {of} told")
+    let message = if found < reported {
+        format!("the file is cut short: {reported} {of} declared")
     } else {
-        format!("the file has more than the {told} {of} it tells")
+        format!("the file has more than the {reported} {of} it declares")
     };
     Fault::of("E160", &source.name, message)
         .value(format!("{found} {of} in {} bytes", source.n_bytes()))
-        .allowed(told.to_string())
+        .allowed(reported.to_string())
         .into()
 }
 
-/// Values by columns; of a symmetric matrix those from the diagonal down, of a skew one below it.
+/// Values by columns; of a symmetric matrix from the diagonal down, of a skew one from below it.
 fn read_array<'a>(
     source: &Source,
     lines: impl Iterator<Item = Line<'a>>,
@@ -146,7 +146,7 @@ fn read_array<'a>(
         Stored::OneTriangle => column,
         Stored::OneTriangleSkew => column + 1,
     };
-    let told = (0..n_columns).fold(0_usize, |sum, column| {
+    let reported = (0..n_columns).fold(0_usize, |sum, column| {
         sum.saturating_add(n_rows.saturating_sub(first(column)))
     });
     let (mut row, mut column) = (first(0), 0);
@@ -179,7 +179,7 @@ fn read_array<'a>(
         }
         row += 1;
     }
-    faults.append(counted(source, "values", told, found));
+    faults.append(counted(source, "values", reported, found));
     faults.or(())?;
     Ok(Matrix::of(&source.name, n_rows, n_columns, entries))
 }

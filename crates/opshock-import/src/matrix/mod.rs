@@ -1,12 +1,11 @@
-//! Mass, stiffness and gyroscopic matrices of other programs.
+//! Imports mass, stiffness and gyroscopic matrices of other programs.
 //!
 //! ```text
 //! M x″ + G x′ + K x = f
 //! ```
 //!
-//! [`market`], [`calculix`] and [`dense`] read them, [`system`] puts them together in SI units,
-//! [`check`] says whether they can be a structure's. Rows and columns count from 0 here and from 1
-//! in files and messages.
+//! [`market`], [`calculix`] and [`dense`] read them, [`system`] combines them in SI units, [`check`] checks that they
+//! can be those of a structure. Rows and columns start at 0 here and at 1 in files and messages.
 
 pub mod calculix;
 pub mod check;

@@ -1,4 +1,4 @@
-//! Modes that another program computed: shapes Φ, a column a mode, and frequencies.
+//! Imports modes that another program computed: shapes Φ, a column per mode, and frequencies.
 //!
 //! ```text
 //! ΦᵀM Φ = 1,   ΦᵀK Φ = diag((2 π f)²)
@@ -10,10 +10,10 @@ use super::system::System;
 use crate::fault::{Fault, Faults};
 use crate::text::Source;
 
-/// How far ΦᵀM Φ may be from the unit matrix.
+/// Tolerance of ΦᵀM Φ about the unit matrix.
 pub const NORMALISATION: f64 = 1e-6;
 
-/// How far a frequency may be from what the matrices give, relative.
+/// Relative tolerance of a frequency about the value from the matrices.
 pub const FREQUENCY: f64 = 1e-2;
 
 /// Shapes of unit mass with their frequencies.
@@ -28,7 +28,7 @@ pub struct Modes {
 /// Reads frequencies: numbers, Hz, in any number of lines.
 ///
 /// # Errors
-/// E166, E171 for what is no number; E168 for a negative frequency or one below the one before.
+/// E166, E171 for words that are no numbers; E168 for a negative frequency or one below the one before.
 pub fn read_frequencies(source: &Source) -> Result<Vec<f64>, Faults> {
     let (mut list, mut faults) = (Vec::<f64>::new(), Faults::default());
     for word in source.lines().flat_map(crate::text::Line::words) {
@@ -57,11 +57,11 @@ pub fn read_frequencies(source: &Source) -> Result<Vec<f64>, Faults> {
     faults.or(list)
 }
 
-/// Puts modes together with the matrices they are of.
+/// Combines modes with the matrices that they belong to.
 ///
 /// # Errors
-/// E161 when rows or numbers of modes differ; E167 when modes are not of unit mass or not
-/// orthogonal; E168 when a frequency is not what the matrices give.
+/// E161 when rows or numbers of modes differ; E167 when modes are not of unit mass or not orthogonal; E168 when a
+/// frequency differs from that of the matrices.
 pub fn of(
     system: &System,
     shapes: &Matrix,
@@ -109,7 +109,7 @@ pub fn of(
         for j in 0..=i {
             let found = product(&columns[i], &columns[j], &system.mass);
             let apart = (found - f64::from(u8::from(i == j))).abs();
-            // A shape that is no number is worst of all.
+            // A shape with NaN is the worst of all.
             if apart > worst.0 || apart.is_nan() {
                 worst = (apart, i, j, found);
             }
@@ -137,18 +137,18 @@ pub fn of(
         return Err(fault.hint(hint).into());
     }
     let mut faults = Faults::default();
-    for (k, (column, told)) in columns.iter().zip(&frequencies_hz).enumerate() {
+    for (k, (column, reported)) in columns.iter().zip(&frequencies_hz).enumerate() {
         let stiffness = product(column, column, &system.stiffness);
         let given = stiffness.max(0.0).sqrt() / std::f64::consts::TAU;
-        if (given - told).abs() > FREQUENCY * told.max(given) {
-            let ratio = told / given;
+        if (given - reported).abs() > FREQUENCY * reported.max(given) {
+            let ratio = reported / given;
             let fault = Fault::of(
                 "E168",
                 frequencies_file,
                 "the frequency is not the matrices'",
             )
             .what(format!("mode {}", k + 1))
-            .value(format!("{told}"))
+            .value(format!("{reported}"))
             .allowed(format!("{given:.6e} Hz to 1 %"));
             let in_radians = (ratio / std::f64::consts::TAU - 1.0).abs() < FREQUENCY;
             faults.push(if in_radians {

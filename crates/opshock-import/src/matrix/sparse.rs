@@ -1,6 +1,6 @@
-//! A sparse matrix by rows.
+//! A sparse matrix stored by rows.
 
-/// A sparse matrix by rows.
+/// A sparse matrix stored by rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Matrix {
     /// File it came from.
@@ -15,7 +15,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Matrix of entries in any order; entries of one place are added.
+    /// Matrix from entries in any order; entries at one place are added.
     ///
     /// # Panics
     /// When an entry lies outside.
@@ -117,7 +117,7 @@ impl Matrix {
     }
 }
 
-/// An entry, counted from 0.
+/// An entry, with indices from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Row.

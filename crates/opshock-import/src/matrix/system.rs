@@ -5,7 +5,7 @@ use super::sparse::{Entry, Matrix};
 use super::units::Units;
 use crate::fault::{Fault, Faults};
 
-/// M and K, and what goes with them.
+/// M and K, with the gyroscopic matrix and the freedoms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
     /// Mass.
@@ -19,7 +19,7 @@ pub struct System {
 }
 
 impl System {
-    /// Puts matrices together and converts them.
+    /// Combines matrices and converts them to SI units.
     ///
     /// # Errors
     /// E161 when a matrix is not square, or sizes or the map of freedoms differ.
@@ -66,12 +66,12 @@ impl System {
         })
     }
 
-    /// The system with all freedoms of some nodes held on the base, and the load of a unit inertia load
-    /// per mass along a direction (0 to 2) on what is left, kg: M times a unit displacement of all
-    /// nodes, the held ones included. Faults name the nodes as `what`.
+    /// The system with all freedoms of some nodes fixed to the base. The load of a unit inertia load per mass along a
+    /// direction (0 to 2) on the rest, kg, is M times a unit displacement of all nodes, fixed ones included. Faults
+    /// name the nodes as `what`.
     ///
     /// # Errors
-    /// E169 for a node that is not there, E161 when nothing is left.
+    /// E169 for an unknown node, E161 when no freedom is left.
     pub fn held(
         self,
         (what, nodes): (&str, &[u64]),
@@ -112,7 +112,7 @@ impl System {
         ))
     }
 
-    /// The system of some of its rows, the others held.
+    /// The system of some of its rows, with the others fixed.
     ///
     /// # Panics
     /// When a row is not there.
@@ -139,8 +139,8 @@ impl System {
         }
     }
 
-    /// The piece that each row is of: rows that stiffness or mass couple, directly or by others, are of
-    /// one piece.
+    /// Connected piece of each row: rows that stiffness or mass couple, directly or through others, belong to one
+    /// piece.
     pub fn pieces(&self) -> Vec<usize> {
         let mut parent: Vec<usize> = (0..self.n()).collect();
         let root = |parent: &mut [usize], mut row: usize| {

@@ -1,4 +1,4 @@
-//! Matrices against another program's frequencies, round trips, and what each fault says.
+//! Matrices against another program's frequencies, round trips, and messages of faults.
 
 use super::dof::{Direction, Freedom, Freedoms};
 use super::envelope::Envelope;
@@ -119,7 +119,7 @@ fn a_chain_has_its_frequencies_and_its_free_motion() {
     }
 }
 
-/// Envelope factors solve what a matrix was applied to, and count eigenvalues by Sylvester's law.
+/// Envelope factors invert the product with the matrix, and give the number of eigenvalues by Sylvester's law.
 #[test]
 fn factors_solve_and_count() {
     let (system, _) = check::check(arm(), false).unwrap();
@@ -187,14 +187,14 @@ fn a_negative_eigenvalue_is_named() {
     let faults = check::check(system, false).unwrap_err();
     assert_eq!(codes(&faults), ["E164"]);
     // numpy.linalg.eigvalsh of the three rows: -1.33005874.
-    let told: f64 = faults.listed[0]
+    let reported: f64 = faults.listed[0]
         .value
         .split(' ')
         .next()
         .unwrap()
         .parse()
         .unwrap();
-    assert!((told + 1.330_058_74).abs() < 2e-3, "{told}");
+    assert!((reported + 1.330_058_74).abs() < 2e-3, "{reported}");
 }
 
 #[test]

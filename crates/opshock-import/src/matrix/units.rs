@@ -1,7 +1,7 @@
-//! Units of matrices, and what they are in SI.
+//! Sets of units of imported matrices, and their conversion into SI.
 //!
-//! With lengths in L metres and forces in F newtons, a row of a displacement counts as 1 and a row
-//! of a rotation as L: K_SI = (F/L) s_i s_j K, and the same for M, as all use seconds.
+//! With lengths in L metres and forces in F newtons, the scale s of a row is 1 for a displacement and L for a rotation:
+//! K_SI = (F/L) s_i s_j K, and the same for M, as all sets use seconds.
 
 use super::dof::Freedoms;
 use super::sparse::Matrix;
@@ -42,7 +42,7 @@ impl Units {
             .map_or("", |(word, _)| word)
     }
 
-    /// A matrix in SI units. Rows of which nothing is known count as displacements.
+    /// A matrix in SI units. Rows without known freedoms are taken as displacements.
     #[must_use]
     pub fn to_si(self, matrix: Matrix, freedoms: &Freedoms) -> Matrix {
         let (length, force) = self.scales();

@@ -1,4 +1,4 @@
-//! A claim's line in the table: number, uncertainty, answer.
+//! Makes a statement's row of the table: number, uncertainty, answer.
 
 use super::catalogue::{CLAIMS, Claim, Source};
 use super::finding::{Finding, Spread, spread};
@@ -12,7 +12,7 @@ pub enum Answer {
     /// It holds with the study's own values, and with any one discretisation parameter refined and any
     /// one unpublished parameter moved.
     HoldsRobustly,
-    /// It holds with the study's own values; what it turns with is named, or was not measured.
+    /// It holds with the study's own values; what changes the answer is named, or was not measured.
     Holds,
     /// It does not hold with the study's own values, whatever else it holds with.
     DoesNot,
@@ -49,7 +49,7 @@ pub fn tally(rows: &[ClaimRow], has_sensitivity: bool) -> String {
         true => format!(
             "Of these {hold}, {robust} hold robustly, also with any one discretisation parameter refined by a \
              step and any one parameter that the paper does not print at either end of its range; \
-             {turn} turn{}.",
+             {turn} change{}.",
             match untried {
                 0 => String::new(),
                 _ => format!(", {untried} were not tried (searches left out)"),
@@ -80,17 +80,17 @@ pub struct ClaimRow {
     pub holds_with: String,
     /// What was found with the study's own values.
     pub finding: Option<Finding>,
-    /// How the number moves with finer knobs; for shocks.
+    /// How the number moves with finer discretisation parameters; for shocks.
     pub spread: Option<Spread>,
     /// Answer.
     pub answer: Answer,
-    /// What it turns with, with where it holds; of one that does not hold, what it holds with.
+    /// What changes the answer, with where it holds; of one that does not hold, what it holds with.
     pub depends_on: Vec<String>,
-    /// Places whose answer the error bars leave no doubt about, and all; for critical shocks.
-    pub beyond_the_bars: Option<[usize; 2]>,
+    /// Places whose answer is the same over the whole uncertainty interval, and all places; for critical shocks.
+    pub beyond_the_uncertainties: Option<[usize; 2]>,
 }
 
-/// The table. `finer` are the findings with one knob of accuracy finer each, by its name.
+/// The table. `finer` are the findings with one discretisation parameter refined each, by its name.
 pub fn rows(
     own: Vec<Option<Finding>>,
     finer: &[(String, Vec<Option<Finding>>)],
@@ -103,7 +103,9 @@ pub fn rows(
         .map(|(place, (claim, finding))| {
             let of_claim: Vec<(String, Finding)> = finer
                 .iter()
-                .filter_map(|(knob, found)| Some((knob.clone(), found[place].clone()?)))
+                .filter_map(|(discretisation, found)| {
+                    Some((discretisation.clone(), found[place].clone()?))
+                })
                 .collect();
             row(claim, finding, &of_claim, sensitivity)
         })
@@ -117,7 +119,7 @@ fn row(
     sensitivity: Option<&Sensitivity>,
 ) -> ClaimRow {
     let mut depends_on = Vec::new();
-    let mut turned = None;
+    let mut changed = None;
     let turning = finding.as_ref().and_then(|found| {
         let row = sensitivity?.row(claim.id)?;
         row.turning(found.holds)
@@ -128,11 +130,11 @@ fn row(
             let moved = spread(found, finer);
             if !moved.turns.is_empty() {
                 depends_on.push(format!(
-                    "accuracy: turns with finer {}",
+                    "resolution: changes with {}",
                     moved.turns.join(", ")
                 ));
             }
-            turned = Some(moved);
+            changed = Some(moved);
         }
         if let Some(turning) = &turning {
             depends_on.extend(turning.iter().cloned());
@@ -144,14 +146,14 @@ fn row(
         Some(_) if turning.is_some() && depends_on.is_empty() => Answer::HoldsRobustly,
         Some(_) => Answer::Holds,
     };
-    let beyond_the_bars = finding
+    let beyond_the_uncertainties = finding
         .as_ref()
         .filter(|found| !found.parts.is_empty())
         .map(|found| {
             let sure = found
                 .parts
                 .iter()
-                .filter(|part| part.is_beyond_the_bar(claim) == Some(true));
+                .filter(|part| part.is_beyond_the_uncertainty(claim) == Some(true));
             [sure.count(), found.parts.len()]
         });
     ClaimRow {
@@ -162,10 +164,10 @@ fn row(
         unit: claim.unit,
         holds_with: claim.bounds_words(),
         finding,
-        spread: turned,
+        spread: changed,
         answer,
         depends_on,
-        beyond_the_bars,
+        beyond_the_uncertainties,
     }
 }
 
@@ -205,10 +207,10 @@ mod tests {
 
     #[test]
     fn a_statement_that_holds_in_some_places_does_not_hold_and_says_where_it_does() {
-        let part = |at: &str, value: f64, bar| Part {
+        let part = |at: &str, value: f64, uncertainty| Part {
             at: at.into(),
             value,
-            bar: Some(bar),
+            uncertainty: Some(uncertainty),
             holds: value >= 1.0,
         };
         let found = Finding {
@@ -221,7 +223,7 @@ mod tests {
         let row = row(claim("deformable_above_rigid"), Some(found), &[], None);
         assert_eq!(row.answer, Answer::DoesNot);
         assert_eq!(row.depends_on, ["pulse: holds at 1 ms, +; not at 2 ms, +"]);
-        assert_eq!(row.beyond_the_bars, Some([1, 2]));
+        assert_eq!(row.beyond_the_uncertainties, Some([1, 2]));
     }
 
     /// `rigid_touch` moved to two values of a parameter, by the answers of the sensitivity's own table
@@ -291,7 +293,7 @@ mod tests {
             assert_eq!((one.answer, &one.depends_on), (answer, &depends_on));
             rows.push(one);
         }
-        // Not moved at all, and turned by a finer parameter of accuracy.
+        // No parameter moved at all, and an answer that changes with a refined discretisation parameter.
         let own = || Some(found(1.0, true));
         assert_eq!(
             row(claim("rigid_touch"), own(), &[], None).answer,
@@ -299,9 +301,9 @@ mod tests {
         );
         let finer = [("disk_modes".to_owned(), found(1.2, false))];
         let all = moved(true, [true, true]);
-        let turned = row(claim("rigid_touch"), own(), &finer, Some(&all));
-        assert_eq!(turned.answer, Answer::Holds);
-        assert_eq!(turned.depends_on, ["accuracy: turns with finer disk_modes"]);
+        let changed = row(claim("rigid_touch"), own(), &finer, Some(&all));
+        assert_eq!(changed.answer, Answer::Holds);
+        assert_eq!(changed.depends_on, ["resolution: changes with disk_modes"]);
         rows.push(row(claim("rigid_touch"), own(), &[], None));
 
         rows.push(row(claim("rises_none"), None, &[], None));
@@ -310,7 +312,7 @@ mod tests {
             "7 statements: 4 hold with the study's own values, 2 do not, 1 are not asked (no table of \
              critical shocks). Of these 4, 1 hold robustly, also with any one discretisation parameter \
              refined by a step and any one parameter that the paper does not print at either end of its \
-             range; 2 turn, 1 were not tried (searches left out)."
+             range; 2 change, 1 were not tried (searches left out)."
         );
     }
 }

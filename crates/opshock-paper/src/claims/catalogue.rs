@@ -1,4 +1,4 @@
-//! The list of statements.
+//! Lists the paper's statements, each with the bounds between which its number makes it hold.
 
 use super::critical::{self, Parts};
 use super::shock_numbers as shock;

@@ -1,12 +1,12 @@
-//! The numbers that decide what section 4.3 says, from a table of critical shocks.
+//! Computes the numbers that decide the statements of section 4.3, from a table of critical shocks.
 //!
-//! A ratio's bounds are the quotients of the ends of both bars: both rows wrong by all of their bars
+//! A ratio's bounds are the quotients of the ends of both intervals: both rows wrong by all of their intervals
 //! and in opposite directions.
 
 use opshock_study::search::Sign;
 use opshock_study::store::summary::{PointSummary, Status, Summary};
 
-/// One number of a statement about many critical shocks: place, number, bounds by the error bars.
+/// One number of a statement about many critical shocks: place, number, bounds by the uncertainty intervals.
 pub type Place = (String, f64, Option<[f64; 2]>);
 
 /// Numbers of a statement about many critical shocks.
@@ -27,63 +27,66 @@ impl From<Vec<Place>> for Parts {
     }
 }
 
-/// From this width on a pulse counts as long, ms: the paper's section 4.2 calls 0.5 ms small.
+/// From this width on a pulse is long, ms: the paper's section 4.2 calls 0.5 ms small.
 const LONG_FROM_MS: f64 = 1.0;
 
-/// A reported value with its bar, G.
+/// A reported value with its interval, G.
 #[derive(Clone, Copy)]
-struct Barred {
+struct WithUncertainty {
     value: f64,
-    bar: Option<[f64; 2]>,
+    uncertainty: Option<[f64; 2]>,
 }
 
-impl Barred {
-    fn of(point: &PointSummary) -> Option<Barred> {
+impl WithUncertainty {
+    fn of(point: &PointSummary) -> Option<WithUncertainty> {
         let value = point.a_crit_g.filter(|_| point.status == Status::Ok)?;
-        let bar = point.err_low_g.zip(point.err_high_g);
-        Some(Barred {
+        let uncertainty = point.err_low_g.zip(point.err_high_g);
+        Some(WithUncertainty {
             value,
-            bar: bar.map(|(low, high)| [(value - low).max(0.0), value + high]),
+            uncertainty: uncertainty.map(|(low, high)| [(value - low).max(0.0), value + high]),
         })
     }
 
     /// `self / other`.
-    fn over(self, other: Barred) -> (f64, Option<[f64; 2]>) {
-        let bar = self
-            .bar
-            .zip(other.bar)
+    fn over(self, other: WithUncertainty) -> (f64, Option<[f64; 2]>) {
+        let uncertainty = self
+            .uncertainty
+            .zip(other.uncertainty)
             .map(|(a, b)| [a[0] / b[1], a[1] / b[0]]);
-        (self.value / other.value, bar)
+        (self.value / other.value, uncertainty)
     }
 
     /// Distance of two over their mean, per cent.
-    fn distance(self, other: Barred) -> (f64, Option<[f64; 2]>) {
+    fn distance(self, other: WithUncertainty) -> (f64, Option<[f64; 2]>) {
         let of = |a: f64, b: f64| 200.0 * (a - b).abs() / (a + b);
-        let bar = self.bar.zip(other.bar).map(|(a, b)| {
+        let uncertainty = self.uncertainty.zip(other.uncertainty).map(|(a, b)| {
             let apart = [of(a[0], b[1]), of(a[1], b[0])];
             let touch = a[0] <= b[1] && b[0] <= a[1];
             let least = if touch { 0.0 } else { apart[0].min(apart[1]) };
             [least, apart[0].max(apart[1])]
         });
-        (of(self.value, other.value), bar)
+        (of(self.value, other.value), uncertainty)
     }
 }
 
 /// Widths, ascending, and value of a ramp and sign; rows of studies with further axes are left out,
 /// as they answer another question.
-fn curve(summary: &Summary, ramp: &str, sign: Sign) -> Vec<(f64, Barred)> {
-    let mut curve: Vec<(f64, Barred)> = summary
+fn curve(summary: &Summary, ramp: &str, sign: Sign) -> Vec<(f64, WithUncertainty)> {
+    let mut curve: Vec<(f64, WithUncertainty)> = summary
         .points
         .iter()
         .filter(|point| point.ramp == ramp && point.sign == sign && point.axes.is_empty())
-        .filter_map(|point| Some((point.pulse_ms, Barred::of(point)?)))
+        .filter_map(|point| Some((point.pulse_ms, WithUncertainty::of(point)?)))
         .collect();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     curve
 }
 
 /// Widths that both curves have.
-fn both(a: Vec<(f64, Barred)>, b: &[(f64, Barred)]) -> impl Iterator<Item = (f64, Barred, Barred)> {
+fn both(
+    a: Vec<(f64, WithUncertainty)>,
+    b: &[(f64, WithUncertainty)],
+) -> impl Iterator<Item = (f64, WithUncertainty, WithUncertainty)> {
     a.into_iter().filter_map(|(width, one)| {
         let other = b.iter().find(|(at, _)| *at == width)?;
         Some((width, one, other.1))
@@ -104,15 +107,15 @@ const PAPER_WIDTHS_MS: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 3.0];
 /// Ayre, Transient response to step and pulse functions, in Harris, Shock and Vibration Handbook, ch. 8.
 fn rises(summary: &Summary, ramp: &str) -> Parts {
     let mut parts = Parts::default();
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     for sign in SIGNS {
         let (judged, predicted): (Vec<_>, Vec<_>) = curve(summary, ramp, sign)
             .into_iter()
             .partition(|(width, _)| PAPER_WIDTHS_MS.contains(width));
         for pair in judged.windows(2) {
-            let (ratio, bar) = pair[1].1.over(pair[0].1);
+            let (ratio, uncertainty) = pair[1].1.over(pair[0].1);
             let at = format!("{} to {} ms, {}", pair[0].0, pair[1].0, sign.as_str());
-            parts.places.push((at, ratio, bar));
+            parts.places.push((at, ratio, uncertainty));
         }
         for (width, barred) in predicted {
             let above = judged.iter().position(|(known, _)| *known > width);
@@ -123,7 +126,7 @@ fn rises(summary: &Summary, ramp: &str) -> Parts {
             };
             let least = low.1.value.min(high.1.value);
             let change = 100.0 * (barred.value / least - 1.0);
-            told.push(format!(
+            reported.push(format!(
                 "{width} ms, {}: {:.1} G, {}",
                 sign.as_str(),
                 barred.value,
@@ -134,8 +137,8 @@ fn rises(summary: &Summary, ramp: &str) -> Parts {
             ));
         }
     }
-    if !told.is_empty() {
-        parts.note = format!("prediction, not judged: {}", told.join("; "));
+    if !reported.is_empty() {
+        parts.note = format!("prediction, not judged: {}", reported.join("; "));
     }
     parts
 }
@@ -156,8 +159,8 @@ fn signs(summary: &Summary, ramp: &str) -> Parts {
     let plus = curve(summary, ramp, Sign::Plus);
     both(plus, &curve(summary, ramp, Sign::Minus))
         .map(|(width, plus, minus)| {
-            let (apart, bar) = plus.distance(minus);
-            (format!("{width} ms"), apart, bar)
+            let (apart, uncertainty) = plus.distance(minus);
+            (format!("{width} ms"), apart, uncertainty)
         })
         .collect::<Vec<_>>()
         .into()
@@ -181,8 +184,8 @@ fn ratios(summary: &Summary, ramp: &str, to: &str, is_asked: impl Fn(f64) -> boo
         let one = curve(summary, ramp, sign);
         for (width, a, b) in both(one, &curve(summary, to, sign)) {
             if is_asked(width) {
-                let (ratio, bar) = a.over(b);
-                parts.push((format!("{width} ms, {}", sign.as_str()), ratio, bar));
+                let (ratio, uncertainty) = a.over(b);
+                parts.push((format!("{width} ms, {}", sign.as_str()), ratio, uncertainty));
             }
         }
     }
@@ -203,8 +206,8 @@ pub(super) fn below_when_short(summary: &Summary) -> Parts {
 pub(super) fn below_none(summary: &Summary) -> Parts {
     let mut parts = Vec::new();
     for ramp in ["rigid", "deformable"] {
-        for (at, ratio, bar) in ratios(summary, ramp, "none", |_| true) {
-            parts.push((format!("{ramp}, {at}"), ratio, bar));
+        for (at, ratio, uncertainty) in ratios(summary, ramp, "none", |_| true) {
+            parts.push((format!("{ramp}, {at}"), ratio, uncertainty));
         }
     }
     parts.into()
@@ -214,23 +217,26 @@ pub(super) fn below_none(summary: &Summary) -> Parts {
 mod tests {
     use super::*;
 
-    fn barred(value: f64, low: f64, high: f64) -> Barred {
-        Barred {
+    fn barred(value: f64, low: f64, high: f64) -> WithUncertainty {
+        WithUncertainty {
             value,
-            bar: Some([low, high]),
+            uncertainty: Some([low, high]),
         }
     }
 
     #[test]
-    fn quotients_and_distances_carry_the_worst_of_both_bars() {
+    fn quotients_and_distances_carry_the_worst_of_both_uncertainty() {
         let (a, b) = (barred(200.0, 180.0, 240.0), barred(100.0, 80.0, 120.0));
         assert_eq!(a.over(b), (2.0, Some([1.5, 3.0])));
-        let (apart, bar) = a.distance(b);
+        let (apart, uncertainty) = a.distance(b);
         assert!((apart - 200.0 / 3.0).abs() < 1e-12);
         // 180 against 120 and 240 against 80.
-        assert_eq!(bar, Some([40.0, 100.0]));
-        // Bars that touch leave no distance.
+        assert_eq!(uncertainty, Some([40.0, 100.0]));
+        // Uncertainty intervals that touch leave no distance.
         let near = barred(190.0, 150.0, 230.0);
-        assert_eq!(a.distance(near).1.map(|bar| bar[0]), Some(0.0));
+        assert_eq!(
+            a.distance(near).1.map(|uncertainty| uncertainty[0]),
+            Some(0.0)
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! The paper's statements as files: Markdown, CSV, JSON; and what they rest on, with its plot.
+//! Writes the paper's statements with their answers as files: Markdown, CSV, JSON.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -51,9 +51,9 @@ impl ClaimTable {
             );
         }
         text.push_str(
-            "\n± is the largest change of the number when one knob of accuracy is turned a step finer \
-             (the knob in brackets). \"Beyond the bars\": with both critical shocks wrong by all of \
-             their error bars, in opposite directions, the answer stays. \"About\" in the paper is \
+            "\n± is the largest change of the number when one discretisation parameter is refined by one step \
+             (that parameter in brackets). \"Beyond the intervals\": with both critical shocks wrong by all of \
+             their uncertainty intervals, in opposite directions, the answer stays. \"About\" in the paper is \
              met within 10 %, a bare figure within 5 %; other bounds are ours. Sign +: the disk first \
              moves towards the slider.\n",
         );
@@ -91,15 +91,15 @@ impl ClaimTable {
                 row.paper, row.number, row.holds_with
             );
             text.push_str(
-                "| place | number | by the error bars | holds |\n| --- | ---: | ---: | --- |\n",
+                "| place | number | by the uncertainty intervals | holds |\n| --- | ---: | ---: | --- |\n",
             );
             for part in &found.parts {
-                let bar = part.bar.map_or(String::new(), |[low, high]| {
+                let uncertainty = part.uncertainty.map_or(String::new(), |[low, high]| {
                     format!("{} to {}", short(low), short(high))
                 });
                 let _ = writeln!(
                     text,
-                    "| {} | {} | {bar} | {} |",
+                    "| {} | {} | {uncertainty} | {} |",
                     part.at,
                     short(part.value),
                     if part.holds { "yes" } else { "no" }
@@ -118,13 +118,13 @@ impl ClaimTable {
             "number",
             "unit",
             "value",
-            "change_with_finer_knob",
-            "finer_knob",
+            "change_with_finer_discretisation",
+            "finer_discretisation",
             "holds_with",
             "holds_with_own_values",
             "answer",
             "depends_on",
-            "places_beyond_bars",
+            "places_beyond_uncertainties",
             "places",
             "note",
         ];
@@ -134,7 +134,7 @@ impl ClaimTable {
             let spread = row.spread.as_ref();
             let maybe = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
             let count = |place: usize| {
-                row.beyond_the_bars
+                row.beyond_the_uncertainties
                     .map_or(String::new(), |counts| counts[place].to_string())
             };
             text.push_str(&csv_line(&[
@@ -145,7 +145,7 @@ impl ClaimTable {
                 row.unit.into(),
                 maybe(found.and_then(|found| found.value)),
                 maybe(spread.and_then(|spread| spread.change)),
-                spread.map_or(String::new(), |spread| spread.knob.clone()),
+                spread.map_or(String::new(), |spread| spread.discretisation.clone()),
                 row.holds_with.clone(),
                 found.map_or(String::new(), |found| found.holds.to_string()),
                 row.answer.words().into(),
@@ -169,10 +169,12 @@ fn number_cell(row: &ClaimRow) -> String {
         Some(value) => {
             text.push_str(&short(value));
             let spread = row.spread.as_ref();
-            if let Some((change, knob)) = spread.and_then(|s| Some((s.change?, &s.knob))) {
+            if let Some((change, discretisation)) =
+                spread.and_then(|s| Some((s.change?, &s.discretisation)))
+            {
                 let _ = match change {
                     0.0 => write!(text, " ± 0"),
-                    _ => write!(text, " ± {} ({knob})", short_change(change)),
+                    _ => write!(text, " ± {} ({discretisation})", short_change(change)),
                 };
             }
             if !row.unit.is_empty() {
@@ -183,8 +185,8 @@ fn number_cell(row: &ClaimRow) -> String {
     if !found.note.is_empty() {
         let _ = write!(text, "; {}", found.note);
     }
-    if let Some([sure, all]) = row.beyond_the_bars {
-        let _ = write!(text, "; {sure} of {all} beyond the bars");
+    if let Some([sure, all]) = row.beyond_the_uncertainties {
+        let _ = write!(text, "; {sure} of {all} beyond the intervals");
     }
     text
 }
@@ -247,7 +249,7 @@ mod tests {
                 ..Finding::default()
             })
         };
-        // Every statement met by the coarse search at every end; the second is not by the study itself.
+        // The coarse search meets every statement at every end; the study itself does not meet the second.
         let found = Some(Found {
             value: None,
             holds: true,
@@ -279,8 +281,8 @@ mod tests {
         };
         let table = table.markdown();
         for page in [&rests, &table] {
-            let told = "37 statements: 36 hold with the study's own values, 1 do not. Of these 36, 36 hold robustly,";
-            assert!(page.contains(told), "{page}");
+            let reported = "37 statements: 36 hold with the study's own values, 1 do not. Of these 36, 36 hold robustly,";
+            assert!(page.contains(reported), "{page}");
         }
         let (robust, not) = rests.split_once("## Does not hold").expect("a heading");
         for (place, claim) in CLAIMS.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A claim's number, and what is known of its uncertainty.
+//! A statement's number, and its change with refined discretisation parameters.
 
 use super::catalogue::{CLAIMS, Claim, Source};
 use super::critical::Parts;
@@ -13,17 +13,20 @@ pub struct Part {
     pub at: String,
     /// Its number.
     pub value: f64,
-    /// Lowest and highest number that the error bars leave possible; `None` without bars.
-    pub bar: Option<[f64; 2]>,
+    /// Lowest and highest number that the uncertainty intervals leave possible; `None` without intervals.
+    pub uncertainty: Option<[f64; 2]>,
     /// The statement holds there, by the reported values.
     pub holds: bool,
 }
 
 impl Part {
-    /// Whether the statement's answer there is the same over the whole bar; `None` without a bar.
-    pub fn is_beyond_the_bar(&self, claim: &Claim) -> Option<bool> {
-        self.bar
-            .map(|bar| bar.iter().all(|&end| claim.admits(end) == self.holds))
+    /// Whether the statement's answer there is the same over the whole interval; `None` without an interval.
+    pub fn is_beyond_the_uncertainty(&self, claim: &Claim) -> Option<bool> {
+        self.uncertainty.map(|uncertainty| {
+            uncertainty
+                .iter()
+                .all(|&end| claim.admits(end) == self.holds)
+        })
     }
 }
 
@@ -60,14 +63,14 @@ pub fn findings(shocks: &Shocks, critical: Option<&Summary>) -> Vec<Option<Findi
         .collect()
 }
 
-/// The worst of the parts speaks for all.
+/// The number of a statement about many places: that of the worst place.
 pub fn of_parts(claim: &Claim, Parts { places, note }: Parts) -> Option<Finding> {
     let parts: Vec<Part> = places
         .into_iter()
-        .map(|(at, value, bar)| Part {
+        .map(|(at, value, uncertainty)| Part {
             at,
             value,
-            bar,
+            uncertainty,
             holds: claim.admits(value),
         })
         .collect();
@@ -84,29 +87,29 @@ pub fn of_parts(claim: &Claim, Parts { places, note }: Parts) -> Option<Finding>
     })
 }
 
-/// How a number moves when the accuracy is raised.
+/// How a number changes with refined discretisation parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Largest change, in the claim's unit.
     pub change: Option<f64>,
-    /// Knob that made it.
-    pub knob: String,
-    /// Knobs with which the answer turns.
+    /// Discretisation parameter that made it.
+    pub discretisation: String,
+    /// Discretisation parameters with which the answer changes.
     pub turns: Vec<String>,
 }
 
-/// Compares the number of one claim with those of finer settings, each with its knob's name.
+/// Compares the number of one statement with those of refined settings, each with its parameter's name.
 pub fn spread(base: &Finding, finer: &[(String, Finding)]) -> Spread {
     let mut spread = Spread::default();
-    for (knob, found) in finer {
+    for (discretisation, found) in finer {
         if found.holds != base.holds {
-            spread.turns.push(knob.clone());
+            spread.turns.push(discretisation.clone());
         }
         if let (Some(a), Some(b)) = (base.value, found.value) {
             let change = (b - a).abs();
             if spread.change.is_none_or(|known| change > known) {
                 spread.change = Some(change);
-                spread.knob.clone_from(knob);
+                spread.discretisation.clone_from(discretisation);
             }
         }
     }
@@ -126,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spread_is_the_largest_change_and_names_every_knob_that_turns_the_answer() {
+    fn the_spread_is_the_largest_change_and_names_every_discretisation_that_turns_the_answer() {
         let finer = [
             ("a".to_owned(), found(1.25, true)),
             ("b".to_owned(), found(0.5, false)),
@@ -134,12 +137,12 @@ mod tests {
         ];
         let spread = spread(&found(1.0, true), &finer);
         assert_eq!(spread.change, Some(0.5));
-        assert_eq!(spread.knob, "b");
+        assert_eq!(spread.discretisation, "b");
         assert_eq!(spread.turns, ["b", "c"]);
     }
 
     #[test]
-    fn the_worst_part_speaks_for_all_and_a_bar_across_the_bound_decides_nothing() {
+    fn the_worst_part_speaks_for_all_and_a_uncertainty_across_the_bound_decides_nothing() {
         let claim = CLAIMS
             .iter()
             .find(|claim| claim.id == "deformable_above_rigid")
@@ -155,7 +158,7 @@ mod tests {
         let beyond: Vec<_> = found
             .parts
             .iter()
-            .map(|part| part.is_beyond_the_bar(claim))
+            .map(|part| part.is_beyond_the_uncertainty(claim))
             .collect();
         assert_eq!(beyond, [Some(false), Some(true), Some(true)]);
         assert_eq!(of_parts(claim, Parts::default()), None);

@@ -1,12 +1,12 @@
-//! The paper's statements, each with a number of ours that decides it.
+//! Decides each statement of the paper by a number that this program computes.
 //!
 //! A [`Claim`] is a row: the paper's words, the number, and the bounds between which the statement
 //! holds. The number comes from one of two places:
 //!
 //! | from | statements | its uncertainty |
 //! |---|---|---|
-//! | [`Shocks`]: the paper's two shocks with three ramps | sections 4.1 and 4.2 | the same shocks with every knob of accuracy turned one step finer |
-//! | [`Summary`]: critical shocks | section 4.3 | the error bars of the table |
+//! | [`Shocks`]: the two shocks with three ramps | sections 4.1 and 4.2 | the shocks with each parameter refined |
+//! | [`Summary`]: critical shocks | section 4.3 | the uncertainty intervals of the table |
 //!
 //! Where the paper gives a figure, "about" is met within 10 per cent and a bare figure within 5;
 //! where it says "more", "slightly" or "noticeably", the bound is part of the row and a reader may

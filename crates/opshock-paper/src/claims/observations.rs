@@ -1,9 +1,9 @@
-//! The statements as observations of a match.
+//! Gives the paper's statements as observations of a match, which finds parameters that make them true.
 
 use super::catalogue::{CLAIMS, Claim, Source};
 use super::finding::of_parts;
 use super::shocks::{ShockError, Shocks};
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 use opshock_solver::scene::plan::Plan;
 use opshock_solver::simulation::Model;
 use opshock_study::matching::{Observation, Quantity, Stage, Statements};

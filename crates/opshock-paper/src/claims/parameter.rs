@@ -1,4 +1,4 @@
-//! Parameters the paper does not print, and the ranges over which the claims are tried.
+//! Lists the parameters the paper does not print, and the ranges over which the statements are tried.
 //!
 //! Lengths and loads of a suspension are known to a few per cent once one has the part; here the
 //! part itself is unknown, so the ranges are those among parts of 2.5-inch drives, not tolerances.

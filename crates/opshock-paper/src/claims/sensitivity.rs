@@ -1,8 +1,8 @@
-//! How each claim hangs on what the paper does not print: one parameter at a time.
+//! Computes how each statement depends on what the paper does not print, one parameter at a time.
 //!
 //! Every parameter is moved to both ends of its range with all others as in the study. The shocks
-//! are run at the study's accuracy, the critical shocks found again by a coarse search
-//! ([`coarse_sets`]). A ramp whose scenes a change leaves alone is not simulated again.
+//! are run at the study's resolution; the critical shocks are found again by a coarse search
+//! ([`coarse_sets`]). A ramp whose scenes do not change is not simulated again.
 
 use super::catalogue::{CLAIMS, Claim};
 use super::finding::{Finding, findings};
@@ -14,7 +14,7 @@ use opshock_study::study::{Ramp, SetArg, Study, StudyErrors};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Settings of the coarse search: two widths, no error bars, no certification, a film too coarse
+/// Settings of the coarse search: two widths, no uncertainty intervals, no monotonicity scan, a film too coarse
 /// for the value (negative shocks without a ramp come out a quarter high) and good for comparing.
 pub fn coarse_sets() -> Vec<String> {
     [
@@ -22,10 +22,10 @@ pub fn coarse_sets() -> Vec<String> {
         "pulse.widths_ms=[0.5, 2.0]",
         "pulse.signs=[\"+\", \"-\"]",
         "ramp.models=[\"none\", \"rigid\", \"deformable\"]",
-        "solver.film_cells=300",
+        "resolution.film_cells=300",
         "search.tolerance_pct=2.0",
-        "search.certify=\"off\"",
-        "search.error_bars=false",
+        "search.monotonicity_scan=\"off\"",
+        "search.uncertainty=false",
         "output.keep_histories=\"none\"",
     ]
     .map(String::from)
@@ -170,8 +170,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// What the claim's answer `own`, with the study's own values, turns with: each with where it holds.
-    /// `None` where nothing was tried.
+    /// The parameters that change the claim's answer `own` (with the study's own values), each with where it
+    /// holds. `None` where nothing was tried.
     pub fn turning(&self, own: bool) -> Option<Vec<String>> {
         let base = self.base?;
         let mut turning = Vec::new();
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn a_claim_rests_on_what_turns_it_and_the_range_is_told() {
+    fn a_claim_rests_on_what_turns_it_and_the_range_is_reported() {
         let mut row = Row {
             claim: "pulse".into(),
             base: Some(Found {
@@ -339,7 +339,7 @@ mod tests {
         };
         let turns = "b (key.b): holds at 8, 10, not at 12".to_owned();
         assert_eq!(row.turning(true), Some(vec![turns.clone()]));
-        // What the fine table denies is not what the coarse search was asked to move.
+        // The coarse search varies parameters: it cannot answer for a statement that the fine table denies.
         let coarse = "coarse search of the sensitivity: holds".to_owned();
         assert_eq!(row.turning(false), Some(vec![coarse, turns]));
         row.sides.truncate(2);

@@ -1,4 +1,4 @@
-//! `sensitivity.md`, `.csv`, `.json` and the tornado plot: what the statements rest on.
+//! Writes which parameters the statements depend on: `sensitivity.md`, `.csv`, `.json` and a tornado plot.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -81,7 +81,7 @@ pub(super) fn markdown(all: &Sensitivity, claims: &[ClaimRow]) -> String {
             lost.join(", ")
         );
     }
-    text.push_str("\nThe two shocks run at the study's accuracy. ");
+    text.push_str("\nThe two shocks run at the study's resolution. ");
     if all.coarse.is_empty() {
         let left: Vec<&str> = all
             .rows
@@ -98,7 +98,7 @@ pub(super) fn markdown(all: &Sensitivity, claims: &[ClaimRow]) -> String {
         let _ = write!(
             text,
             "Critical shocks come from a coarse search (`{}`): its values are not those of the \
-             table, their changes are what counts.",
+             table, their changes are what is compared.",
             all.coarse.join("`, `")
         );
     }
@@ -147,7 +147,7 @@ fn csv(all: &Sensitivity) -> String {
     text
 }
 
-/// A panel for each statement that any parameter moves: bars from the number at the lower to that
+/// A panel for each statement that any parameter moves: lines from the number at the lower to that
 /// at the upper end of a range, the longest on top; dashed: the study's own number and the bounds
 /// between which the statement holds.
 fn tornado(all: &Sensitivity) -> Figure {
@@ -165,19 +165,19 @@ fn tornado(all: &Sensitivity) -> Figure {
 }
 
 /// Number of a statement at one end of a parameter's range.
-struct BarEnd {
+struct UncertaintyEnd {
     value: f64,
     holds: bool,
     is_upper: bool,
 }
 
-/// Bars in a panel.
+/// Lines in a panel.
 const BARS: usize = 7;
 
 fn tornado_panel(row: &Row) -> Option<Panel> {
     let claim = row.claim()?;
     let base = row.base?.value?;
-    let mut bars: Vec<(&str, Vec<BarEnd>)> = Vec::new();
+    let mut uncertainties: Vec<(&str, Vec<UncertaintyEnd>)> = Vec::new();
     for side in &row.sides {
         let Some((value, holds)) = side
             .found
@@ -185,32 +185,35 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
         else {
             continue;
         };
-        let end = BarEnd {
+        let end = UncertaintyEnd {
             value,
             holds,
             is_upper: side.value > side.base,
         };
-        match bars.iter_mut().find(|(name, _)| *name == side.parameter) {
+        match uncertainties
+            .iter_mut()
+            .find(|(name, _)| *name == side.parameter)
+        {
             Some((_, ends)) => ends.push(end),
-            None => bars.push((&side.parameter, vec![end])),
+            None => uncertainties.push((&side.parameter, vec![end])),
         }
     }
-    let reach = |ends: &[BarEnd]| {
+    let reach = |ends: &[UncertaintyEnd]| {
         ends.iter()
             .map(|end| (end.value - base).abs())
             .fold(0.0, f64::max)
     };
-    bars.retain(|(_, ends)| reach(ends) > 1e-9 * base.abs().max(1e-9));
-    // Stable: equal bars stay in the order of the parameters.
-    bars.sort_by(|a, b| reach(&b.1).total_cmp(&reach(&a.1)));
-    bars.truncate(BARS);
-    if bars.is_empty() {
+    uncertainties.retain(|(_, ends)| reach(ends) > 1e-9 * base.abs().max(1e-9));
+    // Stable: equal lines stay in the order of the parameters.
+    uncertainties.sort_by(|a, b| reach(&b.1).total_cmp(&reach(&a.1)));
+    uncertainties.truncate(BARS);
+    if uncertainties.is_empty() {
         return None;
     }
     let mut series = Vec::new();
-    for (place, (_, ends)) in bars.iter().enumerate() {
-        let height = (bars.len() - place) as f64;
-        for &BarEnd {
+    for (place, (_, ends)) in uncertainties.iter().enumerate() {
+        let height = (uncertainties.len() - place) as f64;
+        for &UncertaintyEnd {
             value,
             holds,
             is_upper,
@@ -221,10 +224,10 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
             } else {
                 ("lower end of the range", colour::BLUE)
             };
-            let bar = vec![(base, height), (value, height)];
+            let uncertainty = vec![(base, height), (value, height)];
             series.push(Series {
                 width: 7.0,
-                ..Series::curve(name, colour, Dash::Solid, bar)
+                ..Series::curve(name, colour, Dash::Solid, uncertainty)
             });
             series.push(Series {
                 marker_px: 5.0,
@@ -274,12 +277,13 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
     } else {
         format!(" ({})", claim.unit)
     };
-    let count = bars.len();
+    let count = uncertainties.len();
     Some(Panel {
         title: claim.words.chars().take(86).collect(),
         x: Axis::linear(&format!("{}{unit}", claim.number)),
         y: Axis::linear("").between(0.3, count as f64 + 1.3).named(
-            bars.iter()
+            uncertainties
+                .iter()
                 .enumerate()
                 .map(|(place, (name, _))| ((count - place) as f64, (*name).to_owned())),
         ),

@@ -1,4 +1,4 @@
-//! The numbers that decide what sections 4.1 and 4.2 say, from the histories of [`Shocks`].
+//! Computes the numbers that decide the statements of sections 4.1 and 4.2, from the histories of [`Shocks`].
 //!
 //! Each function gives the number and a note with what belongs to it. Times in notes are on the
 //! paper's axis.
@@ -92,15 +92,16 @@ fn smallest_clearance(case: &Case) -> Number {
         .steady
         .map_or(f64::NAN, |s| 1e9 * s.min_clearance_m);
     match case.outcome.verdict {
-        Verdict::Survives => (
+        Some(Verdict::Survives) => (
             case.outcome.min_clearance_m.map(|h| 1e9 * h),
             format!("survives; {steady:.2} nm before the shock"),
         ),
-        Verdict::Fails { t_fail_s, .. } => (
+        Some(Verdict::Fails { t_fail_s, .. }) => (
             Some(0.0),
             format!("fails at {:.4} ms", 1e3 * (t_fail_s + case.start_s)),
         ),
-        Verdict::Undecided { ref cause } => (None, format!("undecided: {cause}")),
+        Some(Verdict::Undecided { ref cause }) => (None, format!("undecided: {cause}")),
+        None => (None, "no head was simulated".to_owned()),
     }
 }
 
@@ -243,7 +244,7 @@ pub(super) fn deformable_pitch_jump(shocks: &Shocks) -> Number {
 
 /// RMS of the slider's pitch against the disk's over half a millisecond after the first touch of the
 /// rigid ramp, above 2 kHz (a mean over 0.5 ms is taken out), rad. The pinned modes of the
-/// suspension lie there; where the slider has touched, it goes on over the film's floor.
+/// suspension lie there; where the slider has touched, it goes on over the minimum film height.
 fn shaking(case: &Case, from: f64) -> f64 {
     let half = 0.25e-3;
     let wide = (from - half, from + 0.5e-3 + half);
@@ -294,8 +295,8 @@ pub(super) fn rigid_failure(shocks: &Shocks) -> Number {
     let case = &shocks.long.rigid;
     let (_, note) = smallest_clearance(case);
     match case.outcome.verdict {
-        Verdict::Fails { t_fail_s, .. } => (Some(1e3 * (t_fail_s + case.start_s)), note),
-        Verdict::Survives | Verdict::Undecided { .. } => (None, note),
+        Some(Verdict::Fails { t_fail_s, .. }) => (Some(1e3 * (t_fail_s + case.start_s)), note),
+        _ => (None, note),
     }
 }
 

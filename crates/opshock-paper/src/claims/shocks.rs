@@ -1,8 +1,8 @@
-//! The paper's two shocks with its three ramp models.
+//! Runs the paper's two shocks with its three ramp models.
 
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 use opshock_solver::scene::plan::{Needs, Plan};
 use opshock_solver::simulation::{
     HeadColumns, Model, Outcome, Request, StructureColumns, Workspace, simulate,
@@ -51,7 +51,7 @@ pub enum ShockError {
 /// One run with its histories. Times are after the onset, s.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// What was simulated: the head goes on after a touch, on the film's floor.
+    /// What was simulated: the head goes on after a touch, at the minimum film height (a regularisation).
     pub outcome: Outcome,
     /// Onset on the study's axis, s.
     pub start_s: f64,
@@ -109,8 +109,8 @@ pub struct Task {
 }
 
 impl Shocks {
-    /// The six runs of a study with its knobs of accuracy turned: long, then short, each without,
-    /// with the rigid and with the deformable ramp.
+    /// The six runs of a study with some discretisation parameters refined or coarsened: long, then short, each
+    /// without, with the rigid and with the deformable ramp.
     ///
     /// # Errors
     ///
@@ -177,7 +177,7 @@ impl Shocks {
 }
 
 impl Task {
-    /// The scene, for telling equal runs.
+    /// The scene, to recognise equal runs.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }

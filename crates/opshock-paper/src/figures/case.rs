@@ -1,4 +1,4 @@
-//! Runs that are drawn beside one another, and the columns of their histories as curves.
+//! Turns the histories of runs that are drawn beside one another into curves.
 
 use opshock_solver::simulation::History;
 use opshock_study::report::chart::{Dash, colour};

@@ -1,4 +1,4 @@
-//! The drawn curves as CSV.
+//! Writes the drawn curves as CSV.
 
 use super::case::{Clock, Curve, PaperCase};
 use opshock_study::report::column_named;

@@ -1,4 +1,4 @@
-//! Fig. 4 to 12: histories of a long and a short shock, a panel for each ramp model.
+//! Draws Fig. 4 to 12: histories of a long and a short shock, a panel for each ramp model.
 
 use super::case::{Clock, Curve, PaperCase, curve};
 use super::curve_table::table;

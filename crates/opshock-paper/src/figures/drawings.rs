@@ -1,4 +1,4 @@
-//! Fig. 1 to 3: the drive and the ramp models, to scale, from the scene's own numbers.
+//! Draws Fig. 1 to 3: the drive and the ramp models, to scale, from the scene's own numbers.
 //!
 //! A scene knows of the ramp only where it may touch the disk and how far away; blocks, springs
 //! and frame around the contact points are schematic.
@@ -97,7 +97,7 @@ pub fn deformable_ramp_drawing(scene: &Scene, program: &str) -> PaperFigure {
     let mut outlines = section.disk();
     let ramp = &scene.ramp.model;
     let modes: [Vec<ArmMode>; 2] = ramp.arms().unwrap_or_else(|| {
-        // Each arm as it moves alone; more springs would not be told apart.
+        // Each arm as it moves alone; more springs could not be distinguished.
         let of = |arm| {
             ramp.modes()
                 .iter()
@@ -399,7 +399,7 @@ fn spin_arrow(disk: &DiskParameters) -> Vec<(f64, f64)> {
     corners
 }
 
-/// Slider axes in plan: x along the disk's velocity turned by the skew, y outwards.
+/// Slider axes in plan: x along the disk's velocity rotated by the skew, y outwards.
 fn slider_axes(disk: &DiskParameters, slider: &SliderParameters) -> [(f64, f64); 2] {
     let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
     let (sin, cos) = slider.angle_rad.sin_cos();

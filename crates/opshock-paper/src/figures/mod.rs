@@ -1,4 +1,4 @@
-//! The figures of the paper, drawn from a study's own scene and runs: `fig01` to `fig13`.
+//! Draws the figures of the paper, `fig01` to `fig13`, from a study's own scene and runs.
 //!
 //! | figures | drawn from |
 //! |---------|------------|

@@ -1,4 +1,4 @@
-//! A figure with the table it was drawn from, and their files.
+//! Writes a figure of the paper and the table it was drawn from.
 
 use opshock_study::report::chart::Figure;
 use opshock_study::report::{ReportError, critical_shock_figure, picture, table};

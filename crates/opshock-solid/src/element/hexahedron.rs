@@ -1,4 +1,4 @@
-//! Shape functions of the 20-node hexahedron, 3 × 3 × 3 Gauss points.
+//! Shape functions of the 20-node hexahedron at 3 × 3 × 3 Gauss points.
 
 use super::quadrature::{GAUSS_3, MAX_FACE_NODES, MAX_NODES, Station};
 
@@ -26,7 +26,7 @@ pub const NODES: [[f64; 3]; 20] = [
     [-1.0, 1.0, 0.0],
 ];
 
-/// Nodes of the faces from outside.
+/// Nodes of each face, seen from outside.
 pub const FACES: [&[usize]; 6] = [
     &[0, 3, 2, 1, 11, 10, 9, 8],
     &[4, 5, 6, 7, 12, 13, 14, 15],

@@ -1,4 +1,4 @@
-//! Integrals over an element and over a face.
+//! Integrals of stiffness, mass and load over an element and over a face.
 
 use super::quadrature::{MAX_FACE_NODES, MAX_NODES, Station};
 use super::{hexahedron, tetrahedron};

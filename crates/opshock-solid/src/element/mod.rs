@@ -1,7 +1,7 @@
 //! Quadratic solid elements: 20-node hexahedra and 10-node tetrahedra.
 //!
-//! Both have complete quadratic displacements on straight-edged shapes and are integrated fully,
-//! so that they neither lock in bending nor hold spurious modes without energy.
+//! Both have complete quadratic displacements on straight-edged shapes and are integrated fully, so that they neither
+//! lock in bending nor have spurious modes of zero energy.
 //!
 //! ```text
 //! K(ai,bj) = ∫ λ ∂iNa ∂jNb + μ ∂jNa ∂iNb + μ δij ∇Na·∇Nb dV

@@ -1,4 +1,4 @@
-//! Kinds of elements: nodes, faces, points of quadrature.
+//! Element types: nodes, faces, quadrature points.
 
 use super::quadrature::Station;
 use super::{hexahedron, tetrahedron};

@@ -1,4 +1,4 @@
-//! Elements alone: shape functions, volumes, rigid motion, energy of uniform strain.
+//! Tests of single elements: shape functions, volumes, rigid motion, energy of uniform strain.
 
 use super::integrals::matrices;
 use super::*;

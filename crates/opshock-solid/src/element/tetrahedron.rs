@@ -1,15 +1,15 @@
 //! Shape functions of the 10-node tetrahedron.
 //!
-//! Quadrature is the product of four Gauss points in each direction of the cube collapsed onto the
-//! tetrahedron: degree 5 and more, weights above 0, exact for stiffness and mass of straight edges
-//! (Stroud, *Approximate Calculation of Multiple Integrals*, 1971, section 2.4).
+//! Quadrature is the product of four Gauss points in each direction of the cube collapsed onto the tetrahedron. It has
+//! degree 5 at least and positive weights, and is exact for stiffness and mass of straight edges (Stroud, *Approximate
+//! Calculation of Multiple Integrals*, 1971, section 2.4).
 
 use super::quadrature::{GAUSS_4, MAX_FACE_NODES, MAX_NODES, Station};
 
 /// Corners of each edge with a node in its middle.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
-/// Nodes of the faces from outside.
+/// Nodes of each face, seen from outside.
 pub const FACES: [&[usize]; 4] = [
     &[0, 2, 1, 6, 5, 4],
     &[0, 1, 3, 4, 8, 7],

@@ -1,4 +1,4 @@
-//! Dimensions of a ramp.
+//! Dimensions of a parametric load/unload ramp, and checks that its parts fit together.
 //!
 //! ```text
 //!   z                 section y = 0                            plan
@@ -15,9 +15,9 @@
 //!   +---------------------------------------------------------- x, outwards from the tips
 //! ```
 //!
-//! The disk's rim stands in the slot, whose height is the disk's thickness and both clearances.
-//! The fingers reach over it; the head's lift tab climbs the slope on their outer faces. z = 0 is
-//! the middle of the disk, y = 0 a plane of symmetry. Fillets are left out.
+//! The disk's rim stands in the slot, whose height is the disk's thickness plus both clearances. The fingers reach over
+//! it; the head's lift tab slides up the slope on their outer faces. z = 0 is the middle of the disk, y = 0 a plane of
+//! symmetry. Fillets are neglected.
 
 /// Dimensions of a ramp, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ pub struct RampGeometry {
     pub contact_length_m: f64,
 }
 
-/// What is wrong with a geometry.
+/// Errors of a geometry.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// A dimension out of its range.
@@ -67,7 +67,7 @@ pub enum GeometryError {
         /// Allowed range in words.
         allowed: String,
     },
-    /// Elements larger than a part, or more than a machine holds.
+    /// Elements larger than a part, or more elements than allowed.
     #[error(
         "a mesh size of {} mm asks for {elements} cells, 1 to {MOST_ELEMENTS} elements are allowed",
         mm(*size_m)

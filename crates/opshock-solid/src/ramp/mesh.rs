@@ -1,16 +1,16 @@
-//! Structured mesh of hexahedra of a [`RampGeometry`].
+//! Structured mesh of hexahedra of a parametric ramp, [`RampGeometry`].
 //!
-//! The parts are boxes; all their faces are planes of one grid of lines, of which the cells inside
-//! a box become elements. Fingers are boxes too, their outer faces moved onto the slope.
+//! The parts are boxes. All their faces are planes of one grid of lines, and its cells inside a box become elements.
+//! Fingers are boxes too, with their outer faces moved onto the slope.
 //!
-//! At re-entrant corners and at the edge of the bolted face stresses are unbounded, and elements of
-//! one size converge slowly there. Next to these planes the elements are divided again:
+//! At re-entrant corners and at the edge of the bolted face stresses are unbounded, and elements of uniform size
+//! converge slowly there. Next to these planes the elements are divided further:
 //!
 //! ```text
 //! |h/4|h/4| h/2 |    h    |    h    ...
 //! ```
 //!
-//! The plane y = 0 mirrors the ramp, its loads and its contacts. Half of it, free to slide in that
+//! The plane y = 0 is a symmetry plane of the ramp, its loads and its contacts. Half of the ramp, free to slide in that
 //! plane, moves as the whole does under axial shock.
 
 use super::geometry::{GeometryError, MOST_ELEMENTS, RampGeometry};
@@ -23,16 +23,16 @@ const SAME_M: f64 = 1e-9;
 /// Times an element beside a singular edge is halved.
 const HALVINGS: u32 = 2;
 
-/// How much of a ramp is meshed.
+/// Extent of the meshed ramp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// y ≥ 0.
     Half,
-    /// All of it.
+    /// The whole ramp.
     Whole,
 }
 
-/// Mesh of a ramp with the faces that matter.
+/// Mesh of a ramp with its mount and contact faces.
 #[derive(Clone, Debug)]
 pub struct RampMesh {
     /// Elements.
@@ -56,7 +56,7 @@ impl RampGeometry {
     /// Meshes the ramp with elements no longer than `size_m` in any direction.
     ///
     /// # Errors
-    /// A geometry that is none, a size that asks for too many elements.
+    /// An invalid geometry, or a size that requires too many elements.
     pub fn mesh(&self, size_m: f64, extent: Extent) -> Result<RampMesh, GeometryError> {
         self.validate()?;
         let parts = self.parts(extent);
@@ -160,7 +160,7 @@ impl RampGeometry {
         }
     }
 
-    /// Lines of one direction: faces of the parts and what else must lie on a line, divided.
+    /// Lines of one direction: faces of the parts and other required planes, divided into cells.
     fn lines(&self, parts: &[Part], direction: usize, size_m: f64) -> Vec<f64> {
         let mut planes: Vec<f64> = parts.iter().flat_map(|part| part[direction]).collect();
         if direction == 0 {
@@ -232,11 +232,11 @@ impl RampGeometry {
     }
 }
 
-/// Appends the lines after `from` up to `to`: as many equal cells as keep to the size, those at
-/// singular ends halved.
+/// Appends the lines after `from` up to `to`: the smallest number of equal cells within the size, those at singular
+/// ends halved.
 fn divide(from: f64, to: f64, size_m: f64, singular: [bool; 2], lines: &mut Vec<f64>) {
-    // A length that is a multiple of the size but for rounding gets no element more; sizes too
-    // small by far are refused by their count.
+    // A length that is a multiple of the size except for rounding gets no extra element; sizes that are far too small
+    // are rejected by the number of elements.
     let n = ((to - from) / size_m - 1e-9).ceil();
     let least = if singular == [true, true] { 2.0 } else { 1.0 };
     let n = n.clamp(least, 4.0 * MOST_ELEMENTS as f64) as usize;
@@ -252,7 +252,7 @@ fn divide(from: f64, to: f64, size_m: f64, singular: [bool; 2], lines: &mut Vec<
     lines.push(to);
 }
 
-/// Nodes by their place on the lines and the middles between them, made as elements ask for them.
+/// Nodes by their place on the lines and the middles between them, created when an element first needs them.
 #[derive(Default)]
 struct Grid {
     // Keyed z first, so that nodes are numbered along x.

@@ -1,4 +1,4 @@
-//! A ramp from its dimensions, or a mesh, and its material to the oscillators of its contact points.
+//! Reduces a ramp, given by its dimensions or a mesh and its material, to oscillators of its contact points.
 
 mod geometry;
 mod mesh;

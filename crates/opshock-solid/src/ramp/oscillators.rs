@@ -1,4 +1,4 @@
-//! From a ramp's mesh and material to the oscillators of its contact points.
+//! Computes the oscillators of a ramp's contact points from its mesh and material.
 
 use super::geometry::{GeometryError, RampGeometry};
 use super::mesh::{Extent, RampMesh};
@@ -8,14 +8,14 @@ use crate::material::Material;
 use crate::reduction::{PointMode, ReducedSolid, reduce};
 use crate::sparse::SparseError;
 
-/// How the mount's face stands on the base.
+/// Support of the mount's face on the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mount {
-    /// Held still.
+    /// Fixed.
     Bolted,
-    /// On springs spread evenly over the face.
+    /// On springs distributed uniformly over the face.
     Elastic {
-        /// Stiffness of the whole face against its plane, N/m.
+        /// Stiffness of the whole face normal to its plane, N/m.
         normal_n_per_m: f64,
         /// Stiffness of the whole face within its plane, N/m.
         tangential_n_per_m: f64,
@@ -37,7 +37,7 @@ pub struct SolidRamp {
     pub cut_hz: f64,
 }
 
-/// The ramp's oscillators and what they came from.
+/// The ramp's oscillators, and figures of the model they come from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RampModes {
     /// Oscillators; shapes at the top and the bottom contact.
@@ -52,7 +52,7 @@ pub struct RampModes {
     pub top_stiffness_n_per_m: f64,
 }
 
-/// Why a ramp has no oscillators.
+/// Errors of computing a ramp's oscillators.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolidRampError {
     /// Geometry.
@@ -61,7 +61,7 @@ pub enum SolidRampError {
     /// Mesh or material.
     #[error(transparent)]
     Assembly(#[from] AssemblyError),
-    /// A mesh whose contacts cannot be those of a ramp.
+    /// A mesh with invalid contacts.
     #[error(transparent)]
     Shape(#[from] ShapeError),
     /// Equations.
@@ -147,8 +147,8 @@ impl RampMesh {
         })
     }
 
-    /// Equations of motion on the base. Those of a half are doubled: the other half moves alike, and
-    /// forces on the contacts are shared by both.
+    /// Equations of motion on the base. Those of a half are doubled: the other half has the same motion, and both
+    /// halves share the forces on the contacts.
     ///
     /// # Errors
     /// See [`SolidRampError`].
@@ -189,7 +189,7 @@ impl RampMesh {
         Ok(system.times(sides))
     }
 
-    /// The axis that the mount's face stands on.
+    /// The axis normal to the mount's face.
     fn mount_axis(&self) -> Result<usize, SolidRampError> {
         let normal = self.mesh.mean_normal(&self.bolted);
         let axis = (0..3).find(|&i| normal[i].abs() > MOUNT_UPRIGHT);
@@ -218,7 +218,7 @@ pub(super) fn positive(checks: &[(&'static str, f64)]) -> Result<(), SolidRampEr
     }
 }
 
-/// Columns that read the mean displacement along z of the top and the bottom contact.
+/// Columns that give the mean displacement along z of the top and the bottom contact.
 pub fn contact_columns(mesh: &RampMesh, system: &SolidSystem) -> Vec<Vec<f64>> {
     [&mesh.top, &mesh.bottom]
         .map(|contact| {

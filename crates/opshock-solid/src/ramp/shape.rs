@@ -1,4 +1,4 @@
-//! A ramp of any shape from a mesh and the faces that mount and contacts are.
+//! A ramp of any shape, given by a mesh and the faces of its mount and its contacts.
 //!
 //! z is the disk's axis and points to the side of the slider: the upper contact stands above the
 //! disk, the lower one below it.
@@ -6,7 +6,7 @@
 use super::mesh::{Extent, RampMesh};
 use crate::mesh::{Mesh, MeshError};
 
-/// Faces of a mesh by what they do.
+/// Faces of a mesh by their function.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RampFaces {
     /// On the base.
@@ -17,7 +17,7 @@ pub struct RampFaces {
     pub bottom: Vec<Vec<usize>>,
 }
 
-/// Why a mesh is no ramp.
+/// Errors of a mesh as a ramp.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     /// Mesh.
@@ -35,7 +35,7 @@ pub enum ShapeError {
         /// Mean height of the upper contact over the lower one, m.
         gap_m: f64,
     },
-    /// A contact on the base does not move.
+    /// A contact on the base cannot move.
     #[error("contact and mount share node {node}")]
     HeldContact {
         /// Node, from 0.
@@ -44,10 +44,10 @@ pub enum ShapeError {
 }
 
 impl RampMesh {
-    /// A whole ramp out of a mesh.
+    /// Makes a whole ramp of a mesh.
     ///
     /// # Errors
-    /// A mesh that is none, faces without area, contacts that cannot be a ramp's.
+    /// An invalid mesh, faces without area, contacts that cannot be those of a ramp.
     pub fn of(mesh: Mesh, faces: RampFaces) -> Result<Self, ShapeError> {
         mesh.validate()?;
         let area = |part: &'static str, faces: &[Vec<usize>]| {
@@ -110,8 +110,8 @@ mod tests {
         }
     }
 
-    /// The parametric ramp's own mesh, given as any mesh, is the parametric ramp: bolted, and on
-    /// springs with its face up.
+    /// The parametric ramp's own mesh, given as an arbitrary mesh, gives the parametric ramp: bolted, and on springs
+    /// with its face up.
     #[test]
     fn a_mesh_of_the_parametric_ramp_is_that_ramp() {
         let geometry = RampGeometry::mobile_drive();

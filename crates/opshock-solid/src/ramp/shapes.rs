@@ -1,7 +1,7 @@
-//! Natural modes of a whole ramp as displacements of its mesh, for people and drawings.
+//! Natural modes of a whole ramp as displacements of its mesh, for drawing.
 //!
-//! They are the modes of the reduced ramp put back onto the mesh, φᵀ M φ = 1: those below the cut, where
-//! they are the full mesh's.
+//! They are the modes of the reduced ramp expanded onto the mesh, φᵀ M φ = 1. Below the cut frequency they agree with
+//! those of the full mesh.
 
 use super::mesh::RampMesh;
 use super::oscillators::{Mount, SolidRampError, contact_columns, positive};

@@ -1,4 +1,4 @@
-//! How a slider stands over the disk.
+//! Pose of the slider over the disk: height, pitch and roll.
 
 use crate::slider::clearance::ClearanceMap;
 
@@ -19,8 +19,8 @@ const USUAL_CLEARANCE_M: f64 = 1e-8;
 /// Height of the windward edge over the other in the usual attitude, m.
 const USUAL_RISE_M: f64 = 1e-7;
 
-/// Windward edge up by a usual amount, no roll, the closest point at `USUAL_CLEARANCE_M`; `wind`
-/// is the disk's velocity along x, of which only the sign counts.
+/// Windward edge up by a usual amount, no roll, the closest point at `USUAL_CLEARANCE_M`. `wind` is the disk's velocity
+/// along x; only its sign matters.
 pub(super) fn usual_attitude(clearance: &ClearanceMap, length_m: f64, wind: f64) -> Attitude {
     let pitch_rad = USUAL_RISE_M.copysign(wind) / length_m;
     Attitude {

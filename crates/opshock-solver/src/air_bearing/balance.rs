@@ -1,7 +1,7 @@
-//! Flux balance of all cells and force on the slider.
+//! Net mass flux out of every cell of the air-bearing film, and the film's force on the slider.
 //!
-//! Faces are taken a block at a time, direction by direction, the slider's edges last; each gives a
-//! flux from cell to cell and the loads of its half cells beyond their centres' pressure.
+//! Faces are taken a block at a time, direction by direction, the slider's edges last. Each face gives a flux from cell
+//! to cell, and the loads of its two half cells beyond the pressure at the cell centres.
 
 #![expect(
     clippy::needless_range_loop,
@@ -27,8 +27,8 @@ impl Film {
     /// [F_z, M_pitch, M_roll] of the film and of forces beside its pressure on the slider, conjugate to
     /// (h_c, pitch, roll): N, N m, N m. ψ must be positive.
     ///
-    /// The pressure is integrated over the same profiles the fluxes assume, so that the thin
-    /// layers at the pads' edges count although no cell resolves them.
+    /// The pressure is integrated over the profiles that the fluxes assume. The thin layers at the pads' edges
+    /// therefore contribute, although no cell resolves them.
     ///
     /// # Panics
     ///
@@ -182,8 +182,8 @@ impl Kernel for Balance<'_> {
                 let [up, down] = faces.sides(scratch, first);
                 let base = faces.places.heights(first, attitude);
                 let h_faces = [
-                    film.floored_block(&base, up.recess)[0],
-                    film.floored_block(&base, down.recess)[0],
+                    film.limited_block(&base, up.recess)[0],
+                    film.limited_block(&base, down.recess)[0],
                 ];
                 let length = block(&faces.length, first);
                 let values = if faces.wind == 0.0 {
@@ -201,7 +201,7 @@ impl Kernel for Balance<'_> {
                             (faces.up + first + k, values.loads[0][k]),
                             (faces.down + first + k, values.loads[1][k]),
                         ] {
-                            // Places outside the film belong to faces of no length and no area.
+                            // Entries outside the film belong to faces of zero length and zero area.
                             if let Some(sum) = loads.get_mut(at.wrapping_sub(front)) {
                                 *sum += load;
                             }
@@ -221,7 +221,7 @@ impl Kernel for Balance<'_> {
                 let picked = Picked::new(scratch, cells, behind, front, faces.wind != 0.0);
                 let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
-                let h_face = film.floored_block(&base, side.recess)[0];
+                let h_face = film.limited_block(&base, side.recess)[0];
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);
                 for (k, &cell) in cells.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How a film is built: the grid laid out on films of the same slider, or given; then all that does not change.
+//! Builds the discrete film: chooses or takes over its grid, then computes everything that does not change in time.
 
 use super::attitude::usual_attitude;
 use super::faces::Columns;
@@ -7,7 +7,7 @@ use super::flow_factor::{FlowFactor, FlowModel};
 use super::layout;
 use super::mesh::Mesh;
 use super::storage::storage;
-use super::thickness::Floor;
+use super::thickness::HeightLimit;
 use crate::gas::GasParameters;
 use crate::grid::Lines;
 use crate::linalg::diagonals::Diagonals;
@@ -21,11 +21,11 @@ use thiserror::Error;
 pub struct FilmResolution {
     /// Wanted number of cells; the grid fits the surface's edges and comes close to it.
     pub cells: usize,
-    /// Height h0 of the C1 floor the film sees, m.
-    pub floor_m: f64,
-    /// Wanted number of cells of the reference grid from which the force that the film's own leaves out is told
-    /// ([`ReferenceForces`](super::ReferenceForces)); 0: the grid is taken as it is.
-    pub reference_cells: usize,
+    /// Minimum film height h0, where the continuously differentiable height limit begins, m.
+    pub min_height_m: f64,
+    /// Wanted number of cells of the defect-correction grid, whose forces give the discretisation defect of the film's
+    /// own grid ([`CorrectionForces`](super::CorrectionForces)); 0: no correction.
+    pub correction_cells: usize,
 }
 
 /// Why a film could not be built.
@@ -62,7 +62,7 @@ impl Film {
     ///
     /// # Errors
     ///
-    /// [`FilmError`] when a size, a gas property or the floor is not positive, or a rail is not a
+    /// [`FilmError`] when a size, a gas property or the minimum film height is not positive, or a rail is not a
     /// polygon.
     pub fn build(
         slider: &SliderParameters,
@@ -71,10 +71,18 @@ impl Film {
         spin_rad_per_s: f64,
         resolution: &FilmResolution,
     ) -> Result<Self, FilmError> {
-        check(slider, gas, resolution.floor_m)?;
+        check(slider, gas, resolution.min_height_m)?;
         let surface = Surface::new(slider);
-        let film =
-            |lines| Self::on_lines(slider, gas, flow, spin_rad_per_s, resolution.floor_m, lines);
+        let film = |lines| {
+            Self::on_lines(
+                slider,
+                gas,
+                flow,
+                spin_rad_per_s,
+                resolution.min_height_m,
+                lines,
+            )
+        };
         let lines = |cells| {
             layout::plain(&surface, cells).ok_or(FilmError::Lines {
                 direction: 'x',
@@ -109,10 +117,10 @@ impl Film {
         gas: &GasParameters,
         flow: FlowModel,
         spin_rad_per_s: f64,
-        floor_m: f64,
+        min_height_m: f64,
         lines_m: [&[f64]; 2],
     ) -> Result<Self, FilmError> {
-        check(slider, gas, floor_m)?;
+        check(slider, gas, min_height_m)?;
         let lines = |k: usize, direction: char, extent_m: f64| {
             let error = FilmError::Lines {
                 direction,
@@ -130,7 +138,7 @@ impl Film {
             lines(0, 'x', slider.length_m)?,
             lines(1, 'y', slider.width_m)?,
         ];
-        Self::on_lines(slider, gas, flow, spin_rad_per_s, floor_m, lines)
+        Self::on_lines(slider, gas, flow, spin_rad_per_s, min_height_m, lines)
     }
 
     fn on_lines(
@@ -138,7 +146,7 @@ impl Film {
         gas: &GasParameters,
         flow: FlowModel,
         spin_rad_per_s: f64,
-        floor_m: f64,
+        min_height_m: f64,
         lines: [Lines; 2],
     ) -> Result<Self, FilmError> {
         let surface = Surface::new(slider);
@@ -159,7 +167,7 @@ impl Film {
             storage: Diagonals::zeros(0, Vec::new()),
             mesh,
             flow,
-            floor: Floor { h0: floor_m },
+            height_limit: HeightLimit { h0: min_height_m },
             gas: gas.clone(),
             ambient_pa: gas.pressure_pa,
             disk_velocity_m_per_s: direction.map(|part| speed * part),
@@ -175,14 +183,18 @@ impl Film {
     }
 }
 
-fn check(slider: &SliderParameters, gas: &GasParameters, floor_m: f64) -> Result<(), FilmError> {
+fn check(
+    slider: &SliderParameters,
+    gas: &GasParameters,
+    min_height_m: f64,
+) -> Result<(), FilmError> {
     for (quantity, value) in [
         ("slider length", slider.length_m),
         ("slider width", slider.width_m),
         ("ambient pressure", gas.pressure_pa),
         ("viscosity", gas.viscosity_pa_s),
         ("mean free path", gas.mean_free_path_m),
-        ("film floor", floor_m),
+        ("minimum film height", min_height_m),
     ] {
         if !(value > 0.0 && value.is_finite()) {
             return Err(FilmError::NotPositive { quantity, value });

@@ -1,15 +1,15 @@
-//! The load that a film carries: flights followed from light loads to heavier ones.
+//! Finds the load that a film carries, by following steady flight from light loads to heavier ones.
 //!
 //! ```text
 //! R(ψ, q) = 0,   F(ψ, q) = s load,   s from 0 to 1
 //! ```
 //!
-//! A light load leaves the slider high, where the film is easy to find. From there the flight is continued in the share s
-//! of the load, each from the one before, in steps that are halved where none is found. The flights end at a limit point,
-//! where a matrix K of stiffness becomes singular (Keller 1977, in Rabinowitz, *Applications of Bifurcation Theory*, 359), or
-//! where the clearance is the film's minimum height, below which there is no flight to speak of. Beyond a limit point the slider
-//! is let down under a load that is a little larger, by the overdamped motion of [`super::steady`]: where that comes to rest
-//! above the minimum height, flights are followed on from there. Where it does not, the last one carries the most.
+//! Under a light load the slider flies high, where the film is easy to find. From there the flight is continued in the
+//! share s of the load; steps in s are halved where no flight is found. The flights end in one of two ways. At a limit
+//! point the stiffness matrix K becomes singular (Keller 1977, in Rabinowitz, *Applications of Bifurcation Theory*,
+//! 359). Or the clearance reaches the minimum film height, below which no flight is defined. Beyond a limit point the
+//! slider follows the overdamped motion of [`super::steady`] under a slightly larger load. If it comes to rest above
+//! the minimum height, flights are followed on from there; if not, the last flight carries the largest load.
 
 use super::attitude::Attitude;
 use super::film::Film;
@@ -23,7 +23,7 @@ const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 /// Shares of a load under which a first flight is sought.
 const LIGHT: [f64; 6] = [0.5, 0.25, 0.125, 1.0 / 32.0, 1.0 / 128.0, 1.0 / 512.0];
 
-/// Most branches that a slider is let down to.
+/// Most branches that the overdamped motion leads to.
 const MOST_BRANCHES: usize = 4;
 
 /// Stable flights followed along a share of something.
@@ -56,7 +56,7 @@ impl Path {
             let mut search = Search::new(&film, load, path.last.attitude);
             let (mut attitude, mut psi) = (path.last.attitude, path.last.psi.clone());
             let before = search.newton.n_factored;
-            // What breaks down has found nothing.
+            // A solver breakdown is a flight not found.
             let _ = search.settle(&mut psi, &mut attitude, before);
             match search.found.pop() {
                 Some(found) if found.stable && found.clearance_m >= clearance_m => {
@@ -87,19 +87,19 @@ pub(super) fn followed(
         .into_iter()
         .find_map(|share| Some((share, let_down(film, load * share, &starts(film, start))?)))?;
     let at = |share: f64| (film.clone(), load * share);
-    let mut path = Path::along(&at, (share, found), film.floor_m());
+    let mut path = Path::along(&at, (share, found), film.min_height_m());
     for _ in 1..MOST_BRANCHES {
         if path.share == 1.0 {
             break;
         }
         let share = f64::min(path.share + 2.0 * SHARE_STEPS[1], 1.0);
         match let_down(film, load * share, &[path.last.attitude]) {
-            Some(found) => path = Path::along(&at, (share, found), film.floor_m()),
+            Some(found) => path = Path::along(&at, (share, found), film.min_height_m()),
             None => break,
         }
     }
     if path.share == 1.0 {
-        return Some(Search::new(film, load, path.last.attitude).told(path.last));
+        return Some(Search::new(film, load, path.last.attitude).reported(path.last));
     }
     Some(Err(SteadyError::CannotFly {
         load_n: load[0],
@@ -124,6 +124,6 @@ fn let_down(film: &Film, load: Vector3<f64>, starts: &[Attitude]) -> Option<Foun
         search.newton.relaxes = true;
         search.attempt_by_drift(start);
         let found = search.found.pop()?;
-        (found.stable && found.clearance_m >= film.floor_m()).then_some(found)
+        (found.stable && found.clearance_m >= film.min_height_m()).then_some(found)
     })
 }

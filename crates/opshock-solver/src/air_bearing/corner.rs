@@ -1,4 +1,4 @@
-//! Conductances around a corner of the surface where the pressure is singular.
+//! Corrects the conductances of the faces around a corner of the slider's surface where the pressure is singular.
 //!
 //! Where up to four etch depths meet, the pressure behaves as p₀ + c r^α f(θ) with α < 1: at the
 //! inlet corner of a pad that is narrower than the step before it, α is close to 1/2. Two-point
@@ -21,10 +21,10 @@ use std::f64::consts::FRAC_PI_2;
 /// Exponents above this need no correction.
 const REGULAR: f64 = 0.97;
 
-/// A quadrant that conducts less than this share of the next better one counts as a wall.
+/// A quadrant that conducts less than this share of the next better one is treated as a wall.
 const WALL: f64 = 0.2;
 
-/// Largest ratio of two conductances that is told apart from infinity.
+/// Largest ratio of two conductances that is distinguished from infinity.
 const LARGEST_CONTRAST: f64 = 1e8;
 
 /// Cell widths around a corner: left, right, below, above.
@@ -41,7 +41,7 @@ pub(super) struct Widths {
 /// Quadrants run counter-clockwise from the one left below; face k lies between quadrants k and
 /// k + 1: below, right, above, left.
 pub(super) fn conductance_factors(kappa: [f64; 4], widths: &Widths) -> [f64; 4] {
-    // Walls are walls at this contrast, and rounding still leaves the shape its digits.
+    // A wall at this contrast is as good as impermeable, and the shape keeps its digits despite rounding.
     let most = kappa.iter().copied().fold(0.0, f64::max);
     let kappa = kappa.map(|k| k.max(LARGEST_CONTRAST.recip() * most));
     let Some(alpha) = exponent(&kappa) else {
@@ -69,7 +69,7 @@ pub(super) fn conductance_factors(kappa: [f64; 4], widths: &Widths) -> [f64; 4] 
         let radius = 0.5 * a.hypot(b);
         pressure[k] = radius.powf(alpha)
             * (edge[0] * angle.cos() + edge[1] * angle.sin() / (alpha * kappa[k]));
-        // Once around, rounding aside, is back at the start.
+        // Rounding aside, the circuit ends where it started.
         edge = if k == 3 {
             start
         } else {

@@ -1,7 +1,7 @@
-//! What one grid of a film leaves out of force and moments, as a function of the attitude.
+//! Discretisation defect of one film grid: the error of its force and moments, as a function of the attitude.
 //!
-//! It goes through all samples (`interpolation`) in variables in which it is smooth (`range`). What is sampled, and
-//! how: [`super::reference_forces`].
+//! The defect interpolates samples (`interpolation`) in variables in which it is smooth (`range`).
+//! [`super::correction_forces`] describes the sampling.
 
 pub(super) mod interpolation;
 pub(super) mod range;
@@ -11,7 +11,7 @@ use super::gap_load::GapLoad;
 use interpolation::Interpolation;
 use range::Range;
 
-/// What one grid leaves out of force and moments.
+/// Discretisation defect of one grid: force and moments that the grid lacks.
 #[derive(Clone, Debug)]
 pub(super) struct Defect {
     pub(super) range: Range,

@@ -1,7 +1,7 @@
-//! Fluxes and loads of a block of faces with their derivatives.
+//! Fluxes and loads of a block of cell faces, with their derivatives by pressure state and attitude.
 //!
-//! With the face pressure eliminated, a change of one side reaches the flux through the other
-//! side's share of β, and the face pressure through 1/(β_up + β_down).
+//! The face pressure is eliminated. A change on one side reaches the flux through the other side's share of β, and the
+//! face pressure through 1/(β_up + β_down).
 
 use super::faces::{BLOCK, Block};
 use super::film::Film;
@@ -77,15 +77,15 @@ impl FaceDerivatives {
 /// What a side contributes to a face's derivatives.
 struct SideDerivatives {
     partials: HalfPartials,
-    /// Of a change of the side's α − β p, what reaches the flux.
+    /// The part of a change of the side's α − β p that reaches the flux.
     share: f64,
     area: f64,
-    /// Derivatives of the floored by the true height at the centre and at the face.
+    /// Derivatives of the limited height by the true height, at the centre and at the face.
     slopes: [f64; 2],
 }
 
 impl SideDerivatives {
-    /// Derivatives of flux and load by the side's own four numbers, the face pressure following.
+    /// Derivatives of flux and load by the side's own four numbers, with the face pressure following.
     #[inline(always)]
     fn reaching(&self, load_by_p: f64) -> ([f64; 4], [f64; 4]) {
         let (flux, excess) = (&self.partials.flux, &self.partials.excess);
@@ -211,7 +211,7 @@ pub(super) fn still(
     }
 }
 
-/// Faces on the slider's edge; only the up side counts.
+/// Faces on the slider's edge; only the up side contributes.
 #[inline(always)]
 pub(super) fn edge(
     all: &mut FaceDerivatives,
@@ -223,7 +223,7 @@ pub(super) fn edge(
 ) {
     let p = film.ambient_pa;
     for k in 0..BLOCK {
-        let (h_face, slope) = film.floored(base[k] + side.recess[k]);
+        let (h_face, slope) = film.limited(base[k] + side.recess[k]);
         let half = side.half(k, h_face, inverses(side.h(k), h_face));
         let mean = half.logarithmic_mean::<true>();
         let (partials, (alpha, beta), excess) = if side.wind == 0.0 {

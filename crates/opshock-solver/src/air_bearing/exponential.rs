@@ -1,12 +1,12 @@
-//! The exponential profile of ψ between a cell's centre and a face, as a function of its Péclet number:
-//! B(x) = x/(eˣ − 1) and what else the flux needs of it.
+//! Exponential profile of ψ = p h between a cell's centre and a face, as a function of its Péclet number Pe: B(x) =
+//! x/(eˣ − 1) and the related functions that the flux needs.
 
 use crate::elementary::{exp, polynomial};
 
 /// Below this |Pe| the series of B and of ω are used.
 pub(super) const SMALL: f64 = 0.02;
 
-/// Beyond this |Pe| the exponential is taken for that of ±`STRONG`: 1e130 times more or less is nothing.
+/// Beyond this |Pe| the exponential at ±`STRONG` is taken; a factor of 1e130 more or less has no effect.
 const STRONG: f64 = 300.0;
 
 /// The exponential profile between a centre and a face, and what else depends on Pe alone.
@@ -14,7 +14,7 @@ pub(super) struct Profile {
     /// B(Pe) and B′(Pe).
     pub(super) b: f64,
     pub(super) b_slope: f64,
-    /// 1/(exp(Pe) − 1), without meaning near Pe = 0 as are all below.
+    /// 1/(exp(Pe) − 1); like all fields below, it has no meaning near Pe = 0.
     pub(super) r: f64,
     /// 1/Pe.
     pub(super) inverse_pe: f64,
@@ -29,8 +29,7 @@ pub(super) fn growth(pe: f64) -> f64 {
     exp(if x < -STRONG { -STRONG } else { x })
 }
 
-/// All of them by one division, `e` being [`growth`] of Pe: it takes as long as a dozen products.
-/// |Pe| < 1e40.
+/// All of them by one division, which takes as long as a dozen products. `e` is [`growth`] of Pe; |Pe| < 1e40.
 #[inline(always)]
 pub(super) fn profile<const UP: bool>(pe: f64, e: f64) -> Profile {
     let s = pe * pe;
@@ -115,7 +114,7 @@ mod tests {
             let exact = x / x.exp_m1();
             assert!((bernoulli(x)[0] - exact).abs() < 1e-15 * exact, "{x}");
         }
-        // Nothing comes back against such a wind, whatever nothing is.
+        // Against such a wind the share that diffuses back underflows to zero.
         assert!(bernoulli(800.0)[0] < 1e-127);
         let [b, slope] = bernoulli(-800.0);
         assert!((b - 800.0).abs() < 1e-12 && (slope + 1.0).abs() < 1e-15);

@@ -1,16 +1,16 @@
-//! The mesh as columns of numbers, so that kernels run over whole blocks of faces.
+//! Stores the film's mesh as columns of numbers, so that kernels run over whole blocks of faces.
 //!
-//! Cells are numbered along y first; the face between cell k and its neighbour along a direction has
-//! the number k. The faces that would join the end of one column to the start of the next exist
-//! too, with a length of 0, so that the cells of a block of faces are blocks of cells.
+//! Cells are numbered along y first. The face between cell k and its neighbour along a direction has the number k.
+//! Faces that would join the end of one column to the start of the next exist too, with length 0, so that the cells of
+//! a block of faces are blocks of cells.
 //!
-//! A face has an up side, from which the wind comes, and a down side; without wind the up side is
-//! the cell with the smaller number.
+//! A face has an up side, from which the wind comes, and a down side. Without wind the up side is the cell with the
+//! smaller number.
 
 use super::attitude::Attitude;
 use super::mesh::{EdgeFace, Face, Mesh, Place, Side};
 
-/// Faces a kernel handles together: two registers of the widest, so that what a pass keeps stays in registers.
+/// Faces that a kernel handles together: two of the widest registers, so that a pass keeps its values in registers.
 pub(super) const BLOCK: usize = 16;
 
 /// A number of every face or cell of a block.
@@ -130,7 +130,7 @@ impl Columns {
     pub(super) fn new(mesh: &Mesh) -> Self {
         let n_cells = mesh.cells.len();
         let [_, ny] = mesh.counts();
-        // As far as a face's cells lie from it, to either side.
+        // The distance of a face's cells from it, to either side.
         let front = 2 * ny;
         let blocks = n_cells.next_multiple_of(BLOCK);
         let padded = front + blocks + front + BLOCK;
@@ -150,7 +150,7 @@ impl Columns {
             edges: Vec::new(),
         };
         for k in 0..blocks {
-            // Behind the last cell its copy, without area.
+            // The last cell is repeated behind it, without area.
             let cell = &mesh.cells[k.min(n_cells - 1)];
             columns.places.push(&cell.place);
             columns.recess.push(cell.recess);
@@ -219,7 +219,7 @@ fn interior(mesh: &Mesh, d: usize, blocks: usize, front: usize) -> Interior {
     out
 }
 
-/// A face where there is none: of no length, with numbers that keep a kernel finite.
+/// Placeholder where there is no face: zero length, with numbers that keep a kernel finite.
 fn absent(mesh: &Mesh, cell: usize) -> Face {
     let cell = &mesh.cells[cell.min(mesh.cells.len() - 1)];
     let side = Side {

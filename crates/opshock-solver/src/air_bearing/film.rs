@@ -4,10 +4,10 @@
 //! M dψ/dt + R(ψ, attitude) = 0,   R = sum of outward face fluxes
 //! ```
 //!
-//! ψ = p h is the mass in a cell's column over R T, so the balance is conservative and squeeze
-//! enters through dψ/dt alone. Fluxes are those of [two half cells](super::flux) at every face, at
-//! the slider's edges with the ambient pressure on the face; the balance itself is in
-//! `balance`, the choice of the grid in [`super::layout`].
+//! ψ = p h is the mass in a cell's column over R T. The balance is therefore conservative, and the quasi-static and
+//! dynamic compression of the film enters through dψ/dt alone. Fluxes are those of [two half cells](super::flux) at
+//! every face, with ambient pressure on the faces of the slider's edges. `balance` holds the balance itself,
+//! [`super::layout`] the choice of the grid.
 
 use super::attitude::Attitude;
 use super::defect::Defect;
@@ -17,7 +17,7 @@ use super::flux::HalfCell;
 use super::gap_load::GapLoad;
 use super::heights::inverses;
 use super::mesh::{Cell, Mesh, Side};
-use super::thickness::Floor;
+use super::thickness::HeightLimit;
 use crate::gas::GasParameters;
 use crate::lanes::{Kernel, widest};
 use crate::linalg::banded::BandedLu;
@@ -26,7 +26,7 @@ use crate::slider::clearance::{Clearance, ClearanceMap};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A roll that moves no point of a slider by an atom's thousandth, rad.
+/// A roll that moves no point of a slider by a thousandth of an atom's size, rad.
 const LEAN_RAD: f64 = 1e-11;
 
 /// Film under one slider: immutable once built.
@@ -37,22 +37,22 @@ pub struct Film {
     pub(super) capacity: Vec<f64>,
     pub(super) storage: Diagonals,
     pub(super) flow: FlowFactor,
-    pub(super) floor: Floor,
+    pub(super) height_limit: HeightLimit,
     pub(super) gas: GasParameters,
     pub(super) ambient_pa: f64,
     /// Velocity of the disk along x and y, m/s.
     pub(super) disk_velocity_m_per_s: [f64; 2],
     pub(super) clearance: ClearanceMap,
     pub(super) usual: Attitude,
-    /// ψ in the usual attitude, roughly.
+    /// Approximate ψ in the usual attitude.
     pub(super) usual_psi: Vec<f64>,
-    /// Forces on the slider beside the air's pressure, each with its key; none unless asked for.
+    /// Forces on the slider other than the air's pressure, each with its key; empty unless requested.
     pub(super) gap_forces: Vec<(&'static str, Arc<dyn Element>)>,
-    /// What the grid leaves out, put back; none unless asked for.
+    /// Defect correction for the grid's discretisation error; none unless requested.
     pub(super) defect: Option<Defect>,
 }
 
-/// State of the cells that a force beside the air's pressure may depend on, one entry for each cell.
+/// State of the cells on which a force other than the air's pressure may depend, one entry for each cell.
 pub struct CellStates<'a> {
     /// Attitude of the slider.
     pub attitude: &'a Attitude,
@@ -73,8 +73,8 @@ impl CellStates<'_> {
     }
 }
 
-/// A force on the slider beside the air's pressure over the cells of one film: an element of the list that residual
-/// and linearisation loop over.
+/// A force on the slider other than the air's pressure, over the cells of one film. Residual and linearisation loop
+/// over a list of these.
 pub trait Element: Debug + Send + Sync {
     /// Force and moments [F_z, M_pitch, M_roll], conjugate to (h_c, pitch, roll), N and N m.
     fn force(&self, film: &Film, cells: &CellStates<'_>) -> [f64; 3];
@@ -82,7 +82,7 @@ pub trait Element: Debug + Send + Sync {
     /// The same with derivatives; those by ψ are added to `by_psi`, one column for each force.
     fn load(&self, film: &Film, cells: &CellStates<'_>, by_psi: &mut [Vec<f64>; 3]) -> GapLoad;
 
-    /// `share` of a force that may draw the slider in, so that its flight ends; `None` of any other.
+    /// `share` of a force that may pull the slider onto the disk and so end its flight; `None` for any other force.
     fn share_of_attraction(&self, _share: f64) -> Option<Arc<dyn Element>> {
         None
     }
@@ -104,7 +104,7 @@ impl Film {
         self.mesh.index(i, j)
     }
 
-    /// M, Pa s m2: what multiplies dψ/dt (`air_bearing/storage.rs` derives it). Its columns add up to the [`Film::capacity`].
+    /// M, Pa s m2, the factor of dψ/dt (`air_bearing/storage.rs` derives it). Its columns add up to [`Film::capacity`].
     pub fn storage(&self) -> &Diagonals {
         &self.storage
     }
@@ -161,35 +161,36 @@ impl Film {
         })
     }
 
-    /// Height h0 of the film's floor, m.
-    pub fn floor_m(&self) -> f64 {
-        self.floor.h0
+    /// Minimum film height h0, m.
+    pub fn min_height_m(&self) -> f64 {
+        self.height_limit.h0
     }
 
     /// Height the film sees in a cell and its derivative by the true height.
     #[inline]
     pub(super) fn cell_height(&self, cell: &Cell, attitude: &Attitude) -> (f64, f64) {
-        self.floor.apply(cell.place.height(attitude) + cell.recess)
+        self.height_limit
+            .apply(cell.place.height(attitude) + cell.recess)
     }
 
     /// Height the film sees where the true height is `h`, and its derivative.
     #[inline(always)]
-    pub(super) fn floored(&self, h: f64) -> (f64, f64) {
-        self.floor.apply(h)
+    pub(super) fn limited(&self, h: f64) -> (f64, f64) {
+        self.height_limit.apply(h)
     }
 
     /// Heights the film sees in a block where the true ones are `base` + `recess`, and their
     /// derivatives.
     #[inline(always)]
-    pub(super) fn floored_block(&self, base: &Block, recess: &Block) -> [Block; 2] {
-        self.floor.apply_block(base, recess)
+    pub(super) fn limited_block(&self, base: &Block, recess: &Block) -> [Block; 2] {
+        self.height_limit.apply_block(base, recess)
     }
 
     /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face,
     /// without recess.
     pub(super) fn half_cell(&self, side: &Side, psi: &[f64], h_centre: f64, base: f64) -> HalfCell {
         let (g, g_slope) = self.flow.conductance(psi[side.cell]);
-        let h_face = self.floored(base + side.recess).0;
+        let h_face = self.limited(base + side.recess).0;
         HalfCell {
             psi: psi[side.cell],
             inverse_psi: 1.0 / psi[side.cell],
@@ -227,8 +228,8 @@ impl Film {
         psi
     }
 
-    /// ψ from which to seek the film in the usual attitude, Pa m: what the grids before had there,
-    /// ambient pressure on a given grid.
+    /// ψ from which to seek the film in the usual attitude, Pa m: that of the preceding grids, or ambient pressure on a
+    /// given grid.
     pub(super) fn usual_psi(&self) -> &[f64] {
         &self.usual_psi
     }
@@ -246,7 +247,7 @@ impl Film {
         }
     }
 
-    /// Lowest pressure at a cell's centre, Pa; cells without a number do not count.
+    /// Lowest pressure at a cell's centre, Pa; cells whose pressure is NaN are ignored.
     ///
     /// # Panics
     ///
@@ -262,7 +263,7 @@ impl Film {
         lowest.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Height of the slider's surface over the disk at the cells' centres, m, not floored.
+    /// Height of the slider's surface over the disk at the cells' centres, m, without the minimum film height.
     ///
     /// # Panics
     ///
@@ -274,8 +275,8 @@ impl Film {
         }
     }
 
-    /// `attitude` rolled by next to nothing to the side to which wind across the slider rolls it: of two points that mirror
-    /// each other it tells the one that comes closer, so that skews of either sign have grids that mirror each other.
+    /// `attitude` with a negligible roll to the side to which wind across the slider rolls it. Of two points that
+    /// mirror each other it selects the closer one, so that skews of either sign have grids that mirror each other.
     pub(super) fn leaning(&self, attitude: &Attitude) -> Attitude {
         let lean_rad = match self.blows_across() {
             true if self.blows_inwards() => -LEAN_RAD,
@@ -327,8 +328,8 @@ impl Kernel for LowestPressure<'_> {
             let base = columns.places.heights(first, self.attitude);
             let [h, _] = self
                 .film
-                .floored_block(&base, block(&columns.recess, first));
-            // What is left of the last block has no gas to be low in.
+                .limited_block(&base, block(&columns.recess, first));
+            // The unused rest of the last block holds no gas and must not give the lowest pressure.
             let mut psi = [f64::INFINITY; BLOCK];
             psi[..cells.len()].copy_from_slice(cells);
             for k in 0..BLOCK {

@@ -1,4 +1,4 @@
-//! Flow factor of rarefied Poiseuille flow between parallel walls.
+//! Flow factor of rarefied Poiseuille flow between parallel walls, tabulated as a function of ψ = p h.
 //!
 //! ```text
 //! mass flux per width = −(Q p h³ / 12 μ) ∂p/∂x,    Kn = λ_a p_a/(p h) = λ_a p_a/ψ
@@ -19,9 +19,9 @@
 //! Q_P = −ln(D)/√π + c₀ + c₁ D ln D (leading terms after Cercignani and Daneri 1963) takes over, with
 //! c₀ and c₁ from a BGK solution of our own at D = 0.01 and 0.02 (`fukui_kaneko_check.json`).
 //!
-//! Q depends on ψ = p h alone, so the film needs one number per cell, G = Q ψ. It is tabulated:
-//! every binade of ψ is cut into equal intervals and the interval follows from the bits of ψ,
-//! without a logarithm; in an interval G is the cubic Hermite interpolant of G and G′.
+//! Q depends on ψ alone, so the film needs one number per cell, G = Q ψ. It is tabulated: every binade of ψ is cut into
+//! equal intervals, and the interval follows from the bits of ψ without a logarithm. In an interval G is the cubic
+//! Hermite interpolant of G and G′.
 
 use crate::elementary::polynomial;
 
@@ -46,8 +46,8 @@ const FREE_MOLECULAR: [f64; 2] = [0.376_261, -1.632_81];
 /// Intervals a binade of ψ is cut into, as a power of two.
 const INTERVAL_BITS: u32 = 7;
 
-/// Range of the table in ψ/(λ_a p_a): below, walls are 1e-6 mean free paths apart; above, Q − 1
-/// is 6e-6. Outside, the model is evaluated itself.
+/// Range of the table in ψ/(λ_a p_a). At the lower end, walls are 1e-6 mean free paths apart; at the upper end, Q − 1
+/// is 6e-6. Outside, the model itself is evaluated.
 const TABLE_RANGE: [f64; 2] = [9.5367431640625e-7, 1_048_576.0];
 
 /// G = Q ψ against ψ, with derivative.
@@ -115,8 +115,8 @@ impl FlowFactor {
         self.model
     }
 
-    /// G and dG/dψ of many ψ > 0 (Pa m), with the bits of [`FlowFactor::conductance`]: what needs no
-    /// table in whole registers, and its rows picked in between.
+    /// G and dG/dψ of many ψ > 0 (Pa m), bit for bit as from [`FlowFactor::conductance`]. Whole registers hold all that
+    /// needs no table; table rows are picked in between.
     ///
     /// # Panics
     ///
@@ -180,7 +180,7 @@ impl FlowFactor {
     }
 }
 
-/// The model itself, off the paths that matter.
+/// The model itself, for values that are rare or only tabulated.
 #[cold]
 #[inline(never)]
 fn outside(s: f64) -> (f64, f64) {

@@ -1,4 +1,4 @@
-//! Mass flux through one face: two half cells, the face pressure eliminated.
+//! Mass flux through one face of the film's grid, from two half cells with the face pressure eliminated.
 //!
 //! With ψ = p h, G = Q ψ and w = 6 μ U_n, the flux per width towards a face is
 //!
@@ -14,10 +14,10 @@
 //! D = G h̄,   V = w + G (h_f − h_c)/Δ,   Pe = V Δ/D = w Δ/D + ln(h_f/h_c).
 //! ```
 //!
-//! h̄ = (h_f − h_c)/ln(h_f/h_c) makes p = const an exact solution without wind. Pressure is
-//! continuous at a face and height is not (an etched step on a face), so the two outward fluxes
-//! cancel when p_f = (α_l + α_r)/(β_l + β_r): a step on a face is exact, p h = const is reproduced
-//! where convection rules, and D and B being positive the scheme does not oscillate.
+//! h̄ = (h_f − h_c)/ln(h_f/h_c) makes p = const an exact solution without wind. Pressure is continuous at a face;
+//! height is not, where an etched step lies on the face. The two outward fluxes cancel when p_f = (α_l + α_r)/(β_l +
+//! β_r). A step on a face is therefore exact, p h = const is reproduced where convection dominates, and the scheme does
+//! not oscillate because D and B are positive.
 //!
 //! Where the wind blows towards the face and Pe is large, the exponential profile is flat and would
 //! carry the centre's ψ, an error of first order wherever gas leaks out at the sides. δ carries the
@@ -28,18 +28,17 @@
 //! g(s) = 1 + s (s >= 0),   1/(1 − s) (s < 0)
 //! ```
 //!
-//! g keeps ψ at the face positive whatever the slope; ω leaves diffusion, which the exponential
-//! profile resolves, alone. There is no slope across an etched step.
+//! g keeps ψ at the face positive for any slope. ω leaves diffusion unchanged, which the exponential profile resolves.
+//! There is no slope across an etched step.
 //!
-//! The force counts the same profiles: where the wind is nothing, the pressure's mean over a half
-//! cell is that of the straight line to p_f; where it rules, ψ changes linearly and a layer of
-//! thickness D/V stands at the face the wind blows to. The layers at the pads' trailing edges are
-//! less than a micrometre thick and carry about a per cent of the load; no cell resolves them.
+//! The force integrates the same profiles. Without wind, the mean pressure over a half cell is that of the straight
+//! line to p_f. Where the wind dominates, ψ changes linearly and a layer of thickness D/V stands at the face that the
+//! wind blows to. The layers at the pads' trailing edges are less than a micrometre thick and carry about 1 % of the
+//! load; no cell resolves them.
 //!
-//! Everything here is one number in, one number out, without calls and with both sides of every
-//! choice cheap, so that loops over faces compile to vector instructions
-//! ([`crate::lanes`]); a call, be it of `map`, keeps a whole loop from
-//! them. `UP` says that the wind blows towards the face, else it blows away from it.
+//! Everything here maps numbers to numbers without calls, and both branches of every choice are cheap, so that loops
+//! over faces compile to vector instructions ([`crate::lanes`]). A single call, even of `map`, prevents that for a
+//! whole loop. `UP` says that the wind blows towards the face; else it blows away from it.
 
 use super::exponential::{Profile, SMALL, convective_share, growth, profile};
 use super::heights::LogarithmicMean;
@@ -63,7 +62,7 @@ pub(super) struct HalfCell {
     pub(super) h_centre: f64,
     pub(super) inverse_h: f64,
     pub(super) h_face: f64,
-    /// As from [`super::heights::inverses`]; still air does without.
+    /// As from [`super::heights::inverses`]; not used without wind.
     pub(super) inverses: [f64; 2],
     /// Δ, m, and its inverse.
     pub(super) distance: f64,
@@ -103,7 +102,7 @@ pub(super) struct HalfFlux {
     conductance: f64,
 }
 
-/// Smallest β: keeps the face pressure finite where both sides blow away from the face.
+/// Smallest β: keeps the face pressure finite where the wind blows away from the face on both sides.
 const SMALLEST_BETA: f64 = 1e-200;
 
 /// Derivatives by ψ, ψ behind, h_centre and h_face of one half cell.
@@ -121,7 +120,7 @@ pub(super) struct HalfPartials {
 }
 
 impl HalfPartials {
-    /// Nothing depends on anything.
+    /// All derivatives zero.
     pub(super) const NONE: Self = Self {
         flux: [0.0; 4],
         excess: [0.0; 4],

@@ -1,8 +1,8 @@
-//! Forces between slider and disk beside the air's pressure: the interface that each implements.
+//! Interface of forces between slider and disk other than the air's pressure.
 //!
-//! Each has two forms: a [`GapForce`], its parameters in a scene, and an [`Element`](super::film::Element), its
-//! evaluation on the cells of a film. [`GapForces`](super::gap_forces::GapForces) lists them. Plan, mirror,
-//! film, results and output loop over the list and know no effect by name.
+//! Each force has two forms: a [`GapForce`], its parameters in a scene, and an [`Element`](super::film::Element), its
+//! evaluation on the cells of a film. [`GapForces`](super::gap_forces::GapForces) lists them. Plan, mirror, film,
+//! results and output loop over the list and name no single effect.
 
 use super::attitude::Attitude;
 use super::film::{Element, Film};
@@ -12,12 +12,12 @@ use crate::slider::SliderParameters;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A force between slider and disk beside the air's pressure, as data of a scene.
+/// A force between slider and disk other than the air's pressure, as data of a scene.
 pub trait GapForce: Debug + Send + Sync {
     /// Name in plans and results: `head.` and the [`GapForce::key`].
     fn name(&self) -> &'static str;
 
-    /// Name of its part in what `opshock steady` prints.
+    /// Name of its contribution in what `opshock steady` prints.
     fn key(&self) -> &'static str {
         let name = self.name();
         name.strip_prefix("head.").unwrap_or(name)
@@ -26,7 +26,7 @@ pub trait GapForce: Debug + Send + Sync {
     /// Whether the scene has it.
     fn is_active(&self) -> bool;
 
-    /// The same in the drive upside down; what is told as the slider sees the disk stays.
+    /// The same in the drive upside down; what is given in the slider's own frame stays.
     #[must_use]
     fn mirrored(&self) -> Self
     where
@@ -40,8 +40,8 @@ pub trait GapForce: Debug + Send + Sync {
 }
 
 impl Film {
-    /// The same film with `force` beside it on its `slider`: [`Film::force`] and the linearisation hold it from then
-    /// on, pressures and fluxes do not. It takes the place of one of the same name.
+    /// The same film with `force` on its `slider`: [`Film::force`] and the linearisation include it from then on,
+    /// pressures and fluxes do not. It replaces a force of the same name.
     #[must_use]
     pub fn with_gap_force(mut self, slider: &SliderParameters, force: &dyn GapForce) -> Self {
         self.gap_forces.retain(|(key, _)| *key != force.key());
@@ -52,13 +52,13 @@ impl Film {
         self
     }
 
-    /// Whether a force beside the air may draw the slider in, so that its flight ends.
+    /// Whether a force other than the air's may pull the slider onto the disk and so end its flight.
     pub(super) fn is_drawn_in(&self) -> bool {
         let mut all = self.gap_forces.iter();
         all.any(|(_, force)| force.share_of_attraction(1.0).is_some())
     }
 
-    /// The same film with `share` of the forces that may draw the slider in.
+    /// The same film with `share` of the forces that may pull the slider onto the disk.
     pub(super) fn with_share_of_attraction(&self, share: f64) -> Self {
         let mut film = self.clone();
         for (_, force) in &mut film.gap_forces {
@@ -69,7 +69,7 @@ impl Film {
         film
     }
 
-    /// What the forces beside the air do at a state, each with its [`GapForce::key`].
+    /// Loads of the forces other than the air's at a state, each with its [`GapForce::key`].
     ///
     /// # Panics
     ///

@@ -1,6 +1,6 @@
-//! The list of forces between slider and disk beside the air's pressure, each in a file of its own.
+//! Lists the forces between slider and disk other than the air's pressure, each in a file of its own.
 //!
-//! A new one is a file here, its entry below, and its keys and their reading in a study.
+//! A new force needs a file here, its entry below, and its keys in a study with the code that reads them.
 
 mod surface_forces;
 mod viscous_shear;
@@ -20,7 +20,7 @@ pub struct GapForces {
     pub viscous_shear: ViscousShear,
 }
 
-/// A force that does not act is no part of a scene's identity: a new one leaves those of stored results as they are.
+/// A force that is off is no part of a scene's identity, so adding one keeps the identities of stored results.
 fn is_off(force: &impl GapForce) -> bool {
     !force.is_active()
 }
@@ -28,7 +28,7 @@ fn is_off(force: &impl GapForce) -> bool {
 impl GapForces {
     /// Every one, active or not, in the order of plans and results.
     pub fn all(&self) -> impl Iterator<Item = &dyn GapForce> {
-        // Taken apart by name, so that a new one does not compile until it has its place here.
+        // Destructured by name, so that a new force does not compile until it is listed here.
         let Self {
             surface_forces,
             viscous_shear,

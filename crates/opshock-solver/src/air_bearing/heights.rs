@@ -1,4 +1,4 @@
-//! The two heights of a half cell: inverses and their logarithmic mean h̄ = (h_f − h_c)/ln(h_f/h_c).
+//! Inverses of the two heights of a half cell, and their logarithmic mean h̄ = (h_f − h_c)/ln(h_f/h_c).
 
 use crate::elementary::{ln, polynomial};
 

@@ -1,4 +1,4 @@
-//! Small motions about a steady state: impedance against frequency, air-bearing modes.
+//! Small motions of the slider on its film about a steady state: impedance against frequency, air-bearing modes.
 //!
 //! ```text
 //! (A + s M) ψ̂ = −C q̂,   F̂ = F_ψ ψ̂ + F_q q̂ = −Z(s) q̂,   Z(s) = F_ψ (A + s M)⁻¹ C − F_q
@@ -229,7 +229,7 @@ impl<'a> SmallMotion<'a> {
 
 /// Vector v of length 1 that a singular matrix of rank two maps to zero, with vᵀ v real and positive.
 fn null_vector(matrix: &Matrix3<Complex<f64>>) -> Vector3<Complex<f64>> {
-    // At right angles to two rows, without conjugation; of the three pairs the most independent one.
+    // Orthogonal to two rows, without conjugation; of the three pairs the most independent one.
     let row = |i: usize| matrix.row(i % 3).transpose();
     let crossed = (0..3).map(|i| row(i).cross(&row(i + 1)));
     let best = crossed.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));

@@ -1,9 +1,9 @@
-//! Where the grid lines go.
+//! Places the film's grid lines by an estimate of the discretisation error of the clearance.
 //!
-//! Lines run through every edge of the surface. How many cells lie between two edges, and how they
-//! crowd there, follows an estimate of the error: with κ = G h² the conductance, p the pressure,
-//! ψ = p h, w = 6 μ U the wind and z the adjoint of the flying height (what a mass flux into a cell
-//! does to the clearance at constant load), fluxes of second order miss the clearance by about
+//! Lines run through every edge of the surface. How many cells lie between two edges, and how they crowd there, follows
+//! the estimate: with κ = G h² the conductance, p the pressure, ψ = p h, w = 6 μ U the wind and z the adjoint of the
+//! flying height (what a mass flux into a cell does to the clearance at constant load), fluxes of second order miss the
+//! clearance by about
 //!
 //! ```text
 //! E = ∬ Δx² e_x + Δy² e_y dx dy,   e_x = c_d |κ p_xx z_xx| + c_w |w_x ψ_xx z_x|,   e_y alike.
@@ -15,15 +15,14 @@
 //! give c_w/c_d = 9; 12 is used, which misses the clearance least on 28 grids of 500 to 3200 cells
 //! for the surfaces of both example drives (2.0 % in the mean; 3.4 % with 9, 3.8 % with 18).
 //!
-//! For lines along x, ∫ e_x dy is left, and the spacing that makes the sum smallest for a number
-//! of lines is Δx ∝ (∫ e_x dy)^(−1/3); the same along y, and the numbers of lines stand as
-//! (∫ (∫ e_x dy)^(1/3) dx)^(3/2) to the same along y. Derivatives are taken inside a cell or across a
-//! face without a step, so kinks at edges do not count. The estimate is made for a slider in
-//! ordinary flight, on a grid with lines crowding evenly towards all edges first, and repeated on
-//! its own result. (Goal-oriented error estimates: Becker and Rannacher 2001, Acta Numerica 10.)
+//! For lines along x, ∫ e_x dy remains. The spacing that makes the sum smallest for a number of lines is Δx ∝ (∫ e_x
+//! dy)^(−1/3), the same along y. The ratio of the numbers of lines is that of (∫ (∫ e_x dy)^(1/3) dx)^(3/2) to the same
+//! along y. Derivatives are taken inside a cell or across a face without a step, so kinks at edges do not contribute.
+//! The estimate is made for a slider in ordinary flight, first on a grid with lines crowding evenly towards all edges,
+//! then on its own result. (Goal-oriented error estimates: Becker and Rannacher 2001, Acta Numerica 10.)
 //!
-//! Two neighbouring cells differ by a third in size at most: where a corner makes the pressure
-//! singular, long thin cells a little further out spoil what the corner's own faces do right.
+//! The sizes of neighbouring cells differ by at most a third. At a singular corner, long thin cells further out would
+//! spoil the correction of the corner's own faces.
 
 use super::attitude::Attitude;
 use super::film::Film;
@@ -40,8 +39,7 @@ pub(super) const ROUNDS: usize = 3;
 /// Cells of the grids the error is estimated on; finer ones would not place lines better.
 const MOST_ESTIMATE_CELLS: usize = 2000;
 
-/// Relative step after which a film to estimate on is as good as converged: the next would be its
-/// square.
+/// Relative step after which a film is converged well enough for the estimate: the next step would be its square.
 const ESTIMATED: f64 = 1e-4;
 
 /// Smallest density of lines, of the mean.
@@ -125,8 +123,8 @@ pub(super) fn carried(film: &Film, psi: &[f64], to: &Film, attitude: &Attitude) 
     out
 }
 
-/// Lines after the error of `film`, and its state, which was sought from `psi`; `None` when it could
-/// not be found or has no error.
+/// Lines placed by the error of `film`, and its state, which was sought from `psi`; `None` when it could not be found
+/// or has no error.
 pub(super) fn refined(
     film: Film,
     mut psi: Vec<f64>,
@@ -161,7 +159,7 @@ pub(super) fn refined(
     Some(([x_lines, y_lines], Held { film, psi }))
 }
 
-/// What the faces of one direction say of a cell.
+/// What the faces of one direction give about a cell.
 #[derive(Clone, Copy, Default)]
 struct Strip {
     /// Sum over both faces of face minus centre, of pressure and of adjoint.
@@ -196,8 +194,8 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
         let [l, r] = face.sides.map(|side| side.cell);
         let z = (weight[0] * adjoint[l] + weight[1] * adjoint[r]) / (weight[0] + weight[1]);
         let lines = &film.mesh.lines[d];
-        // Cells count along y first. Where no wind blows across, layouts keep the places of a numbering along x,
-        // by which they were calibrated (CONVECTIVE); with wind across these would not mirror each other.
+        // Cells are numbered along y first. Without wind across, layouts keep the places of a numbering along x, by
+        // which they were calibrated (CONVECTIVE); with wind across these would not mirror each other.
         let at = match (is_straight, d) {
             (true, 0) => [l % nx, r % nx],
             (true, _) => [l / nx, r / nx],

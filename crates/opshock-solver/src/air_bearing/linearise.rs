@@ -1,8 +1,8 @@
-//! Derivatives of the flux balance and of the force by ψ and attitude.
+//! Derivatives of the film's flux balance and of its force by ψ = p h and attitude.
 //!
-//! What a face gives is written in columns, face by face, as the balance does with fluxes; diagonals of
-//! the matrix and derivatives of the force are gathered from them afterwards: the cells of face k and of the
-//! row it leaves and enters lie at fixed distances from k.
+//! The derivatives of a face are written in columns, face by face, as the balance does with fluxes. The diagonals of
+//! the matrix and the derivatives of the force are gathered from them afterwards, because the cells of face k, and of
+//! the row it leaves and enters, lie at fixed distances from k.
 
 #![expect(
     clippy::needless_range_loop,
@@ -189,8 +189,8 @@ fn between_cells(
         let [up, down] = faces.sides(state, first);
         let base = faces.places.heights(first, attitude);
         let faces_at = [
-            film.floored_block(&base, up.recess),
-            film.floored_block(&base, down.recess),
+            film.limited_block(&base, up.recess),
+            film.limited_block(&base, down.recess),
         ];
         let length = block(&faces.length, first);
         let centre = |cell: usize| {
@@ -322,7 +322,7 @@ fn gather_gradients(columns: &Columns, state: &FilmScratch, out: &mut FilmLinear
 }
 
 impl Interior {
-    /// Number of face 0's up cell, down cell and, with wind, cell behind the up cell, as those are counted.
+    /// Number of face 0's up cell, down cell and, with wind, cell behind the up cell, in the padded numbering.
     #[inline(always)]
     fn cells(&self) -> impl Iterator<Item = usize> {
         let used = if self.wind == 0.0 { 2 } else { 3 };

@@ -1,15 +1,15 @@
-//! Cells and faces of a film: places, recesses, sizes, and the wind through every face.
+//! Cells and faces of a film's grid: places, recesses, sizes, and the wind through every face.
 //!
-//! Cells are numbered along y first: a grid has fewer lines that way, and the band of a matrix over
-//! the cells is as wide as a column of them. Fluxes along x reach one cell further upstream where
-//! the wind carries them, a column more on that side of the band.
+//! Cells are numbered along y first. A grid has fewer lines that way, and the band of a matrix over the cells is as
+//! wide as a column of cells. Fluxes along x reach one cell further upstream where the wind carries them, which makes
+//! the band one column wider on that side.
 
 use super::attitude::Attitude;
 use super::corner::{Widths, conductance_factors};
 use crate::grid::Lines;
 use crate::slider::surface::Surface;
 
-/// Recesses closer than this belong to one smooth stretch of film.
+/// Recesses that differ by less belong to one smooth part of the film.
 const SAME_RECESS_M: f64 = 1e-12;
 
 /// Height of a place: the constant part and the lever arms of pitch and roll.
@@ -74,7 +74,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// True when both sides belong to one smooth stretch of film.
+    /// True when both sides belong to one smooth part of the film.
     pub(super) fn is_smooth(&self) -> bool {
         let [left, right] = self.sides.map(|side| side.recess);
         (left - right).abs() < SAME_RECESS_M
@@ -223,7 +223,7 @@ impl Mesh {
                     self.index(i - 1, j),
                 ];
                 let recess = around.map(|c| self.cells[c].recess);
-                // Nothing is singular on an even surface and on a straight edge.
+                // A flat surface and a straight edge have no singularity.
                 let same = |a: usize, b: usize| (recess[a] - recess[b]).abs() < SAME_RECESS_M;
                 if (same(0, 1) && same(2, 3)) || (same(1, 2) && same(3, 0)) {
                     continue;

@@ -1,14 +1,14 @@
-//! Newton's method on the film, alone or with the slider's attitude.
+//! Newton's method for the steady film, alone or together with the slider's attitude.
 //!
-//! With A = dR/dψ and C = dR/dq, ψ eliminated:
+//! With A = dR/dψ and C = dR/dq, elimination of ψ gives
 //!
 //! ```text
 //! K = −dF/dq along R = 0 = F_ψ A⁻¹ C − F_q,    K δq = F − load − F_ψ A⁻¹ R,
 //! δψ = −A⁻¹ R − A⁻¹ C δq.
 //! ```
 //!
-//! K is the quasi-static stiffness of the flying slider. A step never takes more than a set share
-//! of a cell's ψ or of the clearance.
+//! K is the quasi-static stiffness of the flying slider. A step is limited to a set share of every cell's ψ and of the
+//! clearance.
 
 use super::attitude::Attitude;
 use super::film::Film;
@@ -20,19 +20,19 @@ use crate::linalg::banded::{BandedError, BandedLu, Entry};
 use crate::linalg::diagonals::Diagonals;
 use nalgebra::{Matrix3, Vector3};
 
-/// Relative step at which Newton's quadratic convergence leaves only rounding.
+/// Relative step after which, by quadratic convergence, only rounding is left.
 pub(super) const CONVERGED: f64 = 1e-9;
 /// Relative step after which the iteration on ψ and attitude takes over from that on ψ alone.
 pub(super) const NEAR: f64 = 1e-2;
 /// Most Newton iterations of one attempt.
 pub(super) const MOST_ITERATIONS: usize = 60;
-/// Relative step at which ψ under a slider held still is known to a third of it, by [`CONTRACTION`].
+/// Relative step at which [`CONTRACTION`] bounds the error of a quasi-static film (fixed attitude) to a third of it.
 const HELD: f64 = 1e-6;
 /// Contraction of the iteration with kept factors above which they are renewed.
 const CONTRACTION: f64 = 0.3;
-/// Relative step after which kept factors are from elsewhere.
+/// Relative step after which kept factors belong to another state.
 const FARTHEST: f64 = 0.5;
-/// Most iterations under a slider held still.
+/// Most iterations for a quasi-static film (fixed attitude).
 const MOST_HELD: usize = 200;
 /// Most steps of the overdamped motion.
 const MOST_DRIFT_STEPS: usize = 200;
@@ -51,7 +51,7 @@ pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) n_factored: usize,
     /// Whether `lu` holds factors from near the state.
     has_factors: bool,
-    /// Whether [`Newton::drift`] relaxes a film that Newton's method does not settle, and ends on the disk.
+    /// Whether [`Newton::drift`] uses relaxation for a film on which Newton's method fails, and ends on the disk.
     pub(super) relaxes: bool,
 }
 
@@ -98,8 +98,8 @@ impl<'a, E: Entry> Newton<'a, E> {
         (Vector3::from(lin.force), stiffness, pending)
     }
 
-    /// Gradient by ψ of the clearance a small force error costs at constant load: of r K⁻¹ F with r
-    /// the arms of the closest point.
+    /// Gradient by ψ of the clearance that a small force error costs at constant load, r K⁻¹ F, with r the lever arms
+    /// of the closest point.
     pub(super) fn clearance_goal(&mut self, attitude: &Attitude) -> Option<Vec<f64>> {
         let (_, stiffness, _) = self.schur();
         let film = self.film;
@@ -157,8 +157,8 @@ impl<'a, E: Entry> Newton<'a, E> {
         Ok((most, step))
     }
 
-    /// As [`Newton::hold`], and where that does not come there, again after [`Newton::relax`] from ambient pressure. Whether
-    /// it came there, the last relative step tells.
+    /// As [`Newton::hold`]; where that fails, again after [`Newton::relax`] from ambient pressure. The last relative
+    /// step shows whether it converged.
     pub(super) fn hold_surely(
         &mut self,
         psi: &mut Vec<f64>,
@@ -177,17 +177,17 @@ impl<'a, E: Entry> Newton<'a, E> {
         Ok((self.n_factored - before, step))
     }
 
-    /// The factors at hand are of no use from here on.
+    /// Discards the kept factors.
     pub(super) fn forget(&mut self) {
         self.has_factors = false;
     }
 
-    /// Force and moments of the air under a slider held still, from ψ near its equilibrium, which it becomes: by
-    /// factors that are kept for as long as they contract, those at hand first.
+    /// Force and moments of the air on a slider at a fixed attitude. `psi` starts near the equilibrium and ends in it.
+    /// Factors are kept as long as the iteration contracts, those at hand first.
     ///
     /// # Errors
     ///
-    /// [`SteadyError`] where it does not settle.
+    /// [`SteadyError`] where it does not converge.
     pub(super) fn force_held(
         &mut self,
         psi: &mut [f64],
@@ -208,7 +208,7 @@ impl<'a, E: Entry> Newton<'a, E> {
             for (psi, delta) in psi.iter_mut().zip(&delta) {
                 let new = (*psi - delta).max(PSI_KEPT * *psi);
                 let change = (new - *psi).abs();
-                // A division each takes longer than all else here.
+                // One division takes longer than everything else in this loop.
                 if change > step * *psi {
                     step = change / *psi;
                 }
@@ -265,8 +265,8 @@ impl<'a, E: Entry> Newton<'a, E> {
         let levers = Vector3::new(1.0, 0.5 * l, 0.5 * w);
         let scale = load.component_div(&levers).norm().max(1e-6);
         for _ in 0..MOST_DRIFT_STEPS {
-            // A slider so far into the disk does not come back.
-            let depth = -self.film.min_clearance(attitude).value_m / self.film.floor_m();
+            // A slider that far inside the disk does not return.
+            let depth = -self.film.min_clearance(attitude).value_m / self.film.min_height_m();
             if depth > if self.relaxes { 1.0 } else { 10.0 } {
                 return Ok(());
             }
@@ -286,7 +286,7 @@ impl<'a, E: Entry> Newton<'a, E> {
                 .film
                 .min_clearance(attitude)
                 .value_m
-                .max(self.film.floor_m());
+                .max(self.film.min_height_m());
             let drag = share * scale / clearance;
             let step = (stiffness + Matrix3::from_diagonal(&(unit * drag)))
                 .try_inverse()
@@ -319,14 +319,17 @@ impl<'a, E: Entry> Newton<'a, E> {
     /// it.
     fn admissible_share(&self, attitude: &Attitude, change: &Vector3<f64>) -> f64 {
         let film = self.film;
-        let before = film.min_clearance(attitude).value_m.max(film.floor_m());
+        let before = film
+            .min_clearance(attitude)
+            .value_m
+            .max(film.min_height_m());
         let mut share = 1.0;
         for _ in 0..60 {
             let after = film
                 .min_clearance(&moved(attitude, &(change * share)))
                 .value_m;
             let tilt = span(film, change) * share;
-            if after > 0.4 * before - film.floor_m()
+            if after > 0.4 * before - film.min_height_m()
                 && after < 3.0 * before
                 && tilt < 3.0 * before + 2e-8
             {
@@ -350,7 +353,7 @@ fn relative_change(film: &Film, attitude: &Attitude, change: &Vector3<f64>) -> f
             .min_clearance(attitude)
             .value_m
             .abs()
-            .max(film.floor_m())
+            .max(film.min_height_m())
 }
 
 fn moved(attitude: &Attitude, change: &Vector3<f64>) -> Attitude {

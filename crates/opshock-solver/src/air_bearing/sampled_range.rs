@@ -1,4 +1,4 @@
-//! The attitudes about a steady flight at which films are sampled.
+//! Range of attitudes about steady flight at which films are sampled for the defect correction.
 
 use super::attitude::Attitude;
 use super::defect::range::{Parabola, Range, height};
@@ -6,29 +6,29 @@ use super::film::Film;
 use super::search::Flight;
 use super::steady::fly_near;
 
-/// Loads of equilibria that tell θ_eq, in those of steady flight; the second ones where the film does not carry the first.
+/// Loads that give θ_eq, relative to steady flight; the second set where the film does not carry the first.
 const LOADS: [[f64; 3]; 2] = [[0.6, 1.0, 2.5], [0.25, 0.5, 1.0]];
 
-/// Mean height of the two points, in that of steady flight.
+/// Mean height of the two points, relative to steady flight.
 const HEIGHTS: [f64; 2] = [0.05, 1.5];
 
-/// Pitch about θ_eq and largest roll, in the pitch of steady flight: what survivors of the study of Fig. 13 show
-/// below 4 nm, nineteen times of twenty.
+/// Pitch about θ_eq and largest roll, relative to the pitch of steady flight: 95 % of the survivors of the study of
+/// Fig. 13 stay inside it below 4 nm.
 const PITCH: f64 = 0.18;
 const ROLL: f64 = 0.12;
 
-/// Pitch in equilibrium at the ends of those heights, in that of steady flight, beyond which it is not believed.
+/// Equilibrium pitch at the ends of those heights, relative to steady flight; values outside are rejected.
 const PITCHES: [f64; 2] = [0.3, 3.0];
 
-/// Least distance of the two points, in the slider's width.
+/// Least distance of the two points, relative to the slider's width.
 const APART: f64 = 0.02;
 
 impl Range {
     /// The range about a steady `flight` of `film`.
     pub(super) fn around(film: &Film, flight: &Flight) -> Self {
-        let floor_m = film.floor_m();
+        let min_height_m = film.min_height_m();
         let steady = flight.attitude;
-        // A slider that flies level has the range of one with a hundredth of the usual pitch.
+        // A slider that flies level gets the range of one with a hundredth of the usual pitch.
         let usual = film.usual_attitude().pitch_rad.abs();
         let scale = steady.pitch_rad.abs().max(0.01 * usual);
         let [length, width] = film.extent_m();
@@ -39,7 +39,7 @@ impl Range {
             rolled.roll_rad += sense * ROLL * scale;
             let closest = film.min_clearance(&rolled);
             let arms = [1.0, 0.5 * length - closest.x_m, closest.y_m - 0.5 * width];
-            // What the height is without attitude: recess and form of the surface.
+            // Height at zero attitude: recess and form of the surface.
             let form_m = closest.value_m - height(&rolled, &arms);
             (form_m, arms)
         });
@@ -72,21 +72,21 @@ impl Range {
             Some([a?, b?, c?])
         };
         let along = |flown: [Attitude; 3], value: &dyn Fn(&Attitude) -> f64| {
-            Parabola::through(flown.map(|q| ((mean(&q) + floor_m).ln(), value(&q))))
+            Parabola::through(flown.map(|q| ((mean(&q) + min_height_m).ln(), value(&q))))
         };
         let pitch = |q: &Attitude| q.pitch_rad;
         let [usual, light] = LOADS;
         let (equilibrium, leaning) = match flown(usual).or_else(|| flown(light)) {
             Some(flown) => (along(flown, &pitch), along(flown, &lean).inside()),
-            // Without neighbours steady flight is taken for all heights.
+            // Without neighbouring equilibria, steady flight is used at all heights.
             None => (
                 Parabola::level(pitch(&steady)),
                 Parabola::level(lean(&steady)),
             ),
         };
-        // Far from the flights a parabola through them may lead anywhere.
+        // Far from the computed flights, a parabola through them is unreliable.
         let is_sound = HEIGHTS.iter().all(|height| {
-            let (end, _) = equilibrium.at((height * mean_m + floor_m).ln());
+            let (end, _) = equilibrium.at((height * mean_m + min_height_m).ln());
             let share = end / steady.pitch_rad;
             (PITCHES[0]..PITCHES[1]).contains(&share)
         });
@@ -100,7 +100,7 @@ impl Range {
         };
         let half_m = 0.5 * (points[1].1[2] - points[0].1[2]).abs();
         Self {
-            floor_m,
+            min_height_m,
             points,
             heights_m: HEIGHTS.map(|share| share * mean_m),
             lean_m: ROLL * scale * half_m,

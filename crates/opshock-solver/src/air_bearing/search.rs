@@ -1,4 +1,4 @@
-//! Search for the equilibria of a slider under a load, and what is told about one.
+//! Searches for the equilibria of a slider under a load, and computes the properties of the one that is flown.
 
 use super::attitude::Attitude;
 use super::film::Film;
@@ -30,11 +30,11 @@ pub struct Flight {
     pub stiffness: [[f64; 3]; 3],
     /// Quasi-static damping −dF/d(dq/dt): N s/m, N s, N m s/rad.
     pub damping: [[f64; 3]; 3],
-    /// Linearisations spent on this equilibrium, from the start it was reached from.
+    /// Linearisations used for this equilibrium, from the start that led to it.
     pub n_iterations: usize,
 }
 
-/// An equilibrium apart from the one flown.
+/// An equilibrium other than the one flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equilibrium {
     /// Attitude.
@@ -51,7 +51,7 @@ pub(super) struct Search<'a> {
     pub(super) load: Vector3<f64>,
     pub(super) found: Vec<Found>,
     last: Attitude,
-    /// Why the last attempt that broke down did.
+    /// Error of the last attempt that failed.
     broken: Option<BandedError>,
 }
 
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
         let n_iterations = self.newton.n_factored - n_before;
         let film = self.newton.film;
         let clearance_m = film.min_clearance(attitude).value_m;
-        let scale = clearance_m.abs().max(film.floor_m());
+        let scale = clearance_m.abs().max(film.min_height_m());
         let known = self.found.iter().any(|other| {
             let change = Vector3::new(
                 attitude.centre_height_m - other.attitude.centre_height_m,
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
         }
         self.newton.factor(psi, attitude)?;
         let (_, stiffness, _) = self.newton.schur();
-        // Eigenvalues with a positive definite metric; signs do not depend on which.
+        // Eigenvalues with a positive definite metric; their signs do not depend on the metric.
         let stable = stiffness
             .complex_eigenvalues()
             .iter()
@@ -192,11 +192,11 @@ impl<'a> Search<'a> {
             });
         };
         let found = self.found.swap_remove(best);
-        self.told(found)
+        self.reported(found)
     }
 
-    /// All that is told about an equilibrium.
-    pub(super) fn told(mut self, found: Found) -> Result<Flight, SteadyError> {
+    /// Computes all properties of an equilibrium.
+    pub(super) fn reported(mut self, found: Found) -> Result<Flight, SteadyError> {
         let film = self.newton.film;
         self.newton.factor(&found.psi, &found.attitude)?;
         self.newton.schur();

@@ -1,4 +1,4 @@
-//! State of a film as columns, padded so that every block of faces finds blocks of cells.
+//! State of a film's cells as columns, padded so that every block of faces finds blocks of cells.
 
 use super::attitude::Attitude;
 use super::faces::{BLOCK, Block, Sides, block};
@@ -26,7 +26,7 @@ pub struct FilmScratch {
     pub(super) flux: [Vec<f64>; 2],
     /// Rows of the flow factor's table.
     rows: PickedRows,
-    /// Residual that nobody asked for.
+    /// Residual that the caller does not use.
     pub(super) spare: Vec<f64>,
 }
 
@@ -51,7 +51,7 @@ impl FilmScratch {
         }
     }
 
-    /// The state taken over last, at its `attitude`.
+    /// The state set last, at its `attitude`.
     pub(super) fn cell_states<'a>(&'a self, attitude: &'a Attitude) -> CellStates<'a> {
         let cells = self.front..self.front + self.n_cells;
         CellStates {
@@ -63,7 +63,7 @@ impl FilmScratch {
         }
     }
 
-    /// Takes over the state (ψ, attitude).
+    /// Sets the state (ψ, attitude).
     #[inline(always)]
     pub(super) fn fill(&mut self, film: &Film, psi: &[f64], attitude: &Attitude) {
         let columns = &film.columns;
@@ -78,7 +78,7 @@ impl FilmScratch {
             let height = columns.places.heights(first, attitude);
             let recess = block(&columns.recess, first);
             let at = front + first;
-            let [h, slope] = film.floored_block(&height, recess);
+            let [h, slope] = film.limited_block(&height, recess);
             let (psi, g) = (block(&self.psi, at), block(&self.g, at));
             // Three inverses by one division, which takes as long as a dozen products.
             let mut inverse = [[0.0; BLOCK]; 3];
@@ -175,7 +175,7 @@ impl<'a> SideBlock<'a> {
         self.cells.h_slope[k]
     }
 
-    /// Half cell k for what does without the inverses of its heights, which are no numbers here.
+    /// Half cell k for kernels without the inverses of its heights, which are NaN here.
     #[inline(always)]
     pub(super) fn bare_half(&self, k: usize, h_face: f64) -> HalfCell {
         self.half(k, h_face, [f64::NAN; 2])
@@ -217,8 +217,8 @@ pub(super) struct Picked {
 }
 
 impl Picked {
-    /// The cells in `cells` with those behind them; `front` cells precede cell 0. Without wind
-    /// nothing is asked of those behind, nor of the inverses that wind takes.
+    /// The cells in `cells` with those behind them; `front` cells precede cell 0. Without wind neither the cells behind
+    /// nor the inverses that wind needs are set.
     #[inline(always)]
     pub(super) fn new(
         state: &FilmScratch,

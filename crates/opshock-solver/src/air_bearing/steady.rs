@@ -1,17 +1,17 @@
-//! Steady states: the film under a held slider, and the slider flying under a load.
+//! Steady states of the air bearing: the film at a fixed attitude, and the slider flying under a load.
 //!
 //! ```text
 //! R(ψ, q) = 0,   F(ψ, q) = load,   q = (h_c, pitch, roll)
 //! ```
 //!
-//! Newton's method on (ψ, q) finds it from any sensible start. Where that is not
-//! enough (a start far away, a pitch of the wrong sign) the slider follows an overdamped motion
-//! under load and film force: every stable equilibrium attracts it, and Newton takes over near the
-//! end. An equilibrium is stable when all eigenvalues of its stiffness have positive real parts.
+//! Newton's method on (ψ, q) finds it from most starts. Where that fails (a start far away, a pitch of the wrong sign),
+//! the slider follows an overdamped motion under load and film force. Every stable equilibrium attracts it, and
+//! Newton's method takes over near the end. An equilibrium is stable when all eigenvalues of its stiffness have
+//! positive real parts.
 //!
-//! Where that finds no stable equilibrium with a clearance, the flight is followed from lighter loads
-//! (`carrying`), films that Newton's method does not settle by pseudo-transient continuation (`relaxation`). It either
-//! comes to the load, or ends before, and the slider cannot fly.
+//! Where neither finds a stable equilibrium with a clearance, the flight is followed from lighter loads (`carrying`).
+//! Films on which Newton's method fails are found by pseudo-transient continuation (`relaxation`). Either the flight
+//! reaches the load, or it ends before and the slider cannot fly.
 
 use super::attitude::Attitude;
 use super::carrying::{Path, followed};
@@ -23,9 +23,9 @@ use nalgebra::Vector3;
 pub use super::search::{Equilibrium, Flight};
 pub use super::steady_error::{FlightsEnd, SteadyError};
 
-/// Film in equilibrium under a held slider.
+/// Quasi-static film of a slider at a fixed attitude.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeldFilm {
+pub struct QuasiStaticFilm {
     /// ψ of every cell, Pa m.
     pub psi: Vec<f64>,
     /// [F_z, M_pitch, M_roll], N and N m.
@@ -34,12 +34,12 @@ pub struct HeldFilm {
     pub n_iterations: usize,
 }
 
-/// Steady film under a slider held at `attitude`.
+/// Steady film of a slider at the fixed `attitude`.
 ///
 /// # Errors
 ///
 /// [`SteadyError`] when Newton's method from the ambient state does not converge.
-pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, SteadyError> {
+pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<QuasiStaticFilm, SteadyError> {
     let mut newton = Newton::<f64>::new(film);
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
@@ -52,7 +52,7 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<HeldFilm, Stea
         });
     }
     let force = film.force(&psi, attitude, &mut film.scratch());
-    Ok(HeldFilm {
+    Ok(QuasiStaticFilm {
         psi,
         force,
         n_iterations,
@@ -71,14 +71,14 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 
 /// As [`fly`], from `start`, which may be far from the answer.
 ///
-/// Of several stable equilibria met on the way the one with the largest clearance is flown
-/// ([`lower_equilibria`] looks for those below). Where surface forces act, one within the range of the film's minimum height
-/// is no flight, and none is without clearance; flights followed from lighter loads end at the minimum height.
+/// Of several stable equilibria the one with the largest clearance is flown ([`lower_equilibria`] looks for those
+/// below). An equilibrium without clearance is no flight; with surface forces, neither is one within the range of the
+/// minimum film height. Flights followed from lighter loads end at that height.
 ///
 /// # Errors
 ///
-/// [`SteadyError::CannotFly`] when the film does not carry the load, [`SteadyError`] when a stable equilibrium is
-/// neither found nor ruled out; it names the best attitude met.
+/// [`SteadyError::CannotFly`] when the film does not carry the load; another [`SteadyError`], with the best attitude
+/// met, when a stable equilibrium is neither found nor ruled out.
 pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
     if !film.is_drawn_in() {
         let flown = seek(film, load, start, true);
@@ -88,7 +88,7 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
         };
     }
     let flown = seek(film, load, start, false);
-    let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.floor_m();
+    let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.min_height_m();
     if flown.as_ref().is_ok_and(is_flight) {
         return flown;
     }
@@ -110,8 +110,8 @@ pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
     search.finish()
 }
 
-/// The flight under surface forces, followed from `bare` without them as their share grows to 1. Near
-/// pull-in, where the slider has next to no stiffness left, Newton's method from afar misses it.
+/// The flight under surface forces, followed from `bare` without them as their share grows to 1. Near pull-in, where
+/// almost no stiffness is left, Newton's method does not find it from afar.
 ///
 /// # Errors
 ///
@@ -119,17 +119,17 @@ pub fn fly_near(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
 fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
     let at = |share| (film.with_share_of_attraction(share), load);
-    let path = Path::along(&at, (0.0, Found::of(bare)), 2.0 * film.floor_m());
+    let path = Path::along(&at, (0.0, Found::of(bare)), 2.0 * film.min_height_m());
     if path.share < 1.0 {
         return Err(SteadyError::PulledIn {
             share: path.share,
             without_m: bare.min_clearance_m,
         });
     }
-    Search::new(film, load, path.last.attitude).told(path.last)
+    Search::new(film, load, path.last.attitude).reported(path.last)
 }
 
-/// The search for equilibria behind [`fly_from`]; by overdamped motion only where that is asked for.
+/// The search for equilibria behind [`fly_from`]; by overdamped motion only on request.
 fn seek(
     film: &Film,
     load: [f64; 3],
@@ -156,13 +156,13 @@ fn seek(
     search.finish()
 }
 
-/// Equilibria under the same load below a flight, where the surface presses on the film's floor: stable
-/// ones are states in which a slider may remain after a touch.
+/// Equilibria under the same load below a flight, in the range of the minimum film height: stable ones are states in
+/// which a slider may remain after a contact.
 pub fn lower_equilibria(film: &Film, load: [f64; 3], flight: &Flight) -> Vec<Equilibrium> {
     let mut search = Search::new(film, Vector3::from(load), flight.attitude);
     search.found.push(Found::of(flight));
     let flown = flight.attitude;
-    for clearance in [2.0 * film.floor_m(), 8.0 * film.floor_m()] {
+    for clearance in [2.0 * film.min_height_m(), 8.0 * film.min_height_m()] {
         let mut below = flown;
         below.centre_height_m += clearance - film.min_clearance(&flown).value_m;
         let mut psi = film.ambient(&below);

@@ -1,4 +1,4 @@
-//! Why no steady state was found.
+//! Errors of the search for a steady state of film and slider.
 
 use super::attitude::Attitude;
 use crate::linalg::banded::BandedError;
@@ -19,7 +19,7 @@ pub enum SteadyError {
         /// Last attitude reached.
         attitude: Attitude,
     },
-    /// Surface forces pull the slider onto the disk, from which the film alone keeps it away.
+    /// Surface forces pull the slider onto the disk; only the film keeps it away.
     #[error(
         "surface forces pull the slider onto the disk, {share:.3} of them is the most under which it \
          flies; without them it flies at {without_m:e} m"

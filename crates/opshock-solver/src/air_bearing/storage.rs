@@ -1,44 +1,44 @@
-//! What the gas in the cells stores, as far as it tells on the balance of each.
+//! Storage matrix M of the film: how the rate of ψ = p h in each cell enters the mass balance of its neighbours.
 //!
 //! ```text
 //! M dψ/dt + R(ψ, attitude) = 0
 //! ```
 //!
-//! A cell stores 12 μ A ψ. Fluxes with the wind continue ψ to the face by a straight line ([`super::flux`]), which lags
-//! waves: what travels at u = w/(12 μ) = U/2 is carried as
+//! A cell stores 12 μ A ψ. Fluxes with the wind continue ψ to the face by a straight line ([`super::flux`]), which
+//! makes waves lag: what travels at u = w/(12 μ) = U/2 is carried as
 //!
 //! ```text
 //! dψ/dt = −u (1 − Δ²/3 ∂xx + Δ³/4 ∂xxx) ∂x ψ + ...
 //! ```
 //!
-//! on cells of the width Δ. The same operator on dψ/dt takes that off: M = 12 μ A (1 − Δ²/3 ∂xx + Δ³/4 ∂xxx), so that
-//! waves travel right to the third order of Δ, and nothing changes where nothing changes in time. (A compact scheme:
-//! Lele 1992, J. Comput. Phys. 103, 16, has the principle.) It is the flux of a second share of the storage through the
-//! faces, so that no gas is lost,
+//! on cells of the width Δ. The same operator on dψ/dt removes the lag: M = 12 μ A (1 − Δ²/3 ∂xx + Δ³/4 ∂xxx). Waves
+//! then travel correctly to the third order of Δ, and steady states do not change. (Lele 1992, J. Comput. Phys. 103,
+//! 16, has the principle, as a compact scheme.) The operator is the flux of a second share of the storage through the
+//! faces, so that mass is conserved:
 //!
 //! ```text
 //! −ω K (s_d/4 + 3 s_b/4),   K = 12 μ L Δ_c (Δ_b + Δ_c)(Δ_b + 2 Δ_c + Δ_d)/(8 (Δ_b + Δ_c + Δ_d)),
 //! ```
 //!
-//! with the slopes s of dψ/dt from the cell behind to the cell c that the wind leaves, and from there to the next, d.
-//! K/u is the distance of the straight line's end from the parabola through three means for ∂xx ψ = −∂x(dψ/dt)/u. The
-//! weight ω is that of the straight line ([`super::flux`]), at ambient pressure in the usual attitude: a number of the
-//! grid, near 1 under a pad and 0 where the gas diffuses. Before a step s_b counts alone; where no
-//! straight line is drawn, behind a step, nothing is taken off. Where cells are more unlike than a layout has them
-//! (by a third), less is: every column of M keeps most on its diagonal, on which factors without pivoting rely.
+//! with the slopes s of dψ/dt: s_b from the cell behind to the cell c that the wind leaves, and s_d from c to the next
+//! cell d. K/u is the distance of the straight line's end from the parabola through three means for ∂xx ψ =
+//! −∂x(dψ/dt)/u. The weight ω is that of the straight line ([`super::flux`]) at ambient pressure in the usual attitude.
+//! It is a constant of the grid, near 1 under a pad and 0 where the gas diffuses. Before a step only s_b enters. Behind
+//! a step no straight line is drawn and nothing is corrected. Where cell sizes differ by more than a layout allows (a
+//! third), the correction is reduced: every column of M keeps most on its diagonal, as factors without pivoting need.
 //!
-//! With 1000 cells under the slider of Fig. 13 this brings the impedance's error at 60 kHz from 8.0 to 3.6 %, at 25 kHz
-//! from 1.9 to 0.4 %, with 4000 from 4.1 to 0.9 and from 0.6 to 0.2 % (docs/accuracy.md).
+//! With 1000 cells under the slider of Fig. 13 the impedance's error falls from 8.0 to 3.6 % at 60 kHz and from 1.9 to
+//! 0.4 % at 25 kHz; with 4000 cells from 4.1 to 0.9 % and from 0.6 to 0.2 % (docs/accuracy.md).
 
 use super::film::Film;
 use super::mesh::Face;
 use crate::linalg::diagonals::Diagonals;
 
-/// Pe below which ω is nothing.
+/// Pe below which ω is zero.
 const SMALLEST_PE: f64 = 1e-3;
 
-/// Most by which a face's flux may depend on the cell behind and on the next, of the smaller of both cells there; 1/4 and
-/// 1/12 where all are alike.
+/// Most by which a face's flux may depend on the cell behind and on the next, as a share of the smaller of both cells
+/// there; 1/4 and 1/12 on a uniform grid.
 const MOST_FROM_BEHIND: f64 = 1.0 / 2.0;
 const MOST_TO_NEXT: f64 = 1.0 / 4.0;
 
@@ -82,7 +82,7 @@ fn upwind_first(face: &Face) -> [super::mesh::Side; 2] {
     }
 }
 
-/// By dψ/dt of which cells, and how much of it, the storage's flux through a face depends, m.
+/// The cells whose dψ/dt the storage's flux through a face depends on, with the weights, m.
 fn through(film: &Film, face: &Face, psi: &[f64]) -> [(usize, f64); 3] {
     let [up, down] = upwind_first(face);
     let (behind, centre, next) = (up.behind, up.cell, down.cell);

@@ -1,4 +1,4 @@
-//! Derivatives of the discrete film against differences, and exact states.
+//! Derivatives of the discrete film against finite differences, and exact states.
 
 use super::*;
 use crate::gas::GasParameters;
@@ -52,12 +52,12 @@ fn slider() -> SliderParameters {
     }
 }
 
-fn film(cells: usize, floor_m: f64) -> Film {
+fn film(cells: usize, min_height_m: f64) -> Film {
     let flow = FlowModel::FukuiKaneko;
     let resolution = FilmResolution {
         cells,
-        floor_m,
-        reference_cells: 0,
+        min_height_m,
+        correction_cells: 0,
     };
     Film::build(&slider(), &air(), flow, 565.0, &resolution).unwrap()
 }
@@ -81,8 +81,8 @@ fn assert_same(a: &[f64], b: &[f64]) {
 
 #[test]
 fn jacobian_matches_differences_above_and_inside_the_floor() {
-    for floor_m in [3e-10, 2e-8] {
-        let film = film(400, floor_m);
+    for min_height_m in [3e-10, 2e-8] {
+        let film = film(400, min_height_m);
         let attitude = Attitude {
             centre_height_m: 55e-9,
             pitch_rad: 1.1e-4,
@@ -247,7 +247,7 @@ fn flying_slider_balances_its_load_and_reports_consistent_forces() {
     assert!((flight.lift_n + flight.suction_n - load[0]).abs() < 1e-9 * load[0]);
     assert!(flight.n_iterations <= 20);
 
-    // Stiffness and damping against Z(iω) at a low frequency, and Z against the held film.
+    // Stiffness and damping against Z(iω) at a low frequency, and Z against the quasi-static film.
     let mut motion = impedance::SmallMotion::new(&film, &flight.psi, &flight.attitude);
     let z = motion.impedance(1.0).unwrap();
     for i in 0..3 {
@@ -298,7 +298,7 @@ fn far_starts_reach_the_same_equilibrium() {
     }
 }
 
-/// Gas that does not slip: Newton's method from ambient pressure empties cells until its matrix is singular, relaxation settles.
+/// Without slip Newton's method from ambient pressure empties cells until its matrix is singular; relaxation converges.
 #[test]
 fn relaxation_settles_the_film_that_newton_does_not() {
     // Shallow steps in front of the pads of a 2.5-inch drive's slider, in micrometres: ends along x, across y, recess.
@@ -326,8 +326,8 @@ fn relaxation_settles_the_film_that_newton_does_not() {
         .collect();
     let resolution = FilmResolution {
         cells: 1000,
-        floor_m: 3e-10,
-        reference_cells: 0,
+        min_height_m: 3e-10,
+        correction_cells: 0,
     };
     let film = |flow| Film::build(&slider, &air(), flow, 565.0, &resolution).unwrap();
     let continuum = film(FlowModel::Continuum);
@@ -345,7 +345,7 @@ fn relaxation_settles_the_film_that_newton_does_not() {
         .unwrap();
     assert!(step < newton::CONVERGED);
     assert!(psi.iter().all(|psi| *psi > 0.0));
-    // With slip Newton's method settles it from ambient pressure.
+    // With slip Newton's method converges from ambient pressure.
     let slip = film(FlowModel::Slip1);
     let mut newton = newton::Newton::<f64>::new(&slip);
     let mut psi = slip.ambient(&slip.usual_attitude());

@@ -1,4 +1,4 @@
-//! Film thickness with a floor.
+//! Film thickness with a smooth lower limit, the minimum film height h0.
 //!
 //! ```text
 //! f(h) = h                              h >= 2 h0
@@ -11,13 +11,13 @@
 
 use super::faces::{BLOCK, Block};
 
-/// The floor h0 of a film, m.
+/// The minimum height h0 of a film, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Floor {
+pub(super) struct HeightLimit {
     pub(super) h0: f64,
 }
 
-impl Floor {
+impl HeightLimit {
     /// f(h) and f′(h).
     #[inline(always)]
     pub(super) fn apply(self, h: f64) -> (f64, f64) {
@@ -31,9 +31,9 @@ impl Floor {
     }
 }
 
-impl Floor {
-    /// f and f′ of `base` + `recess` for a block. Where all of a block is above the floor's range
-    /// no division is made; the numbers are the same.
+impl HeightLimit {
+    /// f and f′ of `base` + `recess` for a block. Where the whole block lies above 2 h0 no division is made; the
+    /// numbers are the same.
     #[inline(always)]
     pub(super) fn apply_block(self, base: &Block, recess: &Block) -> [Block; 2] {
         let mut h = [0.0; BLOCK];
@@ -58,12 +58,15 @@ mod tests {
 
     #[test]
     fn floor_is_c1_monotone_and_above_h0() {
-        let floor = Floor { h0: 3e-10 };
-        let (below, above) = (floor.apply(6e-10 * (1.0 - 1e-12)), floor.apply(6e-10));
+        let height_limit = HeightLimit { h0: 3e-10 };
+        let (below, above) = (
+            height_limit.apply(6e-10 * (1.0 - 1e-12)),
+            height_limit.apply(6e-10),
+        );
         assert!((below.0 - above.0).abs() < 1e-20 && (below.1 - above.1).abs() < 1e-11);
         let mut previous = 0.0;
         for k in 0..2000 {
-            let (h, slope) = floor.apply(-1e-7 + 1e-10 * k as f64);
+            let (h, slope) = height_limit.apply(-1e-7 + 1e-10 * k as f64);
             assert!(h > 3e-10 && slope > 0.0 && h > previous);
             previous = h;
         }

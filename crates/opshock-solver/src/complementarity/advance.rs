@@ -1,5 +1,5 @@
-//! One step of a system with up to two unilateral contacts: exact flow, located impacts,
-//! impulses that aim at a closed gap.
+//! Takes one step of a system with up to two unilateral contacts: exact flow, impacts located in time, and impulses
+//! aimed at a closed gap.
 
 use super::lcp;
 
@@ -12,7 +12,7 @@ pub struct Gap {
     pub rate_m_per_s: f64,
 }
 
-/// What an impulse stands for.
+/// Kind of an impulse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImpulseKind {
     /// A collision located in time.
@@ -21,8 +21,7 @@ pub enum ImpulseKind {
     Sustained,
 }
 
-/// A linear system that carries its own state. "Now" is its current instant; "ahead" is the
-/// instant last looked at.
+/// A linear system that holds its own state. "Now" is its current instant; "ahead" is the instant last computed.
 pub trait UnilateralSystem {
     /// Gaps now; entries from `n_contacts` on are ignored.
     fn gaps(&self) -> [Gap; 2];
@@ -41,17 +40,17 @@ pub trait UnilateralSystem {
     fn longest_aim_s(&self) -> f64 {
         f64::INFINITY
     }
-    /// What impulses of a lasting contact may give back of what damping takes; nothing by default.
+    /// Largest energy that impulses of a lasting contact may return of what damping takes; nothing by default.
     fn refund(&self) -> Refund {
         Refund::default()
     }
-    /// Applies impulses (N s) now, and to the state ahead what they lead to.
+    /// Applies impulses (N s) now, and their effect to the state ahead.
     fn impulse(&mut self, impulse_n_s: [f64; 2], kind: ImpulseKind);
     /// Makes ahead the new now.
     fn commit(&mut self);
 }
 
-/// Most energy that impulses P now may give back, J: Σ c + s P + P·R P.
+/// Largest energy that impulses P now may return, J: Σ c + s P + P·R P.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Refund {
     /// c, without an impulse of the contact, J.
@@ -63,13 +62,12 @@ pub struct Refund {
 }
 
 impl Refund {
-    /// What `impulse_n_s` may give back, J: of the contacts that have one.
+    /// Energy that `impulse_n_s` may return, J; only contacts with an impulse contribute.
     pub fn of(&self, impulse_n_s: [f64; 2]) -> f64 {
         -self.excess([0.0; 2], impulse_n_s)
     }
 
-    /// Energy of `impulse_n_s` on gaps of mean rates `mean_m_per_s` before and after, less
-    /// [`Self::of`], J.
+    /// Energy of `impulse_n_s` on gaps of mean rates `mean_m_per_s` before and after, minus [`Self::of`], J.
     fn excess(&self, mean_m_per_s: [f64; 2], impulse_n_s: [f64; 2]) -> f64 {
         let squares = product(self.square_per_kg, impulse_n_s);
         let of_contact = |i: usize| match impulse_n_s[i] {
@@ -79,8 +77,8 @@ impl Refund {
         of_contact(0) + of_contact(1)
     }
 
-    /// Largest impulse of contact `i` alone, of mobility `w`, which `stop` stops dead: the larger root
-    /// of P v + ½ w P² = c + s P + R P² with v = −w stop.
+    /// Largest impulse of contact `i` alone, of mobility `w`; the impulse `stop` makes its rate zero. It is the larger
+    /// root of P v + ½ w P² = c + s P + R P² with v = −w stop.
     fn largest(&self, i: usize, w: f64, stop: f64) -> f64 {
         let alpha = 1.0 - 2.0 * self.square_per_kg[i][i] / w;
         let beta = 1.0 + self.slope_m_per_s[i] / (w * stop);
@@ -94,13 +92,13 @@ impl Refund {
 pub struct ImpactLaw {
     /// Newton's coefficient of restitution e, 0 to 1.
     pub restitution: f64,
-    /// A gap up to this counts as closed, m; far below anything of interest.
+    /// Gaps up to this are closed, m; far below anything of interest.
     pub gap_tolerance_m: f64,
     /// Impacts in one step after which contact is taken as sustained.
     pub max_impacts_per_step: u32,
 }
 
-/// Which contacts last from step to step; carried by the caller, fresh at the start.
+/// Which contacts last from step to step; kept by the caller, empty at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactMemory {
     lasting: [bool; 2],
@@ -183,14 +181,14 @@ fn begin_at_node(
     let now = system.gaps();
     let closed: [bool; 2] = std::array::from_fn(|i| i < n && now[i].value_m <= law.gap_tolerance_m);
     for i in 0..n {
-        // Collisions are located where the gap is zero. One that is below came here in contact; to
-        // bounce it at every node with e < 1/2 would let it sink.
+        // Impacts are located where the gap is zero. A gap below zero is already in contact: a bounce at every node
+        // would let it sink in for e < 1/2.
         let below = now[i].value_m < -law.gap_tolerance_m;
         memory.lasting[i] = closed[i] && (memory.lasting[i] || below);
     }
     let arrives = (0..n).any(|i| closed[i] && !memory.lasting[i] && now[i].rate_m_per_s < 0.0);
     if arrives {
-        // The collision falls on the node itself.
+        // The impact falls on the node itself.
         report.impacts += 1;
         collide(system, left_s, n, law, memory, report);
         system.look_ahead(left_s);
@@ -231,8 +229,8 @@ fn collide(
     }
 }
 
-/// Impulse now that brings the gaps ahead to zero, between stopping dead and the energy bound
-/// P·v⁻ + ½ P·W P ≤ `refund` of P.
+/// Impulse now that brings the gaps ahead to zero, within two bounds: at least the impulse that makes the rates zero,
+/// at most that of the energy bound P·v⁻ + ½ P·W P ≤ `refund` of P.
 fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2], refund: Refund) -> [f64; 2] {
     let (now, ahead) = (system.gaps(), system.gaps_ahead());
     let w = system.mobility();
@@ -255,8 +253,8 @@ fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2], refund: Refu
     if !(closed[0] && closed[1]) {
         return bounded;
     }
-    // Two contacts: each bounded by itself, then both as far from stopping dead towards that as
-    // their energy together allows. Less than stopping would let the contacts sink.
+    // Two contacts: each is bounded by itself; then both go from zero rates towards their aims as far as their common
+    // energy allows. Less than zero rates would let the contacts sink in.
     let beyond = [bounded[0] - stop[0], bounded[1] - stop[1]];
     let at = |share: f64| [stop[0] + share * beyond[0], stop[1] + share * beyond[1]];
     let energy = |p: [f64; 2]| {
@@ -285,8 +283,8 @@ fn product(m: [[f64; 2]; 2], p: [f64; 2]) -> [f64; 2] {
 
 /// Time to the first gap that becomes negative before the instant ahead, `h_s` from now.
 ///
-/// Leaves the state ahead at `h_s` when there is none. `bounced`: an impact of this step may have
-/// sent a closed gap away only to return within it.
+/// Leaves the state ahead at `h_s` when there is none. `bounced`: an impact of this step may have opened a closed gap
+/// that closes again within the step.
 fn first_crossing(
     system: &mut impl UnilateralSystem,
     h_s: f64,
@@ -299,7 +297,7 @@ fn first_crossing(
     let mut disturbed = false;
     for i in 0..n {
         if now[i].value_m <= law.gap_tolerance_m {
-            // A closed gap is aimed at, not located; but one that has just bounced may return.
+            // A closed gap is aimed at and not located, except one that has just bounced and may return.
             let returns =
                 bounced && now[i].rate_m_per_s > 0.0 && ahead[i].value_m < -law.gap_tolerance_m;
             if !returns {

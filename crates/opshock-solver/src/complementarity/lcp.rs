@@ -1,4 +1,4 @@
-//! Linear complementarity problem of one or two contacts.
+//! Solves the linear complementarity problem of one or two contacts.
 //!
 //! ```text
 //! 0 ≤ z ⟂ M z + q ≥ 0,    M symmetric positive semidefinite

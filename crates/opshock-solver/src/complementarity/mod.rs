@@ -1,4 +1,4 @@
-//! 0 ≤ λ ⟂ g ≥ 0: statement, small problems, impact law on velocity level.
+//! Advances linear systems with unilateral contact, 0 ≤ λ ⟂ g ≥ 0, by impulses at velocity level.
 //!
 //! A unilateral contact has a signed gap g (g > 0 open) and a multiplier λ ≥ 0 that pushes the
 //! bodies apart; 0 ≤ g complementary to λ ≥ 0. It never pulls.

@@ -1,7 +1,7 @@
-//! Reference method: Moreau-Jean time stepping with θ = ½ on linear modes.
+//! Reference method for unilateral contact: Moreau-Jean time stepping with θ = ½ on linear modes.
 //!
-//! The other method beside the production scheme: it shares neither its flow nor its impulses, and
-//! both tend to the same motion as the step goes to 0.
+//! It shares neither the flow nor the impulses of the production scheme, and both tend to the same motion as the step
+//! goes to 0.
 //!
 //! ```text
 //! q₁ = q₀ + Δt (r₀ + r₁)/2
@@ -17,7 +17,7 @@ use super::lcp;
 use crate::modal::{CoupledState, PointReadout};
 use nalgebra::Complex;
 
-/// q̈ + d q̇ + k q = f of one mode of unit mass, complex in a turning frame.
+/// q̈ + d q̇ + k q = f of one mode of unit mass, complex in a rotating frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearMode {
     /// k, 1/s².
@@ -26,13 +26,13 @@ pub struct LinearMode {
     pub damping_per_s: Complex<f64>,
 }
 
-/// Modes of first order, η̇ = s η + w f, as coupled oscillators have them: the same implicit midpoint,
-/// since it does not depend on the coordinates.
+/// Modes of first order, η̇ = s η + w f, of coupled oscillators. The implicit midpoint rule is the same for them, since
+/// it does not depend on the coordinates.
 #[derive(Clone, Debug)]
 pub struct FirstOrderModes {
     /// s, 1/s.
     pub rates_per_s: Vec<Complex<f64>>,
-    /// What reads each contact's gap.
+    /// Row that reads each contact's gap.
     pub gaps: [PointReadout; 2],
     /// w of an impulse that opens each contact.
     pub entrances: [CoupledState; 2],
@@ -100,8 +100,8 @@ impl MoreauJean {
         self.clearance_m[i] + read(&self.shapes[i], &self.amplitude) + coupled.sum::<f64>()
     }
 
-    /// Advances by one step under the modal `force` at its middle and `coupled_force` on what drives
-    /// coupled oscillators; impulses, N s.
+    /// Advances by one step under the modal `force` at its middle, and `coupled_force` on the coupled oscillators that
+    /// have a drive. Returns the impulses, N s.
     pub fn step(&mut self, force: &[f64], coupled_force: f64) -> [f64; 2] {
         let h = self.step_s;
         let n = self.shapes.len();
@@ -150,7 +150,7 @@ impl MoreauJean {
         p
     }
 
-    /// Rate of gap `i` for velocities of the modes and the coupled oscillators as they are.
+    /// Rate of gap `i` for the present velocities of the modes and the coupled oscillators.
     fn gap_rate(&self, i: usize, velocity: &[Complex<f64>]) -> f64 {
         let Some(shape) = self.shapes.get(i) else {
             return 0.0;

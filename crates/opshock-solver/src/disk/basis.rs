@@ -1,8 +1,8 @@
-//! Modal basis of the disk: what is kept per harmonic and why.
+//! Computes the modal basis of the disk, and decides which modes of each harmonic are kept.
 //!
 //! * n ≥ 1: every mode below the cut; harmonics whose lowest mode lies above the cut are left out.
-//! * n = 0: it alone carries the free motion, so it keeps at least [`MIN_SYMMETRIC_MODES`] and
-//!   every mode below [`SYMMETRIC_CUT_FACTOR`] times the cut.
+//! * n = 0: it is the only harmonic in free motion, so it keeps at least [`MIN_SYMMETRIC_MODES`] and every mode below
+//!   [`SYMMETRIC_CUT_FACTOR`] times the cut.
 //! * Static correction: per harmonic the residual flexibility of a point load at the ramp,
 //!   x = K⁻¹ f − Σ φ (φ·f)/ω², which is orthogonal to the kept modes in mass and stiffness and so
 //!   is one more oscillator, of frequency (x·Kx / x·Mx)^½. With it the static compliance of the
@@ -17,11 +17,11 @@ use super::parameters::{DiskDamping, DiskParameters, DiskResolution};
 use crate::linalg::dense::dot;
 use crate::linalg::lowest;
 
-/// Most radial elements of a disk: 18 a bending wave of an aluminium platter at 7.7 MHz, where a wave is hardly longer
-/// than the disk is thick. With more, rounding in the stiffness (its condition grows with the fourth power) gains on
-/// what they resolve.
+/// Largest number of radial elements of a disk: 18 per bending wave of an aluminium platter at 7.7 MHz, where a wave is
+/// hardly longer than the disk is thick. With more, rounding in the stiffness (its condition grows with the fourth
+/// power) outweighs what they resolve.
 pub const MOST_ELEMENTS: usize = 400;
-/// Fewest modes kept for n = 0.
+/// Smallest number of modes kept for n = 0.
 pub const MIN_SYMMETRIC_MODES: usize = 8;
 /// Modes of n = 0 are kept up to this multiple of the cut.
 pub const SYMMETRIC_CUT_FACTOR: f64 = 4.0;
@@ -37,10 +37,10 @@ pub struct DiskMode {
     pub omega_rad_per_s: f64,
     /// Damping ratio in the rotating frame.
     pub damping_ratio: f64,
-    /// Generalised force of a unit acceleration of the rigid motion of its harmonic: of a
-    /// displacement for n = 0, kg^½; of a tilt for n = 1, kg^½ m; zero above and for corrections.
+    /// Generalised force of a unit acceleration of the rigid motion of its harmonic: displacement for n = 0, kg^½; tilt
+    /// for n = 1, kg^½ m; zero for higher n and for corrections.
     pub participation: f64,
-    /// Radial shape at the asked radii: (φ, φ′), kg^-½ and kg^-½/m.
+    /// Radial shape at the given radii: (φ, φ′), kg^-½ and kg^-½/m.
     pub shape: Vec<(f64, f64)>,
 }
 
@@ -64,13 +64,13 @@ pub struct DiskBasis {
     pub harmonics_bounded: bool,
 }
 
-/// What the modes of a disk are computed from, harmonic by harmonic.
+/// Data from which the modes of a disk are computed, harmonic by harmonic.
 #[derive(Clone, Debug)]
 pub struct DiskModes {
     family: HarmonicFamily,
     damping: DiskDamping,
     resolution: DiskResolution,
-    /// Rows that give (φ, φ′) at the asked radii.
+    /// Rows that give (φ, φ′) at the given radii.
     rows: Vec<(Vec<f64>, Vec<f64>)>,
     correction_at: Option<usize>,
 }
@@ -106,8 +106,8 @@ impl DiskModes {
         })
     }
 
-    /// The harmonics of `harmonics` from `first` on. Those of two calls, the second of which begins where the
-    /// first ended, are those of one.
+    /// The harmonics of `harmonics` from `first` on. A second call that begins where the first ended gives the
+    /// remaining ones of a single call.
     ///
     /// # Errors
     /// A failed eigenvalue problem.
@@ -180,7 +180,7 @@ impl DiskModes {
         };
         let mut x = self.rows[at].0.clone();
         m.stiffness.cholesky().map_err(failed)?.solve(&mut x);
-        // Twice is enough against rounding left by the first projection.
+        // Two projections suffice against the rounding left by the first.
         for _ in 0..2 {
             let inertia = m.mass.times(&x);
             for y in &pairs.vectors {

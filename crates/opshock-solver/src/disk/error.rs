@@ -1,8 +1,8 @@
-//! Why a disk cannot be built.
+//! Errors of building a disk model.
 
 use crate::linalg::DenseError;
 
-/// What is wrong with a disk, its resolution or a place on it.
+/// Fault of a disk, its resolution or a place on it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DiskError {
     /// A parameter is outside its range.
@@ -29,7 +29,7 @@ pub enum DiskError {
         /// Outer radius, m.
         outer_m: f64,
     },
-    /// The modes of a harmonic on its hub cannot be taken apart.
+    /// The coupled modes of a harmonic and its hub cannot be separated.
     #[error(
         "modes of nodal-diameter number {nodal_diameters} on the hub: two of them coincide; change \
          the bearing's stiffness or damping a little"

@@ -1,4 +1,4 @@
-//! Radial finite elements of one circumferential harmonic of the plate.
+//! Discretises one circumferential harmonic of the plate by radial finite elements.
 //!
 //! With w = φ(r) cos nθ, bending stiffness D and membrane stress σr, σθ (see `theory.md`):
 //!
@@ -85,7 +85,7 @@ pub struct HarmonicMatrices {
     pub rigid_load: Vec<f64>,
 }
 
-/// What the matrices of all harmonics are made of, per radian of angular weight g.
+/// Matrices from which those of all harmonics are summed, per radian of angular weight g.
 #[derive(Clone, Debug)]
 pub struct HarmonicFamily {
     /// Factors of 1, n² and n⁴ in the stiffness.

@@ -1,4 +1,4 @@
-//! Hub on a fluid-dynamic bearing: what holds the disk when its clamp is not part of the base.
+//! Models the hub on a fluid-dynamic bearing that carries the disk's clamp, where the clamp is not part of the base.
 //!
 //! A rigid rotor (hub, clamp, spacers, further disks) that may move along the axis, u, and tilt, ϑ.
 //! The tilt is one complex number in the space-fixed frame: it moves the disk by w = r Re(ϑ e^{iθ}),
@@ -9,10 +9,9 @@
 //! I ϑ̈ + (i I_p Ω + c_t + i c_x) ϑ̇ + (k_t + i k_x) ϑ = M
 //! ```
 //!
-//! i I_p Ω ϑ̇ is the gyroscopic moment of the spin. The bearing looks alike in every direction, so that
-//! its matrices for the two tilts are [[k_t, k_x], [−k_x, k_t]] and likewise for damping. k_x > 0
-//! drives the whirl that goes with the spin, as the turning film of a journal bearing does; c_t must
-//! outweigh it.
+//! i I_p Ω ϑ̇ is the gyroscopic moment of the spin. The bearing is isotropic: its matrices for the two tilts are [[k_t,
+//! k_x], [−k_x, k_t]] and likewise for damping. k_x > 0 drives the forward whirl, as the rotating film of a journal
+//! bearing does; c_t must outweigh it.
 //!
 //! The rigid rotor whirls at the roots of I λ² − I_p Ω λ − k_t = 0 (c = k_x = 0): forward
 //! λ = (I_p Ω + √(I_p² Ω² + 4 I k_t)) / 2I, backward (√(…) − I_p Ω) / 2I.
@@ -74,7 +73,7 @@ impl HubParameters {
             (
                 "hub.polar_inertia_kg_m2",
                 self.polar_inertia_kg_m2,
-                // Of no body is it larger than twice the other one.
+                // For no body is it larger than twice the other one.
                 (0.0..=2.0 * self.transverse_inertia_kg_m2).contains(&self.polar_inertia_kg_m2),
                 "0 to twice the transverse inertia",
             ),

@@ -1,4 +1,4 @@
-//! In-plane stress of a spinning annular disk, clamped inside, free outside.
+//! Computes the in-plane stress of a spinning annular disk, clamped inside, free outside.
 //!
 //! ```text
 //! d(r σr)/dr − σθ + ρ Ω² r² = 0,   u(r_i) = 0,   σr(r_o) = 0
@@ -6,9 +6,9 @@
 //! σr = E/(1 − ν²) (u′ + ν u/r),   σθ = E/(1 − ν²) (u/r + ν u′)
 //! ```
 //!
-//! Plane stress, linear elastic, uniform thickness; the hoop and radial stress turn with the disk
-//! and are steady in it. Source: Timoshenko and Goodier, Theory of Elasticity (1970), art. 32,
-//! with the inner edge held instead of free.
+//! Plane stress, linear elastic, uniform thickness; the hoop and radial stress rotate with the disk and are steady in
+//! it. Source: Timoshenko and Goodier, Theory of Elasticity (1970), art. 32, with the inner edge clamped instead of
+//! free.
 
 use super::parameters::DiskParameters;
 

@@ -1,4 +1,4 @@
-//! Rotating flexible annular disk, clamped inside to the base or to a hub, free outside.
+//! Models the rotating flexible annular disk, clamped inside to the base or to a hub, free outside.
 #![doc = include_str!("theory.md")]
 
 pub mod basis;

@@ -1,4 +1,4 @@
-//! Motion of the disk under the slider, as the head sees it.
+//! Interface between structure and head: the motion of the disk under the slider.
 
 /// Pose of the disk's surface under the slider's centre, in the slider's axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ impl DiskPose {
     }
 }
 
-/// The disk's motion under the slider as the head sees it. Time 0 is the onset of the pulse.
+/// Motion of the disk under the slider, which drives the head. Time 0 is the onset of the pulse.
 pub trait DiskMotion: Sync {
     /// Pose at `time_s`.
     fn pose(&self, time_s: f64) -> DiskPose;
@@ -41,9 +41,9 @@ pub trait DiskMotion: Sync {
     fn pose_rate(&self, time_s: f64) -> DiskPose;
     /// Sorted instants at which a step must end (jumps and kinks of the motion), s.
     fn events_s(&self) -> &[f64];
-    /// Motion of the suspension's pivot that its load does not tell, and its rate (from the right at a jump):
-    /// the head's masses are told by a load per mass what shakes them, but a jump of the pivot's velocity is
-    /// none. Poses are not over this motion.
+    /// Motion of the suspension's pivot beyond that of its load, and its rate (from the right at a jump). A load per
+    /// mass drives the head's masses, and a jump of the pivot's velocity has none. Poses are not relative to this
+    /// motion.
     fn pivot(&self, _time_s: f64) -> [f64; 2] {
         [0.0; 2]
     }

@@ -1,4 +1,4 @@
-//! The disk as plain data: geometry, material, speed, damping, numerical resolution.
+//! Input of the disk model as plain data: geometry, material, speed, damping, numerical resolution.
 
 use super::hub::HubParameters;
 
@@ -33,7 +33,7 @@ pub struct DiskParameters {
     pub density_kg_per_m3: f64,
     /// Spin, rad/s, positive in the sense of growing theta.
     pub spin_rad_per_s: f64,
-    /// Damping that turns with the disk.
+    /// Damping that rotates with the disk.
     pub damping: DiskDamping,
     /// Damping fixed in space (air), force per mass and velocity w_t, 1/s; 0 = none.
     pub space_fixed_damping_per_s: f64,

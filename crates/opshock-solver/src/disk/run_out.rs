@@ -1,13 +1,13 @@
-//! Run-out and waviness: a shape of the disk's surface that turns with it under the slider.
+//! Models run-out and waviness: a shape of the disk's surface that rotates with it under the slider.
 //!
 //! ```text
 //! w(r, θ, t) = Σ a_i(r) cos(k_i (θ − Ω t) + φ_i),    a_i(r) = amplitude, or amplitude r/b
 //! ```
 //!
-//! The slider sees the surface as the plane that touches it under its centre: displacement, pitch and
-//! roll, each a sum of harmonic motions at k_i Ω. That leaves out the surface's curvature over the
-//! slider, a share 1 − cos(π L/λ) of the amplitude at the ends of a slider of length L under a wave of
-//! length λ. The shape is one the disk has when it spins: it drives no mode of it.
+//! Under the slider the surface is replaced by its tangent plane at the slider's centre: displacement, pitch and roll,
+//! each a sum of harmonic motions at k_i Ω. That leaves out the surface's curvature over the slider, a share 1 − cos(π
+//! L/λ) of the amplitude at the ends of a slider of length L under a wave of length λ. The shape is that of the
+//! spinning disk: it drives none of its modes.
 //!
 //! | symbol | name here | unit |
 //! |---|---|---|
@@ -22,7 +22,7 @@ use nalgebra::Complex;
 /// One wave around the disk.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Wave {
-    /// Waves a revolution.
+    /// Waves per revolution.
     pub harmonic: u32,
     /// Amplitude, m: at every radius, or at the rim where it grows with the radius.
     pub amplitude_m: f64,
@@ -45,7 +45,7 @@ impl Wave {
     }
 }
 
-/// Where and how the slider passes the surface.
+/// Place of the slider on the surface, and the speed of the disk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Track {
     /// Radius of the slider's centre, m.
@@ -77,7 +77,7 @@ pub struct SurfaceMotion {
 }
 
 impl SurfaceMotion {
-    /// What `waves` are under a slider on `track`.
+    /// The motion by `waves` under a slider on `track`.
     pub fn new(waves: &[Wave], track: &Track) -> Self {
         let sense = if track.spin_rad_per_s < 0.0 {
             -1.0
@@ -130,7 +130,7 @@ impl SurfaceMotion {
     }
 }
 
-/// A disk that moves as `under` with the surface's own motion on top.
+/// A disk that moves as `under`, with the motion of its surface added.
 pub struct WavyDisk<'a> {
     /// Motion of the disk.
     pub under: &'a dyn DiskMotion,

@@ -11,9 +11,9 @@
 //! fluid-structure codes (Degroote et al. 2009): exact after n + 1 steps for a linear map on n
 //! components.
 //!
-//! Components have units of their own, so each is judged and scaled by its own tolerance. What
-//! converges is the residual, never the relaxed change: a relaxation that shrinks cannot feign
-//! convergence. Equal successive residuals give no secant and leave the relaxation as it was.
+//! Components have units of their own, so each is judged and scaled by its own tolerance. Convergence is judged by the
+//! residual, never by the relaxed change, which a shrinking relaxation factor could make small. Equal successive
+//! residuals give no secant and leave the relaxation factor unchanged.
 
 use crate::linalg::dense::dot;
 
@@ -96,9 +96,9 @@ impl FixedPoint {
         }
     }
 
-    /// Iterates `x` until every component of H(x) − x is within `tolerance`; on success `x` is the
-    /// last argument at which the map was evaluated, so that what the map left behind belongs to
-    /// it. `map(x, image)` returns whether it could evaluate.
+    /// Iterates `x` until every component of H(x) − x is within `tolerance`. On success `x` is the last argument at
+    /// which the map was evaluated, so that the map's own state belongs to it. `map(x, image)` returns whether it could
+    /// evaluate.
     ///
     /// # Panics
     /// When lengths differ from those of the storage.
@@ -162,7 +162,7 @@ impl FixedPoint {
                 square += (r - last) * (r - last);
             }
             let next = -self.relaxation * product / square;
-            // Equal residuals say nothing about the slope; a factor of zero would stall.
+            // Equal residuals give no slope; a factor of zero would stall the iteration.
             if square > 0.0 && next.is_finite() && next != 0.0 {
                 self.relaxation = next;
             }

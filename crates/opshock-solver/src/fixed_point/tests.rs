@@ -1,4 +1,4 @@
-//! The traps of partitioned coupling, on maps with known fixed points.
+//! Known failures of partitioned coupling, tested on maps with known fixed points.
 
 use super::*;
 
@@ -31,7 +31,7 @@ fn hard_d1_stiff_film_and_light_slider() {
             assert!((x[0] / film_answer(dt) - 1.0).abs() < 1e-10);
         }
     }
-    // The fault without the cure: the plain iteration loses once k Δt²/4m > 1.
+    // The failure without the remedy: the plain iteration diverges once k Δt²/4m > 1.
     for (dt, converges) in [(0.5e-6, true), (1e-6, true), (2e-6, false), (10e-6, false)] {
         let ending =
             FixedPoint::new(Method::Plain, 1).solve(&mut [0.0], &[1e-18], 60, film_map(dt));

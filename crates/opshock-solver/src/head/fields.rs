@@ -1,13 +1,12 @@
-//! Pressure and height of the film at asked times.
+//! Records pressure and height of the film at given times of a run.
 //!
 //! ```text
-//! p = ψ / h_f,   h = recess + attitude over the disk's plane,   h_f = h floored
+//! p = ψ / h_f,   h = recess + attitude over the disk's plane,   h_f = max(h, minimum film height), smoothed
 //! ```
 //!
-//! Inside a step ψ and the slider's coordinates are those of the cubic through both ends of the
-//! step, the one in which touch is located; the disk's pose is exact. Steps do not know that
-//! fields are kept. A time before the onset is that of steady flight; a time after the end of the
-//! run (touch, or the window) has no field.
+//! Inside a step ψ and the slider's coordinates are those of the cubic through both ends of the step, the one in which
+//! touch is located; the disk's pose is exact. Recording does not change the steps. A time before the onset gets the
+//! fields of steady flight; a time after the end of the run (touch, or the window) gets none.
 
 use super::model::HeadModel;
 use super::outcome::PressureFields;
@@ -50,7 +49,7 @@ impl<'a> FieldRecord<'a> {
         }
     }
 
-    /// Keeps the asked times up to 0: steady flight, whose state is `y`.
+    /// Keeps the requested times up to 0: steady flight, whose state is `y`.
     pub fn keep_steady(&mut self, model: &HeadModel, motion: &dyn DiskMotion, y: &[f64]) {
         while let Some(time_s) = self.next_s().filter(|&t| t <= 0.0) {
             let n_cells = self.psi.len();
@@ -60,7 +59,7 @@ impl<'a> FieldRecord<'a> {
         }
     }
 
-    /// Keeps the asked times up to `until_s` that lie in `step`.
+    /// Keeps the requested times up to `until_s` that lie in `step`.
     pub fn keep_step(
         &mut self,
         model: &HeadModel,
@@ -88,7 +87,7 @@ impl<'a> FieldRecord<'a> {
         }
     }
 
-    /// The fields kept.
+    /// The recorded fields.
     pub fn finish(self) -> PressureFields {
         self.fields
     }
@@ -113,7 +112,7 @@ impl<'a> FieldRecord<'a> {
             fields, psi, cells, ..
         } = self;
         fields.time_s.push(time_s);
-        // The film numbers its cells as its matrices like them.
+        // The film numbers its cells in the order that suits its matrices.
         let put = |field: &mut Vec<f64>, cells: &[f64]| {
             let rows = (0..ny).flat_map(|y| (0..nx).map(move |x| (x, y)));
             field.extend(rows.map(|(x, y)| cells[film.cell_index(x, y)]));

@@ -1,4 +1,4 @@
-//! Passes over the film's cells in a stage: what they store, Newton's correction once the slider's is
+//! Loops over the film's cells in a stage of a time step: the cells' storage, Newton's correction once the slider's is
 //! known, and the size of an error.
 //!
 //! ```text
@@ -8,8 +8,8 @@
 use crate::lanes::{Kernel, SUMS, total, widest};
 use crate::linalg::diagonals::Diagonals;
 
-/// Turns `residual`, which holds A⁻¹ r_f, into δψ in place. Returns Σ (δψ/ψ)² and the largest share
-/// of its gas that a cell would lose; both are NaN-proof in that a NaN in ψ or δψ shows in the sum.
+/// Turns `residual`, which holds A⁻¹ r_f, into δψ in place. Returns Σ (δψ/ψ)² and the largest share of its gas that a
+/// cell would lose. A NaN in ψ or δψ makes the sum NaN.
 ///
 /// # Panics
 ///
@@ -132,7 +132,7 @@ struct Correct<'a> {
 }
 
 impl Kernel for Correct<'_> {
-    /// Squares and losses kept apart, and those of what is left.
+    /// Squares and losses kept apart, and those of the remainder.
     type Output = ([f64; SUMS], [f64; SUMS], [f64; 2]);
 
     #[inline(always)]
@@ -147,7 +147,7 @@ impl Kernel for Correct<'_> {
         let mut squares = [0.0; SUMS];
         let mut losses = [0.0_f64; SUMS];
         for ((((delta, z0), z1), z2), psi) in delta.iter_mut().zip(z0).zip(z1).zip(z2).zip(psi) {
-            // In a place of its own: stores into `delta` could change the rest, for all the compiler knows.
+            // A separate variable, because the compiler must assume that stores into `delta` could change the rest.
             let (mut change, mut relative) = ([0.0; SUMS], [0.0; SUMS]);
             for k in 0..SUMS {
                 let [a, b, c] = self.dq;

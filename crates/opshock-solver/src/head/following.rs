@@ -1,14 +1,14 @@
-//! Start of a run on a disk with run-out: the slider follows the surface since long ago.
+//! Initial state of a run on a disk with run-out and waviness: the slider follows the moving surface.
 //!
-//! The state is steady flight with the linear answer to every wave on top. What is of second order
-//! in the waves dies out within the film's own times.
+//! The state is steady flight plus the linear response to every wave. Terms of second order in the waves decay within
+//! the film's own time constants.
 
 use super::model::{Following, HeadError, HeadModel};
 use super::response::{Drive, HeadResponse};
 use crate::disk::run_out::SurfaceMotion;
 use nalgebra::Complex;
 
-/// Share of a cell's gas that all waves together may move.
+/// Share of a cell's gas that all waves together may displace.
 const LARGEST_SHARE: f64 = 0.5;
 
 impl HeadModel {
@@ -16,8 +16,8 @@ impl HeadModel {
     ///
     /// # Errors
     ///
-    /// [`HeadError::RunOut`] when the slider cannot follow: the waves would bring it to the failure limit or
-    /// move half of some cell's gas, or there is no answer to them.
+    /// [`HeadError::RunOut`] when the slider cannot follow: the waves would bring it to the failure limit or displace
+    /// half of some cell's gas, or the linear response does not exist.
     pub fn with_run_out(mut self, surface: SurfaceMotion) -> Result<Self, HeadError> {
         let n_cells = self.film.n_cells();
         let n = self.mechanics.len();

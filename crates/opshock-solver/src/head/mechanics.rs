@@ -1,8 +1,8 @@
 //! Slider, gimbal, dimple contact and suspension as one small mechanical system.
 //!
 //! Coordinates x: slider (z, pitch, roll), then the suspension's natural modes η of bending and of torsion
-//! (`oscillators`); all increments from the loaded, flying state in the base's frame. Everything but
-//! the inertia of the slider and the modes themselves acts at the ports p = P x (`ports`).
+//! (`oscillators`). All are increments from the loaded, flying state in the base's frame. Everything but the inertia of
+//! the slider and the modes themselves acts at the ports p = P x (`ports`).
 //!
 //! ```text
 //! M ẍ = f a(t) + (F − F₀) − C ẋ − K x − Pᵀ (G p + b (N − N₀))
@@ -11,10 +11,10 @@
 //! G p = (0, k_z (z − z_dimple), k_pitch (pitch + dw/dx|dimple), k_roll (roll − roll_dimple), 0)
 //! ```
 //!
-//! Every mass feels +m a(t), so a > 0 lifts the load beam off the slider and unloads the dimple.
-//! dw/dx has the sign opposite to pitch (pitch > 0: leading edge up; the suspension's root lies beyond
-//! the leading edge). The contact pushes only; its force is continuous with a kink where the dimple
-//! opens. Limiters and a lift tab, where there are some, are further contacts of that kind (`stops`).
+//! Every mass feels +m a(t), so a > 0 lifts the load beam off the slider and unloads the dimple. dw/dx has the sign
+//! opposite to pitch (pitch > 0: leading edge up; the suspension's root lies beyond the leading edge). The contact only
+//! pushes; its force is continuous, with a kink where the dimple opens. Limiters and a lift tab, if present, are
+//! further contacts of that kind (`stops`).
 
 use super::oscillators::{ModalMotion, Oscillators};
 use super::ports::{AtPorts, CLOSING, PORTS, Ports, SLIDER, TAB, TILT_ACROSS, TILT_ALONG, parted};
@@ -34,7 +34,7 @@ pub(super) struct Mechanics {
     ports: Ports,
     /// Stiffnesses of the gimbal at the ports, the diagonal of G.
     gimbal: AtPorts,
-    /// e = M⁻¹ f: the motion of every coordinate that an acceleration of the pivot asks for.
+    /// e = M⁻¹ f: acceleration of every coordinate per acceleration of the pivot.
     rigid: Vec<f64>,
     preload_n: f64,
     contact_n_per_m: f64,
@@ -42,7 +42,7 @@ pub(super) struct Mechanics {
     /// Force at the dimple per natural mode of bending, one row for every pinned mode.
     suspension_weights: PaddedColumns,
     stops: Stops,
-    /// Of the stops those that are limiters; the lift tab follows.
+    /// Number of stops that are limiters; the lift tab follows.
     n_limiters: usize,
 }
 
@@ -98,7 +98,7 @@ impl Mechanics {
             ports: Ports::new(suspension),
             gimbal,
             rigid,
-            preload_n: parameters.gram_load_n,
+            preload_n: parameters.steady_dimple_force_n(),
             contact_n_per_m: dimple.stiffness_n_per_m,
             contact_n_s_per_m: damper(dimple),
             suspension_weights: suspension_weights(suspension),
@@ -107,7 +107,7 @@ impl Mechanics {
         })
     }
 
-    /// Limiters and lift tab.
+    /// Number of limiters and lift tab together.
     pub fn n_stops(&self) -> usize {
         self.stops.len()
     }
@@ -117,7 +117,7 @@ impl Mechanics {
         [self.n_limiters > 0, self.stops.len() > self.n_limiters]
     }
 
-    /// Forces of the limiters together, and of the lift tab; 0 where there are none.
+    /// Force of all limiters together, and force of the lift tab; 0 where there are none.
     pub fn stop_forces(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
         let [p, rate] = self.ports.read_both(x, v);
         let mut forces = [0.0; 2];
@@ -137,7 +137,7 @@ impl Mechanics {
         self.modes.len()
     }
 
-    /// Where slider and suspension meet everything else.
+    /// Ports through which slider and suspension interact with everything else.
     pub fn ports(&self) -> &Ports {
         &self.ports
     }
@@ -147,7 +147,7 @@ impl Mechanics {
         self.inertia
     }
 
-    /// What every mode yields to a force within a stage of `d_s`.
+    /// Flexibility of every mode within a stage of `d_s`.
     pub fn modal_flexibility(&self, d_s: f64, out: &mut [f64]) {
         self.modes.flexibility(d_s, out);
     }
@@ -164,7 +164,7 @@ impl Mechanics {
         self.preload_n + self.contact_n_per_m * p[CLOSING] + self.contact_n_s_per_m * rate[CLOSING]
     }
 
-    /// Force at the ports of gimbal, contacts and the film's excess F − F₀, and which contacts are closed.
+    /// Forces at the ports by gimbal, contacts and the film's excess F − F₀, and which contacts are closed.
     fn force_at_ports(&self, film: [f64; 3], p: &AtPorts, rate: &AtPorts) -> (AtPorts, Closed) {
         let mut out: AtPorts = std::array::from_fn(|k| -self.gimbal[k] * p[k]);
         for (out, film) in out.iter_mut().zip(film) {
@@ -179,7 +179,7 @@ impl Mechanics {
 
     /// Acceleration ẍ.
     pub fn acceleration(&self, a: f64, film: [f64; 3], x: &[f64], v: &[f64], out: &mut [f64]) {
-        // A stage without inertia.
+        // Acceleration outside any stage: no inertia term.
         let state = StageState {
             d_s: f64::INFINITY,
             a,
@@ -194,14 +194,14 @@ impl Mechanics {
         }
     }
 
-    /// Adds the jump of ẍ that a jump `da` of the inertia load causes.
+    /// Adds the jump of ẍ due to a jump `da` of the inertia load.
     pub fn add_acceleration_jump(&self, da: f64, out: &mut [f64]) {
         for (out, e) in out.iter_mut().zip(&self.rigid) {
             *out += da * e;
         }
     }
 
-    /// `out` := coordinates, or velocities, over a pivot that has moved by `moved`.
+    /// `out` := coordinates, or velocities, relative to a pivot that has moved by `moved`.
     ///
     /// With x = x' + e u and u the pivot's motion the equations of x' in the pivot's frame, M ẍ' = f (a − ü) + ...,
     /// become M ẍ = f a + ... with the other forces at x': a jump of u̇ is no force on x.
@@ -211,8 +211,8 @@ impl Mechanics {
         }
     }
 
-    /// Force less M (v − v_known)/d of a stage: its residual with the sign that a correction wants. Returns
-    /// which contacts are closed.
+    /// Force less M (v − v_known)/d of a stage: the residual with the sign for a correction. Returns which contacts are
+    /// closed.
     pub fn imbalance(&self, state: &StageState<'_>, out: &mut [f64]) -> Closed {
         let [p, rate] = self.ports.read_both(state.x, state.v);
         let (force, closed) = self.force_at_ports(state.film, &p, &rate);
@@ -235,7 +235,7 @@ impl Mechanics {
         closed
     }
 
-    /// Derivative by p of the forces that gimbal and closed contacts take up, with rate = (p − p_known)/d.
+    /// Derivative by p of the forces of gimbal and closed contacts, with rate = (p − p_known)/d.
     pub fn coupling(&self, d_s: f64, closed: Closed) -> [AtPorts; PORTS] {
         let mut out = [[0.0; PORTS]; PORTS];
         for (k, stiffness) in self.gimbal.into_iter().enumerate() {
@@ -275,7 +275,7 @@ impl Mechanics {
         load
     }
 
-    /// Row that reads the dimple's z of the suspension from the coordinates.
+    /// Row that gives the z of the suspension's dimple from the coordinates.
     pub fn dimple_row(&self) -> DVector<f64> {
         let closing = -self.ports.row(CLOSING);
         self.ports.row(0) + closing
@@ -317,8 +317,8 @@ impl Mechanics {
     }
 }
 
-/// Row i > 0: force at the held dimple by pinned mode i of bending as it vibrates at its frequency, per
-/// natural mode; row 0, of the dimple itself, is 0.
+/// Row i > 0: force at the fixed dimple by pinned mode i of bending as it vibrates at its frequency, per natural mode;
+/// row 0, of the dimple itself, is 0.
 fn suspension_weights(suspension: &ReducedSuspension) -> PaddedColumns {
     let bending = &suspension.bending;
     let n = bending.len();

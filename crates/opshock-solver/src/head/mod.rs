@@ -1,4 +1,4 @@
-//! Film, slider, gimbal, dimple and suspension integrated together under the disk's motion.
+//! Time integration of one head: film, slider, gimbal, dimple and suspension under the disk's motion.
 //!
 //! ```text
 //! 12 μ A dψ/dt + R(ψ, q_rel) = 0                    film, n cells, ψ = p h
@@ -6,19 +6,19 @@
 //! q_rel = q₀ + (z, pitch, roll) − (w_d, pitch_d, roll_d)(t)      attitude over the disk
 //! ```
 //!
-//! The disk's motion enters through the attitude alone, at the time of each stage. Its velocity
-//! and acceleration, which jump when it meets a ramp, are nowhere needed: squeeze is the
-//! conservation of ψ under a changing height.
+//! The disk's motion enters through the attitude alone, at the time of each stage. Its velocity and acceleration, which
+//! jump on impact with a ramp, are not needed: the compression of the film is the conservation of ψ under a changing
+//! height.
 //!
-//! One step is an L-stable ESDIRK step ([`crate::integrator`]). Its stages are solved together by
-//! one Newton iteration: the film's unknowns are eliminated by a banded factorisation onto the
-//! three columns of the slider (`stage`), the suspension's modes onto the few places where they are acted
-//! on (`stage_matrix`), which leaves a dense system of seven mechanical unknowns. Factorisations are kept while the iteration contracts. The iterations between film
-//! and structure that the literature uses are there too (`partitioned`).
+//! One step is an L-stable ESDIRK step ([`crate::integrator`]). One Newton iteration solves film and structure of a
+//! stage together. The film's unknowns are eliminated by a banded factorisation onto the three columns of the slider
+//! (`stage`), the suspension's modes onto the few ports where forces act on them (`stage_matrix`). This leaves a dense
+//! system of seven mechanical unknowns. Factorisations are kept while the iteration contracts. The alternating
+//! iterations of the literature are available as well (`partitioned`).
 //!
-//! Touching decides a run, and ends it unless the motion behind it is wanted: the smallest height of the slider's true surface over the disk's local
-//! plane falls below the limit, found inside the step on the cubic dense output of the slider and
-//! the exact motion of the disk.
+//! A touch decides a run, and ends it unless the motion after it is requested. The slider touches when the smallest
+//! height of its true surface over the disk's local plane falls below the limit. The time is found inside the step, on
+//! the slider's cubic dense output and the exact motion of the disk.
 
 mod fields;
 mod film_passes;

@@ -1,4 +1,4 @@
-//! The immutable model of one head.
+//! The immutable model of one head: film, slider, gimbal and suspension, ready to run shocks.
 
 use std::sync::Arc;
 
@@ -29,10 +29,10 @@ pub enum HeadError {
         /// Its value.
         value: f64,
     },
-    /// The slider's or the suspension's mass matrix is singular.
+    /// The mass matrix of slider and suspension is singular.
     #[error("the mass matrix of slider and suspension is singular")]
     SingularMass,
-    /// The steady state lies below the failure limit already.
+    /// The steady clearance is already below the failure limit.
     #[error(
         "steady clearance {min_clearance_m:e} m is not above the failure limit {fail_below_m:e} m"
     )]
@@ -44,7 +44,7 @@ pub enum HeadError {
         /// Failure limit, m.
         fail_below_m: f64,
     },
-    /// The slider cannot follow the disk's surface.
+    /// The slider cannot follow the disk's run-out and waviness.
     #[error(
         "run-out and waviness take {lost:.2} of what the slider can lose of clearance or gas before the shock"
     )]
@@ -69,8 +69,8 @@ pub struct ShockLoad<'a> {
     pub pulse: &'a Pulse,
     /// Inertia load per mass at the pulse's peak, m/s2.
     pub amplitude_m_per_s2: f64,
-    /// The base, when it vibrates: the suspension's pivot then moves with it, and the disk's motion is
-    /// that over the pivot.
+    /// Motion of the base, when it vibrates: the suspension's pivot moves with it, and the disk's motion is relative to
+    /// the pivot.
     pub base: Option<&'a BaseMotion>,
 }
 
@@ -80,7 +80,7 @@ impl ShockLoad<'_> {
         self.amplitude_m_per_s2 * self.unit(time_s, time_s)
     }
 
-    /// Displacement of the pivot by that load over the rigid base, m.
+    /// Displacement of the pivot relative to the rigid base by that load, m.
     pub(super) fn carried_m(&self, time_s: f64) -> f64 {
         let unit = self.base.map_or(0.0, |base| base.displacement(time_s)[0]);
         self.amplitude_m_per_s2 * unit
@@ -126,13 +126,13 @@ pub struct HeadModel {
     pub(super) steady_clearance_m: f64,
     /// Change of the clearance at the slider's ends per attitude: 1, L/2, W/2.
     pub(super) arms: [f64; 3],
-    /// Stiffness of the film against heave, N/m: turns force errors into gap.
+    /// Stiffness of the film against heave, N/m; converts force errors into gap errors.
     pub(super) film_n_per_m: f64,
-    /// Time in which a velocity error becomes a gap error: 1/ω of the slider on its film, s.
+    /// Converts velocity errors into gap errors: 1/ω of the slider on its film, s.
     pub(super) velocity_to_gap_s: f64,
     /// Times at which pressure fields are kept, ascending, s; none by default.
     pub(super) field_times_s: Vec<f64>,
-    /// The disk's surface where it moves by itself; none by default.
+    /// Run-out and waviness of the disk's surface; none by default.
     pub(super) following: Option<Following>,
 }
 
@@ -221,7 +221,7 @@ impl HeadModel {
         })
     }
 
-    /// The same head integrated by another scheme than the default one.
+    /// The same head with another integration scheme than the default one.
     #[must_use]
     pub fn with_tableau(mut self, tableau: Tableau) -> Self {
         self.tableau = tableau;
@@ -269,10 +269,10 @@ impl HeadModel {
         self.arms.iter().zip(dx).map(|(arm, d)| arm * d.abs()).sum()
     }
 
-    /// Clearance to which errors are relative, m: the clearance plus twice the film's floor, the
-    /// height below which the film no longer tells heights apart.
+    /// Clearance to which errors are relative, m: the clearance plus twice the minimum film height, below which the
+    /// film no longer distinguishes heights.
     #[inline]
     pub(super) fn gap_scale(&self, clearance_m: f64) -> f64 {
-        clearance_m.max(0.0) + 2.0 * self.film.floor_m()
+        clearance_m.max(0.0) + 2.0 * self.film.min_height_m()
     }
 }

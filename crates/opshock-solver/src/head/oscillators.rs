@@ -1,4 +1,4 @@
-//! Natural modes of the suspension as oscillators of unit mass, and passes over them.
+//! The suspension's natural modes as oscillators of unit mass, and the loops over them within a stage.
 //!
 //! ```text
 //! η'' + 2 ζ ω η' + ω² η = f a(t) + Rᵀ F
@@ -33,7 +33,7 @@ pub(super) struct ModalMotion<'a> {
 }
 
 impl Oscillators {
-    /// Of a reduced suspension in its natural modes.
+    /// The natural modes of a reduced suspension.
     pub fn new(suspension: &ReducedSuspension) -> Self {
         let mut out = Self {
             stiffness: Vec::new(),
@@ -93,7 +93,7 @@ impl Oscillators {
         });
     }
 
-    /// `out` := 1/(1/d² + 2 ζ ω/d + ω²), what a mode yields to a force within a stage.
+    /// `out` := 1/(1/d² + 2 ζ ω/d + ω²), the flexibility of a mode within a stage.
     pub fn flexibility(&self, d_s: f64, out: &mut [f64]) {
         let (per_d, per_d2) = (1.0 / d_s, 1.0 / (d_s * d_s));
         for ((out, c), k) in out.iter_mut().zip(&self.damping).zip(&self.stiffness) {

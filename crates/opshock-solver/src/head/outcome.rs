@@ -1,8 +1,8 @@
-//! What the head answers about one shock. Times are seconds after the onset of the pulse.
+//! Results of one shock on one head: verdict, clearance, histories, cost. Times: seconds after the pulse's onset.
 
 use crate::air_bearing::Attitude;
 
-/// Survival is decided, or it is not; a number that is not a number never decides it.
+/// Verdict of a run: survived, failed or undecided. A NaN never decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// The clearance stayed above the failure limit for the whole window.
@@ -14,9 +14,9 @@ pub enum Verdict {
         /// Place of touch on the slider.
         place: Place,
     },
-    /// No answer.
+    /// The run gave no answer.
     Undecided {
-        /// Why.
+        /// The cause.
         cause: Cause,
     },
 }
@@ -56,7 +56,7 @@ pub enum Cause {
     },
 }
 
-/// A sentence; times are after the onset of the pulse.
+/// The cause as a sentence; times are after the onset of the pulse.
 impl std::fmt::Display for Cause {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let us = |time_s: &f64| 1e6 * time_s;
@@ -83,7 +83,7 @@ impl std::fmt::Display for Cause {
     }
 }
 
-/// Dimple force up to the first touch.
+/// Dimple contact up to the first touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DimpleRecord {
     /// Smallest contact force, N.
@@ -92,10 +92,10 @@ pub struct DimpleRecord {
     pub open_s: f64,
 }
 
-/// Force of a limiter or of the lift tab up to the first touch.
+/// Contact of the limiters or of the lift tab up to the first touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StopRecord {
-    /// Largest contact force, N; of limiters, of all together.
+    /// Largest contact force, N; of all limiters together.
     pub max_force_n: f64,
     /// End of the first step in which it was closed, s.
     pub first_s: Option<f64>,
@@ -104,8 +104,8 @@ pub struct StopRecord {
 }
 
 impl StopRecord {
-    /// Takes in a step of `dt_s` that ends at `time_s`, with the forces at its ends.
-    pub(super) fn book(&mut self, force_n: [f64; 2], dt_s: f64, time_s: f64) {
+    /// Adds a step of `dt_s` that ends at `time_s`, with the forces at its ends.
+    pub(super) fn balance(&mut self, force_n: [f64; 2], dt_s: f64, time_s: f64) {
         let [before, after] = force_n;
         self.max_force_n = self.max_force_n.max(after);
         if after > 0.0 {
@@ -133,13 +133,13 @@ pub struct HeadColumns {
     pub bearing_force_n: Vec<f64>,
     /// Contact force of the dimple, N.
     pub dimple_force_n: Vec<f64>,
-    /// Contact force of the limiters together, N; empty without some.
+    /// Contact force of the limiters together, N; empty without limiters.
     pub limiter_force_n: Vec<f64>,
     /// Contact force of the lift tab, N; empty without one.
     pub lift_tab_force_n: Vec<f64>,
 }
 
-/// What a run cost, and signs of trouble.
+/// Cost of a run, and diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeadCost {
     /// Accepted steps.
@@ -158,8 +158,8 @@ pub struct HeadCost {
     pub max_residual: f64,
     /// Smallest film pressure, Pa.
     pub min_pressure_pa: f64,
-    /// Largest net mass that a stage failed to account for, relative to the film's mass then. Says
-    /// little where the film is tens of micrometres thick and renews itself many times a step.
+    /// Largest net mass that a stage failed to balance, relative to the film's mass then. Of little meaning where the
+    /// film is tens of micrometres thick and its gas changes many times a step.
     pub mass_balance_error: f64,
 }
 
@@ -179,7 +179,7 @@ impl Default for HeadCost {
     }
 }
 
-/// Everything one run of the head answers.
+/// All results of one run of the head.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadRun {
     /// Verdict.
@@ -194,23 +194,23 @@ pub struct HeadRun {
     pub lowest: Attitude,
     /// Time up to which the head was simulated, s.
     pub end_s: f64,
-    /// What ended a run that was to go on behind its first touch before the window did.
+    /// What ended a run before its window, after its first touch.
     pub broke_off: Option<Cause>,
     /// Dimple.
     pub dimple: DimpleRecord,
-    /// Limiters, when there are some.
+    /// Limiters, if there are any.
     pub limiters: Option<StopRecord>,
-    /// Lift tab, when there is one.
+    /// Lift tab, if there is one.
     pub lift_tab: Option<StopRecord>,
-    /// Histories, when asked for.
+    /// Histories, when requested.
     pub columns: Option<HeadColumns>,
-    /// Pressure fields, when recorded by a head that keeps some.
+    /// Pressure fields, when the head is set to keep them.
     pub fields: Option<PressureFields>,
     /// Cost.
     pub cost: HeadCost,
 }
 
-/// Film pressure and height at the asked times that a run reached.
+/// Film pressure and height at the requested times that a run reached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PressureFields {
     /// Grid lines along the slider from its leading edge, m.
@@ -221,8 +221,8 @@ pub struct PressureFields {
     pub time_s: Vec<f64>,
     /// Absolute pressure in the middle of every cell, Pa: time, then y, then x, which runs fastest.
     pub pressure_pa: Vec<f64>,
-    /// Height of the slider's surface over the disk there, m, in the same order. The film sees it
-    /// above its floor.
+    /// Height of the slider's surface over the disk there, m, in the same order; the film itself sees at least the
+    /// minimum film height.
     pub gap_m: Vec<f64>,
 }
 

@@ -1,9 +1,8 @@
-//! Film and structure solved in turn within a stage, exchanging attitude for force.
+//! Partitioned coupling: film and structure are solved in turn within a stage, exchanging attitude for force.
 //!
-//! H(q): the film is solved at the attitude q, its force moves slider and suspension, whose
-//! attitude is H(q). The exchange converges to the monolithic solution when it converges; plain,
-//! it does so only while d² k/m of the film stays below one, and a stage that does not converge
-//! cuts the step.
+//! H(q): the film is solved at the attitude q; its force moves slider and suspension, whose attitude is H(q). If the
+//! exchange converges, it converges to the monolithic solution. The plain iteration does so only while d² k/m of the
+//! film is below one. A stage that does not converge shortens the step.
 
 use super::resolution::Coupling;
 use super::stage::{Instant, MechanicalIterate, Stages};
@@ -11,11 +10,11 @@ use super::stage_scratch::StageFailure;
 use crate::fixed_point::{Ending, FixedPoint, Method};
 use crate::lanes::sum;
 
-/// Exchanges of one stage before it is given up.
+/// Most exchanges of one stage.
 const MAX_EXCHANGES: usize = 40;
-/// Newton iterations of the film at one attitude.
+/// Most Newton iterations of the film at one attitude.
 const MAX_FILM_ITERATIONS: usize = 12;
-/// Iterations of the mechanics at one film force for each contact: one per change of its state.
+/// Most iterations of the mechanics at one film force for each contact: one per change of its state.
 const MAX_CONTACT_ITERATIONS: usize = 8;
 /// Differences kept by Anderson's iteration: all that three components can use.
 const ANDERSON_DEPTH: usize = 3;
@@ -35,7 +34,7 @@ impl Coupling {
 }
 
 impl Stages<'_> {
-    /// Iterates film against structure until the attitude stands still.
+    /// Iterates film against structure until the attitude no longer changes.
     pub(super) fn solve_partitioned(
         &mut self,
         exchange: &mut FixedPoint,
@@ -137,7 +136,7 @@ impl Stages<'_> {
         Err(StageFailure::NotConverged(size))
     }
 
-    /// Moves slider and suspension under a given film force. Linear but for the contacts.
+    /// Moves slider and suspension under a given film force. Linear except for the contacts.
     fn mechanics_under(
         &mut self,
         instant: &Instant,

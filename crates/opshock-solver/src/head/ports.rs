@@ -1,4 +1,4 @@
-//! Ports: the seven motions by which slider and suspension meet each other and everything else.
+//! Ports: the seven motions through which slider and suspension interact with each other and with everything else.
 //!
 //! ```text
 //! x = (q, η),   q = (z, pitch, roll),    p = P x = (q, s)                force on x by F at the ports: Pᵀ F
@@ -14,10 +14,10 @@
 //! | e | rise of the lift tab's end, by bending; 0 without a lift tab | m |
 //! | E | 4 × 3: 1 on its diagonal | |
 //!
-//! Modes are mass-normalised, so that a mode has the mass 1, the stiffness ω² and the damping 2 ζ ω. Film,
-//! gimbal, dimple, limiters and lift tab know nothing of x but p: whatever they add to a matrix of slider and
-//! suspension has rank seven at most. A stiff contact is met by s, not by the difference of two displacements
-//! that are solved for: its force keeps its digits.
+//! Modes are mass-normalised, so that a mode has the mass 1, the stiffness ω² and the damping 2 ζ ω. Film, gimbal,
+//! dimple, limiters and lift tab depend on x through p only. Their contribution to a matrix of slider and suspension
+//! therefore has rank seven at most. A stiff contact depends on s, not on the difference of two displacements that are
+//! solved for, so its force does not lose digits.
 
 use crate::lanes::abreast;
 use crate::suspension::ReducedSuspension;
@@ -101,7 +101,7 @@ impl Ports {
         [closing, along, across, tab]
     }
 
-    /// Row of P that reads one port from the coordinates.
+    /// Row of P that gives one port from the coordinates.
     pub fn row(&self, port: usize) -> DVector<f64> {
         let mut out = DVector::zeros(SLIDER + self.rows[0].len());
         match port.checked_sub(SLIDER) {

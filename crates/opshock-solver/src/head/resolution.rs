@@ -1,9 +1,9 @@
-//! How finely a head is integrated, and how film and slider are solved together.
+//! Resolution of a head's time integration, and the coupling scheme of film and slider.
 
 /// How film and slider are solved together at a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum Coupling {
-    /// One Newton iteration on everything at once (Schur complement).
+    /// Monolithic Newton iteration (Schur complement).
     Monolithic,
     /// The paper's fixed-point iteration.
     FixedPoint,
@@ -26,6 +26,6 @@ pub struct HeadResolution {
     pub coupling: Coupling,
     /// Residual tolerance of the coupled solve relative to its scales.
     pub coupling_tolerance: f64,
-    /// Step limit; reached = undecided.
+    /// Step limit; a run that reaches it is undecided.
     pub max_steps: u64,
 }

@@ -1,17 +1,17 @@
-//! Small harmonic motions of the whole head about steady flight.
+//! Frequency response of the whole head: small harmonic motions about steady flight.
 //!
 //! ```text
 //! (s² M + s C + K + Z(s)) x̂ = f̂ + Z(s) ŵ,    ψ̂ = −(A + s M_f)⁻¹ C_f (q̂ − ŵ),   s = iω
 //! ```
 //!
-//! x: slider (z, pitch, roll) and suspension; w: pose of the disk's plane; Z: the film's impedance with
-//! what surface forces add; the dimple is closed, as in steady flight, limiters and lift tab are open.
+//! x: slider (z, pitch, roll) and suspension; w: pose of the disk's plane; Z: the film's impedance with the
+//! contribution of surface forces. The dimple is closed, as in steady flight; limiters and lift tab are open.
 
 use super::model::HeadModel;
 use crate::air_bearing::impedance::{ImpedanceError, SmallMotion};
 use nalgebra::{Complex, DMatrix, DVector, Matrix3};
 
-/// What drives the head at one frequency; complex amplitudes.
+/// Excitation of the head at one frequency; complex amplitudes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drive {
     /// Pose of the disk under the slider: displacement (m), pitch and roll (rad).
@@ -24,7 +24,7 @@ pub struct Drive {
     pub load_m_per_s2: Complex<f64>,
 }
 
-/// The head's answer at one frequency; complex amplitudes.
+/// Response of the head at one frequency; complex amplitudes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Slider: z (m), pitch and roll (rad).
@@ -64,7 +64,7 @@ impl<'a> HeadResponse<'a> {
         self.film.at(Complex::new(0.0, omega_rad_per_s))
     }
 
-    /// The answer to `drive` at ω; 0 is the static limit.
+    /// The response to `drive` at ω; 0 is the static limit.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! A slider and a suspension for the tests of this module.
+//! A sample slider and suspension for the tests of this module.
 
 use crate::slider::{SliderParameters, SurfaceParameters};
 use crate::suspension::{
@@ -19,7 +19,7 @@ pub fn slider() -> SliderParameters {
     }
 }
 
-/// Gimbals that pitch and roll freely: then nothing but z moves under a straight load.
+/// Gimbals that pitch and roll freely: a straight load then moves z only.
 pub fn suspension() -> SuspensionParameters {
     SuspensionParameters {
         gram_load_n: 20e-3,
@@ -53,6 +53,7 @@ pub fn suspension() -> SuspensionParameters {
             vertical_n_per_m: 15.0,
             pitch_n_m_per_rad: 1e-30,
             roll_n_m_per_rad: 1e-30,
+            ..Gimbal::default()
         },
         dimple: law(5e5, 0.05),
         limiters: Vec::new(),

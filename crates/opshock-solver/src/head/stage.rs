@@ -1,4 +1,4 @@
-//! Stage equations of the coupled head and their monolithic Newton solution.
+//! Stage equations of the coupled head (one implicit stage of a time step) and their monolithic Newton solution.
 //!
 //! With v = (x − x_known)/d a stage is, for film ψ and coordinates x,
 //!
@@ -9,12 +9,11 @@
 //! ```
 //!
 //! with S the derivative of r_m by x without the film (`stage_matrix`). A, Z, F_ψ and F_q are kept as long as the
-//! iteration contracts; S follows the contacts at every iterate, so opening and closing cost no
-//! factorisation. An iterate that would take more than nine tenths of a cell's gas away is cut,
-//! and a cut iterate is never accepted.
+//! iteration contracts. S follows the contacts at every iterate, so opening and closing need no factorisation. An
+//! iterate that would remove more than 90 % of a cell's gas is shortened, and a shortened iterate is never accepted.
 //!
-//! Renewing the Jacobian at every iterate below half a nanometre was tried and bought nothing: the
-//! iteration counts stayed, a run that touches took three times as long.
+//! Renewing the Jacobian at every iterate below half a nanometre has no benefit: the iteration counts are the same, and
+//! a run that touches takes three times as long.
 
 use super::film_passes::{add_storage, correct_film};
 use super::mechanics::StageState;
@@ -27,18 +26,17 @@ use crate::fixed_point::FixedPoint;
 use crate::integrator::StageSystem;
 use crate::lanes::{add_scaled, combine, product, products, sum};
 
-/// Iterations of one stage before it is given up.
+/// Most iterations of one stage.
 const MAX_ITERATIONS: usize = 14;
-/// Contraction above which the Jacobian is renewed; a renewal costs what eleven iterations cost.
+/// Contraction above which the Jacobian is renewed; a renewal costs as much as eleven iterations.
 const SLOW: f64 = 0.1;
-/// Power of the contraction taken for the next stage when this one's first iterate told nothing of it:
-/// what was measured long ago counts for less and less, until a second iterate measures again.
+/// Power of the contraction used for the next stage when the first iterate gave no estimate: an old estimate is
+/// weighted less with every stage, until a second iterate measures the contraction again.
 const AGEING: f64 = 0.9;
-/// Range of d over which factors made for another d are used; slow contraction ends it sooner.
+/// Range of d over which factors made for another d are used; slow contraction ends their use sooner.
 const REUSE: f64 = 2.0;
-/// Stages solved with factors made for another d before they are made for the present one. Such
-/// factors contract by no more than |1 − d/d'| where the film is slow, and what they leave undone
-/// can build up over many steps.
+/// Stages solved with factors made for another d before they are made for the present one. Where the film is slow, such
+/// factors contract by no more than |1 − d/d'|, and the remaining error can accumulate over many steps.
 const MOST_BORROWED: u32 = 32;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;
@@ -60,7 +58,7 @@ pub(super) struct Stages<'a> {
 pub(super) struct Instant {
     pub pose: DiskPose,
     pub a: f64,
-    /// Motion of the pivot that `a` does not tell, and its rate.
+    /// Motion of the pivot that is not in `a`, and its rate.
     pub pivot: [f64; 2],
     pub d_s: f64,
 }
@@ -120,7 +118,7 @@ impl Stages<'_> {
         Ok(())
     }
 
-    /// Makes sure there are factors good enough for `d_s`.
+    /// Makes factors for `d_s`, unless the present ones suffice.
     pub fn ensure_factors(
         &mut self,
         psi: &[f64],
@@ -155,16 +153,16 @@ impl Stages<'_> {
         std::array::from_fn(|f| force[f] - self.model.steady_force[f])
     }
 
-    /// Notes what is left of the film's mass balance, relative to the mass that is there: a slider
-    /// far from the disk holds many times the mass of steady flight.
+    /// Records the residual of the film's mass balance, relative to the film's present mass: a slider far from the disk
+    /// holds many times the mass of steady flight.
     pub fn note_imbalance(&mut self, spurious: f64, psi: &[f64]) {
         let mass = product(self.model.film.capacity(), psi);
         let worst = &mut self.scratch.counters.mass_balance_error;
         *worst = worst.max((spurious / mass).abs());
     }
 
-    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness, which is
-    /// kept while d, contacts and film stay. False when there is none.
+    /// Replaces `scratch.mechanical` by the solution with S + film's condensed stiffness, which is kept while d,
+    /// contacts and film are the same. False when there is none.
     fn solve_mechanics(&mut self, d_s: f64, closed: Closed, with_film: bool) -> bool {
         let s = &mut *self.scratch;
         let key = MatrixKey {
@@ -319,8 +317,8 @@ impl Stages<'_> {
         Err(StageFailure::NotConverged(estimate))
     }
 
-    /// Applies the correction held in the scratch (A⁻¹ r_f and δx) to (ψ, x). Returns its size
-    /// relative to the gap and whether it was cut.
+    /// Applies the correction in the scratch (A⁻¹ r_f and δx) to (ψ, x). Returns its size relative to the gap, and
+    /// whether it was shortened.
     fn apply(&mut self, psi: &mut [f64], x: &mut [f64]) -> Result<(f64, bool), StageFailure> {
         let s = &mut *self.scratch;
         let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
@@ -362,7 +360,7 @@ impl StageSystem for Stages<'_> {
         y: &mut [f64],
     ) -> Result<(), StageFailure> {
         let instant = self.instant(time_s, d_s);
-        // The guess may be anything where the step is long; the film needs gas in every cell.
+        // The guess is arbitrary where the step is long; the film needs gas in every cell.
         let n_cells = self.model.film.n_cells();
         for (psi, known) in y[..n_cells].iter_mut().zip(known) {
             let has_gas = *psi > 0.0;

@@ -1,4 +1,4 @@
-//! What the stage solves work in: film, factors, and what was learned of their contraction.
+//! Scratch of the stage solves: film, factors and the measured contraction of the iteration.
 
 use super::model::HeadModel;
 use super::stage_matrix::StageMatrix;
@@ -7,7 +7,7 @@ use crate::air_bearing::{FilmLinearisation, FilmScratch};
 use crate::lanes::products;
 use crate::linalg::banded::BandedLu;
 
-/// Contraction that new factors are trusted to have until a second iterate measures it.
+/// Contraction assumed for new factors until a second iterate measures it.
 pub(super) const FIRST_CONTRACTION: f64 = 0.1;
 
 /// Why a stage was given up.
@@ -24,7 +24,7 @@ pub(super) enum StageFailure {
 pub(super) struct StageScratch {
     pub film: FilmScratch,
     pub linearisation: FilmLinearisation,
-    /// Rounded: the stage's iteration corrects what it solves for.
+    /// Single precision: the stage's iteration corrects the rounding.
     pub lu: BandedLu<f32>,
     /// d for which the factors were made; `None`: there are none.
     pub factored_d_s: Option<f64>,
@@ -57,7 +57,7 @@ pub(super) struct MatrixKey {
     pub with_film: bool,
 }
 
-/// What the stage solves have cost, and their worst figures.
+/// Cost of the stage solves, and their worst figures.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counters {
     pub residuals: u64,
@@ -93,13 +93,13 @@ impl StageScratch {
         }
     }
 
-    /// Forgets factors and counts, keeping the storage.
+    /// Discards factors and counters, keeping the storage.
     pub fn reset(&mut self) {
         self.forget();
         self.counters = Counters::default();
     }
 
-    /// Forgets factors and what the iterations have told of them.
+    /// Discards factors and the contraction measured with them.
     pub fn forget(&mut self) {
         self.factored_d_s = None;
         self.matrix.forget();

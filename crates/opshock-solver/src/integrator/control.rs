@@ -1,16 +1,16 @@
-//! Step size from the error of the last step, on a ladder of fixed ratio.
+//! Chooses the next step size from the error of the last step, out of a geometric series of step sizes.
 //!
 //! ```text
 //! Δt_new = Δt · 0.9 (1/e)^(1/p)      e error over tolerance, p power of the estimate
 //! ```
 //!
-//! rounded down to a rung Δt₀ ρ^k. A step grows by one rung at least or not at all: the iteration
-//! matrix depends on Δt alone, and keeping it is worth more than the last few percent of step.
+//! rounded down to a member Δt₀ ρ^k of the series. A step grows by the factor ρ at least or not at all: the iteration
+//! matrix depends on Δt alone, and reusing it saves more than the last few per cent of the step would.
 
-/// Ratio of neighbouring rungs.
-const RUNG: f64 = 1.25;
+/// Ratio ρ of neighbouring step sizes.
+const RATIO: f64 = 1.25;
 
-/// Keeps steps on the rungs of a ladder between a smallest and a largest step.
+/// Chooses steps of the geometric series between a smallest and a largest step.
 #[derive(Clone, Copy, Debug)]
 pub struct StepControl {
     smallest_s: f64,
@@ -20,7 +20,7 @@ pub struct StepControl {
 }
 
 impl StepControl {
-    /// Safety factor on the step that the error would allow.
+    /// Safety factor on the step that the error allows.
     const SAFETY: f64 = 0.9;
     /// Largest growth after one step.
     const GROWTH: f64 = 4.0;
@@ -42,13 +42,13 @@ impl StepControl {
         self.smallest_s
     }
 
-    /// `dt_s` rounded down to a rung and into the allowed range.
-    pub fn rung(&self, dt_s: f64) -> f64 {
+    /// `dt_s` rounded down to a step size of the series and into the allowed range.
+    pub fn of_series(&self, dt_s: f64) -> f64 {
         if dt_s >= self.largest_s {
             return self.largest_s;
         }
-        let k = ((dt_s / self.largest_s).ln() / RUNG.ln() + 1e-9).floor();
-        (self.largest_s * RUNG.powf(k)).max(self.smallest_s)
+        let k = ((dt_s / self.largest_s).ln() / RATIO.ln() + 1e-9).floor();
+        (self.largest_s * RATIO.powf(k)).max(self.smallest_s)
     }
 
     /// Step after an accepted step of `dt_s` with error `error` (1 = tolerance).
@@ -60,10 +60,10 @@ impl StepControl {
         self.previous_error = error;
         let p = self.error_order;
         let factor = Self::SAFETY * error.powf(-1.0 / p) * trend.powf(0.3 / p);
-        if factor >= RUNG {
-            self.rung(dt_s * factor.min(Self::GROWTH))
-        } else if factor < 1.0 / RUNG {
-            self.rung(dt_s * factor)
+        if factor >= RATIO {
+            self.of_series(dt_s * factor.min(Self::GROWTH))
+        } else if factor < 1.0 / RATIO {
+            self.of_series(dt_s * factor)
         } else {
             dt_s
         }
@@ -74,16 +74,16 @@ impl StepControl {
         self.previous_error = 1.0;
         let wanted = Self::SAFETY * error.powf(-1.0 / self.error_order);
         let factor = if wanted.is_finite() {
-            wanted.clamp(Self::CUT, 1.0 / RUNG)
+            wanted.clamp(Self::CUT, 1.0 / RATIO)
         } else {
             Self::CUT
         };
-        self.rung(dt_s * factor)
+        self.of_series(dt_s * factor)
     }
 
     /// Step after a stage that did not converge.
     pub fn after_failure(&mut self, dt_s: f64) -> f64 {
         self.previous_error = 1.0;
-        self.rung(0.35 * dt_s)
+        self.of_series(0.35 * dt_s)
     }
 }

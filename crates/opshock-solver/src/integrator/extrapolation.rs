@@ -1,11 +1,11 @@
-//! Extrapolation of a rate through its latest values.
+//! Extrapolates a rate by the polynomial through its latest values, as the first guess of an implicit stage.
 //!
 //! ```text
 //! ∫₀^τ p(t) dt = Σⱼ wⱼ kⱼ,   p the polynomial of lowest degree through (tⱼ, kⱼ)
 //! ```
 //!
-//! (Lagrange's form.) A stage solve that starts nearer to its answer takes fewer iterations; the
-//! answer itself is the stage equation's.
+//! (Lagrange's form.) A stage solve that starts nearer to its solution takes fewer iterations; the solution itself is
+//! that of the stage equation.
 
 /// Most values a polynomial goes through.
 pub(super) const KNOWN: usize = 3;

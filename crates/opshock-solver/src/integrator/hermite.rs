@@ -1,4 +1,4 @@
-//! Cubic Hermite dense output of one step.
+//! Evaluates the solution within one step by a cubic Hermite polynomial (dense output), and finds its minima and zeros.
 //!
 //! ```text
 //! y(θ) = (1+2θ)(1−θ)² y₀ + θ(1−θ)² Δt y₀' + θ²(3−2θ) y₁ − θ²(1−θ) Δt y₁',   0 <= θ <= 1
@@ -41,9 +41,9 @@ pub fn minimum(n: usize, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
     best
 }
 
-/// First place on [0, 1] where a smooth function falls below zero, to 1e-9 of the step: the first
-/// of `n` equal intervals (or `hint`, a place known to be below) at whose end it is below, then
-/// bisection. `None` when it is below nowhere looked at.
+/// First place on [0, 1] where a smooth function falls below zero, to 1e-9 of the step: the first of `n` equal
+/// intervals (or `hint`, a place known to be below) at whose end it is below zero, then bisection. `None` when it is
+/// below zero at none of them.
 pub fn first_below_zero(
     n: usize,
     hint: Option<f64>,

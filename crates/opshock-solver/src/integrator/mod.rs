@@ -1,4 +1,4 @@
-//! L-stable, stiffly accurate one-step integrators with step control and dense output.
+//! Integrates stiff systems with L-stable, stiffly accurate one-step schemes, step control and dense output.
 //!
 //! An ESDIRK scheme of s stages advances y' = f(t, y) by
 //!
@@ -17,8 +17,8 @@
 //! | TR-BDF2 | 2 (3 embedded) | 2 | 1 − √2/2 | Bank et al. 1985; Hosea and Shampine, Appl. Numer. Math. 20 (1996) 21 |
 //! | ESDIRK3(2)4L\[2\]SA | 3 (2 embedded) | 3 | 0.43586652… | Kennedy and Carpenter, NASA/CR-2001-211038, ARK3(2)4L\[2\]SA implicit part |
 //!
-//! [`Stepper`] takes one trial step of any [`StageSystem`]; [`StepControl`] turns its error into
-//! the next step on a coarse ladder, so that factorisations keyed on d live long; [`hermite`] holds
+//! [`Stepper`] takes one trial step of any [`StageSystem`]. [`StepControl`] chooses the next step from its error out of
+//! a coarse geometric series of step sizes, so that factorisations, which depend on d, are reused; [`hermite`] holds
 //! the cubic dense output.
 
 mod control;

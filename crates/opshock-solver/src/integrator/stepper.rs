@@ -1,4 +1,4 @@
-//! One trial step of an ESDIRK scheme on any system that can solve its stage equation.
+//! Takes one trial step of an ESDIRK scheme on any system that can solve its implicit stage equation.
 
 use super::extrapolation::{self, KNOWN};
 use super::tableau::Tableau;
@@ -53,8 +53,8 @@ impl Stepper {
         }
     }
 
-    /// Remembers the trial step of `dt_s` just taken as accepted: its rates help guess the next. What
-    /// [`Stepper::rate`] tells is gone then.
+    /// Takes the trial step of `dt_s` just made as accepted: its rates help guess the next. [`Stepper::rate`] is
+    /// invalid afterwards.
     pub fn accept(&mut self, dt_s: f64) {
         for (last, rate) in self.last_rates.iter_mut().zip(&mut self.rates) {
             std::mem::swap(last, rate);

@@ -1,4 +1,4 @@
-//! Coefficients of the schemes.
+//! Coefficients of the ESDIRK schemes TR-BDF2 and ESDIRK3(2)4L\[2\]SA.
 
 /// An ESDIRK scheme: first stage explicit, one γ on the diagonal, last stage equals the new value.
 #[derive(Clone, Copy, Debug)]

@@ -183,12 +183,12 @@ fn hermite_finds_the_minimum_and_the_crossing_of_a_parabola() {
 }
 
 #[test]
-fn steps_stay_on_rungs_and_within_bounds() {
+fn steps_are_terms_of_a_geometric_series_within_bounds() {
     let mut control = StepControl::new(3, 1e-12, 1e-5);
-    assert_eq!(control.rung(1.0), 1e-5);
+    assert_eq!(control.of_series(1.0), 1e-5);
     assert_eq!(control.after_accept(1e-6, 0.6), 1e-6);
     let grown = control.after_accept(1e-6, 1e-3);
-    assert!(grown > 2e-6 && (control.rung(grown) / grown - 1.0).abs() < 1e-9);
+    assert!(grown > 2e-6 && (control.of_series(grown) / grown - 1.0).abs() < 1e-9);
     assert!(control.after_reject(1e-6, 8.0) < 0.6e-6);
     assert!(control.after_reject(1e-6, f64::NAN) < 0.3e-6);
     assert_eq!(control.after_failure(1e-12), 1e-12);

@@ -1,4 +1,4 @@
-//! Narrow symmetric matrices: products, Cholesky factor, number of negative eigenvalues.
+//! Narrow symmetric matrices: products, Cholesky factorisation, number of eigenvalues below a shift.
 
 use super::dense::{DenseError, SquareMatrix, dot};
 
@@ -10,8 +10,8 @@ pub struct SymmetricBand<const W: usize> {
     below: Vec<[f64; W]>,
 }
 
-/// Lower factor L of A = L Lᵀ: the inverses of its diagonal, and its rows and columns beside the diagonal
-/// over the diagonal's entry, so that every number of a solution waits for the one before through one product.
+/// Lower factor L of A = L Lᵀ: the inverses of its diagonal, and the rows and columns beside the diagonal divided by
+/// the diagonal's entry, so that every number of a solution waits for the one before through one product only.
 #[derive(Clone, Debug)]
 pub struct BandCholesky<const W: usize> {
     inverse: Vec<f64>,
@@ -42,8 +42,7 @@ impl<const W: usize> SymmetricBand<W> {
         }
     }
 
-    /// Adds to the entries in row `i`, column `j` and in row `j`, column `i`, which are one where
-    /// `i` is `j`.
+    /// Adds to the entries in row `i`, column `j` and in row `j`, column `i`, which are one entry where `i` is `j`.
     ///
     /// # Panics
     /// When the entry lies outside the band.
@@ -76,7 +75,7 @@ impl<const W: usize> SymmetricBand<W> {
             let row = &self.below[i];
             let mut sum = self.diagonal[i] * x[i];
             if i >= W && i + W < n {
-                // All of the row, without a look at its ends.
+                // A whole row without bounds checks.
                 let (left, right) = (&x[i - W..i], &x[i + 1..=i + W]);
                 let rows = &self.below[i + 1..=i + W];
                 for k in 0..W {
@@ -171,8 +170,7 @@ impl<const W: usize> SymmetricBand<W> {
                 scaled[k] = sum / pivots[j];
                 pivot -= scaled[k] * sum;
             }
-            // A pivot of zero: the shift is an eigenvalue of a leading part. Either sign counts
-            // right.
+            // A pivot of zero: the shift is an eigenvalue of a leading part. Either sign gives the right number.
             if pivot == 0.0 {
                 pivot = f64::EPSILON * diagonal.abs().max(f64::MIN_POSITIVE);
             }
@@ -183,7 +181,7 @@ impl<const W: usize> SymmetricBand<W> {
     }
 }
 
-/// L as it comes: inverses of its diagonal, and what stands before it in a row, the nearest first.
+/// L during the factorisation: inverses of its diagonal, and the entries before it in a row, the nearest first.
 struct LowerBand<const W: usize> {
     inverse: Vec<f64>,
     below: Vec<[f64; W]>,
@@ -231,7 +229,7 @@ impl<const W: usize> BandCholesky<W> {
     }
 }
 
-/// x := x inverse − Σ row times the numbers found before, the nearest of which comes first in a row.
+/// x := x inverse − Σ row × (numbers found before), the nearest of which comes first in a row.
 #[inline(always)]
 fn solve_band<'a, const W: usize>(
     rows: impl Iterator<Item = ((&'a mut f64, &'a f64), &'a [f64; W])>,

@@ -6,14 +6,14 @@
 //!
 //! Rows are eliminated without exchanges, so the pattern of L + U is the band itself and a
 //! factorisation allocates nothing. That is safe for the matrices it is meant for: the flux
-//! Jacobian of a conservative, monotone scheme is diagonally dominant by columns (what leaves one
-//! cell enters its neighbours), and for such a matrix no multiplier exceeds one (Golub and Van
-//! Loan, *Matrix Computations*, 4th ed., theorem 4.1.2). Where a linearisation strays from that,
-//! [`BandedLu::factor`] sees the multipliers grow and refuses, and the caller may turn to a
-//! pivoting factorisation.
+//! factorisation allocates nothing. That is safe for the matrices it is meant for: the flux Jacobian of a conservative,
+//! monotone scheme is diagonally dominant by columns (what leaves one cell enters its neighbours), and for such a
+//! matrix no multiplier exceeds one (Golub and Van Loan, *Matrix Computations*, 4th ed., theorem 4.1.2). Where a
+//! linearisation is far from that, [`BandedLu::factor`] finds that the multipliers grow and refuses; the caller may
+//! then use a pivoting factorisation.
 //!
-//! Four pivots are eliminated together from four rows below: numbers of those rows are read and written once
-//! for four multiply-subtract sweeps, those of the pivots' rows once for four rows.
+//! Four pivots are eliminated together from four rows below: those rows are read and written once for four
+//! multiply-subtract sweeps, the pivots' rows once for four rows.
 
 use super::diagonals::{Band, Diagonals};
 pub use super::entry::Entry;
@@ -50,16 +50,16 @@ pub enum BandedError {
     },
 }
 
-/// LU factors of a matrix of few diagonals plus one more, in storage allocated once. They are found and kept as
-/// `E`: with `f32` a solution is right to some 1e-6 of its largest number (more where multipliers are large),
-/// for half the memory and half the time.
+/// LU factors of the sum of two matrices of few diagonals, in storage allocated once. They are computed and kept as
+/// `E`: with `f32` a solution has an error of some 1e-6 of its largest number (more where multipliers are large), for
+/// half the memory and half the time.
 #[derive(Clone, Debug)]
 pub struct BandedLu<E = f64> {
     n: usize,
     /// Rows rounded up to a multiple of [`BLOCK`]; the extra ones are rows of the identity.
     n_padded: usize,
-    /// Band of what is factored: of the matrix, or of the matrix with rows and columns counted from
-    /// the end, whichever reaches less far below. Then fewer rows are swept, over more columns.
+    /// Band of the factored matrix: the given one, or that with rows and columns in reverse order if it reaches less
+    /// far below. Then fewer rows are swept, over more columns.
     band: Band,
     is_reversed: bool,
     /// Entries of a row: the band, and zeros on either side so that the four pivot rows of a block
@@ -145,7 +145,7 @@ impl<E: Entry> BandedLu<E> {
             largest = larger(largest, self.eliminate_below(simd, first, last));
         }
         let largest = largest.widen();
-        // A NaN anywhere above shows as a pivot; growth is what is left to judge.
+        // A NaN anywhere above shows as a pivot; only growth remains to be checked.
         if largest > LARGEST_MULTIPLIER {
             return Err(BandedError::Growth { largest });
         }
@@ -167,7 +167,7 @@ impl<E: Entry> BandedLu<E> {
         self.triangles.solve(rhs, self.is_reversed);
     }
 
-    /// Copies the matrix into the padded rows, a few rows at a time that stay in the nearest memory.
+    /// Copies the matrix into the padded rows, a few rows at a time that stay in the cache.
     #[inline(always)]
     fn load(&mut self, matrix: &Diagonals, scale: f64, more: &Diagonals) {
         let (n, stride, centre, is_reversed) =

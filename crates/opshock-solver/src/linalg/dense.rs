@@ -1,4 +1,4 @@
-//! Small dense symmetric matrices: Cholesky factor, generalised eigenvalue problem.
+//! Small dense symmetric matrices: Cholesky factorisation, generalised eigenvalue problem.
 //!
 //! ```text
 //! K x = ω² M x
@@ -207,8 +207,8 @@ impl CholeskyFactor {
     }
 }
 
-/// The lowest pairs of K x = ω² M x for positive definite K, accurate at the low end; `n_keep`
-/// is told every ω² in rising order and says how many pairs are wanted.
+/// The lowest pairs of K x = ω² M x for positive definite K, accurate at the low end. `n_keep` receives every ω² in
+/// rising order and returns how many pairs are wanted.
 ///
 /// # Errors
 /// K not positive definite, or no convergence.
@@ -257,8 +257,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 pub(super) mod tests {
     use super::*;
 
-    /// n unit masses in a row on unit springs, the first held to a wall, the last one also when
-    /// `is_held_twice`.
+    /// n unit masses in a row on unit springs, the first fixed to a wall, the last one also when `is_held_twice`.
     pub(in crate::linalg) fn chain(n: usize, is_held_twice: bool) -> (SquareMatrix, SquareMatrix) {
         let (mut k, mut m) = (SquareMatrix::zeros(n), SquareMatrix::zeros(n));
         for i in 0..n {

@@ -1,4 +1,4 @@
-//! Square matrices of few diagonals, as a balance over a grid of cells has them.
+//! Stores square matrices with few diagonals, such as those of a balance over a grid of cells.
 
 /// How far a matrix reaches on either side of its diagonal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,8 @@
-//! Numbers that factors are computed and kept as, in vector registers: double, or single at half the memory.
+//! Number types of matrix factors in vector registers: double precision, or single at half the memory.
 
 use crate::lanes::Simd;
 
-/// A number as factors are computed and kept: in full, or in half the memory where the solution is itself
-/// corrected by iteration.
+/// A number type of factors: double precision, or single precision where an iteration corrects the solution.
 pub trait Entry:
     Copy
     + std::fmt::Debug
@@ -18,7 +17,7 @@ pub trait Entry:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// Most of them in a register of any processor.
+    /// Largest number of them in a register of any processor.
     const SET: usize;
 
     /// The nearest such number.

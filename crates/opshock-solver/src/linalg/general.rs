@@ -1,11 +1,11 @@
-//! Eigenvalues of small general matrices, with what takes a vector apart into its eigenvectors.
+//! Eigenvalues and eigenvectors of small general matrices, and the rows that decompose a vector into eigenvectors.
 
 use super::dense::DenseError;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Eigen};
 use nalgebra::Complex;
 
-/// Gain of an eigenvector's share above which half of the digits are gone.
+/// Largest gain of an eigenvector's share; above it half of the digits are lost.
 const LARGEST_GAIN: f64 = 1e8;
 
 /// A = V diag(s) V⁻¹.
@@ -23,9 +23,7 @@ pub struct GeneralEigen {
 /// with both vectors, which keeps the digits of the small ones beside a large one. Of a real matrix
 /// real eigenvalues are real to the last bit.
 ///
-/// # Errors
-/// No convergence, or two eigenvectors so nearly parallel that taking a vector apart loses more than
-/// half of the digits.
+/// No convergence, or two eigenvectors so nearly parallel that decomposing a vector loses more than half of the digits.
 pub fn general_eigen(rows: &[Vec<Complex<f64>>]) -> Result<GeneralEigen, DenseError> {
     let n = rows.len();
     let failed = || DenseError::NotConverged { order: n };
@@ -43,7 +41,7 @@ pub fn general_eigen(rows: &[Vec<Complex<f64>>]) -> Result<GeneralEigen, DenseEr
         let column: f64 = (0..n).map(|i| u[(i, k)].norm_sqr()).sum();
         (row * column).sqrt()
     };
-    // A gain that is no number is refused too.
+    // A gain that is not a number is refused too.
     if !(0..n).all(|k| gain(k) < LARGEST_GAIN) {
         return Err(failed());
     }

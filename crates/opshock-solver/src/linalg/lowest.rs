@@ -1,5 +1,4 @@
-//! The lowest pairs of K x = ω² M x of narrow matrices: how many there are is counted, then they
-//! alone are computed.
+//! Computes the lowest eigenpairs of K x = ω² M x of narrow matrices: their number first, then these pairs alone.
 //!
 //! * **Count.** K − s M = L D Lᵀ has as many negative pivots as there are ω² below s (Sylvester's
 //!   law of inertia).
@@ -7,8 +6,8 @@
 //!   1/ω², which Lanczos steps find first; every new vector is made orthogonal to all before it,
 //!   twice. Steps end when the residual of each wanted pair is at rounding.
 //!
-//! Both cost what the band costs. Where the steps do not get there (a wanted pair without a share
-//! in the starting vector, or nearly as many pairs as unknowns) [`dense::lowest_modes`] answers.
+//! Both cost in proportion to the band. Where the steps do not converge (a wanted pair without a share in the starting
+//! vector, or nearly as many pairs as unknowns) [`dense::lowest_modes`] gives the pairs.
 //!
 //! Source: Parlett, *The Symmetric Eigenvalue Problem* (1998), chapters 3 and 13.
 
@@ -18,8 +17,8 @@ use crate::lanes::{self, Kernel, SUMS};
 
 /// Residual of a pair relative to the largest 1/ω²: some units of rounding.
 const RESIDUAL: f64 = 1e-15;
-/// Lanczos steps per wanted pair, and besides, before the pairs are looked at, and again before every
-/// further look.
+/// Lanczos steps before the first check of the pairs: per wanted pair, and in addition. The second number is also that
+/// between further checks.
 const STEPS: [usize; 2] = [2, 8];
 
 /// The pairs of K x = ω² M x with ω² < `limit`, and at least `at_least` of them, lowest first, for
@@ -63,7 +62,7 @@ fn lanczos<const W: usize>(
 ) -> Result<Option<EigenPairs>, DenseError> {
     let n = mass.order();
     let mut basis = Basis::new(n);
-    // A load on every unknown, without a symmetry that a mode could be blind to.
+    // A load on every unknown, without a symmetry that would exclude a mode.
     let start: Vec<f64> = (0..n).map(|i| 1.0 + 1.0 / (2 + i) as f64).collect();
     let mut next = scaled(start);
     // Diagonal of the projected operator and the entries beside it.
@@ -76,7 +75,7 @@ fn lanczos<const W: usize>(
         let mut w = mass.times(&z);
         factor.solve_lower(&mut w);
         diagonal.push(lanes::product(&next, &w));
-        // With the last two only before all, modes are a tenth as close to orthogonal.
+        // If the first pass removed the last two alone, modes would be ten times farther from orthogonal.
         for _ in 0..2 {
             basis.remove_from(&mut w);
         }
@@ -183,7 +182,7 @@ impl Basis {
     }
 }
 
-/// Vectors whose shares are taken at once: one alone waits for its sums.
+/// Vectors whose shares are removed at once: a single one waits for its sums.
 const ABREAST: usize = 4;
 
 /// Takes from `x` its parts along `K` rows.
@@ -212,7 +211,7 @@ impl<const K: usize> Kernel for Removal<'_, K> {
             *chunks = &row.as_chunks().0[..x.len()];
         }
         for (j, x) in x.iter_mut().enumerate() {
-            // In a place of its own: stores into `x` could change rows, for all the compiler knows.
+            // A copy: as far as the compiler knows, stores into `x` could change rows.
             let mut less = *x;
             for (row, share) in rows.iter().zip(self.shares) {
                 for k in 0..SUMS {

@@ -1,4 +1,4 @@
-//! Linear algebra that grows with a mesh; the only module that names the matrix library.
+//! Linear algebra for matrices that grow with a mesh; the only module that uses the matrix library by name.
 
 pub mod band;
 pub mod banded;

@@ -1,7 +1,7 @@
-//! Small dense matrices in columns of whole registers: products, and inverses with row exchanges.
+//! Inverts and multiplies small dense matrices, stored in columns of whole registers, with row exchanges.
 //!
-//! A matrix of a few rows that is solved with thousands of times is worth its inverse: a product of columns
-//! runs over whole registers, where a triangular solve waits in every row for the row before.
+//! A matrix of a few rows that is solved with thousands of times is worth inverting: a product of columns runs over
+//! whole registers, where a triangular solve waits in every row for the row before.
 
 use crate::lanes::{Kernel, SUMS, Simd, WithSimd, widest};
 
@@ -88,8 +88,8 @@ impl Kernel for Product<'_> {
 }
 
 /// Inverse of a small square matrix, in storage allocated once.
-///
-/// The matrix is inverted in place (Gauss-Jordan) with exchanges; what an unknown does in all equations is
+/// The matrix is inverted in place (Gauss-Jordan) with exchanges. The coefficients of an unknown in all equations are
+/// first divided by the largest of them, since metres and radians occur in one matrix.
 /// divided by its largest entry before, since metres and radians meet in one matrix.
 #[derive(Clone, Debug)]
 pub struct PivotedInverse {
@@ -277,7 +277,7 @@ mod tests {
         }
     }
 
-    /// Entries without order, a few of them large; the diagonal is nothing special.
+    /// Entries without order, a few of them large; the diagonal is not distinguished.
     fn rows(n: usize) -> Vec<f64> {
         (0..n * n)
             .map(|k| (k as f64 * 1.7).sin() + 3.0 * f64::from((k / n + 2) % n == k % n))

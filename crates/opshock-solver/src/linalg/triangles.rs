@@ -1,18 +1,17 @@
-//! Banded triangular factors laid out for solving.
+//! Solves with banded triangular factors, stored for fast solution in blocks of sixteen rows.
 //!
-//! A solution by rows waits for every row before the next. Here sixteen rows go together: with L and
-//! U cut into blocks of sixteen rows,
+//! A solution row by row waits for every row before the next. Here sixteen rows are solved together: with L and U cut
+//! into blocks of sixteen rows,
 //!
 //! ```text
 //! y_I = L_II⁻¹ r_I − Σ_j (L_II⁻¹ L_Ij) y_j,      x_I = U_II⁻¹ y_I − Σ_j (U_II⁻¹ U_Ij) x_j
 //! ```
 //!
-//! every column of a block is sixteen numbers side by side, times one number of the solution. The
-//! inverses of the small triangles and their products are made once: a block waits for the one before it
-//! through a single sum, in which the columns it has to wait for come last. Sums have a fixed order
-//! whatever the registers.
+//! every column of a block is sixteen numbers side by side, times one number of the solution. The inverses of the small
+//! triangles and their products are computed once. A block waits for the one before it through a single sum, in which
+//! the columns it depends on come last. Sums have a fixed order whatever the registers.
 //!
-//! What a solution costs is the reading of the factors, so they may be single ([`Entry`]).
+//! The cost of a solution is the reading of the factors, so they may be kept in single precision ([`Entry`]).
 
 use super::diagonals::Band;
 use super::entry::Entry;
@@ -21,7 +20,7 @@ use crate::lanes::{Simd, WithSimd, widest};
 /// Rows solved together.
 const ROWS: usize = 16;
 
-/// Columns beside a block's own that are found together: one alone waits for its sums.
+/// Columns beside a block's own that are computed together: a single one waits for its sums.
 const ABREAST: usize = 4;
 
 /// Sums a block's columns are spread over.
@@ -85,7 +84,7 @@ impl<E: Entry> Triangles<E> {
             let mut unit = [[E::ZERO; ROWS]; ROWS];
             let mut full = [[E::ZERO; ROWS]; ROWS];
             let mut inverse = [E::ONE; ROWS];
-            // What the band leaves out of these rows is zero since they were made.
+            // Entries of these rows beyond the band are zero from the start.
             let n_rows = ROWS.min(n - first);
             before[n_rows * strides[0]..].fill(E::ZERO);
             behind[n_rows * strides[1]..].fill(E::ZERO);

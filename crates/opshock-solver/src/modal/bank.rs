@@ -1,4 +1,4 @@
-//! Many oscillators at once: one fixed step, columns instead of structures.
+//! Advances many oscillators at once by a fixed time, stored as columns.
 //!
 //! Every column is padded with resting modes to a multiple of [`LANES`], so that loops run on
 //! whole chunks and sums have one fixed order.
@@ -196,7 +196,7 @@ impl BankFlow {
         ChunkFlow(columns.map(|column| &chunks(column)[i]))
     }
 
-    /// Adds to `after` what an impulse of the real `shape` of the first modes at the start of the flow leads to.
+    /// Adds to `after` the effect of an impulse on the real `shape` of the first modes at the start of the flow.
     pub fn add_kick(&self, shape: &[f64], impulse: f64, after: &mut ModalState) {
         lanes::widest(AddKick {
             flow: self,
@@ -232,7 +232,7 @@ impl Kernel for Apply<'_> {
     #[inline(always)]
     fn call(self) {
         let BankFlow { qq, qr, rq, rr } = self.flow;
-        // All of one length, so that nothing is left to check in the loop.
+        // Slices of one length, so that the loop needs no bounds checks.
         let n = self.n;
         let read = |column| &chunks(column)[..n];
         let flow = [qq, qr, rq, rr].map(|column| (read(&column.re), read(&column.im)));

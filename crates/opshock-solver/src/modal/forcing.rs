@@ -1,4 +1,4 @@
-//! Closed-form response of an oscillator to elementary forcing over a time.
+//! Gives the response of an oscillator to elementary forcing over a time in closed form.
 //!
 //! Over a stretch in which the forcing per unit generalised force is
 //!
@@ -99,8 +99,8 @@ impl FirstOrderResponse {
 }
 
 impl ForcedResponse {
-    /// Response of `oscillator` (fixed frame: no turn, no space-fixed damping beside γ) over `h_s`
-    /// to a wave of rate `sigma_per_s`.
+    /// Response of `oscillator` (fixed frame: no rotation, no damping fixed in space beside γ) over `h_s` to a wave of
+    /// rate `sigma_per_s`.
     pub fn new(oscillator: &Oscillator, sigma_per_s: Complex<f64>, h_s: f64) -> Self {
         let [l1, l2] = oscillator.roots();
         let fastest = l1.norm().max(l2.norm()).max(sigma_per_s.norm());

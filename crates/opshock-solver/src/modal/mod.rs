@@ -1,4 +1,4 @@
-//! Modal subsystems: exact propagation, forcing in closed form, energy.
+//! Advances modal oscillators exactly: free flow, closed-form response to forcing, energies and losses.
 
 pub mod bank;
 pub mod coupled;

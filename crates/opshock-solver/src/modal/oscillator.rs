@@ -1,7 +1,7 @@
-//! One damped oscillator of unit mass in a frame that may turn, and its exact flow.
+//! One damped oscillator of unit mass in a frame that may rotate, with its exact flow, energies and losses.
 //!
 //! ```text
-//! p̈ + (2γ + c) ṗ + (ω² − i c N) p = 0       turning frame
+//! p̈ + (2γ + c) ṗ + (ω² − i c N) p = 0       rotating frame
 //! q = p e^{−iNt},   r = q̇                   fixed frame, the state used here
 //! s = r + i N q = ṗ e^{−iNt}                velocity of the material
 //! ```
@@ -32,16 +32,15 @@ use nalgebra::Complex;
 pub struct Oscillator {
     /// Undamped angular frequency, rad/s.
     pub omega_rad_per_s: f64,
-    /// γ = ζ ω, damping that turns with the frame, 1/s.
+    /// γ = ζ ω, damping that rotates with the frame, 1/s.
     pub half_damping_per_s: f64,
-    /// N, rate at which the frame turns the mode, rad/s.
+    /// N, rate at which the frame rotates the mode, rad/s.
     pub turn_rad_per_s: f64,
     /// c, damping fixed in space, 1/s.
     pub fixed_damping_per_s: f64,
 }
 
-/// Transition of (q, r) over a time, less the identity: q' = q + (qq q + qr r),
-/// r' = r + (rq q + rr r).
+/// Transition of (q, r) over a time, minus the identity: q' = q + (qq q + qr r), r' = r + (rq q + rr r).
 ///
 /// A short step's matrix is close to the identity; rounding its diagonal near 1 once would show
 /// as a drift of 1e-10 of the energy per million steps.
@@ -91,7 +90,7 @@ impl Oscillator {
         )
     }
 
-    /// Roots of the turning-frame equation, 1/s.
+    /// Roots of the rotating-frame equation, 1/s.
     pub fn roots(&self) -> [Complex<f64>; 2] {
         let eta = self.eta();
         let delta = (Complex::from(eta * eta) - self.kappa()).sqrt();
@@ -176,10 +175,10 @@ impl Oscillator {
         2.0 * self.eta() * integral
     }
 
-    /// Displacement at the instants of equal impulses, one per step of `h_s`, over that by a constant
-    /// force of the same sum: (ωh/2) cot(ωh/2) without damping, below 1. Without turn.
+    /// Displacement at the instants of equal impulses, one per step of `h_s`, divided by that under a constant force of
+    /// the same sum: (ωh/2) cot(ωh/2) without damping, below 1. Without rotation.
     pub fn train_share(&self, h_s: f64) -> f64 {
-        // The periodic motion: q comes back to itself, r to what the impulse, 1, takes it from.
+        // The periodic motion: over a step q returns to itself, and r to its value less the impulse of 1.
         let flow = self.flow(h_s);
         let (qq, qr, rq, rr) = (flow.qq.re, flow.qr.re, flow.rq.re, flow.rr.re);
         self.omega_rad_per_s * self.omega_rad_per_s * h_s * qr / (qq * rr - qr * rq)
@@ -327,7 +326,7 @@ pub(crate) const GAUSS_8: [(f64, f64); 8] = [
 mod tests {
     use super::*;
 
-    /// Fourth-order Runge-Kutta on the turning-frame equation, tiny steps: an independent flow.
+    /// Fourth-order Runge-Kutta on the rotating-frame equation, tiny steps: an independent flow.
     fn integrate(o: &Oscillator, q: Complex<f64>, r: Complex<f64>, h: f64) -> [Complex<f64>; 3] {
         let turn = Complex::new(0.0, o.turn_rad_per_s);
         let rate = |y: [Complex<f64>; 3]| {

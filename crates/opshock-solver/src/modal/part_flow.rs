@@ -1,7 +1,7 @@
-//! Flow of many oscillators over any short time, as it is asked for where an impact is located.
+//! Gives the flow of many oscillators over any short time, as needed to locate an impact within a step.
 //!
-//! The same formulas as [`super::oscillator`] in columns, without a call per mode; and the loss meanwhile by Gauss
-//! quadrature on them. Modes with damping fixed in space or beyond critical damping are left to the oscillator.
+//! The formulas are those of [`super::oscillator`] in columns, without a call per mode; the loss comes from Gauss
+//! quadrature on them. Overdamped modes and those with damping fixed in space use the single oscillator.
 
 use super::bank::{BankFlow, ChunkFlow, LANES, ModalState, chunks};
 use super::oscillator::{GAUSS_8, Oscillator};
@@ -12,7 +12,7 @@ use crate::lanes::{self, Kernel};
 const LARGEST_HALF_ANGLE: f64 = 1.6;
 const LARGEST_DECAY: f64 = 2.0;
 
-/// What flows over any time are made from.
+/// Constants from which flows over any time are computed.
 #[derive(Clone, Debug, Default)]
 pub struct PartFlows {
     oscillators: Vec<Oscillator>,
@@ -26,7 +26,7 @@ pub struct PartFlows {
     kappa: Vec<f64>,
     /// N, 1/s.
     turn: Vec<f64>,
-    /// Modes left to the oscillator.
+    /// Modes for which the single oscillator's formulas are used.
     odd: Vec<usize>,
     longest_s: f64,
 }
@@ -136,7 +136,7 @@ fn flow_over(of: Constants<'_>, h_s: f64) -> [[f64; LANES]; 8] {
     for l in 0..LANES {
         let (eta, n) = (eta[l], turn[l]);
         let less_1 = -2.0 * sine[l] * sine[l];
-        // C − 1 and S of the turning frame.
+        // C − 1 and S of the rotating frame.
         let c = decay[l].mul_add(1.0 + less_1, less_1);
         let s = (1.0 + decay[l]) * 2.0 * sine[l] * cosine[l] * inverse[l];
         let (pp, pv) = (eta.mul_add(s, c), s);
@@ -230,7 +230,7 @@ impl Kernel for Loss<'_> {
 mod tests {
     use super::*;
 
-    /// Sixteen modes: turning, overdamped, damped in space, resting.
+    /// Sixteen modes: rotating, overdamped, damped in space, resting.
     fn modes() -> Vec<Oscillator> {
         let mut modes: Vec<Oscillator> = (0..16)
             .map(|k| Oscillator {
@@ -258,7 +258,7 @@ mod tests {
             r_im: (0..16).map(|k| -3e4 * f64::from(k).cos()).collect(),
         };
         let (mut a, mut b) = (ModalState::at_rest(16), ModalState::at_rest(16));
-        // The last time is beyond what the columns are made for.
+        // The last time is beyond the range of the columns.
         for h in [1e-12, 3e-9, 1e-7, 2.5e-7, 1e-4] {
             flows.set(h, &mut columns);
             own.set(&modes, h);

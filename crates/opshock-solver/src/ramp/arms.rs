@@ -1,9 +1,9 @@
-//! Two flexible arms, each given by its own modes.
+//! Ramp model of two separate flexible arms, each given by its own modes.
 
 use super::mode::{ArmMode, ContactMode};
 use super::model::RampModel;
 
-/// Contact points on flexible arms that do not know of each other.
+/// Contact points on two separate flexible arms: a force on one does not move the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arms {
     /// Modes of the top arm.

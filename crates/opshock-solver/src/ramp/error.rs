@@ -1,6 +1,6 @@
-//! What is wrong with a ramp.
+//! Errors of a ramp's parameters.
 
-/// What is wrong with a ramp.
+/// Fault of a ramp.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RampError {
     /// The disk and an arm overlap before the shock.

@@ -1,8 +1,8 @@
-//! Load/unload ramp: models, each in a file of its own, and what disk and contact see of any of them.
+//! Models the load/unload ramp, each model in a file of its own, behind one interface for disk and contact.
 //!
-//! A ramp is not there ([`NoRamp`]), or it has two contact points, above and below the disk, that move as a sum of
-//! modes ([`RampBody`]). A [rigid ramp](RigidRamp) has no mode, of two [`Arms`] each mode moves one contact point, of
-//! [`OneBody`] it may move both. Anything else is one more implementation of [`RampModel`].
+//! Either there is no ramp ([`NoRamp`]), or it has two contact points, above and below the disk, that move as a sum of
+//! modes ([`RampBody`]). A [rigid ramp](RigidRamp) has no mode; each mode of two [`Arms`] moves one contact point; a
+//! mode of [`OneBody`] may move both. Any other ramp is one more implementation of [`RampModel`].
 
 mod arms;
 mod error;

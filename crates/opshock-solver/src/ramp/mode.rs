@@ -1,4 +1,4 @@
-//! Modes of ramps: of an arm, and of whatever holds the contact points.
+//! Modes of a ramp: of one arm, or of any body that carries the contact points.
 
 use super::error::{RampError, first_fault};
 
@@ -34,7 +34,7 @@ pub struct ContactMode {
     pub damping_ratio: f64,
 }
 
-/// One term of a modulus that relaxes, E(t) = E∞ + Σ Eᵢ e^{−t/τᵢ} (Prony series).
+/// One term of a relaxing modulus, E(t) = E∞ + Σ Eᵢ e^{−t/τᵢ} (Prony series).
 ///
 /// ```text
 /// m q'' + k₀ (q − Σ gᵢ zᵢ) = f,    τᵢ zᵢ' = q − zᵢ

@@ -1,9 +1,9 @@
-//! What a model of the ramp gives, and what everything else knows of it.
+//! Interface of ramp models, and the form in which disk, contact and prints use any of them.
 
 use super::error::{RampError, first_fault};
 use super::mode::{ArmMode, ContactMode, Relaxation};
 
-/// Name of the one model with contact points that no mode moves.
+/// Name of the model whose contact points no mode moves.
 pub(super) const RIGID: &str = "rigid";
 
 /// A model of the ramp: none, or two contact points that move as a sum of modes.
@@ -16,13 +16,13 @@ pub trait RampModel {
     /// Modes that move the contact points; none of a rigid ramp, `None` without a ramp.
     fn contacts(&self) -> Option<Vec<ContactMode>>;
 
-    /// How the stiffness of all these modes relaxes; none: they are elastic, with damping ratios.
+    /// How the stiffness of all these modes relaxes; empty: they are elastic, with damping ratios.
     fn relaxation(&self) -> Vec<Relaxation> {
         Vec::new()
     }
 }
 
-/// A ramp as disk, contact and prints know it, of whatever model.
+/// A ramp as disk, contact and prints use it, whatever its model.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RampBody {
     /// Name of the model.
@@ -60,14 +60,14 @@ impl RampBody {
         !self.modes().is_empty() && !self.relaxation.is_empty()
     }
 
-    /// Modes of the top and of the bottom arm where no mode moves both; `None` of one body.
+    /// Modes of the top and of the bottom arm where no mode moves both; `None` for one body.
     pub fn arms(&self) -> Option<[Vec<ArmMode>; 2]> {
         let moves_both = |mode: &ContactMode| mode.shape.iter().all(|shape| *shape != 0.0);
         let own = |arm| self.modes().iter().filter_map(move |m| m.at_contact(arm));
         (!self.modes().iter().any(moves_both)).then(|| [0, 1].map(|arm| own(arm).collect()))
     }
 
-    /// Whether turning the ramp over leaves it as it is.
+    /// Whether the ramp is its own mirror image.
     pub fn is_symmetric(&self) -> bool {
         match self.arms() {
             Some([top, bottom]) => top == bottom,

@@ -1,4 +1,4 @@
-//! No ramp.
+//! Ramp model without a ramp: the disk moves freely.
 
 use super::mode::ContactMode;
 use super::model::RampModel;

@@ -1,4 +1,4 @@
-//! A ramp of which both arms are one flexible body.
+//! Ramp model whose arms are one flexible body, so that a force on one arm moves the other as well.
 
 use super::mode::ContactMode;
 use super::model::RampModel;

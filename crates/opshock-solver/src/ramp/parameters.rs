@@ -1,9 +1,9 @@
-//! The ramp and where it stands.
+//! Input of the ramp as plain data: its model, place, clearances and contact law.
 
 use super::error::{RampError, first_fault};
 use super::model::RampBody;
 
-/// The ramp and where it stands.
+/// The ramp, its place and its contact with the disk.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RampParameters {
     /// The ramp itself, of any [`RampModel`](super::RampModel).
@@ -18,8 +18,8 @@ pub struct RampParameters {
     pub angle_rad: f64,
     /// Coefficient of restitution of an impact, 0 <= e <= 1 (Newton's law).
     pub restitution: f64,
-    /// Local stiffness between each arm and its contact point, N/m; `None`: hard. The spring has
-    /// hardly a mass, so restitution has no meaning beside it.
+    /// Local stiffness between each arm and its contact point, N/m; `None`: hard. The spring has hardly any mass, so
+    /// restitution has no effect beside it.
     pub contact_stiffness_n_per_m: Option<f64>,
     /// Natural frequency of that spring on its mass, Hz; usually [`CONTACT_FREQUENCY_HZ`].
     pub contact_frequency_hz: f64,
@@ -27,12 +27,12 @@ pub struct RampParameters {
     pub contact_damping_ratio: f64,
 }
 
-/// Frequency of a contact's spring on its mass, Hz: above what an impact carries to the slider. The
-/// mass must not vanish with the step, or the impulses of a lasting contact, one a step, would take
-/// the spring's energy at every step.
+/// Frequency of a contact's spring on its mass, Hz: above what an impact transmits to the slider. The mass must not
+/// vanish with the step, or the impulses of a lasting contact, one per step, would take the spring's energy at every
+/// step.
 pub const CONTACT_FREQUENCY_HZ: f64 = 4.0e5;
-/// Damping ratio of a contact's spring on its mass: ringing at that frequency is no physics. It is a
-/// loss factor of 6 % at 25 kHz, as polymers have it.
+/// Damping ratio of a contact's spring on its mass: ringing at that frequency is not physical. It corresponds to a loss
+/// factor of 6 % at 25 kHz, as polymers have it.
 pub const CONTACT_DAMPING_RATIO: f64 = 0.5;
 
 impl RampParameters {
@@ -41,7 +41,7 @@ impl RampParameters {
     /// # Errors
     /// The first fault found.
     pub fn validate(&self) -> Result<(), RampError> {
-        // Without a ramp its numbers mean nothing.
+        // Without a ramp its numbers have no meaning.
         if self.model.is_absent() {
             return Ok(());
         }

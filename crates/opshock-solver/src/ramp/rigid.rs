@@ -1,4 +1,4 @@
-//! A ramp that does not deform.
+//! Ramp model that does not deform.
 
 use super::mode::ContactMode;
 use super::model::{RIGID, RampModel};

@@ -1,4 +1,4 @@
-//! A ramp of a polymer: the stiffness of every mode relaxes with its material.
+//! Ramp model of a polymer: the stiffness of every mode relaxes with its material.
 //!
 //! ```text
 //! E(t) = E₀ (1 − Σ gᵢ (1 − e^{−t/τᵢ}))                                  Prony series
@@ -7,10 +7,10 @@
 //! ```
 //!
 //! The frequencies of the elastic ramp are taken as those of the instantaneous modulus E₀: modes measured or computed
-//! with a slower modulus are to be raised by √(E₀/Re E*) at that frequency. One series for all modes
-//! is exact for a body of one material whose Poisson's ratio does not relax; that of the mount, if it yields, then
-//! relaxes as well. Damping ratios of the modes count beside the series: 0 leaves all damping to it. Solved exactly, by
-//! damped modes ([`crate::modal::coupled`]), with contact, on a hub and on a base that vibrates.
+//! with a slower modulus are to be raised by √(E₀/Re E*) at that frequency. One series for all modes is exact for a
+//! body of one material whose Poisson's ratio does not relax; a mount that yields then relaxes as well. Damping ratios
+//! of the modes add to the series: 0 leaves all damping to it. Solved exactly, by damped modes
+//! ([`crate::modal::coupled`]), with contact, on a hub and on a base that vibrates.
 //!
 //! Source: Ferry, Viscoelastic Properties of Polymers (1980), ch. 1 and 3 (generalised Maxwell model).
 

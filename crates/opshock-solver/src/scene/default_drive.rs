@@ -1,10 +1,10 @@
-//! One plausible 2.5-inch drive.
+//! Default scene: one plausible 2.5-inch drive.
 //!
-//! Disk, place and clearance of the ramp are sample data of the CMLAir 8.01 user manual (Mardan and Bogy, 2011). Ramp arms,
-//! suspension and air-bearing surface are opshock's own designs. Studies have the same values as defaults.
+//! Disk, place and clearance of the ramp are sample data of the CMLAir 8.01 user manual (Mardan and Bogy, 2011). Ramp
+//! arms, suspension and air-bearing surface are opshock's own designs. Studies have the same values as defaults.
 
-use super::accuracy::{Rung, resolutions};
 use super::description::Scene;
+use super::preset::{Preset, resolutions};
 use crate::air_bearing::{FlowModel, GapForces};
 use crate::disk::{DiskDamping, DiskParameters};
 use crate::gas::{self, GasParameters};
@@ -18,8 +18,8 @@ use crate::suspension::{
 };
 
 impl Scene {
-    /// A 2.5-inch drive at 5400 rpm with deformable ramp arms 100 um above and below the disk, under a half-sine of 1 ms,
-    /// at the resolution for a critical shock within 1 %.
+    /// A 2.5-inch drive at 5400 rpm with deformable ramp arms 100 um above and below the disk, under a half-sine of 1
+    /// ms, at the resolution for a critical shock with an uncertainty of 1 %.
     ///
     /// ```
     /// use opshock_solver::scene::Scene;
@@ -30,7 +30,7 @@ impl Scene {
     /// assert_eq!(scene.ramp.clearance_bottom_m, 100e-6);
     /// ```
     pub fn default_drive() -> Self {
-        let resolutions = resolutions(Rung::OnePercent);
+        let resolutions = resolutions(Preset::Standard);
         Self {
             pulse: Pulse {
                 shape: PulseShape::HalfSine,
@@ -176,6 +176,7 @@ fn suspension() -> SuspensionParameters {
             vertical_n_per_m: 15.0,
             pitch_n_m_per_rad: 6e-5,
             roll_n_m_per_rad: 2.5e-5,
+            ..Gimbal::default()
         },
         dimple: ContactLaw {
             stiffness_n_per_m: 5e5,

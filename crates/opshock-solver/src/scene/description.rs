@@ -1,6 +1,6 @@
-//! Everything one simulation needs but the amplitude.
+//! Describes one simulation, all but its amplitude, as plain data, and builds the film from it.
 
-use super::knob::Knob;
+use super::discretisation::Discretisation;
 use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
@@ -16,15 +16,15 @@ use crate::suspension::SuspensionParameters;
 pub struct Scene {
     /// Unit pulse.
     pub pulse: Pulse,
-    /// What else shakes the base in step with it; `None`: a straight shock.
+    /// Further loads of an oblique shock, in proportion to the pulse; `None`: an axial shock.
     pub oblique: Option<ObliqueShock>,
-    /// Modes of base plate and housing; none: the base is rigid.
+    /// Modes of base plate and housing; empty: a rigid base.
     pub base: Vec<BaseMode>,
     /// Simulated time after the onset.
     pub window: Window,
     /// Disk.
     pub disk: DiskParameters,
-    /// Waves of the disk's surface that turn with it under the slider; none: a plane disk.
+    /// Waves of the disk's surface that rotate with it under the slider; empty: a plane disk.
     pub run_out: Vec<Wave>,
     /// Ramp.
     pub ramp: RampParameters,
@@ -48,9 +48,9 @@ pub struct Scene {
     pub film_resolution: FilmResolution,
     /// Resolution of the head.
     pub head_resolution: HeadResolution,
-    /// Discretisation parameters that are values of the model, as the highest frequency of a finite-element disk: no
-    /// refinement changes them.
-    pub not_refined: Vec<Knob>,
+    /// Discretisation parameters whose values belong to the model, as the highest frequency of a finite-element disk:
+    /// they are not refined.
+    pub not_refined: Vec<Discretisation>,
 }
 
 impl Scene {
@@ -82,7 +82,7 @@ impl Scene {
         Ok(self.with_gap_forces(film))
     }
 
-    /// The same scene on a film of about so many cells.
+    /// The same scene on a film of about `cells` cells.
     #[must_use]
     pub fn with_film_cells(&self, cells: usize) -> Scene {
         let mut scene = self.clone();
@@ -101,7 +101,7 @@ impl Scene {
             &self.gas,
             self.flow,
             self.disk.spin_rad_per_s,
-            self.film_resolution.floor_m,
+            self.film_resolution.min_height_m,
             lines_m,
         )?;
         Ok(self.with_gap_forces(film))

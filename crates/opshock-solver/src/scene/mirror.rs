@@ -1,8 +1,8 @@
-//! A scene upside down: how a head under its disk sees the drive.
+//! Mirrors a scene about the disk's middle plane, so that a head under the disk is simulated as one over it.
 //!
-//! A head over its disk faces down, one under it faces up. Physics knows no handedness: the mirror z → −z
-//! about the disk's middle plane makes of the one drive the other, and a head under the disk is simulated as one
-//! over the disk of the mirrored drive, shaken with the other sign of the amplitude:
+//! A head over its disk faces down, one under it faces up. Mechanics is the same in a mirror: z → −z about the disk's
+//! middle plane turns one drive into the other. A head under the disk is simulated as one over the disk of the mirrored
+//! drive, with the amplitude of opposite sign:
 //!
 //! ```text
 //! drive, head under the disk, amplitude A   =   mirrored drive, head over the disk, amplitude −A
@@ -11,7 +11,7 @@
 //! | quantity | mirrored |
 //! |---|---|
 //! | displacements and loads along z; tilts; the amplitude | change sign |
-//! | angles, radii, skew, spin: vectors within the plane and turns about z | stay |
+//! | angles, radii, skew, spin: vectors within the plane and rotations about z | stay |
 //! | what the ramp does above and below the disk | changes places |
 //! | height of the rotor's centre of mass over the centre of tilt | changes sign |
 //! | in-plane load per axial load | changes sign: only the axial load does |
@@ -19,8 +19,8 @@
 //! | shape of a disk that runs out | changes sign: half a turn of its phase |
 //! | slider, suspension, gas and forces in the film, seen from the disk | stay |
 //!
-//! Modes of base and ramp keep shape and participation: displacement and load change sign together, and so does
-//! the mode's coordinate. Weight is in no scene; a slider's is a few thousandths of its gram load.
+//! Modes of base and ramp keep shape and participation: displacement and load change sign together, and so does the
+//! mode's coordinate. A scene does not include weight; a slider's is a few thousandths of its gram load.
 
 use std::f64::consts::PI;
 
@@ -34,7 +34,7 @@ impl Scene {
     /// run-out.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        // Every part is named, so that a new one does not compile until it has its place here.
+        // Every field is named: a new one does not compile until its mirrored value is given here.
         let Self {
             pulse,
             oblique,
@@ -97,7 +97,7 @@ fn mirrored_disk(disk: &DiskParameters) -> DiskParameters {
 }
 
 fn mirrored_wave(wave: &Wave) -> Wave {
-    // Either way it turns by half; phases stay small.
+    // Half a turn either way; phases stay small.
     let half = if wave.phase_rad > 0.0 { -PI } else { PI };
     Wave {
         phase_rad: wave.phase_rad + half,

@@ -1,12 +1,12 @@
 //! A scene: everything one simulation needs, in SI, as plain data.
 
-pub mod accuracy;
 mod default_drive;
 mod description;
-pub mod knob;
+pub mod discretisation;
 mod mirror;
 mod output;
 pub mod plan;
+pub mod preset;
 mod refine;
 
 pub use crate::head::{Coupling, HeadResolution};

@@ -1,6 +1,6 @@
-//! What can be asked of a simulation, and how much of a drive each answer takes.
+//! Lists the outputs that a simulation can give, and the part of the drive that each of them needs.
 
-/// What can be asked of a simulation.
+/// An output of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Output {
     /// Amplitude at which the head-disk interface fails.
@@ -25,7 +25,7 @@ pub enum Output {
     RampDisplacement,
     /// Force and impulse between disk and ramp.
     ContactForce,
-    /// Pressure and height of the film at [asked times](super::plan::Plan::with_field_times).
+    /// Pressure and height of the film at [requested times](super::plan::Plan::with_field_times).
     PressureField,
 }
 
@@ -71,7 +71,7 @@ impl Output {
             .find(|output| output.as_str() == word)
     }
 
-    /// What it takes beyond disk and ramp.
+    /// The part of the drive that it needs.
     pub const fn needs(self) -> Needs {
         match self {
             Output::CriticalShock
@@ -96,12 +96,12 @@ impl std::fmt::Display for Output {
     }
 }
 
-/// How much of the drive is built; each holds the ones before it.
+/// How much of the drive is built; each includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Needs {
     /// Disk and ramp.
     Structure,
-    /// Also the film and its steady flight.
+    /// Also the film and the slider's steady flight.
     Flight,
     /// Also slider, suspension and the film in time.
     Head,

@@ -1,37 +1,37 @@
-//! Which effects a question needs: outputs and scene to a plan, each decision with its rule.
+//! Decides which effects of a scene are built and simulated for the requested outputs, each by a rule.
 //!
 //! ```text
 //! outputs, mode -> Plan::new -> Model::assemble(scene, plan) -> simulate
 //! ```
 //!
-//! A plan is decided before anything is built; what it leaves out is not built, and no time loop
-//! asks for it. The rules:
+//! A plan is decided before anything is built. What it leaves out is not built, and no time loop tests for it. The
+//! rules:
 //!
 //! | rule | what | condition |
 //! |---|---|---|
 //! | R1 | disk and ramp without film, slider and suspension | only outputs of disk and ramp |
-//! | R2 | harmonics n ≥ 1 asleep; without a ramp not built | axial shock, axisymmetric disk: only n = 0 is driven |
-//! | R3 | harmonics n ≥ 1 wake at the first touch, at rest | as R2 |
+//! | R2 | harmonics n ≥ 1 inactive; without a ramp not built | axial shock, axisymmetric disk: only n = 0 is driven |
+//! | R3 | harmonics n ≥ 1 are activated at the first touch, at rest | as R2 |
 //! | R4 | no ramp contact is run | closing of disk against the freely shaking ramp < clearance |
 //! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
 //! | R6 | the head ends at touch | a verdict is wanted |
-//! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only, the sign of a contact costs little beside the head |
-//! | R8 | pressure fields only at asked times, in recorded runs | `pressure_field` asked for, its times |
+//! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only: a contact's sign costs little |
+//! | R8 | pressure fields only at requested times, in recorded runs | `pressure_field` requested, its times |
 //! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
-//! [`Mode::Full`] applies R8 and R10 alone. Its head goes on behind a touch (R6), with the film at its floored
-//! height; verdict, smallest clearance and forces are told up to the touch in both modes.
+//! [`Mode::Full`] applies R8 and R10 alone. Its head continues after a touch (R6), with the film at its minimum height;
+//! verdict, smallest clearance and forces are reported up to the touch in both modes.
 //!
-//! R1 rests on the film's force on the disk being neglected beside the disk's inertia. An oblique shock on
-//! a hub drives n = 1 from the onset: R2 and R3 then speak of n ≥ 2.
+//! R1 holds because the film's force on the disk is neglected compared with the disk's inertia. An oblique shock on a
+//! hub drives n = 1 from the onset: R2 and R3 then apply to n ≥ 2.
 
 use super::description::Scene;
 pub use super::output::{Needs, Output};
 use crate::disk::Harmonics;
 use crate::mutant;
 use crate::quantity::STANDARD_GRAVITY_M_PER_S2;
-use crate::structure::Wake;
+use crate::structure::Activation;
 
 /// Whether effects that cannot change an output are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub enum Mode {
     /// Only what the outputs need.
     #[default]
     Auto,
-    /// Everything the scene has, marched from the onset to the end of the window, nothing shared.
+    /// Full model: everything in the scene, integrated from the onset to the end of the window, nothing shared.
     Full,
 }
 
@@ -53,7 +53,7 @@ impl Mode {
     }
 }
 
-/// What is built and run for some outputs.
+/// What is built and run for the requested outputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Mode.
@@ -62,15 +62,14 @@ pub struct Plan {
     pub outputs: Vec<Output>,
     /// How much of the drive is built.
     pub needs: Needs,
-    /// When the contact-driven state starts to be marched.
-    pub wake: Wake,
-    /// Whether structure, film and steady flight of another model may be taken over, and a model
-    /// kept for further shocks.
+    /// When integration of the contact-driven state starts.
+    pub activation: Activation,
+    /// Whether structure, film and steady flight of another model may be used, and a model kept for further shocks.
     pub shares_parts: bool,
     /// Whether the head's run ends at its first touch, which decides the verdict; the structure
     /// always runs the whole window.
     pub stops_at_touch: bool,
-    /// Times after the onset at which recorded runs keep pressure fields, s; none unless asked.
+    /// Times after the onset at which recorded runs keep pressure fields, s; empty unless requested.
     pub field_times_s: Vec<f64>,
 }
 
@@ -92,20 +91,20 @@ pub struct Decision {
 /// Whether an effect is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// Built and marched.
+    /// Built and integrated.
     On,
     /// Built, at rest until the first touch.
-    Asleep,
+    Inactive,
     /// Not built.
     Off,
 }
 
 impl State {
-    /// `on`, `asleep` or `off`.
+    /// `on`, `inactive` or `off`.
     pub const fn as_str(self) -> &'static str {
         match self {
             State::On => "on",
-            State::Asleep => "asleep",
+            State::Inactive => "inactive",
             State::Off => "off",
         }
     }
@@ -118,7 +117,7 @@ pub struct Effect {
     pub name: &'static str,
     /// State.
     pub state: State,
-    /// Rule that put it to sleep or left it out; `None` when it is on or the scene has none.
+    /// Rule that made it inactive or left it out; `None` when it is on or the scene has none.
     pub rule: Option<&'static str>,
 }
 
@@ -145,7 +144,7 @@ impl Plan {
                 mode,
                 outputs: outputs.to_vec(),
                 needs: asked.unwrap_or(Needs::Structure),
-                wake: Wake::AtTouch,
+                activation: Activation::AtTouch,
                 shares_parts: true,
                 stops_at_touch: true,
                 field_times_s: Vec::new(),
@@ -154,7 +153,7 @@ impl Plan {
                 mode,
                 outputs: outputs.to_vec(),
                 needs: Needs::Head,
-                wake: Wake::AtOnset,
+                activation: Activation::AtOnset,
                 shares_parts: false,
                 stops_at_touch: false,
                 field_times_s: Vec::new(),
@@ -177,8 +176,8 @@ impl Plan {
         }
     }
 
-    /// The plan whose head goes on after its first touch to the end of the window, whatever the mode:
-    /// histories have the motion there. All else but the cost stays that up to the touch.
+    /// The plan whose head continues after its first touch to the end of the window, whatever the mode, so that
+    /// histories have the motion there. All else but the cost is that up to the touch.
     #[must_use]
     pub fn past_touch(self) -> Self {
         Self {
@@ -202,12 +201,12 @@ impl Plan {
         }
     }
 
-    /// Harmonics of the disk that are built: without a ramp nothing can wake n >= 1.
+    /// Harmonics of the disk that are built: without a ramp nothing can activate n >= 1.
     pub fn harmonics(&self, scene: &Scene) -> Harmonics {
-        match (self.wake, scene.ramp.model.is_absent()) {
-            (Wake::AtTouch, true) if scene.oblique.is_some() => Harmonics::Tilting,
-            (Wake::AtTouch, true) => Harmonics::Symmetric,
-            (Wake::AtTouch, _) if mutant::is_on("R2 no ramp") => Harmonics::Symmetric,
+        match (self.activation, scene.ramp.model.is_absent()) {
+            (Activation::AtTouch, true) if scene.oblique.is_some() => Harmonics::Tilting,
+            (Activation::AtTouch, true) => Harmonics::Symmetric,
+            (Activation::AtTouch, _) if mutant::is_on("R2 no ramp") => Harmonics::Symmetric,
             _ => Harmonics::All,
         }
     }
@@ -216,9 +215,9 @@ impl Plan {
     pub fn effects(&self, scene: &Scene, touch: &Touch) -> Vec<Effect> {
         let effect = |name, state, rule| Effect { name, state, rule };
         let on = |name| effect(name, State::On, None);
-        let sleeps = |name, rule| match self.wake {
-            Wake::AtOnset => on(name),
-            Wake::AtTouch => effect(name, State::Asleep, Some(rule)),
+        let sleeps = |name, rule| match self.activation {
+            Activation::AtOnset => on(name),
+            Activation::AtTouch => effect(name, State::Inactive, Some(rule)),
         };
         let needs = |name, least| {
             if self.needs >= least {
@@ -246,9 +245,9 @@ impl Plan {
                 Harmonics::Symmetric => effect("disk.travelling_waves", State::Off, Some("R2")),
                 Harmonics::All => sleeps("disk.travelling_waves", "R2"),
             },
-            match (scene.ramp.model.is_absent(), self.wake) {
+            match (scene.ramp.model.is_absent(), self.activation) {
                 (true, _) => effect("ramp.contact", State::Off, None),
-                (_, Wake::AtTouch) if touch.stays_clear() == Some(true) => {
+                (_, Activation::AtTouch) if touch.stays_clear() == Some(true) => {
                     effect("ramp.contact", State::Off, Some("R4"))
                 }
                 _ => sleeps("ramp.contact", "R3"),
@@ -283,9 +282,9 @@ impl Plan {
         list
     }
 
-    /// Rules that a run of `scene` applied, in order; `touched` tells whether disk and ramp met.
+    /// Rules that a run of `scene` applied, in order; `touched` says whether disk and ramp met.
     pub fn applied(&self, scene: &Scene, touched: bool) -> Vec<&'static str> {
-        // Any amplitude beside a touch below or above it says what the run found.
+        // A touching amplitude below or above any amplitude expresses what the run found.
         let touch = Touch {
             amplitude_m_per_s2: Some(1.0),
             threshold_m_per_s2: [touched.then_some(0.0); 2],
@@ -326,8 +325,8 @@ impl Plan {
             ),
             decision(
                 "R2",
-                "harmonics n >= 1 of the disk asleep, and not built, until the first touch",
-                self.wake == Wake::AtTouch,
+                "harmonics n >= 1 of the disk inactive, and not built, until the first touch",
+                self.activation == Activation::AtTouch,
                 "axial shock, axisymmetric disk, no tilt: only n = 0 is driven; run-out turns with the disk and drives no mode",
                 match scene.oblique {
                     None if !scene.run_out.is_empty() => {
@@ -335,14 +334,14 @@ impl Plan {
                     }
                     None => "participation of n >= 1 is 0".to_owned(),
                     Some(_) => {
-                        "the shock drives n = 1, which is awake; that of n >= 2 is 0".to_owned()
+                        "the shock drives n = 1, which is active; that of n >= 2 is 0".to_owned()
                     }
                 },
             ),
             decision(
                 "R3",
-                "harmonics n >= 1 wake at the first touch, at rest",
-                self.wake == Wake::AtTouch && has_ramp,
+                "harmonics n >= 1 are activated at the first touch, at rest",
+                self.activation == Activation::AtTouch && has_ramp,
                 "as R2, and a ramp to touch",
                 if has_ramp {
                     "state at the first touch is 0".to_owned()
@@ -386,7 +385,7 @@ impl Plan {
                 "R8",
                 "pressure fields are kept only at asked times",
                 true,
-                "times at which pressure_field is asked for, in recorded runs; also in full",
+                "times at which pressure_field is asked for, in recorded runs; also in the full model",
                 match self.field_times_s.len() {
                     0 => "none asked".to_owned(),
                     n => format!("{n} times asked"),
@@ -439,7 +438,7 @@ impl Touch {
     }
 }
 
-/// Whether turning the drive over leaves disk and ramp as they are.
+/// Whether disk and ramp are their own mirror image.
 pub fn is_mirrored(scene: &Scene) -> bool {
     let ramp = &scene.ramp;
     let is_alike = ramp.model.is_symmetric() && ramp.clearance_top_m == ramp.clearance_bottom_m;

@@ -1,17 +1,17 @@
-//! The same scene on other steps, another coupling, contact method or window, or with its discretisation parameters
-//! refined or coarsened: what retries, checks and refinement studies run.
+//! Changes steps, coupling, contact method or window of a scene, or refines and coarsens its discretisation parameters:
+//! for retries, checks and refinement studies.
 
 use super::description::Scene;
-use super::knob::{Knob, Levels};
+use super::discretisation::{Discretisation, Levels};
 use crate::disk::MOST_ELEMENTS;
 use crate::head::Coupling;
 use crate::structure::{ContactMethod, Window};
 use crate::suspension::ReducedSuspension;
 
 impl Scene {
-    /// Every time step divided by `divisor` (> 1): the structure's grid directly, the head through
-    /// its tolerance (local error of a second-order step, so its cube) and its approach bound. The
-    /// coupling tolerance goes along: left behind, its error would be taken for that of the step.
+    /// Every time step divided by `divisor` (> 1): the structure's grid directly, the head through its tolerance (local
+    /// error of a second-order step, so its cube) and its approach bound. The coupling tolerance is reduced as well:
+    /// otherwise its error would be taken for that of the step.
     #[must_use]
     pub fn with_finer_steps(&self, divisor: f64) -> Scene {
         let mut finer = self.clone();
@@ -62,50 +62,58 @@ impl Scene {
         longer
     }
 
-    /// The discretisation parameters whose refinement can change this scene's answer: without a ramp nothing excites what
-    /// the disk's modes and the structure's step resolve, and a value of the model is not refined.
-    pub fn knobs(&self) -> Vec<Knob> {
+    /// The discretisation parameters whose refinement can change this scene's results. Without a ramp nothing excites
+    /// what the disk's modes and the structure's step resolve, and a value of the model is not refined.
+    pub fn discretisations(&self) -> Vec<Discretisation> {
         let has_ramp = !self.ramp.model.is_absent();
-        Knob::ALL
+        Discretisation::ALL
             .into_iter()
-            .filter(|knob| has_ramp || !matches!(knob, Knob::DiskModes | Knob::StructureStep))
-            .filter(|knob| !self.not_refined.contains(knob))
+            .filter(|discretisation| {
+                has_ramp
+                    || !matches!(
+                        discretisation,
+                        Discretisation::DiskModes | Discretisation::StructureStep
+                    )
+            })
+            .filter(|discretisation| !self.not_refined.contains(discretisation))
             .collect()
     }
 
-    /// The same scene with its knobs turned, but for values of the model; see the table of [`super::knob`].
+    /// The same scene at other refinement levels, without its values of the model; see [`super::discretisation`].
     #[must_use]
     pub fn at_levels(&self, mut levels: Levels) -> Scene {
         let mut scene = self.clone();
-        for knob in &self.not_refined {
-            levels.0[knob.place()] = 0;
+        for discretisation in &self.not_refined {
+            levels.0[discretisation.place()] = 0;
         }
-        let power = |base: f64, knob: Knob| base.powi(i32::from(levels.of(knob)));
+        let power = |base: f64, discretisation: Discretisation| {
+            base.powi(i32::from(levels.of(discretisation)))
+        };
         let scaled = |count: usize, factor: f64, least: usize| {
             ((count as f64 * factor).round() as usize).max(least)
         };
-        let film = power(2.0, Knob::FilmGrid);
+        let film = power(2.0, Discretisation::FilmGrid);
         scene.film_resolution.cells = scaled(self.film_resolution.cells, film, 16);
-        let disk = power(2.0, Knob::DiskModes);
+        let disk = power(2.0, Discretisation::DiskModes);
         scene.disk_resolution.cut_hz *= disk;
         // Frequencies of a plate grow with the square of its wave numbers.
         let waves = disk.sqrt();
         scene.disk_resolution.n_harmonics = scaled(self.disk_resolution.n_harmonics, waves, 1);
-        // Beyond what a disk may have none is added; one that has too many by itself stays so, and is told.
+        // No elements are added beyond the largest number for a disk; a scene with more keeps them, which is reported.
         let elements = self.disk_resolution.n_elements;
         let most = elements.max(MOST_ELEMENTS);
         scene.disk_resolution.n_elements = scaled(elements, waves, 2).min(most);
-        if levels.of(Knob::SuspensionModes) != 0 {
-            let modes = power(2.0, Knob::SuspensionModes);
+        if levels.of(Discretisation::SuspensionModes) != 0 {
+            let modes = power(2.0, Discretisation::SuspensionModes);
             let wanted = scaled(self.head_resolution.suspension_modes, modes, 1);
-            // A beam has no more; with all of them nothing is cut.
+            // A beam has no more modes; with all of them nothing is cut off.
             let most = ReducedSuspension::most_bending_modes(&self.suspension);
             scene.head_resolution.suspension_modes = wanted.min(most.unwrap_or(wanted));
         }
-        scene.structure_resolution.step_s /= power(2.0, Knob::StructureStep);
-        scene.head_resolution.tolerance /= power(8.0, Knob::HeadTolerance);
-        scene.head_resolution.approach_share /= power(2.0, Knob::HeadTolerance);
-        scene.head_resolution.coupling_tolerance /= power(8.0, Knob::CouplingTolerance);
+        scene.structure_resolution.step_s /= power(2.0, Discretisation::StructureStep);
+        scene.head_resolution.tolerance /= power(8.0, Discretisation::HeadTolerance);
+        scene.head_resolution.approach_share /= power(2.0, Discretisation::HeadTolerance);
+        scene.head_resolution.coupling_tolerance /= power(8.0, Discretisation::CouplingTolerance);
         scene
     }
 }

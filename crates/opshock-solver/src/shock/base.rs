@@ -1,23 +1,22 @@
-//! Modes of base plate and housing under the shock, and the load that they pass on to the actuator's pivot.
+//! Modes of base plate and housing under the shock, and the load that they transmit to the actuator's pivot.
 //!
-//! A base moves with disk, hub and arms as one system ([`crate::structure`]). Of its motion under the unit pulse
-//! the suspension is told here, as the load b(t) = a(t) − ü at its pivot: in the damped modes of that system,
-//! η̇ = λ η + w a and u = Re Σ s η, u measured from the base as it would move rigidly. On a stretch with
-//! a = c₀ + c₁ τ + Re(C e^{στ})
+//! A base moves with disk, hub and arms as one system ([`crate::structure`]). Its motion under the unit pulse enters
+//! the suspension as the load b(t) = a(t) − ü at its pivot. In the damped modes of that system, η̇ = λ η + w a and u =
+//! Re Σ s η, with u measured from the rigidly moving base. In an interval with a = c₀ + c₁ τ + Re(C e^{στ})
 //!
 //! ```text
 //! η = −w (c₀ + c₁ τ + c₁/λ)/λ + w/2 [C e^{στ}/(σ − λ) + C̄ e^{σ̄τ}/(σ̄ − λ)] + B e^{λτ}
 //! ```
 //!
-//! with B from η at the stretch's start; after the pulse the base rings on, with c₀ = c₁ = C = 0. A mode at the
-//! pulse's own rate would make both terms infinite; its rate is then moved by 1e-6 of itself.
+//! with B from η at the interval's start; after the pulse the base rings freely, with c₀ = c₁ = C = 0. A mode at the
+//! pulse's own rate would make both terms infinite; its rate is then shifted by a relative 1e-6.
 
 use nalgebra::Complex;
 
 use super::pulse::Stretch;
 use crate::modal::{CoupledState, Phase, PointReadout, Readout};
 
-/// Relative distance of a mode's rate from the pulse's below which the mode is moved.
+/// Relative distance of a mode's rate from the pulse's below which the mode is shifted.
 const CLOSEST: f64 = 1e-6;
 
 /// A mode of base plate and housing, of unit modal mass.
@@ -67,13 +66,13 @@ struct Swing {
     rate_per_s: Complex<f64>,
     /// w.
     entrance: Complex<f64>,
-    /// What reads u, s, and u̇.
+    /// Weight s of η in u, and in u̇.
     shape: Complex<f64>,
     velocity: Complex<f64>,
 }
 
 impl Swing {
-    /// η that the pulse alone asks for, `tau_s` into a stretch.
+    /// Forced part of η by the pulse alone, `tau_s` into an interval.
     fn forced(&self, stretch: &Stretch, tau_s: f64) -> Complex<f64> {
         let (
             Phase {
@@ -95,7 +94,7 @@ impl Swing {
     }
 }
 
-/// The pulse from one kink to the next, and what rings freely meanwhile.
+/// The pulse from one kink to the next, and the free ringing meanwhile.
 #[derive(Clone, Debug)]
 struct Segment {
     stretch: Stretch,
@@ -104,8 +103,8 @@ struct Segment {
 }
 
 impl BaseMotion {
-    /// Motion that `pivot` reads off modes of `rates_per_s`, at rest at the onset, which the stretches of a pulse
-    /// drive by `entrance`.
+    /// Motion of `pivot` by modes of `rates_per_s`, at rest at the onset, which the intervals of a pulse drive by
+    /// `entrance`.
     pub fn new(
         rates_per_s: &[Complex<f64>],
         entrance: &CoupledState,
@@ -158,7 +157,7 @@ impl BaseMotion {
         Self { modes, segments }
     }
 
-    /// Displacement of the pivot over the rigid base per unit amplitude, s², and its rate.
+    /// Displacement of the pivot relative to the rigid base per unit amplitude, s², and its rate.
     pub fn displacement(&self, time_s: f64) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (mode, eta) in self.states(time_s) {
@@ -168,7 +167,7 @@ impl BaseMotion {
         sum
     }
 
-    /// b where the pulse is `value` at `time_s`: at a jump of the pulse of either side.
+    /// b where the pulse is `value` at `time_s`: at a jump of the pulse, on either side.
     pub fn load(&self, time_s: f64, value: f64) -> f64 {
         let accelerations = self.states(time_s).map(|(mode, eta)| {
             let rate = mode.rate_per_s * eta + mode.entrance * value;

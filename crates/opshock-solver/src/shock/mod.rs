@@ -1,4 +1,4 @@
-//! How the base is shaken: pulses along the axis and what goes in step with them, modes of the base.
+//! Shock excitation of the base: pulses along the axis with motions in proportion to them, and modes of the base.
 
 mod base;
 mod pulse;

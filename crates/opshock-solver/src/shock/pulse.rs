@@ -1,12 +1,12 @@
 //! Base-acceleration pulses: shape, width, events, closed-form modal forcing.
 //!
-//! Every shape is a row of stretches on which
+//! Every shape is a sequence of intervals, in each of which
 //!
 //! ```text
-//! s(t) = c₀ + c₁ τ + Re(C e^{στ}),   τ = t − start of the stretch
+//! s(t) = c₀ + c₁ τ + Re(C e^{στ}),   τ = t − start of the interval
 //! ```
 //!
-//! so that the response of a linear mode is a closed form on each ([`crate::modal::forcing`]).
+//! so that the response of a linear mode has a closed form in each ([`crate::modal::forcing`]).
 //!
 //! | shape        | σ              | C    | c₀, c₁              |
 //! |--------------|----------------|------|---------------------|
@@ -60,7 +60,7 @@ pub struct Pulse {
     pub width_s: f64,
 }
 
-/// A stretch of a pulse with one closed form.
+/// An interval of a pulse with one closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Start, s after the onset.
@@ -73,10 +73,10 @@ pub struct Stretch {
     pub phase: Phase,
 }
 
-/// What else shakes the base while the pulse shakes it along the axis: everything in step with a(t).
+/// Further excitation of the base in proportion to a(t), while the pulse shakes it along the axis.
 ///
-/// Axes stand in the drive: x at angle 0 of the disk, y a quarter turn on in the sense of growing
-/// angle. Signs are those of a(t), the load felt in the base.
+/// Axes are fixed in the drive: x at angle 0 of the disk, y a quarter turn on in the sense of growing angle. Signs are
+/// those of a(t), the load felt in the base.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct ObliqueShock {
     /// In-plane loads per mass along x and y per unit a(t).
@@ -100,7 +100,7 @@ impl ObliqueShock {
     }
 }
 
-/// What is wrong with a pulse.
+/// Errors of a pulse's description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PulseError {
     /// The width is not a positive number.
@@ -127,7 +127,7 @@ pub enum PulseError {
 }
 
 impl Pulse {
-    /// Stretches in order, from 0 to the width.
+    /// Intervals in order, from 0 to the width.
     ///
     /// # Errors
     /// A width or parameter out of range, a table that does not rise from 0 to the width.

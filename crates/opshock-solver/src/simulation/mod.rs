@@ -1,17 +1,17 @@
-//! One simulation: structure, then head; criterion, outcome, histories, energy book.
+//! Simulates one shock: first disk and ramp (structure), then slider, suspension and film (head).
 //!
 //! ```text
 //! scene, plan -> Model::assemble -> simulate(amplitude) -> structure run -> head run -> Outcome
 //! ```
 //!
-//! The film's force on the disk is neglected beside the disk's inertia (the paper's section 3), so
-//! the structure runs first, by itself, over the whole window; its history then drives the head, up to
-//! its first touch or, when the plan says so, to the end of the window too.
+//! The film's force on the disk is neglected compared with the disk's inertia (the paper's section 3). The structure
+//! therefore runs first, by itself, over the whole window. Its history then drives the head up to the first touch or,
+//! when the plan says so, to the end of the window.
 
 mod critical;
-pub mod held;
 mod model;
 mod outcome;
+pub mod quasi_static;
 mod run;
 
 pub use crate::head::HeadState;

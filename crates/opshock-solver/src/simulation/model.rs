@@ -1,11 +1,11 @@
-//! The immutable model of one scene, and the parts that scenes share.
+//! Builds the immutable model of one scene, and shares parts between models.
 
 use std::sync::Arc;
 
 use thiserror::Error;
 
 use crate::air_bearing::steady::{Flight, SteadyError, fly};
-use crate::air_bearing::{Film, FilmError, ReferenceForces};
+use crate::air_bearing::{CorrectionForces, Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
 use crate::scene::Scene;
@@ -29,7 +29,7 @@ pub enum BuildError {
     Head(#[from] HeadError),
 }
 
-/// Which half of the drive a question needs: short for the plan of one output.
+/// Whether a question needs disk and ramp alone or the head as well: short for the plan of one output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// Disk and ramp alone: displacements and contact forces.
@@ -56,21 +56,21 @@ pub struct Bearing {
     pub film: Arc<Film>,
     /// Steady flying state under the gram load.
     pub flight: Arc<Flight>,
-    /// What corrects the film's grid; `None` where it is taken as it is.
-    pub reference: Option<Arc<ReferenceForces>>,
+    /// Defect correction of the film; `None` without one.
+    pub reference: Option<Arc<CorrectionForces>>,
 }
 
 impl Bearing {
-    /// Builds the film of `scene` and finds its steady flying state. The forces that correct its grid are those
-    /// of `known`, a bearing for which [`Bearing::has_reference`] holds, or sampled.
+    /// Builds the film of `scene` and finds its steady flying state. Its defect correction is that of `known`, a
+    /// bearing for which [`Bearing::has_reference`] holds, or is sampled.
     ///
     /// # Errors
     /// [`BuildError::Film`], [`BuildError::Steady`].
     pub fn build(scene: &Scene, known: Option<&Self>) -> Result<Self, BuildError> {
         let reference = match known.and_then(|known| known.reference.clone()) {
-            _ if scene.film_resolution.reference_cells == 0 => None,
+            _ if scene.film_resolution.correction_cells == 0 => None,
             Some(known) => Some(known),
-            None => Some(Arc::new(reference_forces(scene)?)),
+            None => Some(Arc::new(correction_forces(scene)?)),
         };
         let plain = scene.film()?;
         let film = match &reference {
@@ -91,11 +91,11 @@ impl Bearing {
         Self::has_reference(a, b) && all_agree([("R9 film cells", cells)])
     }
 
-    /// Whether the same forces correct the grids of two scenes, be they of as many cells or not.
+    /// Whether the same defect correction holds for two scenes, whatever their numbers of cells.
     pub fn has_reference(a: &Scene, b: &Scene) -> bool {
         let [one, other] = [a, b].map(|scene| {
             let film = &scene.film_resolution;
-            (film.floor_m, film.reference_cells)
+            (film.min_height_m, film.correction_cells)
         });
         all_agree([
             ("R9 slider", a.slider == b.slider),
@@ -120,7 +120,7 @@ pub struct Model {
     pub(super) head: Option<HeadModel>,
     bearing: Option<Bearing>,
     plan: Plan,
-    /// Tells whether scratch was made for this model; clones are the same model.
+    /// Identifies the model that scratch was made for; clones are the same model.
     pub(super) identity: Arc<()>,
 }
 
@@ -133,37 +133,44 @@ impl Model {
         Self::build(scene, Scope::Full, None)
     }
 
-    /// Builds what `scope` needs of `scene`; see [`Model::assemble`].
+    /// Builds the part `scope` of `scene`; see [`Model::assemble`].
     ///
     /// # Errors
     /// [`BuildError`] names the part and the quantity.
-    pub fn build(scene: &Scene, scope: Scope, donor: Option<&Model>) -> Result<Self, BuildError> {
-        Self::assemble(scene, &scope.plan(), donor)
+    pub fn build(
+        scene: &Scene,
+        scope: Scope,
+        shared_model: Option<&Model>,
+    ) -> Result<Self, BuildError> {
+        Self::assemble(scene, &scope.plan(), shared_model)
     }
 
-    /// Builds what `plan` asks of `scene`, and reads nothing else of it.
+    /// Builds what `plan` needs of `scene`, and reads nothing else of it.
     ///
-    /// Models of other scenes give the structure, or film and steady flight, when they would be
-    /// the same and the plan shares them: the first of `donors` that has the part. Building is
-    /// deterministic, so the numbers do not depend on it.
+    /// The structure, or film and steady flight, are taken from a model of another scene when they would be the same
+    /// and the plan shares them: the first of `shared_models` that has the part. Building is deterministic, so the
+    /// numbers do not depend on it.
     ///
     /// # Errors
     /// [`BuildError`] names the part and the quantity.
     pub fn assemble<'a>(
         scene: &Scene,
         plan: &Plan,
-        donors: impl IntoIterator<Item = &'a Model>,
+        shared_models: impl IntoIterator<Item = &'a Model>,
     ) -> Result<Self, BuildError> {
-        let donors: Vec<&Model> = match plan.shares_parts {
-            true => donors.into_iter().collect(),
+        let shared_models: Vec<&Model> = match plan.shares_parts {
+            true => shared_models.into_iter().collect(),
             false => Vec::new(),
         };
-        let structure = match donors.iter().find(|other| other.has_structure(scene, plan)) {
+        let structure = match shared_models
+            .iter()
+            .find(|other| other.has_structure(scene, plan))
+        {
             Some(other) => other.structure.clone(),
             None => build_structure(scene, plan)?,
         };
         let bearing = match plan.needs >= Needs::Flight {
-            true => Some(bearing(scene, &donors)?),
+            true => Some(bearing(scene, &shared_models)?),
             false => None,
         };
         let head = match &bearing {
@@ -213,7 +220,7 @@ impl Model {
             ("R9 window", own.window == scene.window),
             ("R9 structure steps", steps),
             ("R9 slider's place", place),
-        ]) && self.plan.wake == plan.wake
+        ]) && self.plan.activation == plan.activation
             && self.plan.needs == plan.needs
     }
 
@@ -274,7 +281,7 @@ fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, Structu
         resolution: &scene.structure_resolution,
     };
     let structure = StructureModel::build(&parameters, plan.harmonics(scene))?;
-    let structure = structure.with_wake(plan.wake);
+    let structure = structure.with_activation(plan.activation);
     Ok(match plan.needs {
         Needs::Head => structure,
         Needs::Structure | Needs::Flight => structure.without_motion(),
@@ -289,31 +296,31 @@ fn slider_place(scene: &Scene) -> SliderPlace {
     }
 }
 
-/// Share of the load that a film carries under which it is sampled where it does not carry that of the scene.
+/// Share of the load a film can carry at which it is sampled if it cannot carry that of the scene.
 const OF_CARRIED: f64 = 0.95;
 
-/// Forces by which every grid of the film of `scene` is corrected.
-fn reference_forces(scene: &Scene) -> Result<ReferenceForces, BuildError> {
+/// Defect correction of every grid of the film of `scene`.
+fn correction_forces(scene: &Scene) -> Result<CorrectionForces, BuildError> {
     let film = scene
-        .with_film_cells(scene.film_resolution.reference_cells)
+        .with_film_cells(scene.film_resolution.correction_cells)
         .film()?;
     let finer = scene.film_cut_in_two(&film)?;
     let fly_under = |load_n| fly(&film, [load_n, 0.0, 0.0]);
     let flight = match fly_under(scene.suspension.gram_load_n) {
-        // Whether the slider flies is for the corrected film to say; about its last flight it is told what to correct.
+        // The corrected film decides whether the slider flies; its correction is sampled near the last equilibrium.
         Err(SteadyError::CannotFly { carried_n, .. }) => fly_under(OF_CARRIED * carried_n)?,
         flight => flight?,
     };
-    Ok(ReferenceForces::sample(&film, &finer, &flight)?)
+    Ok(CorrectionForces::sample(&film, &finer, &flight)?)
 }
 
-/// Film and steady flight of `scene`: a donor's when they are the same.
-fn bearing(scene: &Scene, donors: &[&Model]) -> Result<Bearing, BuildError> {
-    let shared = donors
+/// Film and steady flight of `scene`: those of a shared model when they are the same.
+fn bearing(scene: &Scene, shared_models: &[&Model]) -> Result<Bearing, BuildError> {
+    let shared = shared_models
         .iter()
         .filter(|other| Bearing::is_shared(scene, &other.scene))
         .find_map(|other| other.bearing.clone());
-    let known = donors
+    let known = shared_models
         .iter()
         .filter(|other| Bearing::has_reference(scene, &other.scene))
         .find_map(|other| other.bearing.as_ref());

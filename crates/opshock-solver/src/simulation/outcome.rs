@@ -1,12 +1,12 @@
-//! What one simulation answers. Times are seconds after the onset of the pulse.
+//! Outcome of one simulation: verdict, clearance, records, cost. Times are seconds after the pulse's onset.
 
 use crate::air_bearing::Attitude;
 pub use crate::head::{
     Cause, DimpleRecord, HeadColumns, Place, PressureFields, StopRecord, Verdict,
 };
 pub use crate::structure::{
-    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord,
-    MomentumBook, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBalance, Episode, HubRecord,
+    MomentumBalance, StructureColumns,
 };
 
 /// Steady flying state before the shock.
@@ -20,7 +20,7 @@ pub struct SteadyState {
     pub roll_rad: f64,
 }
 
-/// What the run cost, and signs of trouble. Wall time is measured by the caller.
+/// Cost and numerical quality of a run. The caller measures wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
     /// Accepted head steps.
@@ -43,11 +43,11 @@ pub struct Cost {
     pub mass_balance_error: f64,
 }
 
-/// Everything one simulation answers.
+/// Outcome of one simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Verdict on what was simulated; [`Outcome::answer`] asks for that on the interface.
-    pub verdict: Verdict,
+    /// Whether slider and disk touched; `None` when the head was not simulated and disk and ramp ran to the end.
+    pub verdict: Option<Verdict>,
     /// Smallest clearance, m, up to the first touch, where it is the limit; `None` when the head was
     /// not simulated.
     pub min_clearance_m: Option<f64>,
@@ -69,8 +69,8 @@ pub struct Outcome {
     pub limiters: Option<StopRecord>,
     /// Lift tab.
     pub lift_tab: Option<StopRecord>,
-    /// Energy book of the structure.
-    pub energy: EnergyBook,
+    /// Energy balance of the structure.
+    pub energy: EnergyBalance,
     /// Complementarity numbers.
     pub complementarity: Complementarity,
     /// Hub, of a disk on a bearing.
@@ -81,23 +81,12 @@ pub struct Outcome {
     pub effects: Vec<&'static str>,
     /// Rules of [`crate::scene::plan`] that were applied.
     pub rules: Vec<&'static str>,
-    /// Things a user should know, as stable codes with a sentence.
+    /// Warnings, as stable codes with a sentence.
     pub warnings: Vec<Warning>,
     /// Cost.
     pub cost: Cost,
-    /// Histories, when asked for.
+    /// Histories, when requested.
     pub history: Option<History>,
-}
-
-impl Outcome {
-    /// The verdict; `None` when the head was not simulated and disk and ramp ran to the end.
-    pub fn answer(&self) -> Option<&Verdict> {
-        let is_without_head = self.min_clearance_m.is_none();
-        match &self.verdict {
-            Verdict::Survives if is_without_head => None,
-            verdict => Some(verdict),
-        }
-    }
 }
 
 /// A warning of one run.

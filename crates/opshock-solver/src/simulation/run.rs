@@ -1,24 +1,24 @@
-//! The life of one simulation.
+//! Runs one shock through a model: structure, head, verdict, warnings.
 
 use std::sync::Arc;
 
 use super::model::Model;
 use super::outcome::{
-    Cause, Cost, DiskExtremes, EnergyBook, History, Outcome, SteadyState, Verdict, Warning,
+    Cause, Cost, DiskExtremes, EnergyBalance, History, Outcome, SteadyState, Verdict, Warning,
 };
 use crate::head::{HeadRun, HeadState, HeadWorkspace, ShockLoad, Stretch};
 use crate::structure::{self, StructureError, StructureRun, StructureWarning};
 
-/// What is asked of one simulation.
+/// Request of one simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// Signed amplitude A, m/s2: the inertia load per mass at the pulse's peak.
     pub amplitude_m_per_s2: f64,
-    /// Histories are kept.
+    /// Whether histories are kept.
     pub record: bool,
 }
 
-/// Scratch of one thread for one model; other models make it anew.
+/// Scratch of one thread for one model; made anew for another model.
 #[derive(Default)]
 pub struct Workspace {
     structure: structure::Workspace,
@@ -28,7 +28,7 @@ pub struct Workspace {
 /// Runs one shock through `model`.
 ///
 /// Never fails: what prevents an answer is [`Verdict::Undecided`] with its cause. A model without
-/// a head has no clearance, and its verdict only says that the structure ran to the end.
+/// a head has neither clearance nor verdict.
 pub fn simulate(model: &Model, request: &Request, workspace: &mut Workspace) -> Outcome {
     let structure = run_structure(model, request, workspace);
     simulate_head(model, request, structure.as_ref(), workspace)
@@ -51,7 +51,7 @@ pub fn run_structure(
     )
 }
 
-/// The other half: the head under a structural run of the same request.
+/// The head's part of [`simulate`], under a structural run of the same request.
 pub fn simulate_head(
     model: &Model,
     request: &Request,
@@ -61,18 +61,18 @@ pub fn simulate_head(
     simulate_head_on(model, request, structure, Going::default(), workspace).0
 }
 
-/// How a head's run is cut in two, so that one of a longer window goes on where one of a shorter ended.
+/// Splits a head's run in two, so that one over a longer window continues where one over a shorter window ended.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Going<'a> {
     /// End of the shorter window, s: the head begins anew from its state there.
     pub restart_s: Option<f64>,
-    /// State there of a run of the same shock; without it the run begins at the onset, with the same answer.
+    /// State there of a run of the same shock; without it the run begins at the onset, with the same result.
     pub from: Option<&'a HeadState>,
-    /// The state at the end is told, where the head has not touched.
+    /// Whether the state at the end is returned, where the head has not touched.
     pub keeps_end: bool,
 }
 
-/// [`simulate_head`], going on from an earlier run or to be gone on with.
+/// [`simulate_head`], continued from an earlier run or to be continued.
 pub fn simulate_head_on(
     model: &Model,
     request: &Request,
@@ -93,7 +93,7 @@ pub fn simulate_head_on(
         let load = ShockLoad {
             pulse: &model.scene.pulse,
             base: model.structure.base_motion(),
-            // A turning base shakes the suspension by another axial load than the spindle.
+            // On a turning base the suspension's axial load differs from the spindle's.
             amplitude_m_per_s2: match &model.scene.oblique {
                 Some(shock) => {
                     let slider = &model.scene.slider;
@@ -164,9 +164,7 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
         fields: head.as_ref().and_then(|h| h.fields.clone()),
     });
     Outcome {
-        verdict: head
-            .as_ref()
-            .map_or(Verdict::Survives, |h| h.verdict.clone()),
+        verdict: head.as_ref().map(|h| h.verdict.clone()),
         min_clearance_m: head.as_ref().map(|h| h.min_clearance_m),
         t_min_clearance_s: head.as_ref().map(|h| h.t_min_clearance_s),
         lowest: head.as_ref().map(|h| h.lowest),
@@ -195,12 +193,12 @@ fn without_structure(error: &StructureError) -> Outcome {
         _ => 0.0,
     };
     Outcome {
-        verdict: Verdict::Undecided {
+        verdict: Some(Verdict::Undecided {
             cause: Cause::NotFinite {
                 time_s,
                 quantity: "structural motion",
             },
-        },
+        }),
         min_clearance_m: None,
         t_min_clearance_s: None,
         lowest: None,
@@ -211,7 +209,7 @@ fn without_structure(error: &StructureError) -> Outcome {
         dimple: None,
         limiters: None,
         lift_tab: None,
-        energy: EnergyBook::default(),
+        energy: EnergyBalance::default(),
         complementarity: Default::default(),
         hub: None,
         base: None,

@@ -1,11 +1,11 @@
-//! Smallest clearance over the true surface.
+//! Smallest clearance between the slider's true surface and the disk.
 //!
 //! On a region of one recess the height is a quadratic in (x, y), so over that region it is
 //! smallest on the boundary or, where the surface bulges towards the disk, at its one stationary
-//! point. The visible boundaries (outlines of rails where no later rail covers both sides alike,
-//! the slider's own outline, the end of the taper) are cut into straight pieces once; on a piece
-//! the height is a parabola whose minimum has a closed form. A call then costs a few operations
-//! per piece, most of them for eight pieces at once, and allocates nothing.
+//! point. The visible boundaries (outlines of rails where no later rail covers both sides alike, the slider's own
+//! outline, the end of the taper) are cut into straight pieces once. On a piece the height is a parabola whose minimum
+//! has a closed form. A call then costs a few operations per piece, most of them for eight pieces at once, and
+//! allocates nothing.
 
 use super::pieces::{Eight, Lowest, Piece};
 use super::surface::Surface;
@@ -309,7 +309,7 @@ mod tests {
                 let spacing = 0.5e-6 * (pitch.abs() + roll.abs() + 2e-3);
                 assert!(found.value_m <= sampled + 1e-18, "{found:?} {sampled:e}");
                 assert!(found.value_m > sampled - spacing, "{found:?} {sampled:e}");
-                // The named place has that height, approached from the lower side of its edge.
+                // The returned place has that height, approached from the lower side of its edge.
                 let near = [-1e-12, 0.0, 1e-12]
                     .into_iter()
                     .flat_map(|dx| {
@@ -327,7 +327,7 @@ mod tests {
         }
     }
 
-    /// Eight at a time gives the bits of one after the other.
+    /// Evaluation in groups of eight gives the same bits as one after the other.
     #[test]
     fn eights_are_read_as_pieces_one_by_one() {
         for (crown, camber, twist) in [(15e-9, 2e-9, 0.0), (0.0, 0.0, 0.0), (-20e-9, 4e-9, 3e-9)] {

@@ -1,7 +1,7 @@
-//! Straight pieces of a surface's visible boundaries, and the lowest point of them all.
+//! Straight pieces of the visible boundaries of the slider's surface, and their lowest point over the disk.
 //!
-//! Over the disk a piece is a parabola, h(s) = h₀ + g s + c s² for 0 ≤ s ≤ 1. Its ends less a quarter of c bound it
-//! from below, which is found for eight pieces at once; few of them are looked at closer.
+//! Over the disk a piece is a parabola, h(s) = h₀ + g s + c s² for 0 ≤ s ≤ 1. Its lower end less a quarter of c is a
+//! lower bound, computed for eight pieces at once; few pieces need the exact minimum.
 
 use crate::lanes::{Kernel, SUMS};
 
@@ -18,7 +18,7 @@ pub(super) struct Piece {
     pub curvature_m: f64,
 }
 
-/// Eight pieces in columns; what is not there is infinitely high.
+/// Eight pieces in columns; unused entries are infinitely high.
 #[derive(Clone, Debug)]
 pub(super) struct Eight {
     /// Start over the surface's middle, x and y, m.
@@ -61,7 +61,7 @@ pub(super) struct LowestPoint {
     pub at: f64,
 }
 
-/// Looks for it; of points as low as each other the first counts.
+/// Finds the lowest point; among equals, the first.
 pub(super) struct Lowest<'a> {
     pub eights: &'a [Eight],
     pub pieces: &'a [Piece],
@@ -92,7 +92,7 @@ impl Kernel for Lowest<'_> {
                     + self.roll_rad * y[k];
                 slope[k] = eight.slope_m[k] - self.pitch_rad * dx[k] + self.roll_rad * dy[k];
                 end[k] = start[k] + slope[k] + curvature;
-                // A parabola sags below its ends by at most a quarter of its curvature.
+                // A parabola lies below its ends by at most a quarter of its curvature.
                 bound[k] = start[k].min(end[k]) - 0.25 * curvature.max(0.0);
                 let above = bound[k] > best.value_m;
                 lower |= !above;

@@ -1,4 +1,4 @@
-//! Shape of the air-bearing surface: recess field and slowly varying form.
+//! Shape of the slider's air-bearing surface: recess field and slowly varying form.
 //!
 //! ```text
 //! h(x, y) = h_c − θ (x − x_c) + φ (y − y_c) + recess(x, y) + form(x, y)
@@ -57,8 +57,8 @@ impl RailOutline {
     }
 }
 
-/// Whether the side from `a` to `b` has a point in a closed axis-parallel rectangle: all of it must not
-/// lie beyond one of the rectangle's lines, nor all of the rectangle on one side of its own.
+/// Whether the side from `a` to `b` has a point in a closed axis-parallel rectangle: neither may the side lie beyond
+/// one of the rectangle's lines, nor the rectangle on one side of the side's own line.
 fn side_meets(a: [f64; 2], b: [f64; 2], rectangle: [[f64; 2]; 2]) -> bool {
     let is_beyond = |d: usize| {
         let [low, high] = rectangle[d];
@@ -238,9 +238,8 @@ impl Surface {
         [tidy(x, self.length_m), tidy(y, self.width_m)]
     }
 
-    /// Ranges of x, and of y, that the rails' slanted sides run through and in which a cell's size
-    /// says how well their steps are followed: those with at least half of the side's normal along
-    /// the direction, m.
+    /// Ranges of x, and of y, with a slanted side of a rail where the cell size determines how well its steps are
+    /// resolved: sides with at least half of the normal along the direction, m.
     pub(crate) fn slanted_ranges_m(&self) -> [Vec<[f64; 2]>; 2] {
         let mut ranges = [Vec::new(), Vec::new()];
         for rail in &self.rails {
@@ -274,11 +273,11 @@ fn tidy(mut values: Vec<f64>, length: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Wherever a rectangle counts as not cut, all points of a fine raster in it agree; and cells cut by
-    /// a side are found, also where no corner lies in either of the two.
+    /// Where a rectangle is reported as not cut, all points of a fine raster in it agree. Cells cut by a side are
+    /// found, also where neither contains a corner of the other.
     #[test]
     fn a_rectangle_that_no_side_cuts_has_one_recess() {
-        // Multiples of a logarithm's digits, far apart: no two sequences of seven alike.
+        // Multiples of a logarithm's digits, far apart, so that no two sequences of seven are alike.
         let mut count = 0.0;
         let mut next = || {
             count += 1.0;

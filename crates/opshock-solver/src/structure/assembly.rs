@@ -1,4 +1,4 @@
-//! How a structural model is put together.
+//! Assembles the structural model of one scene: the modes of disk, ramp and base, the time grid and the unit response.
 
 use super::bank::{Arm, Bank, Spring};
 use super::driven::Driven;
@@ -8,7 +8,7 @@ use super::model::StructureModel;
 use super::outcome::StructureWarning;
 use super::parameters::{ContactMethod, SliderPlace, StructureParameters};
 use super::rotor::{Rotor, is_carried};
-use super::shared::{Asleep, Shared};
+use super::shared::{Inactive, Shared};
 use super::time_grid::{check_times, count_steps};
 use crate::complementarity::ImpactLaw;
 use crate::disk::{
@@ -21,19 +21,18 @@ use std::sync::LazyLock;
 /// A gap below this is closed, m. Displacements of 0.1 mm carry rounding of 1e-20 m; nothing of
 /// interest is smaller than 1e-12 m.
 const GAP_TOLERANCE_M: f64 = 1e-13;
-/// Bounces located in one step before contact is taken as sustained.
+/// Impacts located in one step before the contact is taken as sustained.
 const MAX_IMPACTS_PER_STEP: u32 = 8;
-/// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse
-/// cannot be aimed (see [`crate::complementarity`]). A static correction faster than that is slowed at
-/// constant compliance: it stands for stiffness, and would divide the step three to five times.
+/// Largest ω Δt of a disk mode; a longer step is divided into equal parts. Beyond π an impulse cannot be aimed (see
+/// [`crate::complementarity`]). A static correction that is faster is slowed at constant compliance: it represents
+/// stiffness alone, and would divide the step by three to five.
 const FASTEST_DISK_ANGLE: f64 = 3.0;
-/// Most modes of a base.
+/// Largest number of modes of a base.
 const MOST_BASE_MODES: usize = 16;
 impl StructureModel {
-    /// Builds the modes of n = 0 and the unit response. What only contact drives, the harmonics n >= 1 and
-    /// the tables of one step, is built by the first run that touches (see [`Self::wake_up`]).
-    ///
-    /// Without a ramp nothing ever drives them: [`Harmonics::Symmetric`] then gives the same motion.
+    /// Builds the modes of n = 0 and the unit response. The first run that touches builds what contact alone drives
+    /// (see [`Self::activate`]): the harmonics n >= 1 and the tables of one step. Without a ramp nothing ever drives
+    /// them: [`Harmonics::Symmetric`] then gives the same motion.
     ///
     /// # Errors
     /// A parameter out of range, a place off the disk, an overlap before the shock, a failed
@@ -63,8 +62,8 @@ impl StructureModel {
         let radii = [ramp.radius_m, slider.radius_m, disk.outer_radius_m];
         let modes = DiskModes::new(disk, disk_resolution, &radii, Some(0))?;
         let is_on_hub = disk.hub.is_some();
-        // A hub carries n = 1, and waves that grow in air held in space are told before any touch.
-        // So does the rotor that carries arms which relax.
+        // Three models hold n >= 1 from the start: a hub moves with n = 1, waves that grow under damping fixed in space
+        // are reported before any touch, and arms whose stiffness relaxes are modes of the rotor.
         let has_rotor = is_on_hub || !base.is_empty() || ramp.model.relaxes();
         let is_at_once = has_rotor || disk.space_fixed_damping_per_s > 0.0;
         let first = match is_at_once {
@@ -79,7 +78,7 @@ impl StructureModel {
         let has_harmonics = basis.modes.iter().any(|mode| mode.nodal_diameters > 0);
         let mut carried = Vec::new();
         if is_on_hub || !base.is_empty() {
-            // The rotor carries them with hub and base.
+            // The rotor holds the modes that move with hub and base.
             let all = std::mem::take(&mut basis.modes);
             let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
             (carried, basis.modes) = all.into_iter().partition(on_it);
@@ -123,7 +122,7 @@ impl StructureModel {
         let slope_to_pose = bank.slope_to_pose;
         let forced = std::mem::take(&mut bank.forced);
         let shapes = std::mem::take(&mut bank.shapes);
-        let asleep: Box<dyn FnOnce() -> Asleep + Send> = if is_at_once {
+        let inactive: Box<dyn FnOnce() -> Inactive + Send> = if is_at_once {
             let mut driven = Driven::new(bank, arms, &basis, rotor.as_ref(), step_s);
             warnings.append(&mut driven.warnings);
             Box::new(|| Ok(driven))
@@ -154,12 +153,12 @@ impl StructureModel {
             n_arm_modes,
             slope_to_pose,
             warnings,
-            asleep: LazyLock::new(asleep),
+            inactive: LazyLock::new(inactive),
         }))
     }
 }
 
-/// What disk and arms are put together for.
+/// What the bank of disk and arms is assembled from.
 struct Assembly {
     disk: DiskParameters,
     ramp: RampParameters,
@@ -178,7 +177,7 @@ impl Assembly {
         let spring = Spring::of(ramp, self.method, self.step_s);
         let arms = bank.add_ramp(&ramp.model, spring, self.step_s);
         if let Some(shock) = &self.oblique {
-            // A turning base shakes the ramp by another axial load than the spindle.
+            // On a turning base the ramp's axial load differs from the spindle's.
             bank.scale_arms(shock.axial_at(ramp.radius_m, ramp.angle_rad));
         }
         bank.pad();
@@ -204,8 +203,8 @@ fn check_base(base: &[BaseMode], oblique: Option<&ObliqueShock>) -> Result<(), S
     }
 }
 
-/// The step divided for the modes below the cut and, should it be lower, the slowest of n = 0, which
-/// every basis holds. So all ramps share one grid.
+/// The step, divided for the modes below the cut or, where it is faster, for the fastest mode of n = 0, which every
+/// basis holds. All ramps therefore share one time grid.
 fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -> f64 {
     let symmetric = basis.modes.iter().filter(|mode| mode.nodal_diameters == 0);
     let fastest = symmetric
@@ -216,7 +215,7 @@ fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -
     step_s / n_parts
 }
 
-/// Slows static corrections too fast for the step; φ/ω and so the compliance stay.
+/// Slows static corrections that are too fast for the step; φ/ω, and with it the compliance, stays the same.
 fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
     let limit = FASTEST_DISK_ANGLE / step_s;
     for mode in &mut basis.modes {

@@ -1,4 +1,4 @@
-//! Disk and arms put together as one bank of oscillators.
+//! Collects the modes of disk, ramp arms and contact springs into one bank of oscillators, stored as columns.
 
 use super::forced_modes::{ForcedModes, ForcedShapes};
 use super::parameters::{ContactMethod, SliderPlace};
@@ -9,10 +9,10 @@ use crate::modal::{Oscillator, Readout};
 use crate::ramp::{ContactMode, RampBody, RampParameters};
 use std::ops::Range;
 
-/// Largest ω Δt of an arm mode: exact flow and quadrature resolve it with all digits.
+/// Largest ω Δt of an arm mode: exact flow and quadrature then keep all digits.
 const FASTEST_ARM_ANGLE: f64 = 1.5;
 
-/// The spring of a contact: one more mode of its arm.
+/// The spring of a contact, which is one more mode of its arm.
 #[derive(Clone, Copy)]
 pub(super) struct Spring {
     frequency_hz: f64,
@@ -21,9 +21,9 @@ pub(super) struct Spring {
 }
 
 impl Spring {
-    /// The spring of `ramp` if it has one. The exact flow carries a force as impulses, one a step, at
-    /// which the spring is shorter than in the mean by 1 − [`Oscillator::train_share`]; its mass makes
-    /// up for that, so that a lasting contact has the stiffness given at its nodes.
+    /// The spring of `ramp` if it has one. The exact flow applies a force as impulses, one per step. At those instants
+    /// the spring is shorter than on average by a share 1 − [`Oscillator::train_share`]; its mass is chosen to
+    /// compensate for that, so that a lasting contact has the given stiffness at the nodes of the time grid.
     pub fn of(ramp: &RampParameters, method: ContactMethod, step_s: f64) -> Option<Self> {
         let stiffness_n_per_m = ramp.contact_stiffness_n_per_m?;
         let (frequency_hz, damping_ratio) = (ramp.contact_frequency_hz, ramp.contact_damping_ratio);
@@ -53,7 +53,7 @@ impl Spring {
     }
 }
 
-/// Fastest mode of an arm that steps resolve, Hz.
+/// Frequency of the fastest arm mode that the steps resolve, Hz.
 fn fastest_arm_hz(step_s: f64) -> f64 {
     FASTEST_ARM_ANGLE / (std::f64::consts::TAU * step_s)
 }
@@ -65,7 +65,7 @@ pub(super) struct Arm {
     pub modes: Range<usize>,
 }
 
-/// Columns over all oscillators while they are put together.
+/// Columns over all oscillators while they are collected.
 pub(super) struct Bank {
     pub oscillators: Vec<Oscillator>,
     pub n_disk: usize,
@@ -81,8 +81,8 @@ pub(super) struct Bank {
     pub rim: Vec<f64>,
     pub slider: [Readout; 3],
     pub slope_to_pose: [f64; 2],
-    /// Modes of arms that a vibrating base shakes or whose stiffness relaxes, left to the rotor; `None` on a rigid
-    /// base under elastic arms.
+    /// Modes of arms that the rotor carries because a vibrating base shakes them or their stiffness relaxes; `None` for
+    /// elastic arms on a rigid base.
     pub riding: Option<Vec<RidingMode>>,
 }
 
@@ -123,7 +123,7 @@ impl Bank {
             let n = mode.nodal_diameters as f64;
             let fixed = disk.space_fixed_damping_per_s;
             let gamma = mode.damping_ratio * mode.omega_rad_per_s;
-            // Without turning both dampings are one.
+            // Without rotation both dampings are the same.
             let (gamma, fixed) = if mode.nodal_diameters == 0 {
                 (gamma + 0.5 * fixed, 0.0)
             } else {
@@ -159,7 +159,7 @@ impl Bank {
                 readout.re[i] = re;
                 readout.im[i] = im;
             }
-            // The static correction acts on the contact force only.
+            // Only the contact force drives the static correction.
             if mode.nodal_diameters == 0 && mode.nodal_circles.is_some() {
                 bank.forced.oscillators.push(bank.oscillators[i]);
                 bank.forced.participation.push(mode.participation);
@@ -173,8 +173,8 @@ impl Bank {
         bank
     }
 
-    /// Appends the modes of a ramp and the springs of its contacts: of separate arms each arm's modes and its
-    /// spring, of one body all modes and both springs.
+    /// Appends the modes of a ramp and the springs of its contacts. Separate arms: the modes of each arm, then its
+    /// spring. One body: all modes, then both springs.
     pub fn add_ramp(&mut self, ramp: &RampBody, spring: Option<Spring>, step_s: f64) -> [Arm; 2] {
         let springs =
             [[1.0, 0.0], [0.0, 1.0]].map(|contact| spring.map(|spring| spring.at_contact(contact)));
@@ -190,9 +190,9 @@ impl Bank {
         })
     }
 
-    /// Appends `modes` and `springs` behind them. A mode too fast for the step is slowed to
-    /// [`FASTEST_ARM_ANGLE`] per step by giving it mass: φ/ω and p/ω, its stiffness and its load, and so all
-    /// slow motion stay as they are.
+    /// Appends `modes` and `springs` behind them. A mode too fast for the step is slowed to [`FASTEST_ARM_ANGLE`] per
+    /// step by adding mass. φ/ω and p/ω, that is its stiffness and its load, stay the same, and so does all slow
+    /// motion.
     fn add_modes(
         &mut self,
         modes: &[ContactMode],
@@ -231,7 +231,7 @@ impl Bank {
         Arm { modes: start..end }
     }
 
-    /// Leaves a mode of an arm to the rotor, when there is a base that shakes it or its stiffness relaxes.
+    /// Passes a mode of an arm to the rotor if a base shakes it or its stiffness relaxes.
     fn is_riding(
         &mut self,
         o: &Oscillator,
@@ -253,14 +253,14 @@ impl Bank {
         }
     }
 
-    /// Scales the base's load on the arms, which come behind the disk in the forced columns.
+    /// Scales the base's load on the arms, whose modes follow the disk's in the forced columns.
     pub fn scale_arms(&mut self, factor: f64) {
         for (index, gain) in self.forced_index.iter().zip(&mut self.forced.participation) {
             if *index >= self.n_disk {
                 *gain *= factor;
             }
         }
-        // No oblique shock has a base: what rides here relaxes.
+        // An oblique shock excludes a base, so the modes passed to the rotor are those that relax.
         for mode in self.riding.iter_mut().flatten() {
             mode.participation_sqrt_kg *= factor;
         }
@@ -285,7 +285,7 @@ impl Bank {
         };
         let disk = sum(&self.contact, &self.contact);
         let [top, bottom] = [0, 1].map(|i| sum(&self.arm_shape[i], &self.arm_shape[i]));
-        // One body: a push on one arm moves the other.
+        // One body: a force on one arm moves the other.
         let across = sum(&self.arm_shape[0], &self.arm_shape[1]);
         [
             [disk + top, -disk - across],

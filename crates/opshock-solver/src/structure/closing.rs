@@ -1,45 +1,45 @@
-//! How a run ends, whatever carried it: energy book, contacts, history, columns.
+//! Ends a structural run for either contact method: energy balance, contact records, history and recorded columns.
 
 use super::contact_log::ContactLog;
 use super::driven::Driven;
-use super::energy::{Energies, Ledger};
+use super::energy::{Energies, Registry};
 use super::error::StructureError;
 use super::history::StructuralHistory;
 use super::outcome::StructureRun;
 use super::record::{
-    BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, MomentumBook,
+    BaseRecord, Complementarity, DiskExtremes, EnergyBalance, HubRecord, MomentumBalance,
     StructureColumns,
 };
 use super::rotor::Body;
 use super::sample::BodySample;
 use super::shared::Shared;
 
-/// What a method of contact leaves behind.
+/// What a contact method hands over at the end of a run.
 pub(super) struct Closing<'a> {
     pub shared: &'a Shared,
-    /// What contact drove, where it had woken.
+    /// The contact-driven modes, where contact activated them.
     pub driven: Option<&'a Driven>,
     /// Last node reached.
     pub k: usize,
     /// First node whose motion is not a finite number.
     pub not_finite: Option<usize>,
-    /// Energies at the last node, and what was exchanged until then.
+    /// Energies at the last node, and the energy exchanged until then.
     pub energies: Energies,
-    pub ledger: Ledger,
+    pub registry: Registry,
     pub extremes: DiskExtremes,
     pub complementarity: Complementarity,
-    /// Hub and base, where the disk stands on one.
-    pub bodies: Option<BodyBook>,
+    /// Hub and base, if the model has them.
+    pub bodies: Option<BodyBalance>,
     pub logs: &'a [ContactLog; 2],
     pub history: StructuralHistory,
     pub columns: Option<StructureColumns>,
 }
 
-/// Hub and base along a run.
+/// Momentum and extremes of hub and base along a run.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct BodyBook {
+pub(super) struct BodyBalance {
     pub amplitude: f64,
-    /// Now.
+    /// State at the node reached.
     pub now: BodySample,
     /// Impulse of the ramp on the disk so far, N s.
     pub contact_n_s: f64,
@@ -49,8 +49,8 @@ pub(super) struct BodyBook {
     momentum_max_n_s: [f64; 2],
 }
 
-impl BodyBook {
-    /// A book of one amplitude.
+impl BodyBalance {
+    /// An empty balance of a run of one amplitude.
     pub fn of(amplitude: f64) -> Self {
         Self {
             amplitude,
@@ -65,7 +65,7 @@ impl BodyBook {
         }
     }
 
-    /// Books hub and base at a node.
+    /// Includes the state of hub and base at a node.
     pub fn include(&mut self, now: BodySample) {
         self.now = now;
         self.axial_max_m = self.axial_max_m.max(now.axial_m.abs());
@@ -79,14 +79,14 @@ impl BodyBook {
         }
     }
 
-    /// The momentum book of body `i`.
-    fn momentum(&self, i: usize, body: &Body, shared: &Shared, end_s: f64) -> MomentumBook {
+    /// The momentum balance of body `i`.
+    fn momentum(&self, i: usize, body: &Body, shared: &Shared, end_s: f64) -> MomentumBalance {
         let shock_n_s = self.amplitude * body.load_kg * shared.free.pulse.integral_s(end_s);
         let contact_n_s = self.contact_n_s * body.contact_share;
         let (support_n_s, end_n_s) = (self.now.support_n_s[i], self.now.momentum_n_s[i]);
         let left = (end_n_s - (shock_n_s + support_n_s + contact_n_s)).abs();
         let largest = self.momentum_max_n_s[i];
-        MomentumBook {
+        MomentumBalance {
             shock_n_s,
             support_n_s,
             contact_n_s,
@@ -118,14 +118,14 @@ impl BodyBook {
 }
 
 impl Closing<'_> {
-    /// Closes the books; the warnings are those of the model and of deep contacts.
+    /// Closes the balances; the warnings are those of the model and of deep penetrations.
     ///
     /// # Errors
     /// [`StructureError::NotFinite`].
     pub fn run(self) -> Result<StructureRun, StructureError> {
         let step_s = self.shared.free.step_s;
         let end_s = self.k as f64 * step_s;
-        let energy = book(&self.energies, &self.ledger);
+        let energy = balance(&self.energies, &self.registry);
         let numbers = [
             energy.h_end_j,
             energy.shock_work_j,
@@ -149,7 +149,9 @@ impl Closing<'_> {
         history.events_s.extend(kinks);
         history.events_s.sort_by(f64::total_cmp);
         history.events_s.dedup();
-        let records = self.bodies.map(|book| book.records(self.shared, end_s));
+        let records = self
+            .bodies
+            .map(|balance| balance.records(self.shared, end_s));
         let (hub, base) = records.unwrap_or_default();
         let columns = self.columns.map(|mut columns| {
             let n = columns.time_s.len();
@@ -179,22 +181,22 @@ impl Closing<'_> {
     }
 }
 
-/// H at the end against what went in and out.
-fn book(energies: &Energies, ledger: &Ledger) -> EnergyBook {
+/// H at the end compared with the energy supplied and taken.
+fn balance(energies: &Energies, registry: &Registry) -> EnergyBalance {
     let h_end = energies.fixed_frame;
-    let peak = ledger.peak_fixed_frame;
-    let (work, damping) = (ledger.work.value(), ledger.damping.value());
-    let exchanged = work - damping - ledger.impact + ledger.algorithmic;
-    EnergyBook {
+    let peak = registry.peak_fixed_frame;
+    let (work, damping) = (registry.work.value(), registry.damping.value());
+    let exchanged = work - damping - registry.impact + registry.algorithmic;
+    EnergyBalance {
         kinetic_j: energies.kinetic,
         elastic_j: energies.elastic,
         h_end_j: h_end,
         h_peak_j: peak,
         shock_work_j: work,
         damping_loss_j: damping,
-        impact_loss_j: ledger.impact,
-        algorithmic_j: ledger.algorithmic,
-        spindle_work_j: ledger.spindle,
+        impact_loss_j: registry.impact,
+        algorithmic_j: registry.algorithmic,
+        spindle_work_j: registry.spindle,
         closure: if peak > 0.0 {
             (h_end - exchanged).abs() / peak
         } else {

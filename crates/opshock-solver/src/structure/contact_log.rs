@@ -1,8 +1,8 @@
-//! From impulses to contact spells and running means of the force.
+//! Summarises the contact impulses of an arm as contact spells and running means of the force.
 
 use super::record::{ArmContact, Episode};
 
-/// Spells closer than this are one, s.
+/// Spells closer together than this are one, s.
 const MERGE_S: f64 = 30e-6;
 /// Length of the running mean, s.
 const MEAN_S: f64 = 20e-6;
@@ -82,7 +82,7 @@ impl ContactLog {
                     start += 1;
                 }
                 if start == end {
-                    // Nothing in the window: no remainder of cancelled sums.
+                    // Empty window: no remainder of cancelled sums.
                     sum = 0.0;
                 }
                 sum / MEAN_S

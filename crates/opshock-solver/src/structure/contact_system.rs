@@ -1,13 +1,15 @@
-//! Disk and arms as a unilateral system, from the first touch on.
+//! Motion of the disk and of the ramp's two arms while they may touch, from their first contact to the end of the run.
 //!
-//! The contact-driven motion is carried by its exact flow and kicked by impulses; what it adds to is the
-//! unit response times the amplitude. [`super::run_books`] keeps what becomes of it.
+//! The motion is a sum of two: what the pulse alone gives, which is the amplitude times a response computed once, and
+//! what the contacts add. The second is marched here. Between contacts its modes are advanced in closed form; at a
+//! contact an impulse, found by Lagrange multipliers (`complementarity`), changes their velocities so that disk and arm
+//! do not penetrate.
 
+use super::contact_free::Points;
 use super::driven::Driven;
-use super::flight::Points;
 use super::history::Break;
 use super::rotor::{self, RotorState};
-use super::run_books::RunBooks;
+use super::run_balances::RunBalances;
 use super::sample::Sample;
 use crate::complementarity::{Gap, ImpulseKind, Refund, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
@@ -15,36 +17,36 @@ use crate::lanes::abreast;
 use crate::modal::ModalState;
 use crate::modal::bank::{LANES, dot};
 
-/// Impacts closer than this share an event of the head's integration, s.
+/// Impacts closer together than this share one event of the head's time integration, s.
 pub(super) const EVENT_SPACING_S: f64 = 2e-6;
-/// Nodes between looks for modes that have come to rest.
+/// Steps between checks for modes that have decayed.
 const STILL_STEPS: usize = 64;
-/// Share of the largest energy without contact below which eight modes are at rest: 1e-13 of the motion, which no
-/// sum over all modes shows.
+/// Share of the largest contact-free energy below which a chunk of eight modes is at rest: 1e-13 of the motion, which
+/// no sum over all modes shows.
 const STILL_SHARE: f64 = 1e-26;
 
 pub(super) struct ContactSystem<'a> {
-    pub(super) run: RunBooks<'a>,
+    pub(super) run: RunBalances<'a>,
     pub(super) driven: &'a Driven,
     /// Time since the node reached.
     pub(super) offset_s: f64,
     /// Time from now to the instant ahead.
     pub(super) reach_s: f64,
-    /// `gaps` are those of the node reached.
+    /// `gaps` are those at the node reached.
     pub(super) is_settled: bool,
     pub(super) gaps: [Gap; 2],
     pub(super) gaps_ahead: [Gap; 2],
     sample_ahead: Sample,
-    /// The contact point a step on, by contact alone, while nothing has changed the state since it was seen.
+    /// Contact-driven motion of the contact point one step ahead; `None` once the state has changed.
     pub(super) contact_ahead: Option<Gap>,
-    /// Node at which a flight has ended, and what the points did there by contact.
+    /// Node at which a contact-free interval has ended, and the contact-driven motion of the points there.
     pub(super) landed: Option<(usize, Points)>,
 }
 
 impl<'a> ContactSystem<'a> {
-    /// Wakes what contact drives at the node that `run` has reached.
-    pub fn wake(mut run: RunBooks<'a>, driven: &'a Driven) -> Self {
-        run.wake(driven);
+    /// Activates the contact-driven modes at the node that `run` has reached.
+    pub fn activate(mut run: RunBalances<'a>, driven: &'a Driven) -> Self {
+        run.activate(driven);
         let mut system = Self {
             run,
             driven,
@@ -61,13 +63,13 @@ impl<'a> ContactSystem<'a> {
         system
     }
 
-    /// The books so far.
-    pub fn books(&mut self) -> &mut RunBooks<'a> {
+    /// The balances so far.
+    pub fn balances(&mut self) -> &mut RunBalances<'a> {
         &mut self.run
     }
 
-    /// The books of a run that ends here.
-    pub fn into_books(self) -> RunBooks<'a> {
+    /// The balances of a run that ends here.
+    pub fn into_balances(self) -> RunBalances<'a> {
         self.run
     }
 
@@ -75,7 +77,7 @@ impl<'a> ContactSystem<'a> {
         self.run.k as f64 * self.run.shared.free.step_s + self.offset_s
     }
 
-    /// Takes the gaps at the node reached, where the step before has not left them.
+    /// Computes the gaps at the node reached unless the step before has left them.
     fn settle(&mut self) {
         if !self.is_settled {
             self.gaps = self.gaps_at_node();
@@ -83,7 +85,7 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
-    /// Settles at the next node.
+    /// Moves on to the next node.
     pub fn end_step(&mut self, report: StepReport) {
         self.run.k += 1;
         self.offset_s = 0.0;
@@ -97,7 +99,7 @@ impl<'a> ContactSystem<'a> {
         }
     }
 
-    /// Puts the modes at the end to rest that damping has stilled, at some of the nodes.
+    /// Sets the last modes to rest where damping has stilled them; checked at some of the nodes.
     pub(super) fn rest(&mut self) {
         if !self.run.k.is_multiple_of(STILL_STEPS) {
             return;
@@ -129,7 +131,7 @@ impl<'a> ContactSystem<'a> {
         )
     }
 
-    /// Gaps of a contact-driven state on top of the unit response `sample`.
+    /// Gaps of a contact-driven state added to the unit response `sample`.
     pub(super) fn gaps_of(
         &self,
         state: &ModalState,
@@ -162,7 +164,7 @@ impl<'a> ContactSystem<'a> {
         })
     }
 
-    /// Gaps between the disk and the arms, moved by contact, on top of the unit response `sample`.
+    /// Gaps between disk and arms for a contact-driven motion added to the unit response `sample`.
     pub(super) fn gaps_between(
         &self,
         disk: Gap,
@@ -184,8 +186,8 @@ impl<'a> ContactSystem<'a> {
         })
     }
 
-    /// Work and loss from now to the instant ahead.
-    fn book_free_motion(&mut self) {
+    /// Adds work and loss from now to the instant ahead to the energy balance.
+    fn balance_free_motion(&mut self) {
         let (shared, driven, reach) = (self.run.shared, self.driven, self.reach_s);
         self.run.total_forced(self.driven);
         let is_whole = self.is_whole_step();
@@ -194,20 +196,20 @@ impl<'a> ContactSystem<'a> {
         let free = &shared.free;
         let exchange = if is_whole {
             self.run
-                .ledger
+                .registry
                 .damping
                 .add(driven.step_loss.loss(self.run.n_moving, &state.now));
             free.exchange(&mut state.total_forced, self.run.k, self.run.amplitude)
         } else {
             let (n, forced) = (self.run.n_moving, &driven.forced_index);
             let loss = driven.part_flows.loss(n, &state.now, reach, forced);
-            self.run.ledger.damping.add(loss);
+            self.run.registry.damping.add(loss);
             free.exchange_within(&mut state.total_forced, now_s, reach, self.run.amplitude)
         };
-        self.run.ledger.work.add(exchange.work);
-        self.run.ledger.damping.add(exchange.loss);
-        if let Some(book) = &mut self.run.bodies {
-            book.add_supports(exchange.support_n_s);
+        self.run.registry.work.add(exchange.work);
+        self.run.registry.damping.add(exchange.loss);
+        if let Some(balance) = &mut self.run.bodies {
+            balance.add_supports(exchange.support_n_s);
         }
     }
 
@@ -220,8 +222,8 @@ impl<'a> ContactSystem<'a> {
         self.offset_s == 0.0 && self.reach_s == self.run.shared.free.step_s
     }
 
-    /// Whether the step is taken in one pass, once nothing can happen in it any more.
-    pub(super) fn is_stride(&self) -> bool {
+    /// Whether the step is taken in a single pass over the modes once no event can occur in it.
+    pub(super) fn is_batched(&self) -> bool {
         self.is_whole_step() && self.run.shared.free.rotor.is_none()
     }
 }
@@ -239,7 +241,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         self.reach_s = h_s;
         let (shared, driven) = (self.run.shared, self.driven);
         let free = &shared.free;
-        if self.is_stride() {
+        if self.is_batched() {
             let n = self.run.n_moving;
             let now = &self.run.state.now;
             let seen = self.contact_ahead;
@@ -310,21 +312,21 @@ impl UnilateralSystem for ContactSystem<'_> {
         let w = driven.mobility;
         let jump: [f64; 2] = std::array::from_fn(|i| w[i][0] * p[0] + w[i][1] * p[1]);
 
-        // Energy: half the sum of the gap velocities before and after, per impulse.
+        // Energy per impulse: half the sum of the gap velocities before and after.
         let change: f64 = (0..2).map(|i| p[i] * (rate[i] + 0.5 * jump[i])).sum();
         match kind {
-            ImpulseKind::Impact => self.run.ledger.impact -= change,
+            ImpulseKind::Impact => self.run.registry.impact -= change,
             ImpulseKind::Sustained => {
-                // Damping of the ripple is the impulses' doing and not the structure's.
+                // The ripple between impulses is numerical: its loss belongs to the impulses and not to the structure.
                 let back = driven.ripple_of(p).min(self.refund().of(p));
-                let algorithmic = self.run.ledger.algorithmic + (change - back);
-                // What springs give back beyond that is damping, too.
+                let algorithmic = self.run.registry.algorithmic + (change - back);
+                // What springs return beyond that is damping, too.
                 let beyond = match driven.has_springs() {
                     true => algorithmic.max(0.0),
                     false => 0.0,
                 };
-                self.run.ledger.algorithmic = algorithmic - beyond;
-                self.run.ledger.damping.add(-back - beyond);
+                self.run.registry.algorithmic = algorithmic - beyond;
+                self.run.registry.damping.add(-back - beyond);
             }
         }
         let on_disk = p[1] - p[0];
@@ -333,10 +335,10 @@ impl UnilateralSystem for ContactSystem<'_> {
             w_theta += rotor.contact_turn(&self.run.state.rotor_now);
             w_theta += self.run.amplitude * rotor.contact_turn(&self.run.state.unit_now.rotor);
         }
-        if let Some(book) = &mut self.run.bodies {
-            book.contact_n_s += on_disk;
+        if let Some(balance) = &mut self.run.bodies {
+            balance.contact_n_s += on_disk;
         }
-        self.run.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+        self.run.registry.spindle += on_disk * shared.spin_rad_per_s * w_theta;
 
         let record = &mut self.run.complementarity;
         for side in 0..2 {
@@ -351,11 +353,11 @@ impl UnilateralSystem for ContactSystem<'_> {
         let closed = |g: &Gap| g.value_m <= shared.law.gap_tolerance_m;
         self.run.both_arms |= singular && self.gaps.iter().all(closed);
 
-        self.book_jump(p, kind);
+        self.balance_jump(p, kind);
 
         (self.is_settled, self.run.is_totalled) = (false, false);
         (self.contact_ahead, self.run.seen, self.landed) = (None, None, None);
-        let (is_whole, is_stride) = (self.is_whole_step(), self.is_stride());
+        let (is_whole, is_batched) = (self.is_whole_step(), self.is_batched());
         let state = &mut *self.run.state;
         let flow = match is_whole {
             true => &driven.step_flow,
@@ -363,7 +365,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         };
         self.run.n_moving = driven.oscillators.len();
         state.now.kick(&driven.contact, on_disk);
-        if !is_stride {
+        if !is_batched {
             flow.add_kick(&driven.contact, on_disk, &mut state.ahead);
         }
         if let Some(rotor) = &shared.free.rotor {
@@ -372,10 +374,10 @@ impl UnilateralSystem for ContactSystem<'_> {
         }
         for (side, force) in [(0, p[0]), (1, -p[1])] {
             if force != 0.0 && !driven.arms[side].modes.is_empty() {
-                // Both arms stand before the disk.
+                // The arms' modes precede the disk's.
                 let shape = &driven.arm_shape[side][..driven.n_of_arms()];
                 state.now.kick(shape, force);
-                if !is_stride {
+                if !is_batched {
                     flow.add_kick(shape, force, &mut state.ahead);
                 }
             }
@@ -383,7 +385,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         for side in 0..2 {
             self.gaps[side].rate_m_per_s = rate[side] + jump[side];
         }
-        if is_stride {
+        if is_batched {
             let (value, rate) = (driven.step_compliance, driven.outlook.response);
             for (i, gap) in self.gaps_ahead.iter_mut().enumerate() {
                 gap.value_m += value[i][0] * p[0] + value[i][1] * p[1];
@@ -395,12 +397,12 @@ impl UnilateralSystem for ContactSystem<'_> {
     }
 
     fn commit(&mut self) {
-        if self.is_stride() {
-            self.stride();
+        if self.is_batched() {
+            self.batched_step();
             return;
         }
         (self.contact_ahead, self.run.seen) = (None, None);
-        self.book_free_motion();
+        self.balance_free_motion();
         let whole = self.is_whole_step();
         let state = &mut *self.run.state;
         std::mem::swap(&mut state.now, &mut state.ahead);
@@ -412,14 +414,14 @@ impl UnilateralSystem for ContactSystem<'_> {
         }
         self.offset_s += self.reach_s;
         self.gaps = self.gaps_ahead;
-        // A whole step ends on the node, to the bit.
+        // A whole step ends exactly on the node.
         (self.is_settled, self.run.is_totalled) = (whole, false);
     }
 }
 
 impl ContactSystem<'_> {
-    /// Books the jumps of the rates of slider and pivot by impulses of both contacts now.
-    fn book_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
+    /// Records the jumps of the rates of slider and pivot by impulses of both contacts now.
+    fn balance_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
         if !self.run.state.keeps_motion {
             return;
         }

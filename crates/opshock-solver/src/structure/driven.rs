@@ -1,11 +1,11 @@
-//! What contact drives: every mode of disk and arms, and the tables of one step.
+//! Holds the contact-driven modes, which are all modes of disk and arms, and their tables over one step.
 //!
-//! Nothing moves it before the first touch, so it is built when a run first needs it. Modes that are damped
-//! sooner stand behind, so that those which an impact has moved and damping has stilled are a tail.
+//! Before the first touch they are at rest, so a run builds them when it first needs them. They are sorted by rising
+//! damping: the modes that have decayed after an impact are then at the end.
 
 use super::bank::{Arm, Bank};
+use super::contact_free::ContactFree;
 use super::energy::{EnergyWeights, LossWeights};
-use super::flight::Flight;
 use super::outcome::StructureWarning;
 use super::outlook::Outlook;
 use super::rotor::{self, Rotor};
@@ -19,15 +19,15 @@ pub(super) struct DrivenSpring {
     mode: usize,
     /// Jump of the mode's velocity per impulse of the contact, 1/√kg.
     push: f64,
-    /// Loss in a step: no shock drives the spring.
+    /// Loss in a step; the shock does not drive the spring.
     loss: LossForm,
-    /// What an even train of unit impulses would lose.
+    /// Loss per step under equal unit impulses, one per step.
     ripple_loss: f64,
 }
 
-/// The bank of oscillators and what is read from it.
+/// The bank of oscillators, and the rows that read points from it.
 pub(super) struct Driven {
-    /// The arms' modes, padded, then the disk's, those of stronger damping later, padded.
+    /// The arms' modes, padded, then the disk's by rising damping, padded.
     pub oscillators: Vec<Oscillator>,
     /// Bank index of each forced mode.
     pub forced_index: Vec<usize>,
@@ -45,10 +45,10 @@ pub(super) struct Driven {
     pub slider: [Readout; 3],
     /// Jump of the slider's pose rate per impulse on the disk.
     pub slider_jump: DiskPose,
-    /// That of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
+    /// Jumps of the rates of the slider's pose and of the pivot per impulse on the disk and on each arm, on a base.
     pub base_jumps: Option<[(DiskPose, f64); 3]>,
     pub step_flow: BankFlow,
-    /// What the contact point does in a step.
+    /// Motion of the contact point over a step.
     pub outlook: Outlook,
     /// Flows over parts of a step.
     pub part_flows: PartFlows,
@@ -57,11 +57,11 @@ pub(super) struct Driven {
     pub weights: EnergyWeights,
     /// Loss over a step.
     pub step_loss: LossWeights,
-    /// Many steps at once, of a disk that stands on a rigid base by itself.
-    pub flight: Option<Flight>,
+    /// Tables over a contact-free interval, for a disk on a rigid base without hub.
+    pub contact_free: Option<ContactFree>,
     pub mobility: [[f64; 2]; 2],
     pub ripple_loss: [[f64; 2]; 2],
-    /// Springs of both contacts; none of hard ones.
+    /// Springs of both contacts; empty for hard contacts.
     springs: Vec<DrivenSpring>,
     /// Harmonics left out, waves that grow.
     pub warnings: Vec<StructureWarning>,
@@ -110,7 +110,7 @@ impl Driven {
         let mut driven = Self {
             weights: EnergyWeights::new(&bank.oscillators),
             step_loss: LossWeights::new(&bank.oscillators, &bank.forced_index, step_s),
-            flight: rotor.is_none().then(|| Flight::new(&bank, step_s)),
+            contact_free: rotor.is_none().then(|| ContactFree::new(&bank, step_s)),
             oscillators: bank.oscillators,
             forced_index: bank.forced_index,
             coupled: arms[0].modes == arms[1].modes && !arms[0].modes.is_empty(),
@@ -137,12 +137,12 @@ impl Driven {
         driven
     }
 
-    /// Gaps after `flow` per impulses at its start, s/kg, without what the rotor carries.
+    /// Gaps after `flow` per impulses at its start, s/kg, without the modes of the rotor.
     pub fn compliance(&self, flow: &BankFlow) -> [[f64; 2]; 2] {
         self.answers(|a, b| flow.compliance_across(a, b))
     }
 
-    /// Answers of both gaps to impulses of both contacts, from that `across` two shapes.
+    /// Responses of both gaps to impulses of both contacts, from the response `across` two shapes.
     fn answers(&self, across: impl Fn(&[f64], &[f64]) -> f64) -> [[f64; 2]; 2] {
         let disk = across(&self.contact, &self.contact);
         let [top, bottom] = &self.arm_shape;
@@ -161,7 +161,7 @@ impl Driven {
         !self.springs.is_empty()
     }
 
-    /// Loss of the ripple of equal `impulses`, one a step, J.
+    /// Loss in the ripple of equal `impulses`, one per step, J.
     pub fn ripple_of(&self, impulses: [f64; 2]) -> f64 {
         let (p, r) = (impulses, self.ripple_loss);
         (0..2)
@@ -169,8 +169,8 @@ impl Driven {
             .sum()
     }
 
-    /// What impulses of a lasting contact may give back of the damping in the step ahead of `now`: of
-    /// the springs what they lose in it, of all else what an even train of impulses would.
+    /// Largest energy that impulses of a lasting contact may return in the step ahead of `now`: for the springs the
+    /// damping loss of that step, for all other modes the loss under equal impulses, one per step.
     pub fn refund(&self, now: &ModalState) -> Refund {
         let mut refund = Refund {
             square_per_kg: self.ripple_loss,
@@ -186,7 +186,7 @@ impl Driven {
         refund
     }
 
-    /// Modes of the arms with padding, which the disk's follow.
+    /// Number of the arms' modes with padding; the disk's modes follow.
     pub fn n_of_arms(&self) -> usize {
         padded(self.arms[1].modes.end)
     }
@@ -198,7 +198,7 @@ impl Driven {
     }
 }
 
-/// Arms first, then the disk's modes by rising damping; and where the arms' modes are now.
+/// Sorts the bank: the arms' modes, then the disk's by rising damping. Returns the arms with their new indices.
 fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
     let is_used = |&i: &usize| bank.oscillators[i].omega_rad_per_s > 0.0;
     let disk = (0..bank.n_disk).filter(is_used);
@@ -238,7 +238,7 @@ fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
     (bank, arms)
 }
 
-/// Modes that grow: air held in space above a critical speed.
+/// Modes that grow: damping fixed in space above a critical speed.
 fn instabilities(modes: &[DiskMode], oscillators: &[Oscillator]) -> Vec<StructureWarning> {
     modes
         .iter()

@@ -1,8 +1,8 @@
-//! Energy book of disk and arms, kept along the run.
+//! Keeps the energy balance of disk and arms along a run.
 //!
-//! The weights are closed forms of each mode (see [`crate::modal::oscillator`]); the loss over a
-//! step comes from the roots of its motion and not from the energies at its ends, so that the
-//! book closes only when flow, forcing, impulses and losses agree.
+//! The weights are closed forms of each mode (see [`crate::modal::oscillator`]). The loss over a step comes from the
+//! roots of the motion and not from the energies at its ends: the balance therefore closes only when flow, forcing,
+//! impulses and losses agree.
 
 use crate::lanes::{self, Kernel};
 use crate::modal::bank::{LANES, chunks};
@@ -69,7 +69,7 @@ impl EnergyWeights {
         }
     }
 
-    /// ½ Σ (|r|² + ω² |q|²) of a chunk of modes, J: the size of what moves in them.
+    /// ½ Σ (|r|² + ω² |q|²) of a chunk of modes, J: the size of their motion.
     pub fn of_chunk(&self, chunk: usize, state: &ModalState) -> f64 {
         let modes = chunk * LANES..(chunk + 1) * LANES;
         let squares = |a: f64, b: f64| a * a + b * b;
@@ -83,7 +83,7 @@ impl EnergyWeights {
 }
 
 impl LossWeights {
-    /// Weights for a time `h_s`; the modes in `forced` are booked with their forcing.
+    /// Weights for a time `h_s`; the loss of the modes in `forced` is computed with their forcing.
     pub fn new(oscillators: &[Oscillator], forced: &[usize], h_s: f64) -> Self {
         let mut w = Self::default();
         for (i, o) in oscillators.iter().enumerate() {
@@ -123,7 +123,7 @@ impl Kernel for EnergySums<'_> {
     #[inline(always)]
     fn call(self) -> [[f64; LANES]; 4] {
         let [q_re, q_im, r_re, r_im] = self.state.columns();
-        // All of one length, so that nothing is left to check in the loop.
+        // Slices of one length, so that the loop needs no bounds checks.
         let n = chunks(&self.weights.turn).len();
         let read = |column| &chunks(column)[..n];
         let (turn, stiffness) = (read(&self.weights.turn), read(&self.weights.stiffness));
@@ -188,8 +188,8 @@ impl Kernel for LossSums<'_> {
     }
 }
 
-/// A sum of many terms that keeps what rounding takes from each addition (Neumaier 1974): its error is
-/// that of the terms, whatever their number, so that books kept in different portions agree.
+/// A compensated sum (Neumaier 1974): it adds up the rounding error of every addition, so that its error is that of its
+/// terms, whatever their number, and balances kept in different portions agree.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LongSum {
     sum: f64,
@@ -222,9 +222,9 @@ impl LongSum {
     }
 }
 
-/// Sums along a run, J.
+/// Energies exchanged along a run, J.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ledger {
+pub(super) struct Registry {
     pub work: LongSum,
     pub damping: LongSum,
     pub impact: f64,

@@ -1,4 +1,4 @@
-//! Why a structural model cannot be built or run.
+//! Errors of building or running a structural model.
 
 use crate::disk::DiskError;
 use crate::ramp::RampError;
@@ -16,16 +16,16 @@ pub enum StructureError {
     /// Pulse.
     #[error(transparent)]
     Pulse(#[from] PulseError),
-    /// An oblique shock without a hub that it could tilt, or with shares that are no numbers.
+    /// An oblique shock without a hub that it could tilt, or with shares that are not numbers.
     #[error("an oblique shock needs a hub, on which it tilts the disk, and finite shares")]
     Direction,
-    /// Modes of a base that cannot be, too many or too light, or under an oblique shock.
+    /// Invalid modes of a base: too many, too light, or under an oblique shock.
     #[error(
         "a vibrating base has at most 16 modes of finite numbers, a frequency above 0 and a damping ratio \
          in [0, 1), is heavier than disk, hub and arms where they stand on it, and takes a straight shock"
     )]
     Base,
-    /// Step or window.
+    /// Step or window out of range.
     #[error("{name} = {value:e} is outside its range ({allowed})")]
     Time {
         /// Name of the quantity.

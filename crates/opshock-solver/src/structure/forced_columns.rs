@@ -1,7 +1,7 @@
-//! The forced modes in columns of eight: their step, what points see of them, their energy and loss.
+//! Advances the modes driven by the shock in columns of eight: their step, points, energy and loss.
 //!
-//! Columns are padded with modes that rest and touch nothing, so that loops run on whole chunks and
-//! every sum has one order, whatever the registers.
+//! Columns are padded with modes at rest that touch nothing. Loops then run on whole chunks, and every sum has one
+//! order whatever the registers.
 
 use super::forced_modes::{ForcedModes, POINTS};
 use crate::lanes::{Kernel, SUMS, total, widest};
@@ -11,7 +11,7 @@ use nalgebra::Complex;
 /// Eight modes over one grid step.
 #[derive(Clone, Debug, Default)]
 struct Eight {
-    /// Flow less the identity: x from x and v, v from x and v.
+    /// Flow minus the identity: x from x and v, v from x and v.
     flow: [[f64; SUMS]; 4],
     /// Loss by damping over the step: weights of x², v² and x v.
     loss: [[f64; SUMS]; 3],
@@ -54,8 +54,8 @@ pub(super) struct ForcedColumns {
 const MOST_INSTANTS: usize = 8;
 
 impl ForcedColumns {
-    /// `modes` with their `points` over `step_s`, for a pulse of rate `sigma_per_s`; `rule` is the
-    /// quadrature of the step.
+    /// Tables of `modes` with their `points` over `step_s`, for a pulse of rate `sigma_per_s`; `rule` is the quadrature
+    /// of the step.
     pub fn new(
         modes: &ForcedModes,
         points: Vec<[f64; POINTS]>,
@@ -102,7 +102,7 @@ impl ForcedColumns {
         }
     }
 
-    /// What the points see of states `x`, `v`: Σ shape × x and Σ shape × v.
+    /// Displacements and velocities of the points for states `x`, `v`: Σ shape × x and Σ shape × v.
     pub fn read(&self, x: &[f64], v: &[f64]) -> [[f64; POINTS]; 2] {
         let points = &self.points;
         widest(Read { points, x, v })
@@ -120,11 +120,11 @@ impl ForcedColumns {
         total(widest(FreeLoss { eights, x, v }))
     }
 
-    /// [`Self::energy`] of a state and [`Self::free_loss`] over the step without load that it is carried over, in
-    /// one pass with the same bits.
-    pub fn book_and_carry(&self, x: &mut [f64], v: &mut [f64]) -> ([f64; 2], f64) {
+    /// [`Self::energy`] of a state, [`Self::free_loss`] over the step without load and the step itself, in one pass
+    /// with the same bits.
+    pub fn balance_and_advance(&self, x: &mut [f64], v: &mut [f64]) -> ([f64; 2], f64) {
         let eights = &self.eights;
-        let [kinetic, elastic, loss] = widest(BookAndCarry { eights, x, v }).map(total);
+        let [kinetic, elastic, loss] = widest(BalanceAndAdvance { eights, x, v }).map(total);
         ([kinetic, elastic], loss)
     }
 
@@ -185,7 +185,7 @@ fn with_states<'a>(
         .map(|(eight, (x, v))| (eight, x, v))
 }
 
-/// The same with states to be changed.
+/// The same with mutable states.
 #[inline(always)]
 fn with_states_mut<'a>(
     eights: &'a [Eight],
@@ -259,13 +259,13 @@ impl Kernel for FreeLoss<'_> {
     }
 }
 
-struct BookAndCarry<'a> {
+struct BalanceAndAdvance<'a> {
     eights: &'a [Eight],
     x: &'a mut [f64],
     v: &'a mut [f64],
 }
 
-impl Kernel for BookAndCarry<'_> {
+impl Kernel for BalanceAndAdvance<'_> {
     /// Kinetic and elastic energy, and loss.
     type Output = [[f64; SUMS]; 3];
 
@@ -392,7 +392,7 @@ fn add_free_loss(eight: &Eight, x: &[f64; SUMS], v: &[f64; SUMS], loss: &mut [f6
 #[inline(always)]
 fn carry(flow: &[[f64; SUMS]; 4], x: &mut [f64; SUMS], v: &mut [f64; SUMS]) {
     let [xx, xv, vx, vv] = flow;
-    // In a place of its own: stores into `x` could change `flow`, for all the compiler knows.
+    // Copies: as far as the compiler knows, stores into `x` could change `flow`.
     let (mut to, mut to_v) = (*x, *v);
     for k in 0..SUMS {
         to[k] += xx[k].mul_add(x[k], xv[k] * v[k]);
@@ -419,7 +419,7 @@ mod tests {
     use crate::modal::Oscillator;
 
     #[test]
-    fn booked_and_carried_in_one_pass_are_the_bits_of_three() {
+    fn balanced_and_carried_in_one_pass_are_the_bits_of_three() {
         // Eleven modes, so that the second eight is padded.
         let oscillators: Vec<_> = (1..=11)
             .map(|k| Oscillator::fixed(4.0e3 * f64::from(k * k), 1e-3 * f64::from(k)))
@@ -446,7 +446,7 @@ mod tests {
         assert!(apart.0[0] > 0.0 && apart.0[1] > 0.0 && apart.1 > 0.0);
         let (mut x_apart, mut v_apart) = (x.clone(), v.clone());
         columns.carry(&mut x_apart, &mut v_apart);
-        assert_eq!(columns.book_and_carry(&mut x, &mut v), apart);
+        assert_eq!(columns.balance_and_advance(&mut x, &mut v), apart);
         assert_eq!((x, v), (x_apart, v_apart));
     }
 }

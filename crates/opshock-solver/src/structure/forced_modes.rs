@@ -1,4 +1,4 @@
-//! The modes that the shock drives, and their shapes at the points that matter.
+//! The modes that the shock drives, and their shapes at the points that are read.
 
 use crate::modal::Oscillator;
 
@@ -10,7 +10,7 @@ pub(super) struct ForcedModes {
     pub participation: Vec<f64>,
 }
 
-/// Shapes of the forced modes at the points that matter, kg^-½ (slope: kg^-½/m).
+/// Shapes of the forced modes at the points that are read, kg^-½ (slope: kg^-½/m).
 #[derive(Clone, Debug, Default)]
 pub(super) struct ForcedShapes {
     pub contact: Vec<f64>,
@@ -21,12 +21,12 @@ pub(super) struct ForcedShapes {
     pub bottom: Vec<f64>,
 }
 
-/// Points read, to whole registers.
+/// Number of points read, rounded up to whole registers.
 pub(super) const POINTS: usize = 8;
 
 impl ForcedShapes {
-    /// Contact, slider, its slope, top, bottom and rim of every mode, and two zeros; zero where a
-    /// point has no entry (modes of the disk come first, then those of arms).
+    /// Contact, slider, its slope, top, bottom and rim of every mode, and two zeros. A point without an entry gives
+    /// zero (modes of the disk come first, then those of arms).
     pub fn by_mode(&self) -> Vec<[f64; POINTS]> {
         let rows = [
             &self.contact,

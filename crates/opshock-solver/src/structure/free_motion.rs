@@ -1,17 +1,16 @@
-//! Motion before any contact: the response to the unit pulse, scaled by the amplitude.
+//! Computes the motion before any contact: the response to the unit pulse, which every run scales by its amplitude.
 //!
-//! An axial shock moves the axisymmetric modes of the disk and shakes the ramp's arms. Both are
-//! oscillators at rest in the drive's frame, driven by participation × a(t), and are carried over
-//! the grid t_k = k Δt by their exact forced flow, also in the steps in which the pulse has a kink.
-//! Every run, whatever its ramp, sign and amplitude, multiplies the same columns. On a hub or on a
-//! base that vibrates the disk's modes are coupled with it and carried as a `rotor`.
+//! An axial shock drives the axisymmetric modes of the disk and the modes of the ramp's arms. Both are oscillators, at
+//! rest at first and driven by participation × a(t). They are advanced over the grid t_k = k Δt by their exact forced
+//! flow, also in steps in which the pulse has a kink. Every run, whatever its ramp, sign and amplitude, scales the same
+//! columns. On a hub or a vibrating base the disk's modes are coupled with it and advanced as a `rotor`.
 
-use super::energy::{Ledger, LongSum};
+use super::energy::{LongSum, Registry};
 use super::forced_columns::ForcedColumns;
 use super::forced_modes::{ForcedModes, ForcedShapes};
 use super::rotor::{Rotor, RotorScratch, RotorState};
 use super::sample::{BodySample, Exchange, Motion, Sample};
-use super::span::{FLIGHT_NODES, Span};
+use super::span::{INTERVAL_NODES, Span};
 use super::stretches::{Piece, Stretches};
 use crate::modal::bank::padded;
 use crate::modal::oscillator::GAUSS_8;
@@ -29,7 +28,7 @@ pub(super) struct ForcedState {
     pub scratch: RotorScratch,
 }
 
-/// States of the forced modes at some nodes, one behind the other.
+/// States of the forced modes at some nodes, one after the other.
 #[derive(Clone, Debug, Default)]
 struct Checkpoints {
     /// x, then v.
@@ -64,21 +63,21 @@ pub(super) struct FreeMotion {
     pub samples: Vec<Sample>,
     /// Largest energy of disk and arms, J per (m/s²)².
     pub peak_energy: f64,
-    /// Modal states every [`FLIGHT_NODES`] nodes: a run that wakes redoes at most so many steps.
+    /// Modal states every [`INTERVAL_NODES`] steps: a run that activates contact repeats at most so many steps.
     checkpoints: Checkpoints,
-    /// What happens between one of these and the next.
+    /// Bounds of the motion between two of these.
     pub spans: Vec<Span>,
     pub modes: ForcedModes,
-    /// The same over a grid step.
+    /// The forced modes over a grid step.
     columns: ForcedColumns,
     /// The disk's harmonics on a hub or on a base that vibrates.
     pub rotor: Option<Rotor>,
-    /// Its pivot under the unit pulse, when the base vibrates.
+    /// Motion of the pivot under the unit pulse, if the base vibrates.
     pub base: Option<BaseMotion>,
     /// Hub and base at every node.
     pub bodies: Vec<BodySample>,
     pub pulse: Stretches,
-    /// Rate and phase of the pulse at the nodes before its end whose step lies inside one stretch.
+    /// Rate and phase of the pulse at the nodes before its end whose step lies within one stretch of the pulse.
     phases: Vec<Option<(Complex<f64>, Phase)>>,
     pub pulse_end_s: f64,
 }
@@ -121,8 +120,8 @@ impl FreeMotion {
     ) -> Self {
         // One rate per pulse shape: a half-sine has one stretch, piecewise linear ones have none.
         let sigma = stretches[0].sigma_per_s;
-        // Work and loss of a mode swing at twice its frequency: where that is several radians a
-        // step, five points leave 1e-8 of it out of the book.
+        // Work and loss of a mode oscillate at twice its frequency. Where that is several radians per step, five points
+        // would leave an error of 1e-8 in the balance.
         let swiftest = modes.oscillators.iter().map(|o| o.omega_rad_per_s);
         let rule: &[(f64, f64)] = if swiftest.fold(0.0, f64::max) * step_s > 0.7 {
             &GAUSS_8
@@ -152,21 +151,21 @@ impl FreeMotion {
             .map(|start_s| free.pulse.whole_step(start_s, step_s))
             .collect();
         let mut state = ForcedState::at_rest(free.modes.oscillators.len(), free.rotor.as_ref());
-        let n_kept = n_steps / FLIGHT_NODES + 1;
+        let n_kept = n_steps / INTERVAL_NODES + 1;
         free.checkpoints.states.reserve(2 * n_kept * state.x.len());
         free.spans.reserve(n_kept);
         let (mut work, mut loss) = (LongSum::default(), LongSum::default());
         let mut supports = [LongSum::default(); 2];
         for k in 0..=n_steps {
-            if k % FLIGHT_NODES == 0 {
+            if k % INTERVAL_NODES == 0 {
                 free.checkpoints.push(&state);
             }
-            free.close_span(FLIGHT_NODES + 1);
+            free.close_span(INTERVAL_NODES + 1);
             let mut sample = free.sample(&state);
             if free.rotor.is_none() && k as f64 * step_s >= free.pulse_end_s {
-                // Nothing but the columns moves, and nothing drives them.
+                // Only the columns move, and nothing drives them.
                 let ([kinetic, elastic], step_loss) =
-                    free.columns.book_and_carry(&mut state.x, &mut state.v);
+                    free.columns.balance_and_advance(&mut state.x, &mut state.v);
                 (sample.kinetic, sample.energy) = (kinetic, kinetic + elastic);
                 (sample.work, sample.loss) = (work.value(), loss.value());
                 loss.add(step_loss);
@@ -199,9 +198,9 @@ impl FreeMotion {
         free
     }
 
-    /// The span of the samples from the end of the last one on, once there are `n_wanted` of them.
+    /// Appends the bounds of the samples since the last span, once there are `n_wanted` of them.
     fn close_span(&mut self, n_wanted: usize) {
-        let samples = &self.samples[self.spans.len() * FLIGHT_NODES..];
+        let samples = &self.samples[self.spans.len() * INTERVAL_NODES..];
         if samples.len() >= n_wanted {
             self.spans.push(Span::new(samples, self.step_s));
         }
@@ -240,23 +239,23 @@ impl FreeMotion {
         (kinetic, kinetic + elastic)
     }
 
-    /// Unit response of the modes at node `k`: the bits behind the samples.
+    /// Unit response of the modes at node `k`, with the same bits as the samples.
     pub fn state_at_node(&self, k: usize, state: &mut ForcedState) {
-        let first = k / FLIGHT_NODES;
+        let first = k / INTERVAL_NODES;
         self.checkpoints.copy_to(first, state);
-        for j in first * FLIGHT_NODES..k {
+        for j in first * INTERVAL_NODES..k {
             self.step(state, j);
         }
     }
 
-    /// Rate and phase of the pulse in the step from node `k`, where it lies inside one stretch; the node at the
-    /// end of the grid has one too.
+    /// Rate and phase of the pulse in the step from node `k`, if it lies within one stretch; the node at the end of the
+    /// grid has one too.
     fn phase(&self, k: usize) -> Option<(Complex<f64>, Phase)> {
         let whole = || self.pulse.whole_step(k as f64 * self.step_s, self.step_s);
         self.phases.get(k).copied().unwrap_or_else(whole)
     }
 
-    /// Carries the unit response from node `k` to the next.
+    /// Advances the unit response from node `k` to the next.
     pub fn step(&self, state: &mut ForcedState, k: usize) {
         let start_s = k as f64 * self.step_s;
         if start_s >= self.pulse_end_s {
@@ -311,16 +310,16 @@ impl FreeMotion {
         total
     }
 
-    /// Books work and loss over a flight from node `k` into `ledger`, step by step as long as the pulse lasts:
-    /// `unit` is the unit response there and is carried along, `contact` what contact adds to it, `total` scratch.
-    pub fn exchange_in_flight(
+    /// Adds work and loss over a contact-free interval from node `k` to `registry`, step by step while the pulse lasts.
+    /// `unit` is the unit response there and is advanced, `contact` is the contact-driven part, `total` is scratch.
+    pub fn exchange_contact_free(
         &self,
         [contact, unit, total]: [&mut ForcedState; 3],
         k: usize,
         amplitude: f64,
-        ledger: &mut Ledger,
+        registry: &mut Registry,
     ) {
-        for k in k..k + FLIGHT_NODES {
+        for k in k..k + INTERVAL_NODES {
             for (total, from) in [
                 (&mut total.x, [&contact.x, &unit.x]),
                 (&mut total.v, [&contact.v, &unit.v]),
@@ -331,14 +330,14 @@ impl FreeMotion {
                 }
             }
             let exchange = self.exchange(total, k, amplitude);
-            ledger.work.add(exchange.work);
-            ledger.damping.add(exchange.loss);
+            registry.work.add(exchange.work);
+            registry.damping.add(exchange.loss);
             self.step(unit, k);
             self.columns.carry(&mut contact.x, &mut contact.v);
         }
     }
 
-    /// [`Self::exchange`] over any time; slower, nothing tabulated.
+    /// [`Self::exchange`] over any time; slower, without tables.
     pub fn exchange_within(
         &self,
         state: &mut ForcedState,
@@ -391,7 +390,7 @@ impl FreeMotion {
         v
     }
 
-    /// Carries `state` under `amplitude` times the unit pulse over any time.
+    /// Advances `state` over any time under `amplitude` times the unit pulse.
     pub fn advance(&self, state: &mut ForcedState, start_s: f64, h_s: f64, amplitude: f64) {
         self.pulse.pieces(start_s, h_s, |piece| {
             for (j, o) in self.modes.oscillators.iter().enumerate() {

@@ -1,9 +1,9 @@
-//! The disk's motion under the slider as the head sees it.
+//! Stores the disk's motion under the slider for the head, which is simulated after the structure.
 //!
-//! Nodes on the structure's grid carry pose and rate; between them the motion is the cubic through
-//! both ends. An impact jumps the rate: its instant is a break with a rate on either side. The
-//! impulses of a lasting contact stand for a continuous force, so at their nodes the rate is the
-//! mean of both sides, which is the rate under that force to second order.
+//! Nodes on the structure's time grid hold pose and rate; between them the motion is the cubic through both ends. An
+//! impact makes the rate jump: its instant is a break with one rate on either side. The impulses of a lasting contact
+//! represent a continuous force. At their nodes the rate is therefore the mean of both sides, which is the rate under
+//! that force to second order.
 
 use crate::disk::{DiskMotion, DiskPose};
 
@@ -24,7 +24,7 @@ pub struct StructuralHistory {
     pub(super) rate: Vec<DiskPose>,
     pub(super) breaks: Vec<Break>,
     pub(super) events_s: Vec<f64>,
-    /// What contact does to the suspension's pivot, as displacements; `None` on a rigid base.
+    /// Contact-driven displacement of the suspension's pivot; `None` on a rigid base.
     pub(super) pivot: Option<Box<StructuralHistory>>,
 }
 

@@ -1,16 +1,17 @@
-//! Disk, ramp and their contact: one run gives a structural history.
+//! Simulates disk, ramp and their contact under a shock; one run gives the disk's motion under the slider.
 #![doc = include_str!("theory.md")]
 
 mod assembly;
 mod bank;
+mod batched_step;
 mod closing;
+mod contact_free;
+mod contact_free_run;
 mod contact_log;
 mod contact_system;
 mod driven;
 mod energy;
 mod error;
-mod flight;
-mod flying;
 mod forced_columns;
 mod forced_modes;
 mod free_motion;
@@ -25,26 +26,25 @@ mod parameters;
 mod record;
 mod response;
 mod rotor;
-mod run_books;
+mod run_balances;
 mod sample;
 mod shared;
 mod span;
 mod stretches;
-mod stride;
 mod time_grid;
 mod watch;
 
 pub use error::StructureError;
 pub use history::StructuralHistory;
-pub use model::{StructureModel, Wake, Workspace};
+pub use model::{Activation, StructureModel, Workspace};
 pub use modes::{ArmModeRow, DiskModeRow, StructureModes, modes};
 pub use outcome::{StructureRun, StructureWarning};
 pub use parameters::{
     ContactMethod, SliderPlace, StructureParameters, StructureResolution, Window,
 };
 pub use record::{
-    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, Episode, HubRecord,
-    MomentumBook, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBalance, Episode, HubRecord,
+    MomentumBalance, StructureColumns,
 };
 pub use response::{Source, StructureAnswer};
 pub use rotor::HubModeRow;

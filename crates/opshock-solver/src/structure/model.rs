@@ -1,11 +1,11 @@
-//! What is common to all amplitudes of one scene, and the run of one amplitude.
+//! Holds what all amplitudes of one scene share, and runs one amplitude.
 
 use super::contact_system::ContactSystem;
 use super::error::StructureError;
 use super::outcome::StructureRun;
 use super::parameters::{ContactMethod, Window};
 use super::rotor::Rotor;
-use super::run_books::{RunBooks, RunState};
+use super::run_balances::{RunBalances, RunState};
 use super::sample::unit_gap;
 use super::shared::Shared;
 use super::time_grid::count_steps;
@@ -14,24 +14,23 @@ use crate::mutant;
 use crate::shock::BaseMotion;
 use std::sync::Arc;
 
-/// Disk, ramp, pulse and grid, ready to run any amplitude of either sign.
+/// Disk, ramp, pulse and time grid, ready to run any amplitude of either sign.
 #[derive(Clone)]
 pub struct StructureModel {
     pub(super) shared: Arc<Shared>,
-    wake: Wake,
+    activation: Activation,
     keeps_motion: bool,
 }
 
-/// When the contact-driven state (every harmonic, arms included) starts to be marched.
-///
-/// Until the first touch it is exactly zero, so both give the same motion and the same contacts;
-/// the energy book sums the same energies in another order and agrees to rounding.
+/// When integration of the contact-driven state (every harmonic, arms included) starts. Until the first touch that
+/// state is exactly zero, so both choices give the same motion and the same contacts. The energy balance adds the same
+/// energies in another order and agrees to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wake {
+pub enum Activation {
     /// At the first touch: before it a run only scales the unit response.
     #[default]
     AtTouch,
-    /// From the onset of the pulse, touch or not, ramp or not.
+    /// At the onset of the pulse, touch or not, ramp or not.
     AtOnset,
 }
 
@@ -45,23 +44,23 @@ impl StructureModel {
     pub(super) fn of(shared: Shared) -> Self {
         Self {
             shared: Arc::new(shared),
-            wake: Wake::default(),
+            activation: Activation::default(),
             keeps_motion: true,
         }
     }
 
-    /// Builds at once what contact drives, as the first run that touches would.
+    /// Builds the contact-driven modes at once, as the first run that touches would.
     ///
     /// # Errors
     /// A failed eigenvalue problem of a harmonic n >= 1.
-    pub fn wake_up(&self) -> Result<(), StructureError> {
+    pub fn build_contact_driven(&self) -> Result<(), StructureError> {
         self.shared.driven().map(|_| ())
     }
 
     /// The same model with another start of the contact-driven state.
     #[must_use]
-    pub fn with_wake(self, wake: Wake) -> Self {
-        Self { wake, ..self }
+    pub fn with_activation(self, activation: Activation) -> Self {
+        Self { activation, ..self }
     }
 
     /// The same model for runs without a head: they need not keep the motion under the slider.
@@ -78,12 +77,12 @@ impl StructureModel {
         self.shared.free.base.as_ref()
     }
 
-    /// When the contact-driven state starts to be marched.
-    pub fn wake(&self) -> Wake {
-        self.wake
+    /// When integration of the contact-driven state starts.
+    pub fn activation(&self) -> Activation {
+        self.activation
     }
 
-    /// Node of the grid at which a run over `window` ends at the latest, s; `None` where there is no such window.
+    /// Node of the grid at which a run over `window` ends at the latest; `None` for an invalid window.
     pub fn end_of(&self, window: Window) -> Option<f64> {
         let step_s = self.shared.free.step_s;
         let n_steps = count_steps(window, step_s).ok()?;
@@ -107,7 +106,7 @@ impl StructureModel {
         self.shared.n_arm_modes + rotor.map_or(0, Rotor::n_arm_modes)
     }
 
-    /// Number of modes once contact has woken all: disk (with static corrections), hub and arms.
+    /// Number of modes once contact has activated all: disk (with static corrections), hub and arms.
     ///
     /// # Errors
     /// A failed eigenvalue problem of a harmonic n >= 1.
@@ -139,44 +138,44 @@ impl StructureModel {
             true => amplitude_m_per_s2.abs(),
             false => amplitude_m_per_s2,
         };
-        let mut books = RunBooks::new(shared, amplitude_m_per_s2, state);
+        let mut balances = RunBalances::new(shared, amplitude_m_per_s2, state);
         let mut memory = ContactMemory::default();
-        books.record_node();
-        let first_awake = match self.wake {
-            Wake::AtTouch if mutant::is_on("R3 first touch") => shared.n_steps,
-            Wake::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
-            Wake::AtOnset => 0,
+        balances.record_node();
+        let first_active = match self.activation {
+            Activation::AtTouch if mutant::is_on("R3 first touch") => shared.n_steps,
+            Activation::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
+            Activation::AtOnset => 0,
         };
-        while books.k < first_awake {
-            if !books.sleep_flight(first_awake) {
-                books.sleep_step();
+        while balances.k < first_active {
+            if !balances.advance_inactive(first_active) {
+                balances.inactive_step();
             }
-            books.record_node();
-            if books.decayed() {
-                return books.finish();
+            balances.record_node();
+            if balances.decayed() {
+                return balances.finish();
             }
         }
-        if first_awake == shared.n_steps {
-            return books.finish();
+        if first_active == shared.n_steps {
+            return balances.finish();
         }
-        let mut system = ContactSystem::wake(books, shared.driven()?);
-        while system.books().k < shared.n_steps {
-            if !system.fly() {
+        let mut system = ContactSystem::activate(balances, shared.driven()?);
+        while system.balances().k < shared.n_steps {
+            if !system.advance_contact_free() {
                 let step_s = shared.free.step_s;
                 let report =
                     complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
                 system.end_step(report);
             }
-            system.books().record_node();
-            if system.books().decayed() {
+            system.balances().record_node();
+            if system.balances().decayed() {
                 break;
             }
         }
-        system.into_books().finish()
+        system.into_balances().finish()
     }
 
-    /// Smallest |amplitude| of the given sign at which this ramp is touched within the window, by
-    /// linearity from the unit response; `None` without a ramp or when nothing closes the gap.
+    /// Smallest |amplitude| of the given sign at which the disk touches this ramp within the window, by linearity from
+    /// the unit response; `None` without a ramp or when nothing closes the gap.
     pub fn touch_amplitude_m_per_s2(&self, positive: bool) -> Option<f64> {
         let shared = &*self.shared;
         let is_plus = positive || mutant::is_on("R7 mirrored");

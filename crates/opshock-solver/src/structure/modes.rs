@@ -1,4 +1,4 @@
-//! Tables of natural frequencies for people.
+//! Lists natural frequencies of disk, hub and ramp for printed tables.
 
 use super::error::StructureError;
 use super::rotor::{HubModeRow, hub_modes};

@@ -1,22 +1,21 @@
-//! The same structure under the other contact method.
+//! Runs disk, ramp and base with Moreau-Jean time stepping, the reference contact method.
 //!
-//! One state for shock and contact together, implicit midpoint instead of exact flow, velocity
-//! constraint instead of aimed impulses ([`crate::complementarity::moreau_jean`]). The energy book
-//! is that of the midpoint steps, for which it closes but for rounding: with the means q̄, r̄ of a
-//! step and the impulses P on gaps with rates ġ₀, ġ₁ before and after it,
-//!
+//! Shock and contact act on one state, with the implicit midpoint rule instead of the exact flow and a velocity
+//! constraint instead of aimed impulses ([`crate::complementarity::moreau_jean`]). The energy balance is that of the
+//! midpoint steps and closes to rounding. With the means q̄, r̄ of a step and the impulses P on gaps with rates ġ₀, ġ₁
+//! before and after it,
 //! ```text
 //! H₁ − H₀ = Σ f Δq − Δt Σ (Re d |r̄|² + Re(i Im k r̄* q̄)) + Σ P (ġ₀ + ġ₁)/2
 //! ```
 //!
-//! An impact takes one step, so the motion has no breaks; the step in which a contact begins is an
-//! event for the head.
+//! An impact takes one step, so the motion has no breaks; the step in which a contact begins is an event for the head's
+//! time integration.
 
-use super::closing::{BodyBook, Closing};
+use super::closing::{BodyBalance, Closing};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::driven::Driven;
-use super::energy::Ledger;
+use super::energy::Registry;
 use super::error::StructureError;
 use super::history::StructuralHistory;
 use super::model::StructureModel;
@@ -32,7 +31,7 @@ use crate::modal::bank::dot;
 use crate::modal::{ModalState, Oscillator};
 use nalgebra::Complex;
 
-/// A run on its way.
+/// State of a run.
 struct March<'a> {
     shared: &'a Shared,
     driven: &'a Driven,
@@ -47,11 +46,11 @@ struct March<'a> {
     extremes: DiskExtremes,
     logs: [ContactLog; 2],
     complementarity: Complementarity,
-    ledger: Ledger,
+    registry: Registry,
     rotor_now: RotorState,
     rotor_before: RotorState,
     scratch: RotorScratch,
-    bodies: Option<BodyBook>,
+    bodies: Option<BodyBalance>,
     last: Node,
     last_impulse_s: f64,
 }
@@ -96,17 +95,17 @@ impl<'a> March<'a> {
             extremes: DiskExtremes::default(),
             logs: Default::default(),
             complementarity: Complementarity::default(),
-            ledger: Ledger::default(),
+            registry: Registry::default(),
             rotor_now: at_rest(),
             rotor_before: at_rest(),
             scratch: rotor.map_or_else(RotorScratch::default, |rotor| rotor.scratch()),
-            bodies: rotor.is_some().then(|| BodyBook::of(amplitude)),
+            bodies: rotor.is_some().then(|| BodyBalance::of(amplitude)),
             last: Node::default(),
             last_impulse_s: f64::NEG_INFINITY,
         }
     }
 
-    /// From node `k` to the next.
+    /// Advances from node `k` to the next.
     fn step(&mut self, k: usize) {
         let (shared, driven) = (self.shared, self.driven);
         let h = shared.free.step_s;
@@ -129,11 +128,11 @@ impl<'a> March<'a> {
             (self.now.q_re[j], self.now.q_im[j]) = (q.re, q.im);
             (self.now.r_re[j], self.now.r_im[j]) = (r.re, r.im);
         }
-        self.book_step(k, impulse);
+        self.balance_step(k, impulse);
     }
 
-    /// Energies exchanged in the step just taken from node `k`, and its impulses.
-    fn book_step(&mut self, k: usize, impulse: [f64; 2]) {
+    /// Adds the energies exchanged in the step just taken from node `k`, and its impulses, to the balances.
+    fn balance_step(&mut self, k: usize, impulse: [f64; 2]) {
         let (shared, driven) = (self.shared, self.driven);
         let h = shared.free.step_s;
         let (a, b) = (&self.before, &self.now);
@@ -142,22 +141,22 @@ impl<'a> March<'a> {
             let (q_re, q_im) = (mean(&a.q_re, &b.q_re), mean(&a.q_im, &b.q_im));
             let (r_re, r_im) = (mean(&a.r_re, &b.r_re), mean(&a.r_im, &b.r_im));
             let mode = linear(o);
-            self.ledger
+            self.registry
                 .work
                 .add(self.force[j] * (b.q_re[j] - a.q_re[j]));
             let power = mode.damping_per_s.re * (r_re * r_re + r_im * r_im)
                 + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im);
-            self.ledger.damping.add(h * power);
+            self.registry.damping.add(h * power);
         }
         if let Some(rotor) = &shared.free.rotor {
             let force = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
             let (before, now) = (&self.rotor_before, &self.rotor_now);
             let exchange = rotor.midpoint_exchange(before, now, h, force, &mut self.scratch);
-            self.ledger.work.add(exchange.work);
-            self.ledger.damping.add(exchange.loss);
-            if let Some(book) = &mut self.bodies {
-                book.add_supports(exchange.support_n_s);
-                book.contact_n_s += impulse[1] - impulse[0];
+            self.registry.work.add(exchange.work);
+            self.registry.damping.add(exchange.loss);
+            if let Some(balance) = &mut self.bodies {
+                balance.add_supports(exchange.support_n_s);
+                balance.contact_n_s += impulse[1] - impulse[0];
             }
         }
         if impulse == [0.0; 2] {
@@ -171,7 +170,7 @@ impl<'a> March<'a> {
             let (before, now) = (&self.rotor_before, &self.rotor_now);
             w_theta += 0.5 * (rotor.contact_turn(before) + rotor.contact_turn(now));
         }
-        self.ledger.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+        self.registry.spindle += on_disk * shared.spin_rad_per_s * w_theta;
         for (side, &p) in impulse.iter().enumerate() {
             let record = &mut self.complementarity;
             record.min_multiplier_n_s = record.min_multiplier_n_s.min(p);
@@ -187,7 +186,7 @@ impl<'a> March<'a> {
                 let opening = arm[0] + arm[1] - (before + now);
                 rates += if side == 0 { opening } else { -opening };
             }
-            self.ledger.impact -= 0.5 * p * rates;
+            self.registry.impact -= 0.5 * p * rates;
             let product = (p * self.system.gap_m(side)).abs();
             record.max_product_n_s_m = record.max_product_n_s_m.max(product);
             self.logs[side].push(start_s + 0.5 * h, p);
@@ -198,7 +197,7 @@ impl<'a> March<'a> {
         self.last_impulse_s = start_s;
     }
 
-    /// Books node `k`, which the state has reached.
+    /// Adds node `k`, which the state has reached, to balances and history.
     fn record_node(&mut self, k: usize) {
         let (shared, driven, s) = (self.shared, self.driven, &self.now);
         let [w, p, r] = &driven.slider;
@@ -220,8 +219,8 @@ impl<'a> March<'a> {
             for (side, x) in arms_m.iter_mut().enumerate() {
                 *x += rotor.arm(side, &self.rotor_now).value_m;
             }
-            if let Some(book) = &mut self.bodies {
-                book.include(rotor.bodies(&self.rotor_now, book.now.support_n_s));
+            if let Some(balance) = &mut self.bodies {
+                balance.include(rotor.bodies(&self.rotor_now, balance.now.support_n_s));
             }
         }
         let node = Node {
@@ -238,7 +237,7 @@ impl<'a> March<'a> {
         self.history.rate.push(rate);
         let moved = shared.free.base.as_ref().zip(shared.free.rotor.as_ref());
         if let (Some((base, rotor)), Some(history)) = (moved, &mut self.history.pivot) {
-            // What contact does is what is left of the whole.
+            // The contact-driven part is the whole minus the unit response.
             let whole = rotor.pivot(&self.rotor_now);
             let [value, speed] = base.displacement(time_s).map(|x| self.amplitude * x);
             let along = |displacement_m: f64| DiskPose {
@@ -253,13 +252,13 @@ impl<'a> March<'a> {
             let largest = &mut self.complementarity.max_penetration_m;
             *largest = largest.max(-self.system.gap_m(side));
         }
-        let ledger = &mut self.ledger;
-        ledger.peak_fixed_frame = ledger.peak_fixed_frame.max(node.energies.fixed_frame);
-        ledger.peak_material = ledger.peak_material.max(node.energies.material());
+        let registry = &mut self.registry;
+        registry.peak_fixed_frame = registry.peak_fixed_frame.max(node.energies.fixed_frame);
+        registry.peak_material = registry.peak_material.max(node.energies.material());
         if let Some(columns) = &mut self.columns {
             columns.push(&node);
-            if let (Some(book), Some(rotor)) = (&self.bodies, &shared.free.rotor) {
-                columns.push_bodies(&book.now, rotor.has_bodies());
+            if let (Some(balance), Some(rotor)) = (&self.bodies, &shared.free.rotor) {
+                columns.push_bodies(&balance.now, rotor.has_bodies());
             }
         }
         self.last = node;
@@ -270,12 +269,12 @@ impl<'a> March<'a> {
             Window::Fixed { .. } => false,
             Window::UntilDecayed { share, .. } => {
                 self.last.time_s >= self.shared.free.pulse_end_s
-                    && self.last.energies.material() <= share * self.ledger.peak_material
+                    && self.last.energies.material() <= share * self.registry.peak_material
             }
         }
     }
 
-    /// Closes the books.
+    /// Closes the balances.
     fn finish(self) -> Result<StructureRun, StructureError> {
         let k = self.history.pose.len() - 1;
         let closing = Closing {
@@ -284,7 +283,7 @@ impl<'a> March<'a> {
             k,
             not_finite: None,
             energies: self.last.energies,
-            ledger: self.ledger,
+            registry: self.registry,
             extremes: self.extremes,
             complementarity: self.complementarity,
             bodies: self.bodies,
@@ -296,7 +295,7 @@ impl<'a> March<'a> {
     }
 }
 
-/// One mode in the frame that stands in space.
+/// One mode in the space-fixed frame.
 fn linear(o: &Oscillator) -> LinearMode {
     let (gamma, turn) = (o.half_damping_per_s, o.turn_rad_per_s);
     LinearMode {

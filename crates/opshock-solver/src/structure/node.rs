@@ -1,4 +1,4 @@
-//! What is booked at every node of the grid, whichever method moved the structure there.
+//! Records the structure at every node of the time grid, for either contact method.
 
 use super::energy::Energies;
 use super::record::{DiskExtremes, StructureColumns};
@@ -33,7 +33,7 @@ impl DiskExtremes {
 }
 
 impl StructureColumns {
-    /// A row but for the running means of the forces, which need all impulses.
+    /// Appends a row without the running means of the forces, which need all impulses.
     pub(super) fn push(&mut self, node: &Node) {
         self.time_s.push(node.time_s);
         self.shock_m_per_s2.push(node.shock_m_per_s2);
@@ -48,7 +48,7 @@ impl StructureColumns {
         self.energy_h_j.push(node.energies.fixed_frame);
     }
 
-    /// Hub and base, whichever there is, at the node of the last row.
+    /// Appends hub and base, if present, at the node of the last row.
     pub(super) fn push_bodies(&mut self, now: &BodySample, [has_hub, has_base]: [bool; 2]) {
         if has_hub {
             let [at_ramp, across] = now.tilt_rad;

@@ -1,14 +1,15 @@
-//! What one amplitude through a structural model gives.
+//! Result of one amplitude run through a structural model.
 
 use super::history::StructuralHistory;
 use super::record::{
-    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBook, HubRecord, StructureColumns,
+    ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBalance, HubRecord,
+    StructureColumns,
 };
 
 /// Penetration above which a run warns, m.
 const PENETRATION_WARNING_M: f64 = 1e-7;
 
-/// One amplitude through a structural model.
+/// Result of one amplitude run through a structural model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructureRun {
     /// Motion of the disk under the slider, unless the model is one without motion.
@@ -21,11 +22,11 @@ pub struct StructureRun {
     pub top: ArmContact,
     /// Contact with the bottom arm.
     pub bottom: ArmContact,
-    /// Energy book.
-    pub energy: EnergyBook,
+    /// Energy balance.
+    pub energy: EnergyBalance,
     /// Complementarity numbers.
     pub complementarity: Complementarity,
-    /// Hub, of a disk on a bearing.
+    /// Hub, for a disk on a bearing.
     pub hub: Option<HubRecord>,
     /// Base, when it vibrates.
     pub base: Option<BaseRecord>,
@@ -35,7 +36,7 @@ pub struct StructureRun {
     pub steps: u64,
     /// End of the run, s.
     pub end_s: f64,
-    /// Signs of trouble.
+    /// Warnings.
     pub warnings: Vec<StructureWarning>,
 }
 
@@ -48,7 +49,7 @@ impl StructureRun {
 /// Something a user should know about a structural run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StructureWarning {
-    /// A contact sank in by more than a tenth of a micrometre: the step is too long.
+    /// Penetration of more than a tenth of a micrometre: the step is too long.
     Penetration {
         /// Largest penetration, m.
         depth_m: f64,
@@ -74,7 +75,7 @@ pub enum StructureWarning {
         /// Growth rate, 1/s.
         growth_per_s: f64,
     },
-    /// The disk spins above a critical speed and air held in space drives a travelling wave.
+    /// The disk spins above a critical speed, and damping fixed in space drives a travelling wave.
     PhysicalInstability {
         /// Nodal diameters of the wave.
         nodal_diameters: usize,

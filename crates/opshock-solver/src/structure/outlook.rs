@@ -1,10 +1,10 @@
-//! What contact does to the disk a step on, told from the state now.
+//! Predicts the contact-driven motion of the disk one step ahead from the present state.
 
 use crate::complementarity::Gap;
 use crate::lanes::abreast;
 use crate::modal::{BankFlow, ModalState};
 
-/// Rows that read the disk's displacement and rate at the contact point a step on out of q and r, real and imaginary
+/// Rows that read the disk's displacement and rate at the contact point one step ahead from q and r, real and imaginary
 /// parts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlook {
@@ -14,7 +14,7 @@ pub(super) struct Outlook {
     pub response: [[f64; 2]; 2],
 }
 
-/// What contact adds to the disk's points at a node.
+/// Contact-driven motion of the disk's points at a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sight {
     /// Contact point.

@@ -1,18 +1,17 @@
-//! The structure as plain data: places, times, method of contact.
+//! Input of a structural model as plain data: places, times, contact method.
 
 use crate::disk::{DiskParameters, DiskResolution};
 use crate::ramp::RampParameters;
 use crate::shock::{BaseMode, ObliqueShock, Pulse};
 
-/// How disk and ramp are brought into contact.
+/// Contact method of disk and ramp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub enum ContactMethod {
     /// Exact flow between impacts, impacts located in time, aimed impulses in lasting contact.
     #[default]
     ExactFlow,
-    /// Implicit midpoint steps with the constraint on velocities
-    /// ([`crate::complementarity::moreau_jean`]): shares nothing with the other but the modes. An
-    /// impact takes a whole step, so at equal steps it is less accurate.
+    /// Implicit midpoint steps with the constraint on velocities ([`crate::complementarity::moreau_jean`]): shares only
+    /// the modes with the other method. An impact takes a whole step, so it is less accurate at equal steps.
     MoreauJean,
 }
 
@@ -76,9 +75,9 @@ pub struct StructureParameters<'a> {
     pub slider: SliderPlace,
     /// Unit pulse.
     pub pulse: &'a Pulse,
-    /// What else shakes the base in step with it.
+    /// Further loads of an oblique shock, in proportion to the pulse.
     pub oblique: Option<&'a ObliqueShock>,
-    /// Modes of the base that everything stands on; none: it is rigid.
+    /// Modes of the base that everything stands on; empty: a rigid base.
     pub base: &'a [BaseMode],
     /// Simulated time.
     pub window: Window,

@@ -1,4 +1,4 @@
-//! What a structural run reports. Times are seconds after the onset of the pulse.
+//! Records of a structural run: extremes, contacts, energy and momentum balances. Times are seconds after the onset.
 
 /// Extremes of the disk's motion over the window, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,11 +39,11 @@ pub struct ArmContact {
     pub episodes: Vec<Episode>,
 }
 
-/// Energy book of the structure at the end of the window, J.
+/// Energy balance of the structure at the end of the window, J.
 ///
 /// H = ½ ∫ ρ h (w_t² − Ω² w_θ²) + V of disk and ramp; see the theory of [`crate::structure`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EnergyBook {
+pub struct EnergyBalance {
     /// Material kinetic energy of disk and ramp at the end.
     pub kinetic_j: f64,
     /// Elastic energy at the end.
@@ -54,13 +54,13 @@ pub struct EnergyBook {
     pub h_peak_j: f64,
     /// Work of the shock.
     pub shock_work_j: f64,
-    /// Taken from H by damping (rotating frame; of either sign).
+    /// Energy that damping takes from H (rotating frame; of either sign).
     pub damping_loss_j: f64,
-    /// Taken from H at impacts (never negative).
+    /// Energy that impacts take from H (never negative).
     pub impact_loss_j: f64,
-    /// Produced by the time stepping (never positive).
+    /// Energy produced by the time stepping (never positive).
     pub algorithmic_j: f64,
-    /// Work fed in by the spindle through the contact, on the material energy.
+    /// Work of the spindle through the contact, on the material energy.
     pub spindle_work_j: f64,
     /// |H - H0 - work + losses| / peak.
     pub closure: f64,
@@ -68,10 +68,10 @@ pub struct EnergyBook {
 
 /// Momentum of a body along its axis against the impulses on it, N s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MomentumBook {
+pub struct MomentumBalance {
     /// Impulse of the shock.
     pub shock_n_s: f64,
-    /// Impulse of what holds it, springs and dampers.
+    /// Impulse of its supports, springs and dampers.
     pub support_n_s: f64,
     /// Impulse of the contact between disk and ramp.
     pub contact_n_s: f64,
@@ -88,8 +88,8 @@ pub struct HubRecord {
     pub axial_max_m: f64,
     /// Largest tilt, rad.
     pub tilt_max_rad: f64,
-    /// Axial momentum of hub and disk; bearing and still air hold them.
-    pub momentum: MomentumBook,
+    /// Axial momentum of hub and disk; their supports are the bearing and damping fixed in space.
+    pub momentum: MomentumBalance,
 }
 
 /// The base, when it vibrates.
@@ -101,12 +101,12 @@ pub struct BaseRecord {
     pub ramp_max_m: f64,
     /// That of the actuator's pivot, m.
     pub pivot_max_m: f64,
-    /// Momentum of the base and all it carries, its modes weighted by their participations: for one mode with
-    /// equal shapes and participation times shape of 1 that of the drive over its mounts.
-    pub momentum: MomentumBook,
+    /// Momentum of the base and all it carries, its modes weighted by their participations. For one mode with equal
+    /// shapes and participation times shape of 1 it is the momentum of the drive on its mounts.
+    pub momentum: MomentumBalance,
 }
 
-/// How well 0 <= g complementary to lambda >= 0 was met.
+/// How well 0 <= g complementary to lambda >= 0 was satisfied.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Complementarity {
     /// Largest penetration, m (>= 0).
@@ -136,13 +136,13 @@ pub struct StructureColumns {
     pub contact_bottom_n: Vec<f64>,
     pub energy_j: Vec<f64>,
     pub energy_h_j: Vec<f64>,
-    /// Axial displacement of the hub of a disk on a bearing, over the base; else empty.
+    /// Axial displacement of the hub of a disk on a bearing, relative to the base; else empty.
     pub hub_axial_m: Vec<f64>,
     /// Its tilt that lifts the disk at the ramp's angle.
     pub hub_tilt_ramp_rad: Vec<f64>,
     /// Its tilt that lifts the disk a quarter turn on from the ramp, with the spin.
     pub hub_tilt_across_rad: Vec<f64>,
-    /// Displacement of the spindle with a base that vibrates, over the rigid one; else empty.
+    /// Displacement of the spindle with a base that vibrates, relative to the rigid one; else empty.
     pub base_spindle_m: Vec<f64>,
     /// That of the ramp's mount.
     pub base_ramp_m: Vec<f64>,

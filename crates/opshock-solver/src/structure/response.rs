@@ -1,13 +1,13 @@
-//! Small harmonic motions of disk and ramp without contact.
+//! Computes small harmonic motions of disk and ramp without contact.
 //!
 //! ```text
 //! H(s) = 1/((s + iN)² + (2γ + c)(s + iN) + ω² − icN),   q̂± = φ H(±iω) F̂
 //! ŵ = ½ Σ (b H(iω) + conj(b H(−iω))) φ F̂,   w = Re Σ b q
 //! ```
 //!
-//! over the disk's modes, whose coordinates are complex in the fixed frame, and the same with N = c = 0
-//! over those of the arms. A shock drives n = 0 and the arms by their participations. The disk stands on the
-//! base: with a hub there is no such sum.
+//! over the disk's modes, whose coordinates are complex in the fixed frame, and the same with N = c = 0 over those of
+//! the arms. A shock drives n = 0 and the arms by their participations. With a hub disk and hub are coupled, and there
+//! is no such sum.
 
 use super::error::StructureError;
 use super::model::StructureModel;
@@ -29,7 +29,7 @@ pub enum Source {
     BottomArm,
 }
 
-/// Complex amplitudes of the points that matter, per unit of the source.
+/// Complex amplitudes of the points that are read, per unit of the source.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StructureAnswer {
     /// Disk at the ramp point, m.
@@ -42,7 +42,7 @@ pub struct StructureAnswer {
     pub arms_m: [Complex<f64>; 2],
 }
 
-/// Both sides of a mode's answer: H(iω) and conj H(−iω).
+/// Both parts of a mode's response: H(iω) and conj H(−iω).
 fn sides(o: &Oscillator, omega: f64) -> [Complex<f64>; 2] {
     let turn = Complex::new(0.0, o.turn_rad_per_s);
     let at = |omega: f64| {
@@ -55,7 +55,7 @@ fn sides(o: &Oscillator, omega: f64) -> [Complex<f64>; 2] {
 }
 
 impl StructureModel {
-    /// Answer at ω to `source`; 0 is the static limit. `None` for a disk on a hub.
+    /// Response at ω to `source`; ω = 0 gives the static response. `None` for a disk on a hub.
     ///
     /// # Errors
     /// A failed eigenvalue problem of a harmonic n >= 1.
@@ -77,7 +77,7 @@ impl StructureModel {
             if o.omega_rad_per_s == 0.0 {
                 continue;
             }
-            // A force where the readout is b drives the complex coordinate by conj b.
+            // A force at a point read by b drives the complex coordinate by conj b.
             let drive = match source {
                 Source::Shock => {
                     let place = driven.forced_index.iter().position(|&index| index == i);

@@ -1,4 +1,4 @@
-//! The unit response at one instant: points, hub and base, what has been exchanged.
+//! The unit response at one instant: points, hub and base, energy exchanged so far.
 
 use crate::complementarity::Gap;
 
@@ -18,13 +18,13 @@ pub(super) struct Sample {
     pub top: Motion,
     pub bottom: Motion,
     pub rim: f64,
-    /// Pitch and roll of the disk under the slider, of a disk on a hub.
+    /// Pitch and roll of the disk under the slider, for a disk on a hub.
     pub tilt: [Motion; 2],
     /// Energy of disk and arms, J per (m/s²)².
     pub energy: f64,
     /// Its kinetic part.
     pub kinetic: f64,
-    /// H less that energy: 0 where only n = 0 moves.
+    /// H minus that energy: 0 where only n = 0 moves.
     pub excess: f64,
     /// Work of the shock so far, J per (m/s²)².
     pub work: f64,
@@ -37,22 +37,22 @@ pub(super) struct Sample {
 pub(super) struct Exchange {
     pub work: f64,
     pub loss: f64,
-    /// Impulses of what holds hub and base, N s.
+    /// Impulses of the supports of hub and base, N s.
     pub support_n_s: [f64; 2],
 }
 
-/// Hub and base at one instant, per unit amplitude or in total. Of two: hub, base.
+/// Hub and base at one instant, per unit amplitude or in total. Pairs are (hub, base).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BodySample {
-    /// Axial displacement of the hub over its bearing, m.
+    /// Axial displacement of the hub relative to its bearing, m.
     pub axial_m: f64,
     /// Its tilt towards the ramp and across, rad.
     pub tilt_rad: [f64; 2],
-    /// Displacement of spindle, ramp's mount and pivot over the rigid base, m.
+    /// Displacement of spindle, ramp's mount and pivot relative to the rigid base, m.
     pub mounts_m: [f64; 3],
     /// Momentum of hub and disk, and of the base with all it carries, N s.
     pub momentum_n_s: [f64; 2],
-    /// Impulses of what holds them so far, N s.
+    /// Impulses of their supports so far, N s.
     pub support_n_s: [f64; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What all runs of one model share.
+//! Data that all runs of one structural model share.
 
 use super::driven::Driven;
 use super::error::StructureError;
@@ -8,16 +8,16 @@ use super::outcome::StructureWarning;
 use super::parameters::{ContactMethod, Window};
 use super::rotor::Rotor;
 use super::sample::{Sample, unit_gap};
-use super::span::{FLIGHT_NODES, Span};
+use super::span::{INTERVAL_NODES, Span};
 use crate::complementarity::{self, Gap, ImpactLaw};
 use crate::disk::DiskPose;
 use crate::shock::Pulse;
 use std::sync::LazyLock;
 
-/// What contact drives, or why it cannot be built.
-pub(super) type Asleep = Result<Driven, StructureError>;
+/// The contact-driven modes, or why they cannot be built.
+pub(super) type Inactive = Result<Driven, StructureError>;
 
-/// Free motion, ramp and grid; what contact drives sleeps until a run asks for it.
+/// Free motion, ramp and time grid; the contact-driven modes stay inactive until a run needs them.
 pub(super) struct Shared {
     pub free: FreeMotion,
     pub n_steps: usize,
@@ -33,18 +33,18 @@ pub(super) struct Shared {
     pub n_arm_modes: usize,
     /// Pitch and roll per radial slope.
     pub slope_to_pose: [f64; 2],
-    /// Told by every run.
+    /// Reported by every run.
     pub warnings: Vec<StructureWarning>,
-    pub asleep: LazyLock<Asleep, Box<dyn FnOnce() -> Asleep + Send>>,
+    pub inactive: LazyLock<Inactive, Box<dyn FnOnce() -> Inactive + Send>>,
 }
 
 impl Shared {
-    /// What contact drives, built at the first call.
+    /// The contact-driven modes, built at the first call.
     ///
     /// # Errors
     /// A failed eigenvalue problem of a harmonic n >= 1.
     pub fn driven(&self) -> Result<&Driven, StructureError> {
-        self.asleep.as_ref().map_err(Clone::clone)
+        self.inactive.as_ref().map_err(Clone::clone)
     }
 
     /// Gap of `side` at node `k` in free motion.
@@ -56,10 +56,9 @@ impl Shared {
         }
     }
 
-    /// Pose and rate of the disk over the pivot as the unit response alone moves it.
-    ///
-    /// What contact does to the pivot is told apart ([`StructuralHistory`]): impulses make its velocity jump,
-    /// which no load b(t) could tell the head.
+    /// Pose and rate of the disk relative to the pivot in the unit response alone. The contact-driven motion of the
+    /// pivot is kept separately ([`StructuralHistory`]): impulses make its velocity jump, which no load b(t) on the
+    /// head can express.
     pub fn over_pivot(
         &self,
         amplitude: f64,
@@ -75,8 +74,8 @@ impl Shared {
         (pose, rate)
     }
 
-    /// An empty history for `n_nodes`: of the disk under the slider, and of what contact does to the pivot of a
-    /// base that vibrates.
+    /// An empty history for `n_nodes`: of the disk under the slider, and of the contact-driven motion of the pivot of a
+    /// vibrating base.
     pub fn history(&self, n_nodes: usize) -> StructuralHistory {
         let empty = || StructuralHistory {
             step_s: self.free.step_s,
@@ -99,18 +98,18 @@ impl Shared {
         if self.n_contacts == 0 {
             return self.n_steps;
         }
-        let flights = (0..).zip(&self.free.spans);
-        flights
+        let contact_free_intervals = (0..).zip(&self.free.spans);
+        contact_free_intervals
             .filter(|(_, span)| !self.stays_open(amplitude, span))
             .find_map(|(i, _)| {
-                let first = i * FLIGHT_NODES;
-                let mut steps = first..(first + FLIGHT_NODES).min(self.n_steps);
+                let first = i * INTERVAL_NODES;
+                let mut steps = first..(first + INTERVAL_NODES).min(self.n_steps);
                 steps.find(|&k| self.may_touch(amplitude, k))
             })
             .unwrap_or(self.n_steps)
     }
 
-    /// Whether free motion leaves both gaps open over a flight.
+    /// Whether free motion leaves both gaps open over a whole interval.
     fn stays_open(&self, amplitude: f64, span: &Span) -> bool {
         (0..self.n_contacts).all(|side| {
             let change_m = span.gaps[side].times(amplitude);

@@ -1,9 +1,9 @@
-//! Between which bounds the unit response stays over some nodes.
+//! Bounds the unit response over several steps, so that steps in which no gap can close are skipped.
 
 use super::sample::{Sample, unit_gap};
 
-/// Steps of a flight. It begins at a multiple of them.
-pub(super) const FLIGHT_NODES: usize = 16;
+/// Steps of a contact-free interval, which begins at a multiple of them.
+pub(super) const INTERVAL_NODES: usize = 16;
 
 /// Bounds of a value.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub(super) struct Range {
     pub high: f64,
 }
 
-/// Bounds of the unit response over a flight, ends included.
+/// Bounds of the unit response over an interval, ends included.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     /// Changes of the gaps: at the nodes, and of the cubics between them.
@@ -28,7 +28,7 @@ impl Range {
         high: f64::NEG_INFINITY,
     };
 
-    /// With `value` give or take `more`.
+    /// Extended to `value` ± `more`.
     fn with(self, value: f64, more: f64) -> Self {
         Self {
             low: self.low.min(value - more),
@@ -53,7 +53,7 @@ impl Range {
         }
     }
 
-    /// Bounds of a motion known at both ends of a time `h_s`, in value and rate, that strays from the cubic through
+    /// Bounds of a motion known at both ends of a time `h_s`, in value and rate, that deviates from the cubic through
     /// them by `stray` at most: those of the cubic's control points (Bernstein).
     pub fn of_motion(ends: [[f64; 2]; 2], h_s: f64, stray: f64) -> Self {
         let [[x0, v0], [x1, v1]] = ends;
@@ -84,7 +84,7 @@ impl Span {
             }
         }
         for (range, rate_m_per_s) in span.gaps.iter_mut().zip(fastest) {
-            // No cubic leaves its ends by more than a quarter of a step at the larger of their rates.
+            // No cubic leaves the range of its ends by more than a quarter of a step times the larger of their rates.
             let more = 0.25 * step_s * rate_m_per_s;
             (range.low, range.high) = (range.low - more, range.high + more);
         }
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_wave_stays_within_the_bounds_of_its_ends() {
-        // cos ωt over 0.8 radians: it strays from the cubic by (ωh)⁴/384.
+        // cos ωt over 0.8 radians: it deviates from the cubic by (ωh)⁴/384.
         let (omega, h) = (3.0, 0.8 / 3.0);
         for k in 0..40 {
             let phase = 0.17 * f64::from(k);

@@ -1,12 +1,12 @@
-//! The unit pulse as stretches with closed forms, and any time cut at their borders.
+//! Divides the unit pulse into stretches with closed forms, and any time at their borders.
 
 use crate::modal::Phase;
 use crate::modal::oscillator::phi1;
 use crate::shock::Stretch;
 use nalgebra::Complex;
 
-/// Stretches of a pulse, in time. All waves have one rate: a half-sine has one stretch, piecewise
-/// linear shapes have no wave.
+/// Stretches of a pulse, in order of time. All waves have one rate: a half-sine has one stretch, piecewise linear
+/// shapes have no wave.
 pub(super) struct Stretches(pub Vec<Stretch>);
 
 /// A time within one stretch, or after the last.
@@ -44,7 +44,7 @@ impl Stretches {
         sum
     }
 
-    /// Rate and phase when the step from `start_s` lies inside one stretch.
+    /// Rate and phase of the pulse when the step from `start_s` lies within one stretch.
     pub fn whole_step(&self, start_s: f64, step_s: f64) -> Option<(Complex<f64>, Phase)> {
         let i = self.0.partition_point(|s| s.end_s <= start_s);
         let stretch = self.0.get(i)?;
@@ -66,7 +66,7 @@ impl Stretches {
                 return;
             }
             let until = stretch.end_s.min(end_s);
-            // The only piece keeps the exact length asked for.
+            // A single piece keeps the exact length requested.
             let whole = t == start_s && until == end_s;
             visit(Piece {
                 start_s: t,

@@ -1,9 +1,9 @@
-//! The grid of times: whether step and window can be, how many steps there are.
+//! Checks step and window of a structural run, and gives the number of steps of its time grid.
 
 use super::error::StructureError;
 use super::parameters::Window;
 
-/// Most steps of a grid.
+/// Largest number of steps of a grid.
 const MAX_STEPS: f64 = 2e7;
 
 pub(super) fn check_times(window: Window, step_s: f64) -> Result<(), StructureError> {
@@ -35,7 +35,7 @@ pub(super) fn check_times(window: Window, step_s: f64) -> Result<(), StructureEr
 }
 
 pub(super) fn count_steps(window: Window, step_s: f64) -> Result<usize, StructureError> {
-    // A window that is a multiple of the step but for rounding gets no step more.
+    // A window that is a multiple of the step but for rounding gets no extra step.
     let n = (window_length(window) / step_s - 1e-6).ceil().max(1.0);
     if n > MAX_STEPS {
         return Err(StructureError::Time {

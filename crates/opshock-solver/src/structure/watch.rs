@@ -1,25 +1,25 @@
-//! What is seen at the nodes inside a flight: the motion that the head reads, extremes, columns.
+//! Evaluates the nodes within a contact-free interval: the motion that the head reads, extremes, recorded columns.
 
 use super::driven::Driven;
-use super::run_books::RunBooks;
-use super::span::FLIGHT_NODES;
+use super::run_balances::RunBalances;
+use super::span::INTERVAL_NODES;
 use crate::disk::DiskPose;
 use crate::lanes::{self, Simd, WithSimd};
 use crate::modal::ModalState;
 use crate::modal::bank::{ChunkFlow, LANES, chunks};
 
-impl RunBooks<'_> {
-    /// Looks at the nodes inside a flight that begins now.
+impl RunBalances<'_> {
+    /// Evaluates the nodes within a contact-free interval that begins now.
     pub fn watch(&mut self, driven: &Driven) {
         let first = self.k;
-        let mut sums = [[[0.0; LANES]; WATCHED]; FLIGHT_NODES - 1];
+        let mut sums = [[[0.0; LANES]; WATCHED]; INTERVAL_NODES - 1];
         lanes::widest(Watch {
             driven,
             n: self.n_moving / LANES,
             state: &self.state.now,
             sums: &mut sums,
         });
-        let mut seen = [(DiskPose::default(), DiskPose::default()); FLIGHT_NODES - 1];
+        let mut seen = [(DiskPose::default(), DiskPose::default()); INTERVAL_NODES - 1];
         for (j, (sums, seen)) in sums.into_iter().zip(&mut seen).enumerate() {
             let sample = &self.shared.free.samples[first + j + 1];
             let [contact, rim, w, pitch, roll, w_rate, pitch_rate, roll_rate] =
@@ -45,12 +45,12 @@ impl RunBooks<'_> {
             *seen = (pose, rate);
         }
         if self.state.record {
-            self.record_flight(driven, &seen);
+            self.record_interval(driven, &seen);
         }
     }
 
-    /// Rows of the columns for the nodes inside a flight, which is taken by steps for their sake and undone.
-    fn record_flight(&mut self, driven: &Driven, seen: &[(DiskPose, DiskPose)]) {
+    /// Appends rows for the nodes within a contact-free interval, which is taken by steps for them and then undone.
+    fn record_interval(&mut self, driven: &Driven, seen: &[(DiskPose, DiskPose)]) {
         let (first, free) = (self.k, &self.shared.free);
         let (now, unit) = (self.state.now.clone(), self.state.unit_now.clone());
         for (pose, _) in seen {
@@ -69,14 +69,14 @@ impl RunBooks<'_> {
     }
 }
 
-/// What is read at a node inside a flight: contact point, rim, and the slider's pose and its rate.
+/// Sums at a node within an interval: contact point, rim, and the slider's pose and its rate.
 const WATCHED: usize = 8;
 
 struct Watch<'a> {
     driven: &'a Driven,
     n: usize,
     state: &'a ModalState,
-    sums: &'a mut [[[f64; LANES]; WATCHED]; FLIGHT_NODES - 1],
+    sums: &'a mut [[[f64; LANES]; WATCHED]; INTERVAL_NODES - 1],
 }
 
 impl WithSimd for Watch<'_> {
@@ -94,7 +94,7 @@ impl WithSimd for Watch<'_> {
 }
 
 impl Watch<'_> {
-    /// Chunk by chunk, each carried over all nodes in registers, `V` of them a chunk.
+    /// Chunk by chunk, each advanced over all nodes in registers, `V` of them per chunk.
     #[inline(always)]
     fn run<S: Simd, const V: usize>(self, simd: S) {
         let n = self.n;

@@ -145,7 +145,7 @@ impl BeamMatrices {
         })
     }
 
-    /// Bending and torsion as the reduction takes them.
+    /// Equations of bending and torsion in the form that the reduction needs.
     pub(super) fn clamped(self) -> [Clamped; 2] {
         let n = self.bending_mass.nrows();
         let mut slope = DVector::zeros(n);
@@ -237,7 +237,7 @@ fn validate(parameters: &SuspensionParameters) -> Result<(), SuspensionError> {
         ("shear modulus", parameters.shear_modulus_pa),
         ("density", parameters.density_kg_per_m3),
     ] {
-        // A negated comparison, so that NaN is refused too.
+        // A negated comparison, so that NaN is rejected too.
         if !(value > 0.0 && value.is_finite()) {
             return Err(SuspensionError::NotPositive { quantity, value });
         }

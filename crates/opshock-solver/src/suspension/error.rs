@@ -1,4 +1,4 @@
-//! Why a suspension cannot be built.
+//! Errors of building a suspension.
 
 use thiserror::Error;
 

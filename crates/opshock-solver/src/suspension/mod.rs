@@ -1,8 +1,8 @@
-//! Suspension: hinge, load beam with flanges, flexure mass, dimple, gimbal.
+//! Reduced model of the suspension: hinge, load beam with flanges, flexure mass, dimple, gimbal.
 //!
-//! `beam` turns the geometry into bending and torsion finite elements of a clamped strip of
-//! varying section (`section`); `reduction` condenses them to the motion of the dimple plus a
-//! few dimple-pinned modes (Craig and Bampton 1968). The result is what a head integrates:
+//! `beam` turns the geometry into bending and torsion finite elements of a clamped strip of varying section
+//! (`section`). `reduction` condenses them to the motion of the dimple plus a few dimple-pinned modes (Craig and
+//! Bampton 1968). The result is what a head integrates:
 //!
 //! ```text
 //! M ü + C u̇ + K u = f a(t) + e₀ F        u = (dimple z, pinned bending modes)
@@ -13,10 +13,10 @@
 //! that the slider exerts at the dimple. All displacements are increments from the loaded state;
 //! the gram load itself enters as the steady dimple force.
 //!
-//! A suspension of another program comes as its modes on the base (`modes`), reduced in the same way.
+//! A suspension from another program is given by its modes on the base (`modes`) and reduced in the same way.
 //!
-//! Left out: in-plane motion (sway), the coupling of bending and torsion by asymmetry, the
-//! stiffening by preload, and the rotatory inertia of bending.
+//! Neglected: in-plane motion (sway), coupling of bending and torsion by asymmetry, stiffening by preload, and rotatory
+//! inertia of bending.
 
 mod beam;
 mod error;

@@ -1,15 +1,15 @@
-//! A suspension by its natural modes on the base, as another program's matrices reduce to.
+//! A suspension given by its natural modes on the base, to which another program's matrices reduce.
 //!
 //! ```text
 //! q'' + ω² q = φ F + ρ T + p a(t),    z = Σ φ q,  dw/dx = Σ σ q,  roll = Σ ρ q   at the dimple
 //! ```
 //!
-//! A suspension that is its own mirror image across the slider's middle has modes that bend (φ, σ, p)
-//! and modes that twist (ρ), and none that do both; only such suspensions are taken.
+//! A suspension that is its own mirror image across the slider's middle has modes that bend (φ, σ, p) and modes that
+//! twist (ρ), and none that do both; only such suspensions are accepted.
 //!
-//! The reduction to the dimple needs z itself as a coordinate. It takes the place of the lowest mode m
-//! that moves the dimple much, q_m = (z − Σ φ q)/φ_m: the stiffnesses of the others then stay the
-//! largest entries of their rows, which Cholesky's method factors without loss.
+//! The reduction to the dimple needs z itself as a coordinate. z replaces the lowest mode m that moves the dimple much,
+//! q_m = (z − Σ φ q)/φ_m. The stiffnesses of the others then remain the largest entries of their rows, which Cholesky's
+//! method factors without loss.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -30,7 +30,7 @@ pub struct SuspensionMode {
     pub participation_sqrt_kg: f64,
 }
 
-/// Share of the largest displacement of the dimple from which on a mode may give its place to z.
+/// Share of the largest displacement of the dimple above which z may replace a mode.
 const MUCH: f64 = 0.1;
 
 /// Equations of one set of unknowns of a clamped suspension.
@@ -40,9 +40,9 @@ pub(super) struct Clamped {
     pub mass: DMatrix<f64>,
     /// Load of a unit inertia load per mass.
     pub load: DVector<f64>,
-    /// Unknown that the slider holds on to.
+    /// Unknown at which the slider acts.
     pub interface: usize,
-    /// Row that reads dw/dx at the dimple.
+    /// Row that gives dw/dx at the dimple.
     pub slope: DVector<f64>,
     /// Unknown that is the rise of the tab's end, where there is one.
     pub tab: Option<usize>,
@@ -51,7 +51,7 @@ pub(super) struct Clamped {
 /// Bending and torsion of these modes.
 ///
 /// # Errors
-/// Numbers out of range, a mode that does both, a set that does not move the dimple.
+/// Numbers out of range, a mode that both bends and twists, a set that does not move the dimple.
 pub(super) fn clamped(modes: &[SuspensionMode]) -> Result<[Clamped; 2], SuspensionError> {
     for (k, mode) in modes.iter().enumerate() {
         let positive = mode.frequency_hz > 0.0 && mode.frequency_hz.is_finite();
@@ -80,7 +80,7 @@ pub(super) fn clamped(modes: &[SuspensionMode]) -> Result<[Clamped; 2], Suspensi
     ])
 }
 
-/// Equations whose last unknown is what `shape` reads.
+/// Equations whose last unknown is the one that `shape` gives.
 fn with_interface(
     modes: &[SuspensionMode],
     shape: impl Fn(&SuspensionMode) -> f64,

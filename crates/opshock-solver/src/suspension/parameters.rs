@@ -27,11 +27,11 @@ pub struct SuspensionParameters {
     pub gimbal: Gimbal,
     /// Unilateral dimple contact.
     pub dimple: ContactLaw,
-    /// Limiters between flexure and load beam; none: nothing holds an open dimple but the gimbal.
+    /// Limiters between flexure and load beam; none: only the gimbal resists an open dimple.
     pub limiters: Vec<Limiter>,
     /// Lift tab under a stop; `None`: it moves freely.
     pub lift_tab: Option<LiftTab>,
-    /// Modes that take the place of geometry and material; none: by its geometry.
+    /// Modes that replace geometry and material; none: the geometry is used.
     pub modes: Vec<SuspensionMode>,
 }
 
@@ -83,8 +83,15 @@ pub struct Flexure {
     pub from_m: f64,
 }
 
+impl SuspensionParameters {
+    /// Contact force of the dimple in steady flight, N.
+    pub fn steady_dimple_force_n(&self) -> f64 {
+        self.gram_load_n
+    }
+}
+
 /// Gimbal stiffnesses.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Gimbal {
     /// Vertical, N/m.
     pub vertical_n_per_m: f64,
@@ -103,10 +110,10 @@ pub struct ContactLaw {
     pub damping_ratio: f64,
 }
 
-/// Hook of the flexure behind the load beam, which ends the opening of the dimple.
+/// Hook of the flexure behind the load beam, which limits the opening of the dimple.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Limiter {
-    /// Opening at which it is met, from the steady state, m.
+    /// Opening at which it closes, from the steady state, m.
     pub gap_m: f64,
     /// From the dimple towards the tip, m.
     pub along_m: f64,
@@ -119,7 +126,7 @@ pub struct Limiter {
 /// Tab at the end of the load beam under a stop that is fixed to the base, a ramp's or a limiter's.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LiftTab {
-    /// Rise of the tab's end at which it is met, from the steady state, m.
+    /// Rise of the tab's end at which it closes, from the steady state, m.
     pub gap_m: f64,
     /// Contact.
     pub contact: ContactLaw,

@@ -1,4 +1,4 @@
-//! Craig-Bampton reduction of the beam to its dimple.
+//! Craig-Bampton reduction of the suspension's beam model to its dimple.
 //!
 //! Coordinates: the dimple's displacement with the static shape ψ that belongs to a force there,
 //! and the lowest modes φᵢ of the beam pinned at the dimple (mass-normalised):
@@ -7,17 +7,16 @@
 //! w = ψ u₀ + Σ φᵢ uᵢ,   K = diag(k₀, ω₁², ω₂², …),   M = [ψᵀMψ  ψᵀMφ ; ·  1],   f = (ψᵀM1, φᵀM1)
 //! ```
 //!
-//! ψᵀM1 is the mass that a shock seems to have at the dimple ("effective shock mass"): the static
-//! reaction at a held dimple under a uniform inertia load a is f₀ a.
+//! ψᵀM1 is the effective shock mass at the dimple: the static reaction at a fixed dimple under a uniform inertia load a
+//! is f₀ a.
 //!
 //! Damping is the same ratio ζ for every natural mode Φ of the reduced beam with the dimple free: in the
 //! coordinates η of those modes, u = Φ η, mass, damping and stiffness are 1, diag(2 ζ ω) and diag(ω²), or
 //! C = M Φ diag(2 ζ ω) Φᵀ M in u.
 //!
-//! With a lift tab one shape more is kept: the static shape of a force at the tab's end with the dimple held,
-//! less what the kept modes have of it. It is orthogonal to them in M and K, so it enters like one of them, at
-//! the frequency of its Rayleigh quotient; the tab is then exactly as compliant as the finite elements make it
-//! (attachment mode).
+//! With a lift tab one more shape is kept: the static shape of a force at the tab's end with the dimple fixed, less its
+//! part in the kept modes. It is orthogonal to them in M and K, so it enters like one of them, at the frequency of its
+//! Rayleigh quotient. The tab then has exactly the compliance of the finite elements (attachment mode).
 //!
 //! Sources: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313; R. R. Craig, C.-J. Chang, NASA CR-2918 (1977).
 
@@ -28,7 +27,7 @@ use super::error::SuspensionError;
 use super::modes::{self, Clamped, SuspensionMode};
 use super::parameters::SuspensionParameters;
 
-/// Share of a static shape's mass below which modes hold all of it.
+/// Share of a static shape's mass below which the modes are taken to contain all of it.
 const HELD: f64 = 1e-20;
 
 /// One reduced set: coordinate 0 is the dimple's, the others are pinned modes.
@@ -52,7 +51,7 @@ pub struct Reduction {
     pub tab_row: Option<DVector<f64>>,
     /// Frequencies of the finite elements with the dimple free, Hz, as many as coordinates.
     pub free_hz: Vec<f64>,
-    /// Frequencies with the dimple held, Hz, one for each pinned mode kept.
+    /// Frequencies with the dimple fixed, Hz, one for each pinned mode kept.
     pub pinned_hz: Vec<f64>,
 }
 
@@ -70,7 +69,7 @@ impl Reduction {
         self.natural_modes.tr_mul(row)
     }
 
-    /// Whether there are no coordinates; never true for one that was built.
+    /// Whether there are no coordinates; never true for a built suspension.
     pub fn is_empty(&self) -> bool {
         self.stiffness.is_empty()
     }
@@ -88,11 +87,11 @@ pub struct ReducedSuspension {
 }
 
 impl ReducedSuspension {
-    /// Builds and reduces a suspension, keeping `bending_modes` pinned bending modes and half as
-    /// many (rounded up, at most all) pinned torsion modes, which lie twice as far apart.
+    /// Builds and reduces a suspension. Keeps `bending_modes` pinned bending modes, and half as many pinned torsion
+    /// modes (rounded up, at most all), whose frequencies lie twice as far apart.
     ///
     /// # Errors
-    /// Geometry that cannot be, or more modes than elements carry.
+    /// Invalid geometry, or more modes than the elements have.
     pub fn build(
         parameters: &SuspensionParameters,
         bending_modes: usize,
@@ -106,7 +105,7 @@ impl ReducedSuspension {
         }
         let bending_modes = match parameters.modes.is_empty() {
             true => bending_modes,
-            // All that there are, where there are fewer.
+            // All modes where there are fewer.
             false => bending_modes.min(bending.mass.nrows() - 1),
         };
         let all_torsion = torsion.mass.nrows() - 1;
@@ -117,10 +116,10 @@ impl ReducedSuspension {
         })
     }
 
-    /// Most pinned bending modes that there are: with all of them nothing is cut.
+    /// Number of all pinned bending modes; with all of them the reduction is exact.
     ///
     /// # Errors
-    /// Geometry that cannot be.
+    /// Invalid geometry.
     pub fn most_bending_modes(parameters: &SuspensionParameters) -> Result<usize, SuspensionError> {
         let ([bending, _], _) = clamped(parameters)?;
         Ok(bending.mass.nrows() - 1)
@@ -136,7 +135,7 @@ impl ReducedSuspension {
         self.torsion.stiffness[0]
     }
 
-    /// Reaction at a held dimple per uniform inertia load, kg.
+    /// Reaction at a fixed dimple per uniform inertia load, kg.
     pub fn effective_shock_mass_kg(&self) -> f64 {
         self.bending.inertia_load[0]
     }
@@ -207,8 +206,7 @@ fn reduce(
     basis.set_column(0, &shape);
     basis.columns_mut(1, size - 1).copy_from(&modes);
     let mut reduced_mass = basis.transpose() * mass * &basis;
-    // The pinned block is the identity and the whole is symmetric by construction; rounding is
-    // not allowed to say otherwise.
+    // The pinned block is the identity and the whole is symmetric by construction; this removes rounding errors.
     for i in 0..size {
         for j in 0..size {
             if i > 0 && j > 0 {
@@ -244,8 +242,8 @@ fn reduce(
     })
 }
 
-/// Static shape of a unit force at unknown `at`, less its part in the mass-normalised `modes`: its circular
-/// frequency and its mass-normalised shape; `None` when the modes hold all of it.
+/// Static shape of a unit force at unknown `at`, less its part in the mass-normalised `modes`: its circular frequency
+/// and its mass-normalised shape; `None` when the modes contain all of it.
 fn attachment(
     stiffness: DMatrix<f64>,
     mass: &DMatrix<f64>,
@@ -260,7 +258,7 @@ fn attachment(
     let whole = factor.solve(&unit);
     let size = |x: &DVector<f64>| x.dot(&(mass * x));
     let mut rest = whole.clone();
-    // Twice: the second time takes away what rounding left of the first.
+    // Twice: the second pass removes the rounding errors of the first.
     for _ in 0..2 {
         let shares = modes.transpose() * (mass * &rest);
         rest -= modes * shares;

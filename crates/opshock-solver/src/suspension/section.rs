@@ -1,4 +1,4 @@
-//! Cross-section of the suspension at a distance from its root.
+//! Cross-section of the suspension: stiffness and inertia at a distance from its root.
 //!
 //! The web is a flat strip b × t. Flanges, where present, are two upright strips of the web's
 //! thickness and height h on its edges, so that with A = b t, A_f = 2 h t

@@ -1,7 +1,7 @@
-//! Shapes of the suspension's natural modes along its length, for people and drawings.
+//! Shapes of the suspension's natural modes along its length, for drawing.
 //!
 //! ```text
-//! K φ = ω² M φ,   φᵀ M φ = 1      of the finite elements, root held; dimple free, or held too
+//! K φ = ω² M φ,   φᵀ M φ = 1      of the finite elements, root clamped; dimple free, or fixed too
 //! ```
 //!
 //! Inside an element the shape is the element's own: the cubic of Hermite for bending, a line for
@@ -18,7 +18,7 @@ use super::section::Section;
 /// Parts of an element between drawn points.
 const PARTS: usize = 4;
 
-/// What holds the suspension beside its root.
+/// Support of the suspension beside its root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Held {
     /// Nothing.
@@ -36,8 +36,7 @@ pub struct SuspensionShape {
     pub held: Held,
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
-    /// At every place: rise, 1/√kg, of a mode that bends; twist about the axis, 1/(m √kg), of one
-    /// that twists.
+    /// At every place: rise, 1/√kg, of a bending mode; twist about the axis, 1/(m √kg), of a torsion mode.
     pub shape: Vec<f64>,
 }
 
@@ -57,7 +56,7 @@ impl SuspensionShapes {
     /// and half as many, rounded up, of torsion; one more of each with the dimple free.
     ///
     /// # Errors
-    /// Geometry that cannot be, more modes than the elements have.
+    /// Invalid geometry, or more modes than the elements have.
     pub fn build(
         parameters: &SuspensionParameters,
         bending_modes: usize,

@@ -1,4 +1,4 @@
-//! What one setting gives and costs.
+//! Measures answers and cost of one setting of a discretisation parameter.
 
 use std::time::Instant;
 
@@ -7,7 +7,7 @@ use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Model, Outcome, Request, Scope, Verdict, Workspace, simulate};
 use serde::{Deserialize, Serialize};
 
-/// Answers of a setting.
+/// Answers and cost of a setting.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Why there is no answer.
@@ -40,14 +40,14 @@ pub struct Measured {
     pub build_s: f64,
 }
 
-/// First step of the gallop for the bracket, as a ratio.
+/// First step of the exponential search for the bracket, as a ratio.
 const STEP: f64 = 1.01;
-/// Largest step of the gallop.
+/// Largest step of the exponential search.
 const LONGEST_STEP: f64 = 1.5;
-/// A setting whose answer lies farther away than this ratio has none.
+/// Largest distance of a setting's answer, as a ratio; beyond it there is none.
 const FARTHEST: f64 = 10.0;
 
-/// A model with scratch, ready for shocks of one sign.
+/// A model with its workspace, for shocks of one sign.
 pub struct Bench {
     model: Model,
     sign: f64,
@@ -72,7 +72,7 @@ impl Bench {
         })
     }
 
-    /// One shock, to the touch at most.
+    /// One shock, ending at touch.
     pub fn probe(&mut self, amplitude_g: f64) -> Outcome {
         let request = Request {
             amplitude_m_per_s2: self.sign * m_per_s2_from_g(amplitude_g),
@@ -132,11 +132,9 @@ impl Bench {
             }
             runs += 1;
             match self.probe(at).verdict {
-                Verdict::Survives => low = Some(at),
-                Verdict::Fails { .. } => high = Some(at),
-                Verdict::Undecided { cause } => {
-                    return Err(format!("undecided at {at:.2} G: {cause:?}"));
-                }
+                Some(Verdict::Survives) => low = Some(at),
+                Some(Verdict::Fails { .. }) => high = Some(at),
+                undecided => return Err(format!("undecided at {at:.2} G: {undecided:?}")),
             }
             match (low, high) {
                 (Some(low), Some(high)) if high / low - 1.0 <= bracket => {

@@ -1,11 +1,11 @@
-//! From what was measured to errors, orders and the front.
+//! Errors, observed orders and the cost-error front from the measured settings.
 
 use serde::{Deserialize, Serialize};
 
-use super::ladder::{Setting, formal_order, order_quantity};
 use super::measure::Measured;
+use super::refinement::{Setting, formal_order, order_quantity};
 
-/// Names of the quantities whose errors are listed, in the order of [`RungRow::errors`].
+/// Names of the quantities whose errors are listed, in the order of [`SettingRow::errors`].
 pub const QUANTITIES: [&str; 7] = [
     "critical_shock",
     "min_clearance",
@@ -16,57 +16,57 @@ pub const QUANTITIES: [&str; 7] = [
     "first_touch_time",
 ];
 
-/// A rung with its errors and cost.
+/// A setting with its errors and cost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RungRow {
-    /// Ladder.
-    pub ladder: String,
-    /// Value of the knob.
+pub struct SettingRow {
+    /// Refinement study.
+    pub parameter: String,
+    /// Value of the discretisation parameter.
     pub value: String,
     /// Fineness.
     pub fineness: f64,
-    /// The reference of its ladder: its errors are how uncertain it is itself.
+    /// The reference of its refinement study: its errors are its own uncertainty.
     pub is_reference: bool,
     /// Errors, as shares, by [`QUANTITIES`].
     pub errors: [Option<f64>; QUANTITIES.len()],
     /// Median and quartiles of the wall time of the probing shock, s.
     pub wall_s: Option<[f64; 3]>,
-    /// No other setting of the front's ladders is both cheaper and better.
+    /// No other setting of the front's refinement studies is both cheaper and better.
     pub is_on_front: bool,
     /// As measured.
     pub measured: Measured,
 }
 
-/// Observed order of a ladder.
+/// Observed order of a refinement study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LadderOrder {
-    /// Ladder.
-    pub ladder: String,
+pub struct StudyOrder {
+    /// Refinement study.
+    pub parameter: String,
     /// Quantity it is read on.
     pub quantity: String,
-    /// Order in the ladder's fineness, as the errors fall; `None` where they show none.
+    /// Order in the refinement study's fineness, as the errors fall; `None` where they show none.
     pub observed: Option<f64>,
-    /// Three errors and more are known and scatter too much about any order.
+    /// Three or more errors are known, but scatter too much about any order.
     #[serde(default)]
     pub is_disordered: bool,
     /// Formal order.
     pub formal: Option<f64>,
 }
 
-/// Ladders of one point.
+/// Refinement studies of one point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PointLadders {
+pub struct PointStudies {
     /// `deformable 2 ms -`.
     pub label: String,
     /// Amplitude of the probing shock, G.
     pub probe_g: f64,
-    /// Rungs.
-    pub rungs: Vec<RungRow>,
+    /// Settings.
+    pub settings: Vec<SettingRow>,
     /// Orders.
-    pub orders: Vec<LadderOrder>,
+    pub orders: Vec<StudyOrder>,
 }
 
-/// Everything a report of it shows.
+/// All data of a report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Name of the study.
@@ -76,56 +76,63 @@ pub struct Accuracy {
     /// Program that measured.
     pub program: String,
     /// Points.
-    pub points: Vec<PointLadders>,
+    pub points: Vec<PointStudies>,
 }
 
-impl PointLadders {
+impl PointStudies {
     /// Errors, orders and front of what was measured.
-    pub fn of(label: String, probe_g: f64, measured: &[(Setting, Measured)]) -> PointLadders {
-        let reference = |ladder: &str| {
+    pub fn of(label: String, probe_g: f64, measured: &[(Setting, Measured)]) -> PointStudies {
+        let reference = |parameter: &str| {
             let found = measured
                 .iter()
-                .find(|(s, _)| s.ladder == ladder && s.is_reference);
+                .find(|(s, _)| s.parameter == parameter && s.is_reference);
             found.map(|(setting, measured)| (setting, measured))
         };
-        let mut rungs: Vec<RungRow> = measured
+        let mut settings: Vec<SettingRow> = measured
             .iter()
-            .map(|(setting, one)| RungRow {
-                ladder: setting.ladder.to_owned(),
+            .map(|(setting, one)| SettingRow {
+                parameter: setting.parameter.to_owned(),
                 value: setting.value.clone(),
                 fineness: setting.fineness,
                 is_reference: setting.is_reference,
-                errors: reference(setting.ladder)
+                errors: reference(setting.parameter)
                     .map_or([None; QUANTITIES.len()], |(_, other)| errors(one, other)),
                 wall_s: quartiles(&one.wall_s),
                 is_on_front: false,
                 measured: one.clone(),
             })
             .collect();
-        // How far the reference itself may be off: the finest rung's error, fallen at formal order.
-        for place in 0..rungs.len() {
-            if !rungs[place].is_reference {
+        // Possible error of the reference itself: the finest setting's error, reduced at formal order.
+        for place in 0..settings.len() {
+            if !settings[place].is_reference {
                 continue;
             }
-            let (ladder, fineness) = (rungs[place].ladder.clone(), rungs[place].fineness);
-            let finest = rungs
+            let (parameter, fineness) =
+                (settings[place].parameter.clone(), settings[place].fineness);
+            let finest = settings
                 .iter()
-                .filter(|rung| rung.ladder == ladder && !rung.is_reference)
+                .filter(|setting| setting.parameter == parameter && !setting.is_reference)
                 .max_by(|a, b| a.fineness.total_cmp(&b.fineness));
             if let Some(finest) = finest {
-                let order = formal_order(&ladder).unwrap_or(1.0);
+                let order = formal_order(&parameter).unwrap_or(1.0);
                 let fall = (finest.fineness / fineness).powf(order);
-                rungs[place].errors = finest.errors.map(|error| error.map(|e| e * fall));
+                settings[place].errors = finest.errors.map(|error| error.map(|e| e * fall));
             }
         }
-        mark_front(&mut rungs);
-        let mut ladders: Vec<String> = rungs.iter().map(|rung| rung.ladder.clone()).collect();
-        ladders.dedup();
-        let orders = ladders.iter().map(|ladder| order(ladder, &rungs)).collect();
-        PointLadders {
+        mark_front(&mut settings);
+        let mut studies: Vec<String> = settings
+            .iter()
+            .map(|setting| setting.parameter.clone())
+            .collect();
+        studies.dedup();
+        let orders = studies
+            .iter()
+            .map(|parameter| order(parameter, &settings))
+            .collect();
+        PointStudies {
             label,
             probe_g,
-            rungs,
+            settings,
             orders,
         }
     }
@@ -169,53 +176,56 @@ fn quartiles(times: &[f64]) -> Option<[f64; 3]> {
 }
 
 /// Front of the joint settings: error of the critical shock against work.
-fn mark_front(rungs: &mut [RungRow]) {
-    let joint: Vec<(usize, u64, f64)> = rungs
+fn mark_front(settings: &mut [SettingRow]) {
+    let joint: Vec<(usize, u64, f64)> = settings
         .iter()
         .enumerate()
-        .filter(|(_, rung)| rung.ladder == "joint" && !rung.is_reference)
-        .filter_map(|(place, rung)| Some((place, rung.measured.work, rung.errors[0]?)))
+        .filter(|(_, setting)| setting.parameter == "joint" && !setting.is_reference)
+        .filter_map(|(place, setting)| Some((place, setting.measured.work, setting.errors[0]?)))
         .collect();
     for &(place, work, error) in &joint {
-        rungs[place].is_on_front = !joint.iter().any(|&(_, other_work, other_error)| {
+        settings[place].is_on_front = !joint.iter().any(|&(_, other_work, other_error)| {
             (other_work < work && other_error <= error)
                 || (other_work <= work && other_error < error)
         });
     }
 }
 
-/// Order over the rungs whose error is neither lost in the reference's nor in rounding.
-fn order(ladder: &str, rungs: &[RungRow]) -> LadderOrder {
-    let quantity = order_quantity(ladder);
+/// Order over the settings whose error exceeds both the reference's and rounding.
+fn order(parameter: &str, settings: &[SettingRow]) -> StudyOrder {
+    let quantity = order_quantity(parameter);
     let column = QUANTITIES
         .iter()
         .position(|name| *name == quantity)
         .unwrap_or(0);
-    let of: Vec<&RungRow> = rungs.iter().filter(|rung| rung.ladder == ladder).collect();
+    let of: Vec<&SettingRow> = settings
+        .iter()
+        .filter(|setting| setting.parameter == parameter)
+        .collect();
     let floor = of
         .iter()
-        .find(|rung| rung.is_reference)
-        .and_then(|rung| rung.errors[column])
+        .find(|setting| setting.is_reference)
+        .and_then(|setting| setting.errors[column])
         .unwrap_or(0.0);
     let known: Vec<(f64, f64)> = of
         .iter()
-        .filter(|rung| !rung.is_reference)
-        .filter_map(|rung| Some((rung.fineness.ln(), rung.errors[column]?)))
+        .filter(|setting| !setting.is_reference)
+        .filter_map(|setting| Some((setting.fineness.ln(), setting.errors[column]?)))
         .filter(|&(_, error)| error > 3.0 * floor && error > 1e-12)
         .map(|(fineness, error)| (fineness, error.ln()))
         .collect();
     let fit = slope(&known);
     let is_disordered = fit.is_some_and(|slope| scatter(&known, slope) > SCATTER.ln());
-    LadderOrder {
-        ladder: ladder.to_owned(),
+    StudyOrder {
+        parameter: parameter.to_owned(),
         quantity: quantity.to_owned(),
         observed: fit.filter(|_| !is_disordered).map(|slope| -slope),
         is_disordered,
-        formal: formal_order(ladder),
+        formal: formal_order(parameter),
     }
 }
 
-/// Factor by which an error may lie off the fitted order: more, and the fit means nothing.
+/// Largest factor of an error from the fitted order for which the fit is used.
 const SCATTER: f64 = 1.5;
 
 /// Largest distance of the points from the line of this slope through their middle.

@@ -1,4 +1,4 @@
-//! C: the air bearing.
+//! Hard cases C of the air bearing: schemes, fits, continuation and Newton's method.
 
 use super::check::{Check, largest};
 use super::naive;
@@ -131,7 +131,7 @@ pub(super) fn c4() -> Vec<Check> {
     ] {
         let value = |n: usize| {
             let lines = crowded_twice(n);
-            // The ends of the strip go with a width more or less.
+            // The side regions of the strip change with its width slightly.
             let three = squeeze(&lines, &uniform(3, 3e6), 3e6, sigma);
             let four = squeeze(&lines, &uniform(4, 4e6), 4e6, sigma);
             [0, 1].map(|part| 4.0 * four[part] - 3.0 * three[part])
@@ -375,8 +375,8 @@ pub(super) fn c12() -> Vec<Check> {
     ]
 }
 
-/// Clearance that Newton's method on the attitude arrives at in full steps with differences for
-/// derivatives; infinite once it is lost.
+/// Clearance to which Newton's method on the attitude converges with full steps and difference quotients as
+/// derivatives; infinite where it diverges.
 fn undamped(film: &Film, load: [f64; 3], start: Attitude) -> f64 {
     let residual = |at: &[f64; 3]| {
         let attitude = Attitude {

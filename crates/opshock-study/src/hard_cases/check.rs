@@ -1,8 +1,8 @@
-//! What a case measures, and how large it may be.
+//! A check of a hard case: measured figure, bound, and the naive method's figure.
 
 use serde::Serialize;
 
-/// What was measured against what may be.
+/// A measured figure against its bound.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
     /// What the figure is.
@@ -15,7 +15,7 @@ pub struct Check {
     pub naive: Option<Naive>,
 }
 
-/// A method that was left for a better one.
+/// A method that was replaced by a better one.
 #[derive(Clone, Debug, Serialize)]
 pub struct Naive {
     /// Method.
@@ -40,7 +40,7 @@ impl Check {
         }
     }
 
-    /// Something that must hold exactly; the figure counts where it does not.
+    /// A condition that must hold exactly; the figure is the number of violations.
     pub fn none(what: &'static str, count: usize) -> Self {
         Self::new(what, count as f64, 0.0)
     }

@@ -13,7 +13,7 @@ use opshock_solver::structure::{
 };
 use std::f64::consts::PI;
 
-/// The four cases of set S1 with the modes a user gets, and their amplitudes.
+/// The four cases of set S1 with the default modes, and their amplitudes.
 fn cases() -> Vec<(Structure, f64)> {
     [
         (RampBody::from(RigidRamp), 2e-3, 400.0),
@@ -70,7 +70,7 @@ pub(super) fn b7() -> Vec<Check> {
     let run = run(&structure, 800.0 * G);
     let force = &run.columns.as_ref().expect("recorded").contact_top_n;
     let peak = largest(force.iter().copied());
-    // After the first blow has rung down: the disk leans, the force follows the pulse.
+    // After the vibration of the first impact has decayed: the disk leans, the force follows the pulse.
     let from = (12e-3 / 2e-6) as usize;
     let variation: f64 = force[from..].windows(2).map(|w| (w[1] - w[0]).abs()).sum();
     let leaning = largest(force[from..].iter().copied());
@@ -104,8 +104,8 @@ pub(super) fn b8() -> Vec<Check> {
             penetration = penetration.max(plus.complementarity.max_penetration_m);
             if rigid {
                 held = held.max(plus.disk.ramp_max_m.max(-plus.disk.ramp_min_m));
-                let told = plus.warnings.contains(&StructureWarning::BothArmsOnePoint);
-                silent += usize::from(clearance == 0.0 && !told);
+                let reported = plus.warnings.contains(&StructureWarning::BothArmsOnePoint);
+                silent += usize::from(clearance == 0.0 && !reported);
             }
         }
     }
@@ -119,7 +119,7 @@ pub(super) fn b8() -> Vec<Check> {
                 .count() as f64,
         ),
         Check::new("largest penetration, m", penetration, 1e-7),
-        Check::none("rank deficiency not told", silent),
+        Check::none("rank deficiency not reported", silent),
     ]
 }
 
@@ -184,7 +184,7 @@ pub(super) fn b11() -> Vec<Check> {
             largest(heavy.iter().map(|h| slider_distance(h, &rigid) / travel)),
             1e-6,
         ),
-        Check::new("energy book, 1e-9 to 1e+9", closure, 1e-9),
+        Check::new("energy balance, 1e-9 to 1e+9", closure, 1e-9),
         Check::new("energy made by the scheme, of the peak", gain, 1e-15).against(
             "central differences, first mode of the arm of 1e-9, 0.5 us, 5 steps",
             naive::time::central_differences_gain(2.0 * PI * 904.7 * 1e9_f64.sqrt() * 0.5e-6, 5)
@@ -219,7 +219,7 @@ pub(super) fn b12() -> Vec<Check> {
 }
 
 pub(super) fn b14() -> Vec<Check> {
-    // Spells open and close between nodes, so the order shows in the mean of the cases.
+    // Spells of contact begin and end between time steps, so the order shows in the mean of the cases.
     let mut order = 0.0;
     for (mut structure, amplitude) in cases() {
         structure.disk_resolution.static_correction = false;
@@ -248,8 +248,10 @@ pub(super) fn b16() -> Vec<Check> {
         open += usize::from(run.top.episodes.len() + run.bottom.episodes.len() < 2);
     }
     vec![
-        Check::new("energy book of arms let go while bent", closure, 1e-9)
-            .against("book without what contact takes: least of three", dropped),
+        Check::new("energy balance of arms let go while bent", closure, 1e-9).against(
+            "balance without what contact takes: least of three",
+            dropped,
+        ),
         Check::none("runs without contact and release", open),
     ]
 }

@@ -1,4 +1,4 @@
-//! D: film and slider solved in turn, and what flows between structure and head.
+//! Hard cases D of coupling: film and slider solved in turn, and the data passed from structure to head.
 
 use super::check::Check;
 use super::naive;
@@ -65,7 +65,7 @@ pub(super) fn d2() -> Vec<Check> {
         moved = moved.max((x[0] - 2.0).abs() + (x[1] - 3.0).abs());
     }
     vec![
-        Check::none("endings other than told, numbers that are none", wrong).against(
+        Check::none("unexpected endings, numbers that are none", wrong).against(
             "Aitken's factor as printed: numbers that are none of two",
             naive::search::aitken_as_printed()
                 .iter()
@@ -131,14 +131,14 @@ pub(super) fn d5() -> Vec<Check> {
     });
     // The answer is cos x = x.
     let (left, tolerance) = ((reached - 0.739_085_133_215_160_6).abs(), 1e-3);
-    let told = [
+    let reported = [
         matches!(capped, Ending::NotConverged { iterations: 4, .. }),
         matches!(broken, Ending::Broken { iterations: 1 }),
     ];
     vec![
         Check::none(
             "caps and breakdowns accepted",
-            told.iter().filter(|t| !**t).count(),
+            reported.iter().filter(|t| !**t).count(),
         )
         .against(
             "the iterate at the cap as the answer: wrong by more than 1e-3",
@@ -162,7 +162,7 @@ pub(super) fn d6() -> Vec<Check> {
         gap_error = gap_error.max((x[0] - gap).abs() / 1e-13);
         pitch_error = pitch_error.max((x[1] - pitch).abs() / 1e-9);
     }
-    // One norm for both: the gap is never looked at beside microradians.
+    // One norm for both: the gap has no weight beside microradians.
     let mut x = [0.0, 0.0];
     FixedPoint::new(Method::Plain, 2).solve(&mut x, &[1e-9, 1e-9], 60, map);
     vec![
@@ -214,7 +214,7 @@ pub(super) fn d7() -> Vec<Check> {
                 .count();
         }
     }
-    // A disk that is marched on the head's own steps knows of the head.
+    // A disk that is marched on the head's own steps depends on the head.
     let marched = [2, 3].map(|k| {
         let times = &runs[k].history.as_ref().expect("recorded").head.time_s;
         let common = times.partition_point(|&t| t < 1e-4);

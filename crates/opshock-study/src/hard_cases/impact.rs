@@ -155,7 +155,7 @@ pub(super) fn b4() -> Vec<Check> {
         let pushes = || body.impulses.iter().filter(|i| i.1 > least);
         for (impulse, exact) in [(pushes().next(), on), (pushes().next_back(), off)] {
             let at = impulse.map_or(f64::NAN, |i| i.0);
-            // Elements tell times apart no better than their transit, steps than their length.
+            // Elements resolve times no better than their transit time, steps no better than their length.
             let apart = (at - exact).abs() / (ratio.max(1.0) * transit);
             ends = if apart.is_nan() {
                 apart
@@ -207,7 +207,7 @@ pub(super) fn b5() -> Vec<Check> {
         gap_tolerance_m: 1e-15,
         ..law(0.0)
     };
-    // g = gap - x, thrown so that x peaks at gap (1 + excess).
+    // g = gap - x, released so that x peaks at gap (1 + excess).
     let throw = |excess: f64| {
         let mut mass = Body::new(
             vec![Oscillator::fixed(omega, 0.0)],
@@ -236,7 +236,7 @@ pub(super) fn b5() -> Vec<Check> {
         speed_error = speed_error.max((found / exact - 1.0).abs());
         more = more.max(f64::from(steps) / f64::from(plain));
     }
-    // The dip of 1e-9 lasts 28 ns: between two ends of a step of 1 us nothing is seen of it.
+    // The dip of 1e-9 lasts 28 ns: at the two ends of a step of 1 us it is not seen.
     let dip_s = 2.0 * (2e-9_f64).sqrt() / omega;
     let mut workspace = Workspace::default();
     let drive = paper(0.5e-3, paper_arms());

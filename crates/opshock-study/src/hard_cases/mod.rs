@@ -1,10 +1,9 @@
-//! Hard cases: set-ups on which solvers of this kind are known to go wrong, each with what is
-//! measured and how large it may be.
+//! Hard cases: set-ups on which solvers of this kind are known to go wrong, each with measured figures and their
+//! bounds.
 //!
-//! A case is a function that simulates and returns [`Check`]s. `opshock doctor --hard-cases` runs
-//! them on the machine at hand and the tests assert the same checks, so that figure and bound are
-//! written in one place. Where the naive method is small enough to be written down, the check
-//! carries its figure too ([`naive`]): the fault that the method in use cures.
+//! A case is a function that simulates and returns [`Check`]s. `opshock doctor --hard-cases` runs them on the present
+//! machine and the tests assert the same checks, so that figure and bound are written in one place. Where the naive
+//! method is short, the check gives its figure too ([`naive`]): the fault that the method in use cures.
 
 mod bearing;
 mod check;
@@ -69,7 +68,7 @@ pub static CASES: &[Case] = &[
     case("B8", "both ramps at once", contact::b8),
     case("B9", "starts touching, starts overlapping", contact::b9),
     case("B10", "plastic hit on a free ramp mass", impact::b10),
-    case("B11", "ramp mass ratio ladder", contact::b11),
+    case("B11", "ramp mass ratio series", contact::b11),
     case(
         "B12",
         "restitution must not matter in the limit",

@@ -132,7 +132,7 @@ pub(super) fn c13() -> Vec<Check> {
         let linear = flight.stiffness[0][0].abs() * rise - 2.2 * GRAM_FORCE_N;
         spring = spring.max(linear / (film.ambient_pa() * area));
     }
-    // Drawn away and brought back: the force is the film's own, and the run knows what happened.
+    // Drawn away and brought back: the force comes from the film's state, and the run reports what happened.
     let run = sudden(-0.05, 2e-5);
     let columns = run.columns.as_ref().expect("recorded");
     let moved = largest(columns.bearing_force_n.iter().map(|f| -f)) / (film.ambient_pa() * area);

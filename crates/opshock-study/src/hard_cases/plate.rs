@@ -1,4 +1,4 @@
-//! Hard cases A of the plate: frequencies, extreme radii, modes left out.
+//! Hard cases A of the plate: frequencies, extreme radii, omitted modes.
 
 use super::check::Check;
 use super::naive;
@@ -56,7 +56,7 @@ pub(super) fn a11() -> Vec<Check> {
         ),
     ] {
         let [coarse, middle, fine] = [12, 24, 48].map(|n| plate_basis(inner, n));
-        // The same rigidity D; Poisson's ratio is left in the free edge's conditions alone.
+        // The same rigidity D; Poisson's ratio enters the free edge's conditions alone.
         let slipped = DiskParameters {
             poisson: 0.0,
             youngs_modulus_pa: 12e6,
@@ -111,7 +111,7 @@ pub(super) fn a12() -> Vec<Check> {
 }
 
 pub(super) fn a13() -> Vec<Check> {
-    // A push so slow that all modes follow at once: what counts is the flexibility they leave out.
+    // A push so slow that all modes follow at once: only the flexibility of the omitted modes matters.
     let mut base = paper(10e-3, RigidRamp).with_step(4e-6);
     base.disk.damping = DiskDamping::ModalRatio(0.3);
     base.window = Window::Fixed { length_s: 6e-3 };

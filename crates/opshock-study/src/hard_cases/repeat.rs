@@ -1,4 +1,4 @@
-//! F: the same bits again.
+//! Hard cases F of reproducibility: the same bits for any thread count, restart or neighbour.
 
 use super::check::Check;
 use super::naive;
@@ -6,7 +6,9 @@ use super::scenes::drive::small_scene;
 use super::scenes::noted::note;
 use super::scenes::structures::{Structure, s1, s1_arms};
 use super::verdict::search;
-use crate::search::{Certify, Flag, SearchSettings, Status, UndecidedCause, Verdict as Told};
+use crate::search::{
+    Flag, MonotonicityScan, SearchSettings, Status, UndecidedCause, Verdict as Reported,
+};
 use nalgebra::Complex;
 use opshock_solver::fixed_point::{FixedPoint, Method};
 use opshock_solver::modal::Oscillator;
@@ -71,7 +73,7 @@ pub(super) fn f1() -> Vec<Check> {
         });
         wrong += differing(&alone, &together);
     }
-    // The force of every contact, a number a node, as it would be gathered.
+    // The force of every contact, a number per time step, as threads would gather it.
     let forces: Vec<f64> = alone
         .iter()
         .flat_map(|(_, run)| {
@@ -95,23 +97,24 @@ pub(super) fn f1() -> Vec<Check> {
 }
 
 fn settings() -> SearchSettings {
-    SearchSettings::new((20.0, 2000.0), 0.01, Certify::Staggered, 0.10, true).expect("settings")
+    SearchSettings::new((20.0, 2000.0), 0.01, MonotonicityScan::Sampled, 0.10, true)
+        .expect("settings")
 }
 
 pub(super) fn f2() -> Vec<Check> {
-    // A search told again what it was told before it was stopped asks what it would have asked.
+    // A search that gets the verdicts of a stopped one again requests the same next probe.
     use crate::search::{PointSearch, Start};
     let start = Start {
         hint_g: Some(300.0),
-        onset_node: None,
+        onset_amplitude: None,
         width_rank: 1,
     };
     let settings = settings();
     let law = |index: i32| {
-        if settings.lattice.amplitude_g(index) < 233.0 {
-            Told::Survives
+        if settings.grid.amplitude_g(index) < 233.0 {
+            Reported::Survives
         } else {
-            Told::Fails {
+            Reported::Fails {
                 t_fail_s: 1e-3,
                 x_m: 0.0,
                 y_m: 0.0,
@@ -138,11 +141,11 @@ pub(super) fn f2() -> Vec<Check> {
         wrong += usize::from(resumed.log() != whole.log());
         wrong += usize::from(resumed.findings().failure != whole.findings().failure);
     }
-    // A bisection begun anew between half and twice the last amplitude asked.
+    // A bisection begun anew between half and twice the last amplitude requested.
     let fails = |a: f64| a >= 233.0;
     let answer = naive::search::bisected(20.0, 2000.0, fails);
     let restarted = whole.log().iter().filter(|asked| {
-        let last = settings.lattice.amplitude_g(asked.probe.index);
+        let last = settings.grid.amplitude_g(asked.probe.index);
         let again = naive::search::bisected(0.5 * last, 2.0 * last, fails);
         again.to_bits() != answer.to_bits()
     });
@@ -189,7 +192,7 @@ fn outcome(model: &Model, amplitude_g: f64, workspace: &mut Workspace) -> Outcom
     simulate(model, &request, workspace)
 }
 
-/// Fixed point of a contraction from the state that a run before left, by the solver's own iteration.
+/// Fixed point of a contraction from the final state of a run before, by the solver's own iteration.
 fn carried_over(left: f64) -> f64 {
     let mut x = [left];
     FixedPoint::new(Method::Plain, 1).solve(&mut x, &[1e-12], 20, |x, image| {
@@ -207,10 +210,10 @@ pub(super) fn f4() -> Vec<Check> {
     let after = outcome(&model, 150.0, &mut workspace);
     let decided = !matches!(
         poisoned.verdict,
-        opshock_solver::simulation::Verdict::Undecided { .. }
+        Some(opshock_solver::simulation::Verdict::Undecided { .. })
     );
     let undecided = |cause| {
-        let (findings, _) = search(settings(), |_, _| Told::Undecided {
+        let (findings, _) = search(settings(), |_, _| Reported::Undecided {
             cause,
             message: String::new(),
         });
@@ -221,7 +224,7 @@ pub(super) fn f4() -> Vec<Check> {
         (UndecidedCause::NotFinite, Flag::NotFinite),
         (UndecidedCause::NotConverged, Flag::NotConverged),
     ];
-    let untold = causes
+    let unreported = causes
         .into_iter()
         .filter(|(cause, flag)| {
             let (status, flags) = undecided(*cause);
@@ -241,7 +244,7 @@ pub(super) fn f4() -> Vec<Check> {
             "iteration started from the state of the run before: not a number",
             f64::from(u8::from(carried_over(f64::NAN).is_nan())),
         ),
-        Check::none("causes not told apart", untold),
+        Check::none("causes not told apart", unreported),
     ]
 }
 

@@ -9,7 +9,9 @@ use opshock_solver::disk::{DiskDamping, DiskResolution};
 use opshock_solver::modal::Oscillator;
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2 as G, rad_per_s_from_rpm};
 use opshock_solver::ramp::{NoRamp, RigidRamp};
-use opshock_solver::structure::{StructureRun, StructureWarning, Wake, Window, Workspace, modes};
+use opshock_solver::structure::{
+    Activation, StructureRun, StructureWarning, Window, Workspace, modes,
+};
 use std::f64::consts::TAU;
 
 pub(super) fn a7() -> Vec<Check> {
@@ -34,7 +36,7 @@ pub(super) fn a7() -> Vec<Check> {
                 without = without.max((split - 2.0 * turn_hz).abs() / row.rotating_frame_hz);
             }
         }
-        // What a point fixed in space sees of a pair: the turn of the oscillator's own flow.
+        // Motion of a pair seen at a point fixed in space: the rotation in the oscillator's own solution.
         let n = 3.0;
         let pair = Oscillator {
             turn_rad_per_s: n * disk.spin_rad_per_s,
@@ -94,7 +96,7 @@ pub(super) fn a8() -> Vec<Check> {
             "static solve in the fixed frame, of its own at rest",
             naive::plate::static_amplification(ratio),
         ),
-        Check::new("energy book there", run.energy.closure, 1e-9),
+        Check::new("energy balance there", run.energy.closure, 1e-9),
         Check::new(
             "largest penetration there, m",
             run.complementarity.max_penetration_m,
@@ -143,7 +145,11 @@ pub(super) fn a9() -> Vec<Check> {
             "growth named where there is none",
             calm.iter().flatten().count(),
         ),
-        Check::new("energy book of the growing run", fixed.energy.closure, 1e-9),
+        Check::new(
+            "energy balance of the growing run",
+            fixed.energy.closure,
+            1e-9,
+        ),
     ]
 }
 
@@ -156,7 +162,7 @@ pub(super) fn a10() -> Vec<Check> {
     note(&structure, 200.0 * G);
     let marched = structure
         .build()
-        .with_wake(Wake::AtOnset)
+        .with_activation(Activation::AtOnset)
         .run(200.0 * G, true, &mut Workspace::default())
         .expect("a named structure runs");
     let touch = marched.first_touch_s.unwrap_or(0.0);

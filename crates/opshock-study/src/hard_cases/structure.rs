@@ -1,4 +1,4 @@
-//! A: the structure and its time stepping.
+//! Hard cases A of the structure: reduction of disk and ramp, and its time stepping.
 
 use super::check::Check;
 use super::naive;
@@ -122,10 +122,10 @@ pub(super) fn a3() -> Vec<Check> {
             .fold(0.0, f64::max);
         shock_spectrum = shock_spectrum.max((peak / exact - 1.0).abs());
     }
-    // Below f T = 0.5 the peak comes after the pulse: what rings at its end.
+    // Below f T = 0.5 the peak comes after the pulse: the free vibration at its end.
     let (x, v) = half_sine_response(TAU * 0.25, 1.0, 1.0);
     shock_spectrum = shock_spectrum.max((x.hypot(v) / 0.942_809_041_6 - 1.0).abs());
-    // Pulses longer by a tenth of a step each: a peak that hangs on the grid would rise in steps.
+    // Pulses longer by a tenth of a step each: a peak that depends on the time grid would rise in steps.
     let peaks = [false, true].map(|snapped| {
         let peak = |k: u32| {
             let mut longer = structure.with_step(2e-6);

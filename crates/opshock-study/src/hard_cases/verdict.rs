@@ -1,4 +1,4 @@
-//! E: the verdict, and the search for the critical shock.
+//! Hard cases E: the verdict of a run, and the search for the critical shock.
 
 use super::check::Check;
 use super::naive;
@@ -9,7 +9,8 @@ use super::scenes::heads::{
 use super::scenes::noted::note;
 use super::scenes::structures::{paper, paper_arms};
 use crate::search::{
-    Certify, Findings, Flag, PointSearch, Probe, SearchSettings, Start, Status, Verdict as Told,
+    Findings, Flag, MonotonicityScan, PointSearch, Probe, SearchSettings, Start, Status,
+    Verdict as Reported,
 };
 use opshock_solver::air_bearing::Attitude;
 use opshock_solver::disk::{DiskMotion, DiskPose};
@@ -129,7 +130,7 @@ pub(super) fn e2() -> Vec<Check> {
             1.0,
         )
         .against(
-            "told at the end of the step",
+            "reported at the end of the step",
             1.0 + (step_end - fine).abs() / step,
         ),
     ]
@@ -203,12 +204,12 @@ pub(super) fn e4() -> Vec<Check> {
     ]
 }
 
-fn settings(certify: Certify) -> SearchSettings {
-    SearchSettings::new((20.0, 2000.0), 0.01, certify, 0.10, true).expect("settings")
+fn settings(monotonicity_scan: MonotonicityScan) -> SearchSettings {
+    SearchSettings::new((20.0, 2000.0), 0.01, monotonicity_scan, 0.10, true).expect("settings")
 }
 
-fn fails() -> Told {
-    Told::Fails {
+fn fails() -> Reported {
+    Reported::Fails {
         t_fail_s: 1e-3,
         x_m: 0.0,
         y_m: 0.0,
@@ -218,11 +219,11 @@ fn fails() -> Told {
 /// Runs a search against a law of (probe, amplitude in g).
 pub(super) fn search(
     settings: SearchSettings,
-    law: impl Fn(Probe, f64) -> Told,
+    law: impl Fn(Probe, f64) -> Reported,
 ) -> (Findings, usize) {
     let start = Start {
         hint_g: None,
-        onset_node: None,
+        onset_amplitude: None,
         width_rank: 0,
     };
     let mut search = PointSearch::new(settings, start);
@@ -234,16 +235,16 @@ pub(super) fn search(
         }
         search.tell(&law(
             asked.probe,
-            settings.lattice.amplitude_g(asked.probe.index),
+            settings.grid.amplitude_g(asked.probe.index),
         ));
     }
     (search.findings(), probes)
 }
 
-fn above(critical_g: f64) -> impl Fn(Probe, f64) -> Told {
+fn above(critical_g: f64) -> impl Fn(Probe, f64) -> Reported {
     move |_, a| {
         if a < critical_g {
-            Told::Survives
+            Reported::Survives
         } else {
             fails()
         }
@@ -270,7 +271,7 @@ fn peak_s2(width_s: f64) -> f64 {
 
 pub(super) fn e5() -> Vec<Check> {
     let (mut closed, mut outside, mut wide, mut loose) = (0.0_f64, 0, 0.0_f64, 0.0_f64);
-    let settings = settings(Certify::Staggered);
+    let settings = settings(MonotonicityScan::Sampled);
     for (width_ms, exact) in [
         (0.25, 426.987_658),
         (0.5, 256.282_637),
@@ -281,7 +282,7 @@ pub(super) fn e5() -> Vec<Check> {
         let critical = 1e-4 / peak_s2(width_ms * 1e-3) / G;
         closed = closed.max((critical / exact - 1.0).abs());
         let (findings, _) = search(settings, above(critical));
-        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
         let (low, high) = (node(findings.survivor), node(findings.failure));
         outside += usize::from(!(low < exact && exact <= high));
         wide = wide.max(high / low - 1.0);
@@ -290,23 +291,23 @@ pub(super) fn e5() -> Vec<Check> {
     }
     vec![
         Check::new("critical shock against the table", closed, 2e-7),
-        Check::none("widths whose bar does not hold it", outside),
-        Check::new("widest bar", wide, 0.01).against("seven halvings of the range", loose),
+        Check::none("widths whose interval does not contain it", outside),
+        Check::new("widest interval", wide, 0.01).against("seven halvings of the range", loose),
     ]
 }
 
 pub(super) fn e6() -> Vec<Check> {
-    let settings = settings(Certify::Staggered);
-    let (never, probes) = search(settings, |_, _| Told::Survives);
+    let settings = settings(MonotonicityScan::Sampled);
+    let (never, probes) = search(settings, |_, _| Reported::Survives);
     let (always, more) = search(settings, |_, _| fails());
-    let told = [
+    let reported = [
         never.status == Status::AboveRange && never.failure.is_none(),
         always.status == Status::BelowRange && always.survivor.is_none(),
     ];
     vec![
         Check::none(
             "bounds given as answers",
-            told.iter().filter(|t| !**t).count(),
+            reported.iter().filter(|t| !**t).count(),
         )
         .against(
             "bisection between the bounds: answers where there is none",
@@ -325,22 +326,20 @@ pub(super) fn e7() -> Vec<Check> {
         if (130.0..146.0).contains(&a) || a >= 200.0 {
             fails()
         } else {
-            Told::Survives
+            Reported::Survives
         }
     };
-    let guarded = settings(Certify::Staggered);
-    let exact = guarded
-        .lattice
-        .amplitude_g(guarded.lattice.at_or_above(130.0));
+    let guarded = settings(MonotonicityScan::Sampled);
+    let exact = guarded.grid.amplitude_g(guarded.grid.at_or_above(130.0));
     let found = |settings: SearchSettings| {
         let (findings, _) = search(settings, island);
         let g = findings
             .failure
-            .map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+            .map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
         (g / exact - 1.0, findings)
     };
     let (error, findings) = found(guarded);
-    let (naive, _) = found(settings(Certify::Off));
+    let (naive, _) = found(settings(MonotonicityScan::Off));
     vec![
         Check::new("lowest failure", error.abs(), 1e-12)
             .against("bisection without a scan", naive.abs()),
@@ -356,22 +355,22 @@ pub(super) fn e7() -> Vec<Check> {
 }
 
 pub(super) fn e8() -> Vec<Check> {
-    // 0.3 % of flutter on the travel, another at every amplitude.
+    // 0.3 % of scatter on the travel, different at every amplitude.
     let flutter = |a: f64| {
         let mixed = a.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
         1.0 + 0.003 * (mixed as f64 / f64::from(1 << 23) - 1.0)
     };
-    let settings = settings(Certify::Staggered);
+    let settings = settings(MonotonicityScan::Sampled);
     let (mut outside, mut narrow, mut noise) = (0, f64::INFINITY, f64::INFINITY);
     for critical in [95.0, 256.282_637, 357.680_822] {
         let (findings, _) = search(settings, |_, a| {
             if a * flutter(a) < critical {
-                Told::Survives
+                Reported::Survives
             } else {
                 fails()
             }
         });
-        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.lattice.amplitude_g(n));
+        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
         let (low, high) = (node(findings.survivor), node(findings.failure));
         outside += usize::from(!(low * 0.997 < critical && critical <= high * 1.0031));
         narrow = narrow.min(high / low - 1.0);
@@ -382,16 +381,16 @@ pub(super) fn e8() -> Vec<Check> {
     vec![
         Check::none("answers moved by more than the flutter", outside),
         Check::new(
-            "bar narrower than a node of the search by",
-            settings.lattice.step() - narrow,
+            "interval narrower than a step of the amplitude grid by",
+            settings.grid.step() - narrow,
             1e-12,
         )
-        .against("40 halvings of the range", settings.lattice.step() - noise),
+        .against("40 halvings of the range", settings.grid.step() - noise),
     ]
 }
 
 pub(super) fn e9() -> Vec<Check> {
-    let settings = settings(Certify::Staggered);
+    let settings = settings(MonotonicityScan::Sampled);
     let late = |probe: Probe, a: f64| {
         let critical = if probe.window_factor == 2 {
             140.0
@@ -404,14 +403,14 @@ pub(super) fn e9() -> Vec<Check> {
     let mut once = settings;
     once.window_check = false;
     let (unseen, _) = search(once, late);
-    let answer = findings.failure == Some(settings.lattice.at_or_above(150.0));
+    let answer = findings.failure == Some(settings.grid.at_or_above(150.0));
     vec![
         Check::none(
-            "late failures not told",
+            "late failures not reported",
             usize::from(!findings.flags.contains(&Flag::Window)),
         )
         .against(
-            "one window, whatever happens behind it",
+            "one window, whatever happens after it",
             f64::from(u8::from(!unseen.flags.contains(&Flag::Window))),
         ),
         Check::none(

@@ -1,4 +1,4 @@
-//! What a search says: matching sets, shares of the prior, conflicts, ranges, and what to measure next.
+//! Result of a match: matching sets, shares of the prior, conflicts, ranges, and what to measure next.
 
 use super::conflicts::{Conflict, groups};
 use super::file::MatchProblem;
@@ -11,21 +11,21 @@ use super::share::Share;
 use serde::Serialize;
 use std::collections::HashSet;
 
-/// Groups of observations that conflict, listed at most.
+/// Largest number of conflicting groups listed.
 const MOST_GROUPS: usize = 200;
-/// Sets of the gallery.
+/// Largest number of matching sets listed.
 const GALLERY: usize = 12;
-/// Plausible sets for every parameter and one from which ranges are told.
+/// Plausible sets per parameter, and one more, from which ranges are given.
 const SETS_A_DIMENSION: usize = 10;
-/// Numbers compared for what a further measurement would leave.
+/// Largest number of sets compared for the effect of a further measurement.
 const MOST_PAIRED: usize = 400;
 
-/// An observation's line.
+/// Row of an observation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObservationRow {
     /// Name.
     pub name: String,
-    /// Where it comes from.
+    /// Source.
     pub source: String,
     /// Stage of cost.
     pub stage: &'static str,
@@ -33,37 +33,37 @@ pub struct ObservationRow {
     pub range: Option<[Option<f64>; 2]>,
     /// Typical numerical uncertainty: the median over the sets.
     pub numerical_uncertainty: f64,
-    /// Share of the prior that makes it true.
+    /// Share of the prior with which it holds.
     pub share: Option<Share>,
-    /// Share that does not rule it out.
+    /// Share of the prior that it does not rule out.
     pub plausible: Option<Share>,
     /// Number with the best set, and its margin in units of the numerical uncertainty; absent without number or bound.
     pub best: Option<f64>,
     /// Margin of the best set.
     pub best_margin: Option<f64>,
-    /// Distance of each parameter's distribution given the observation from that before (Kolmogorov and Smirnov's
-    /// statistic, 0 to 1): what it says about the parameter.
+    /// Distance of each parameter's distribution given the observation from the prior (Kolmogorov and Smirnov's
+    /// statistic, 0 to 1): the information about the parameter.
     pub says: Vec<Option<f64>>,
 }
 
-/// A parameter's line.
+/// Row of a parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParameterRow {
     /// Name.
     pub name: String,
     /// Keys.
     pub keys: Vec<String>,
-    /// Where the range comes from.
+    /// Source of the range.
     pub source: String,
     /// First and last value of the prior, in the words of a study.
     pub before: [String; 2],
-    /// Those left; absent where too few plausible sets were found to tell.
+    /// First and last value left; absent where too few plausible sets were found.
     pub after: Option<[String; 2]>,
     /// Cumulative probabilities of both.
     pub after_probability: Option<[f64; 2]>,
 }
 
-/// A parameter set that makes every observation true, or the best there is.
+/// A parameter set with which every observation holds, or the best there is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MatchingSet {
     /// Values of the parameters, in their order.
@@ -80,16 +80,16 @@ pub struct MatchingSet {
     pub falls_short: Vec<String>,
 }
 
-/// The best set with each choice of the parameter that the refinement keeps.
+/// The best set with each choice of the parameter that `refinement.each` names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BestOfEach {
     /// Parameter.
     pub parameter: String,
-    /// Its choices, each with the sets of which every number is known, and the best of them.
+    /// Its choices, each with the number of completely known sets, and the best of them.
     pub choices: Vec<(String, u64, Option<MatchingSet>)>,
 }
 
-/// What measuring a number would leave of the matching sets.
+/// Effect of measuring a number on the matching sets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Narrowing {
     /// Observation.
@@ -98,47 +98,47 @@ pub struct Narrowing {
     pub expected_left: f64,
 }
 
-/// All that is told.
+/// The result of a match.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MatchAnswer {
     /// Name of the match.
     pub name: String,
-    /// Whether all that was asked for was computed.
+    /// Whether everything requested was computed.
     pub is_complete: bool,
     /// Observations.
     pub observations: Vec<ObservationRow>,
-    /// Share of the prior that makes all true.
+    /// Share of the prior with which all hold.
     pub all: Share,
-    /// Share that nothing rules out.
+    /// Share of the prior that is not ruled out.
     pub not_ruled_out: Share,
     /// Parameters.
     pub parameters: Vec<ParameterRow>,
-    /// Sets with which every observation holds, the one with the largest smallest margin first, then as far apart as can
-    /// be.
+    /// Sets with which every observation holds: the one with the largest smallest margin first, then the farthest from
+    /// those before.
     pub matching: Vec<MatchingSet>,
-    /// Number of all such sets that were met.
+    /// Number of all such sets that were found.
     pub n_matching: u64,
-    /// The best set where none holds everything.
+    /// The best set where none satisfies all.
     pub nearest: Option<MatchingSet>,
     /// The best set with each choice of a parameter, where the refinement has a search for each.
     pub best_of_each: Option<BestOfEach>,
     /// Smallest groups that no set satisfies together.
     pub conflicts: Vec<Conflict>,
-    /// What to measure next, the most telling first.
+    /// What to measure next, the most informative first.
     pub next: Vec<Narrowing>,
     /// Sets tried, over all waves.
     pub tried: u64,
-    /// What every wave did.
+    /// Every wave.
     #[serde(skip)]
     pub waves: Vec<WaveReport>,
 }
 
 impl MatchAnswer {
-    /// From what was searched.
+    /// From the results of a search.
     pub fn of(problem: &MatchProblem, found: &Searched) -> Self {
-        let told = Told { problem, found };
+        let reported = Reported { problem, found };
         let seen = &problem.observations[..];
-        // A set that several parts of the search have is one.
+        // A set found by several parts of the search is listed once.
         let mut met = HashSet::new();
         let mut is_new = |one: &&Sample| {
             let bits = one.unit.iter().map(|p| p.to_bits());
@@ -170,39 +170,39 @@ impl MatchAnswer {
             name: problem.name.clone(),
             is_complete: found.ended == Ended::Complete,
             observations: (0..problem.observations.len())
-                .map(|k| told.observation(k, best))
+                .map(|k| reported.observation(k, best))
                 .collect(),
             all: Share::of(all as u64, asked.len() as u64),
             not_ruled_out: Share::of(left as u64, asked.len() as u64),
-            parameters: told.parameters(&whole),
-            matching: gallery.into_iter().map(|one| told.set(one)).collect(),
+            parameters: reported.parameters(&whole),
+            matching: gallery.into_iter().map(|one| reported.set(one)).collect(),
             n_matching: holding.len() as u64,
             nearest: match holding.is_empty() {
-                true => nearest.map(|one| told.set(one)),
+                true => nearest.map(|one| reported.set(one)),
                 false => None,
             },
             best_of_each: problem
                 .effort
                 .each
-                .map(|place| told.best_of_each(place, &whole)),
+                .map(|place| reported.best_of_each(place, &whole)),
             conflicts: groups(problem, found)
                 .into_iter()
                 .map(|(_, one)| one)
                 .take(MOST_GROUPS)
                 .collect(),
-            next: told.next(&whole),
+            next: reported.next(&whole),
             tried: found.waves.iter().map(|wave| wave.tried).sum(),
             waves: found.waves.clone(),
         }
     }
 }
 
-struct Told<'a> {
+struct Reported<'a> {
     problem: &'a MatchProblem,
     found: &'a Searched,
 }
 
-impl Told<'_> {
+impl Reported<'_> {
     fn observation(&self, place: usize, best: Option<&Sample>) -> ObservationRow {
         let one = &self.problem.observations[place];
         let draws = || self.found.samples[..self.found.draws].iter();
@@ -246,9 +246,9 @@ impl Told<'_> {
         }
     }
 
-    /// What is left of the ranges. The hull of n sets lacks about n^(-2/(d+1)) of the width of a smooth convex body in d
-    /// dimensions at each side (as the largest of n projections of its points); it is given back. A few sets say nothing
-    /// about ranges.
+    /// Ranges left. The hull of n sets lacks about n^(-2/(d+1)) of the width of a smooth convex body in d dimensions at
+    /// each side (as the largest of n projections of its points); the range is widened by as much. A few sets give no
+    /// range.
     fn parameters(&self, whole: &[&Sample]) -> Vec<ParameterRow> {
         let left: Vec<&[f64]> = whole
             .iter()
@@ -257,7 +257,7 @@ impl Told<'_> {
             .collect();
         let d = self.problem.parameters.len();
         let ends = hull(left.iter().copied(), d);
-        // A refinement's sets lie close together: they may widen the hull, but make it no denser.
+        // A refinement's sets lie close together: they may widen the hull, but not make it denser.
         let n = whole.iter().filter(|one| self.is_explored(one)).count();
         let lacking = (n as f64).powf(-2.0 / (d as f64 + 1.0));
         let rows = self.problem.parameters.iter().zip(ends);
@@ -325,7 +325,7 @@ impl Told<'_> {
         }
     }
 
-    /// Over all pairs of sets that nothing rules out: how often the second agrees with the number of the first.
+    /// Over all pairs of sets that are not ruled out: how often the second agrees with the number of the first.
     fn next(&self, whole: &[&Sample]) -> Vec<Narrowing> {
         let left = whole
             .iter()
@@ -337,7 +337,7 @@ impl Told<'_> {
         }
         let mut next: Vec<Narrowing> = Vec::new();
         for (place, one) in self.problem.observations.iter().enumerate() {
-            // Counts and verdicts are told by whether they hold.
+            // For whole numbers and verdicts, agreement is that both hold or neither.
             let number = |sample: &Sample| match sample.numbers[place] {
                 (Known::Is(value), u) => {
                     Some((value, u.hypot(one.observed_u).hypot(one.discrepancy_u)))
@@ -394,7 +394,7 @@ fn spread<'s>(sets: &[&'s Sample]) -> Vec<&'s Sample> {
     chosen
 }
 
-/// Largest distance of the empirical distribution of some numbers from the uniform one from 0 to 1; `None` of none.
+/// Largest distance of the empirical distribution of some numbers from the uniform one from 0 to 1; `None` without any.
 fn kolmogorov(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let mut all: Vec<f64> = numbers.collect();
     all.sort_by(f64::total_cmp);
@@ -428,7 +428,7 @@ mod tests {
 
     #[test]
     fn distances_of_distributions_are_kolmogorovs() {
-        // All of the numbers in the lower half: the distribution is 1 at 0.5, where the uniform one is 0.5.
+        // All numbers are in the lower half: the distribution is 1 at 0.5, where the uniform one is 0.5.
         let halves = (0..1000).map(|k| 0.5 * (f64::from(k) + 0.5) / 1000.0);
         assert!((kolmogorov(halves).expect("numbers") - 0.5).abs() < 1e-3);
         assert_eq!(kolmogorov(std::iter::empty()), None);

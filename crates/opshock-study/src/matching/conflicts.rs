@@ -1,4 +1,4 @@
-//! Groups of observations that cannot hold together.
+//! Finds the smallest groups of observations that no parameter set satisfies together.
 
 use super::file::MatchProblem;
 use super::observation::Known;
@@ -7,21 +7,21 @@ use super::searched::Searched;
 use super::share::Share;
 use serde::Serialize;
 
-/// Largest group of observations that is looked at.
+/// Largest size of a group that is examined.
 const LARGEST_GROUP: usize = 4;
 
 /// Observations that no set satisfies together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Conflict {
-    /// Their names; none of them can be left out.
+    /// Their names; without any one of them, some set satisfies the others.
     pub observations: Vec<String>,
-    /// Sets, of all waves, of which all of them are known.
+    /// Sets, of all waves, for which all of them are known.
     pub tried: u64,
     /// Independent draws among these, none of which satisfies all.
     pub share: Share,
-    /// Searches for a set that satisfies them, and the sets they tried; 0 where none was asked for.
+    /// Searches for a set that satisfies them; 0 where none was requested.
     pub searches: u64,
-    /// Sets these searches tried.
+    /// Sets that these searches tried.
     pub searched: u64,
 }
 
@@ -65,7 +65,7 @@ pub(super) fn groups(problem: &MatchProblem, found: &Searched) -> Vec<(Vec<usize
                 let both: Vec<u64> = set.iter().zip(true_with).map(|(a, b)| a & b).collect();
                 match both.iter().any(|word| *word != 0) {
                     false => groups.push(larger),
-                    // Of the largest groups, nearly all of the memory, nothing is made.
+                    // The largest groups, which would take most of the memory, are not extended.
                     true if size < LARGEST_GROUP => next.push((larger, both)),
                     true => {}
                 }

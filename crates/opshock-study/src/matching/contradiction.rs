@@ -1,4 +1,4 @@
-//! Searches for sets that would disprove a conflict.
+//! Searches for parameter sets that would disprove a conflict, a group of observations that seem not to hold together.
 
 use super::conflicts::groups;
 use super::evaluations::Interrupted;
@@ -9,8 +9,8 @@ use super::search::Run;
 use super::searched::Contradicted;
 
 impl Run<'_, '_> {
-    /// For each observation that the nearest set lacks, searches for sets that satisfy the smallest group in which it
-    /// conflicts with others, until every such group has either been searched in vain or is no conflict any more.
+    /// For each observation that does not hold with the nearest set, searches for sets that satisfy the smallest group
+    /// in which it conflicts with others, until every such group has been searched in vain or is no conflict any more.
     pub(super) fn contradict(&mut self) -> Result<(), Interrupted> {
         let problem = self.problem;
         let mut search = problem.effort.starts * problem.searches().len() as u32;
@@ -55,7 +55,7 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// One search from draws of its own: sets tried, and whether all hold with one.
+    /// One search from draws of its own: number of sets tried, and whether all observations hold with one.
     fn one_more(&mut self, evolution: &Evolution<'_>) -> Result<(u64, bool), Interrupted> {
         let size = population_size(self.problem) as u64;
         let draws = self.found.draws as u64 + size * u64::from(evolution.search);
@@ -87,7 +87,7 @@ impl Run<'_, '_> {
     }
 }
 
-/// The observations, with a range for those of a group alone.
+/// The observations, of which only those of a group have a range.
 fn counted(observations: &[Observation], group: &[usize]) -> Vec<Observation> {
     let mut counted = observations.to_vec();
     for (place, one) in counted.iter_mut().enumerate() {

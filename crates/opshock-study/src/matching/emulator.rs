@@ -1,5 +1,5 @@
-//! What sets are going to lack, predicted from those simulated so far: extremely randomised trees (Geurts, Ernst and Wehenkel
-//! 2006, Mach. Learn. 63, 3). It proposes what is simulated next; no answer rests on it.
+//! Predicts the shortfall of parameter sets from those simulated so far, by extremely randomised trees (Geurts, Ernst
+//! and Wehenkel 2006, Mach. Learn. 63, 3). It proposes what is simulated next; no answer rests on it.
 
 use super::observation::Observation;
 use super::sample::Sample;
@@ -10,7 +10,7 @@ use smartcore::ensemble::extra_trees_regressor::{
 };
 use smartcore::linalg::basic::matrix::DenseMatrix;
 
-/// Draws of the prior that a prediction rests on at most, and as many of the latest sets.
+/// Largest number of draws of the prior that a prediction rests on, and of the latest sets.
 const MOST: usize = 750;
 /// Fewest of both.
 const FEWEST: usize = 30;
@@ -19,8 +19,8 @@ const TREES: usize = 60;
 
 type Trees = ExtraTreesRegressor<f64, f64, DenseMatrix<f64>, Vec<f64>>;
 
-/// What each of `asked` is going to lack of the observations in `places`, by the trees of those of which some sets lack
-/// something and some do not, or less. Trees of one observation live no longer than their predictions.
+/// Predicted shortfall of each of `asked` in the observations in `places`, from the observations whose shortfall
+/// differs among the known sets. Trees of an observation live no longer than their predictions.
 pub(super) fn predicted(
     found: &Searched,
     observations: &[Observation],

@@ -1,7 +1,7 @@
-//! Numbers of parameter sets, kept by content.
+//! Evaluates parameter sets and keeps their numbers by content.
 //!
-//! A set of numbers is found again by the study that was simulated, by content with every file that it names, the
-//! quantities read and the physics versions: ranges of observations may change and nothing is simulated again.
+//! The key of a set of numbers is the content of the simulated study with every file that it names, the quantities read
+//! and the physics versions. So ranges of observations may change and nothing is simulated again.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use crate::store::lock::StoreLock;
 use crate::store::{PointDigest, Record, StoreError};
 use crate::study::{Study, StudyErrors};
 
-/// What is asked for: stage, parameter set, and whether every discretisation is refined.
+/// An evaluation: stage, parameter set, and whether every discretisation parameter is refined.
 pub(super) type Asked<'a> = (Stage, &'a [f64], bool);
 
 /// Numbers known so far, and where new ones are kept.
@@ -29,7 +29,7 @@ pub struct Evaluations<'a> {
     /// Numbers computed by this process.
     pub computed: u64,
     stop: &'a (dyn Fn() -> bool + Sync),
-    /// Hears how many of how many parameter sets a stage has.
+    /// Called with how many of how many parameter sets a stage has.
     progress: &'a dyn Fn(Stage, usize, usize),
 }
 
@@ -38,14 +38,14 @@ pub struct MatchStore {
     journal: JournalWriter,
     _lock: StoreLock,
     read: HashMap<PointDigest, Vec<Known>>,
-    /// What a person should know about its state.
+    /// Messages about its state.
     pub notes: Vec<String>,
 }
 
 /// Why there is no answer yet.
 #[derive(Debug)]
 pub(super) enum Interrupted {
-    /// A stop was asked for.
+    /// A stop was requested.
     Stopped,
     /// The store could not be written.
     Store(StoreError),
@@ -122,7 +122,7 @@ fn header(folder: &Path, problem: &MatchProblem) -> JournalHeader {
 }
 
 impl<'a> Evaluations<'a> {
-    /// With a store, or kept in memory alone; `stop` is asked between simulations, `progress` hears how far a stage is.
+    /// With a store, or kept in memory alone; `stop` is called between simulations, `progress` as they finish.
     pub fn new(
         problem: &'a MatchProblem,
         printed: &'a dyn Printed,
@@ -142,8 +142,8 @@ impl<'a> Evaluations<'a> {
         }
     }
 
-    /// Numbers of every observation for each that is asked, in their order; those not known are computed by the threads of
-    /// the pool this runs in. Where that is interrupted, those that are known, and why.
+    /// Numbers of every observation for each request, in their order; unknown ones are computed by the threads of the
+    /// pool this runs in. After an interruption, those that are known, and why.
     pub(super) fn of(
         &mut self,
         asked: &[Asked<'_>],
@@ -164,7 +164,7 @@ impl<'a> Evaluations<'a> {
     }
 
     fn compute(&mut self, asked: &[Asked<'_>], missing: &[usize]) -> Result<(), Interrupted> {
-        // What is kept with one sync: a kill costs no more.
+        // Number of sets kept with one sync: a kill loses no more.
         let batch = 16 * rayon::current_num_threads();
         let mut so_far = 0;
         for part in missing.chunks(batch) {
@@ -203,11 +203,11 @@ impl<'a> Evaluations<'a> {
 struct Computed {
     key: PointDigest,
     numbers: Vec<Known>,
-    /// What a study file that cannot be read or a panic leave is computed again by the next run.
+    /// Results of a study file that cannot be read, or of a panic, are computed again by the next run.
     is_lasting: bool,
 }
 
-/// The study of a parameter set, and what finds its numbers again.
+/// The study of a parameter set, and the key of its numbers.
 fn read(
     problem: &MatchProblem,
     (stage, unit, is_refined): &Asked<'_>,
@@ -255,7 +255,7 @@ fn compute(problem: &MatchProblem, printed: &dyn Printed, asked: &Asked<'_>) -> 
     }
 }
 
-/// What a quantity is, for telling equal ones.
+/// Text that identifies a quantity.
 fn words(quantity: &Quantity) -> String {
     let shock = |shock: &ShockChoice| format!("{shock:?}");
     match quantity {
@@ -284,7 +284,7 @@ fn words(quantity: &Quantity) -> String {
     }
 }
 
-/// As the journal keeps it: nothing, no number, or a number.
+/// As the journal keeps it: not computed, no number, or a number.
 impl From<Known> for Option<Option<f64>> {
     fn from(known: Known) -> Self {
         match known {

@@ -1,4 +1,4 @@
-//! Fields of a match file: read by name and kind, every fault noted with its place.
+//! Reads fields of a match file by name and kind; every fault is noted with its place.
 
 use crate::study::StudyError;
 use crate::study::suggest;
@@ -53,12 +53,12 @@ impl<'a> Fields<'a> {
         join(&self.path, name)
     }
 
-    /// A field that need not be there.
+    /// An optional field.
     pub(super) fn get(&self, name: &str) -> Option<&'a Node> {
         self.node.get(name)
     }
 
-    /// Those of some fields that are there.
+    /// The present ones of some fields.
     pub(super) fn present<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
         names
             .iter()

@@ -1,6 +1,6 @@
-//! Match files: a study, what is not known of it, and what was observed.
+//! Reads match files: a study, its unknown parameters, and what was observed.
 //!
-//! TOML like a study, read with the same messages: every fault at once, each with its place.
+//! A match file is TOML like a study and gives the same messages: all faults at once, each with its place.
 
 use std::path::{Path, PathBuf};
 
@@ -28,23 +28,23 @@ pub struct MatchProblem {
     pub study: Study,
     /// Seed of every random number.
     pub seed: u64,
-    /// What is not known.
+    /// The unknown parameters.
     pub parameters: Vec<Parameter>,
-    /// What was observed; those without a range are only reported.
+    /// The observations; those without a range are only reported.
     pub observations: Vec<Observation>,
-    /// The statements among them are of these.
+    /// The set of statements that observations may name.
     pub(super) statements: &'static dyn Statements,
     /// Settings laid over the study for each stage.
     pub settings: [Vec<String>; 3],
-    /// How much is computed.
+    /// Effort of the search.
     pub effort: Effort,
     /// Tolerance of searches for critical shocks, per cent.
     pub(super) tolerance_pct: f64,
-    /// What the command line lays over the study.
+    /// Settings that the command line lays over the study.
     sets: Vec<SetArg>,
 }
 
-/// How much is computed.
+/// Effort of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Independent draws of the prior, by stage; each a part of those of the stage before.
@@ -57,7 +57,7 @@ pub struct Effort {
     pub refinement: u64,
     /// Starts of the refinement.
     pub starts: u32,
-    /// Parameter each of whose choices is refined by itself, by its place.
+    /// Place of the parameter of which every choice is refined by itself.
     pub each: Option<usize>,
     /// Searches for a set that disproves a conflict.
     pub conflict_searches: u64,
@@ -86,7 +86,7 @@ const TOP: &[&str] = &[
 /// Draws of the prior by stage unless the file says otherwise.
 const DRAWS: [u64; 3] = [2000, 300, 30];
 const REFINEMENT: &[&str] = &["evaluations", "starts", "each", "weights"];
-/// No more of anything.
+/// The least effort.
 const MOST: u64 = 100_000_000;
 
 impl MatchProblem {
@@ -155,7 +155,7 @@ impl MatchProblem {
         };
         let mut observed_faults = Faults::new();
         let mut observations = observed::read(&fields, &folder, statements, &mut observed_faults);
-        // Weights of observations that cannot be read would be told as unknown.
+        // Weights of observations that cannot be read would be reported as unknown keys.
         if observed_faults.is_empty() {
             weigh(&fields, &mut observations, &mut faults);
         }
@@ -207,8 +207,8 @@ impl MatchProblem {
         self.effort.draws[stage as usize]
     }
 
-    /// Searches of each start of the refinement: the value at which one keeps a parameter, by its place and cumulative
-    /// probability, and the sets it tries. The first keeps none, and has half of them where others follow.
+    /// Searches of each start of the refinement: the fixed value of one parameter, by place and cumulative probability,
+    /// and the number of sets. The first fixes none, and has half of the sets where others follow.
     pub(super) fn searches(&self) -> Vec<(Option<(usize, f64)>, u64)> {
         let all = self.effort.refinement / u64::from(self.effort.starts);
         let Some(place) = self.effort.each else {
@@ -248,7 +248,7 @@ impl MatchProblem {
     /// The study of a parameter set at a stage.
     ///
     /// # Errors
-    /// What the study refuses, as a hinge longer than the beam.
+    /// The study's faults, such as a hinge longer than the beam.
     pub fn study_of(&self, stage: Stage, unit: &[f64]) -> Result<Study, StudyErrors> {
         Study::from_path(&self.study.path, &self.arguments(stage, unit))
     }
@@ -256,7 +256,7 @@ impl MatchProblem {
     /// The study itself with a parameter set's values.
     ///
     /// # Errors
-    /// What the study refuses.
+    /// The study's faults.
     pub fn with_values(&self, unit: &[f64]) -> Result<Study, StudyErrors> {
         let bare = Self {
             settings: Default::default(),
@@ -265,7 +265,7 @@ impl MatchProblem {
         bare.study_of(Stage::DiskAndRamp, unit)
     }
 
-    /// The settings of every stage that is asked for must be a study.
+    /// The settings of every stage in use must be a study.
     fn check_settings(&mut self, faults: &mut Faults) {
         let stages: Vec<Stage> = self.stages().collect();
         for stage in stages {
@@ -382,13 +382,13 @@ fn effort(fields: &Fields<'_>, faults: &mut Faults) -> Effort {
     effort
 }
 
-/// The table `refinement`; its unknown keys are told with the effort.
+/// The table `refinement`; its unknown keys are reported where the effort is read.
 fn refinement<'a>(fields: &Fields<'a>) -> Option<Fields<'a>> {
     let node = fields.get("refinement")?;
     Fields::of(node, "refinement", REFINEMENT, &mut Faults::new())
 }
 
-/// Gives observations the weights that `refinement.weights` says.
+/// Gives observations the weights in `refinement.weights`.
 fn weigh(fields: &Fields<'_>, observations: &mut [Observation], faults: &mut Faults) {
     let Some(node) = refinement(fields).and_then(|table| table.get("weights")) else {
         return;
@@ -405,7 +405,7 @@ fn weigh(fields: &Fields<'_>, observations: &mut [Observation], faults: &mut Fau
             }
             Some(weight) if weight > 0.0 => one.weight = weight,
             Some(_) => {
-                let fault = table.fault_of("E193", &one.name, "counts for nothing");
+                let fault = table.fault_of("E193", &one.name, "has no effect");
                 faults.push(fault.allowed("a number above 0"));
             }
             None => {}
@@ -453,7 +453,7 @@ fn settings(fields: &Fields<'_>, faults: &mut Faults) -> [Vec<String>; 3] {
     })
 }
 
-/// Whether a file says that it is a match file; what cannot be read is none.
+/// Whether a file is a match file; a file that cannot be read is none.
 pub fn is_match_file(path: &Path) -> bool {
     let text = text_file::read_text(path).unwrap_or_default();
     let table = text.parse::<toml::Table>();

@@ -1,4 +1,4 @@
-//! What a match is going to cost.
+//! Forecast of a match's cost.
 
 use std::time::Instant;
 
@@ -19,16 +19,16 @@ pub struct StageCost {
     pub stage: &'static str,
     /// Time of a parameter set on one core, s: the mean of three draws of the prior.
     pub seconds_each: f64,
-    /// Parameter sets: draws of the prior and probes of the numerics, then with every set of every wave and of the
-    /// refinement, none of which was ruled out before.
+    /// Parameter sets: draws of the prior and measurements of the numerical uncertainty; then also every set of every
+    /// wave and of the refinement, if none of them is ruled out before.
     pub sets: [u64; 2],
     /// Core-hours of both.
     pub core_h: [f64; 2],
-    /// Parameter sets of the searches of one group of observations that conflict, on top for each such group.
+    /// Parameter sets of the searches for one conflicting group of observations, in addition for each such group.
     pub sets_a_conflict: u64,
 }
 
-/// Times a few parameter sets of every stage that is asked for.
+/// Times a few parameter sets of every stage in use.
 pub fn forecast(problem: &MatchProblem, printed: &dyn Printed) -> Vec<StageCost> {
     let effort = &problem.effort;
     let cost = |stage: Stage| {

@@ -1,10 +1,10 @@
-//! Measured histories.
+//! Reads measured histories from CSV files.
 
 use std::path::Path;
 
 use crate::study::{StudyError, text_file};
 
-/// Times and values of a CSV file, a line each; lines that begin with `#` and one line of names are passed over.
+/// Times and values of a CSV file, a pair per line; lines that begin with `#` and one line of names are skipped.
 pub(super) fn measured(path: &Path) -> Result<Vec<(f64, f64)>, Box<StudyError>> {
     let text = text_file::read_text(path)?;
     let file = path.display().to_string();

@@ -1,14 +1,14 @@
-//! Matching: parameters of a study that make a set of observations true.
+//! Matching: finds parameters of a study with which a set of observations holds.
 //!
-//! Observations come in three stages of cost: disk and ramp (milliseconds), single shocks with the head, critical shocks.
-//! The first wave draws parameter sets independently from the prior; shares of the prior and their bounds rest on these
-//! draws alone. Later waves explore what is left, and a refinement maximises the smallest margin (`search`). A set is ruled
-//! out where an observation's implausibility reaches 3 (`observation`): history matching (Craig, Goldstein, Seheult and Smith
-//! 1997, in *Case Studies in Bayesian Statistics III*; Vernon, Goldstein and Bower 2010, Bayesian Analysis 5, 619) without an
-//! emulator, as the model itself is fast.
+//! Observations come in three stages of cost: disk and ramp (milliseconds), single shocks with the head, critical
+//! shocks. The first wave draws parameter sets independently from the prior; shares of the prior and their bounds rest
+//! on these draws alone. Later waves explore what is left, and a refinement maximises the smallest margin (`search`). A
+//! set is ruled out where an observation's implausibility reaches 3 (`observation`): history matching (Craig,
+//! Goldstein, Seheult and Smith 1997, in *Case Studies in Bayesian Statistics III*; Vernon, Goldstein and Bower 2010,
+//! Bayesian Analysis 5, 619) without an emulator, as the model itself is fast.
 //!
-//! Every number of a parameter set is kept in the store by its content (`evaluations`). The search is a function of the match
-//! file and these numbers alone, so that a run that was interrupted goes on by being run again.
+//! Every number of a parameter set is kept in the store by its content (`evaluations`). The search is a function of the
+//! match file and these numbers alone, so that an interrupted run continues when it is run again.
 
 mod answer;
 mod conflicts;

@@ -1,4 +1,4 @@
-//! What was observed: a number of the model, the range in which it is true, and how far a parameter set is from it.
+//! Observations: a number of the model, the range in which it holds, and how far a parameter set is from it.
 //!
 //! ```text
 //! margin      = distance to the nearer end of the range, negative outside, over u
@@ -13,10 +13,10 @@ use crate::study::{Ramp, Sign};
 /// Implausibility from which a parameter set is ruled out.
 pub const RULED_OUT: f64 = 3.0;
 
-/// Margin that the search asks of every observation before it widens the smallest: its own numerical uncertainty.
+/// Margin to which the search brings every observation before it widens the smallest: its own numerical uncertainty.
 pub(super) const SAFE: f64 = 1.0;
 
-/// How much has to be simulated for a number; in the order of cost.
+/// Simulations that a number needs, in the order of cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Disk and ramp of single shocks.
@@ -44,7 +44,7 @@ impl Stage {
         }
     }
 
-    /// In words.
+    /// Name in messages.
     pub const fn words(self) -> &'static str {
         match self {
             Stage::DiskAndRamp => "disk and ramp",
@@ -104,7 +104,7 @@ pub(super) const COLUMNS: [(&str, Stage); 15] = [
     ("dimple_force_n", Stage::SingleShocks),
 ];
 
-/// How numbers of other observations make one.
+/// Combination of numbers of other observations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combination {
     /// First over second.
@@ -117,16 +117,16 @@ pub enum Combination {
     Order,
 }
 
-/// Where a number comes from.
+/// Source of a number.
 #[derive(Clone, Debug)]
 pub enum Quantity {
-    /// A number of `opshock run --json`, by its path; with `equals`, 1 where it is that and 0 elsewhere.
+    /// A number of `opshock run --json`, by its path; with `equals`, 1 where it equals that and 0 elsewhere.
     Run {
         /// The shock.
         shock: ShockChoice,
-        /// Names and positions, as `["contact", "top", "episodes", "0", "on_s"]`; `length` at the end counts.
+        /// Names and positions, as `["contact", "top", "episodes", "0", "on_s"]`; `length` at the end gives the number.
         path: Vec<String>,
-        /// What a word or flag is compared with.
+        /// Value that a word or flag is compared with.
         equals: Option<Scalar>,
     },
     /// Distance of a history from a measured one.
@@ -150,7 +150,7 @@ pub enum Quantity {
     Statement {
         /// Name of the statement.
         id: &'static str,
-        /// Unit; empty for ratios and counts.
+        /// Unit; empty for ratios and whole numbers.
         unit: &'static str,
     },
     /// A number of other observations, by their places.
@@ -162,37 +162,37 @@ pub enum Quantity {
 pub struct Observation {
     /// Name.
     pub name: String,
-    /// Where its number comes from.
+    /// Source of its number.
     pub quantity: Quantity,
-    /// Lowest and highest number with which it is true; `None` for a number that nothing was observed of.
+    /// Lowest and highest number with which it holds; `None` for a number without observed value.
     pub range: Option<[f64; 2]>,
     /// Standard uncertainty of the observation.
     pub observed_u: f64,
-    /// Standard uncertainty of the model: what it leaves out.
+    /// Standard uncertainty of the model: effects it omits.
     pub discrepancy_u: f64,
     /// Numerical uncertainty where the file gives it.
     pub numerical_u: Option<f64>,
-    /// What it counts in the search, 1 unless the file says otherwise.
+    /// Weight in the search, 1 unless the file says otherwise.
     pub weight: f64,
-    /// What has to be simulated.
+    /// Simulations needed.
     pub stage: Stage,
-    /// Where it comes from.
+    /// Source of the observation.
     pub source: String,
 }
 
 /// A number as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
-    /// Not asked for yet.
+    /// Not computed yet.
     NotAsked,
-    /// There is none, as the time of a touch that does not come.
+    /// There is none, as the time of a touch that does not occur.
     Missing,
     /// The number.
     Is(f64),
 }
 
 impl Observation {
-    /// Whether it is true with a number; `None` where that is not known or nothing was observed.
+    /// Whether it holds with a number; `None` where that is not known or nothing was observed.
     pub fn holds(&self, number: Known) -> Option<bool> {
         let [low, high] = self.range?;
         match number {
@@ -203,9 +203,9 @@ impl Observation {
     }
 
     /// Signed distance to the nearer end of the range in units of the numerical uncertainty `u`: infinite where nothing
-    /// bounds it, without a number, and for numbers that are exact. An end that is met to the bit is a limit of the number, as
-    /// a count or the clearance of a slider that touches, and bounds nothing; two critical shocks that a search found equal are
-    /// no such limit.
+    /// bounds it, without a number, and for exact numbers. An end that is met to the bit is a limit of the number
+    /// itself and bounds nothing, as for whole numbers or the clearance of a slider that touches; two critical shocks
+    /// that a search found equal are no such limit.
     pub fn margin(&self, number: Known, u: f64) -> Option<f64> {
         let [low, high] = self.range?;
         let inside = match number {
@@ -234,8 +234,8 @@ impl Observation {
         }
     }
 
-    /// What a number lacks of its numerical uncertainty `u`, from 1 to 2 times the weight, and 0 where it reaches it; `None`
-    /// where it is not known or bounds nothing. `scale` is the distance that counts as half a step.
+    /// Shortfall of a number from its margin `u`, from 1 to 2 times the weight, and 0 where it reaches it; `None` where
+    /// it is not known or bounds nothing. `scale` is the distance that is half a step.
     pub(super) fn missing(&self, number: Known, u: f64, scale: f64) -> Option<f64> {
         if self.margin(number, u)? >= SAFE {
             return Some(0.0);
@@ -268,9 +268,9 @@ impl Combination {
         ("order", Combination::Order),
     ];
 
-    /// The number, and its numerical uncertainty when those of its parts have opposite senses.
+    /// The number, and its numerical uncertainty when those of its parts have opposite signs.
     pub fn of(self, parts: &[(Known, f64)]) -> (Known, f64) {
-        // What is not asked for yet is no answer, whatever the others say.
+        // While a number is not computed yet there is no answer, whatever the others are.
         if parts.iter().any(|(known, _)| *known == Known::NotAsked) {
             return (Known::NotAsked, 0.0);
         }

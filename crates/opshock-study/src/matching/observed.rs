@@ -1,4 +1,4 @@
-//! The observations of a match file.
+//! Reads the observations of a match file.
 
 use std::path::Path;
 
@@ -64,7 +64,7 @@ const OF_THE_DISK: &[&str] = &[
     "base",
 ];
 
-/// Reads every `[[observation]]`, then the statements asked for by `statements`.
+/// Reads every `[[observation]]`, then the statements that `statements` names.
 pub(super) fn read(
     fields: &Fields<'_>,
     folder: &Path,
@@ -184,7 +184,7 @@ fn one(
         faults.push(fault.allowed("no shock"));
     }
     let range = table.range("range", true, faults);
-    // A distance is not negative: 0 is no end of its range.
+    // A distance is not negative: a lower limit of 0 is no end of its range.
     let range = range.map(|[low, high]| match kind {
         "history" | "distance_pct" if low <= 0.0 => [f64::NEG_INFINITY, high],
         _ => [low, high],

@@ -1,20 +1,19 @@
-//! The numbers of one parameter set: what a stage simulates, and what is read from it.
+//! Numbers of one parameter set: simulates a stage and reads every observation's number from it.
 
 use super::file::MatchProblem;
 use super::observation::{Known, Measure, Observation, Quantity, Scalar, ShockChoice, Stage};
-use crate::search::Sign as SearchSign;
 use crate::store::history::root_columns;
 use crate::store::summary::{Status, Summary};
-use crate::study::{Choice, Sign, Study};
+use crate::study::{Choice, Study};
 use crate::sweep::{Physics, SweepInput, unkept};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Workspace, simulate};
 use serde_json::Value;
 
-/// What the commands of the program print as JSON.
+/// JSON output of the program's commands.
 pub trait Printed: Sync {
     /// `opshock run --json`.
     fn run(&self, outcome: &Outcome, start_s: f64) -> Value;
@@ -32,7 +31,7 @@ pub trait Printed: Sync {
     fn steady(&self, study: &Study, scene: &Scene) -> Result<Value, String>;
 }
 
-/// What is known of a parameter set that has no numbers at `stage`.
+/// Numbers of a parameter set without answer at `stage`.
 pub(super) fn missing(problem: &MatchProblem, stage: Stage) -> Vec<Known> {
     let known = |one: &Observation| match one.stage == stage
         && !matches!(one.quantity, Quantity::Combined(..))
@@ -43,8 +42,8 @@ pub(super) fn missing(problem: &MatchProblem, stage: Stage) -> Vec<Known> {
     problem.observations.iter().map(known).collect()
 }
 
-/// Numbers of every observation at `stage` for the `study` of a parameter set; with every discretisation refined once
-/// where that is asked.
+/// Numbers of every observation at `stage` for the `study` of a parameter set; on request with every discretisation
+/// parameter refined once.
 pub(super) fn numbers(
     problem: &MatchProblem,
     printed: &dyn Printed,
@@ -71,7 +70,7 @@ pub(super) fn numbers(
     found
 }
 
-/// What a stage simulates for one parameter set; parts of models are shared.
+/// Simulations of a stage for one parameter set; parts of models are shared.
 struct Simulations<'a> {
     problem: &'a MatchProblem,
     printed: &'a dyn Printed,
@@ -95,21 +94,26 @@ impl Simulations<'_> {
         Plan::new(outputs, Mode::Auto)
     }
 
-    /// Every discretisation one step finer, but for those that are parameters.
+    /// Every discretisation parameter refined by one step, except those that are unknowns of the match.
     fn levels(&self) -> Levels {
         if !self.is_refined {
             return Levels::NONE;
         }
         let keys = self.problem.parameters.iter().flat_map(|one| &one.keys);
         let is_sought = |name: &str| keys.clone().any(|(key, _)| key == name);
-        let knobs = Knob::ALL.into_iter().filter(|knob| match knob {
-            Knob::DiskModes => !is_sought("solver.disk_cut_khz"),
-            Knob::SuspensionModes => !is_sought("solver.suspension_modes"),
-            Knob::FilmGrid => !is_sought("solver.film_cells"),
-            Knob::StructureStep => !is_sought("solver.structure_step_us"),
-            _ => true,
-        });
-        knobs.fold(Levels::NONE, |levels, knob| levels.turned(knob, 1))
+        let discretisations =
+            Discretisation::ALL
+                .into_iter()
+                .filter(|discretisation| match discretisation {
+                    Discretisation::DiskModes => !is_sought("resolution.disk_cut_khz"),
+                    Discretisation::SuspensionModes => !is_sought("resolution.suspension_modes"),
+                    Discretisation::FilmGrid => !is_sought("resolution.film_cells"),
+                    Discretisation::StructureStep => !is_sought("resolution.structure_step_us"),
+                    _ => true,
+                });
+        discretisations.fold(Levels::NONE, |levels, discretisation| {
+            levels.changed(discretisation, 1)
+        })
     }
 
     fn statements(&mut self, found: &mut [Known]) {
@@ -319,10 +323,6 @@ fn critical_g(study: &Study, summary: &Summary, shock: &ShockChoice) -> Option<f
     let ramp = shock.ramp.or_else(|| only(&study.ramps))?;
     let pulse_ms = shock.pulse_ms.or_else(|| only(&study.widths_ms))?;
     let sign = shock.sign.or_else(|| only(&study.signs))?;
-    let sign = match sign {
-        Sign::Plus => SearchSign::Plus,
-        Sign::Minus => SearchSign::Minus,
-    };
     let point = summary.points.iter().find(|point| {
         point.ramp == ramp.as_str()
             && point.pulse_ms == pulse_ms
@@ -340,8 +340,8 @@ fn only<T: Copy>(list: &[T]) -> Option<T> {
 }
 
 impl MatchProblem {
-    /// Numerical uncertainty of a critical shock's number by the tolerance of its search: half of it for each critical shock
-    /// is the distance from the middle of the bracket, all of it from the survivor that is reported.
+    /// Numerical uncertainty of a critical shock's number by the tolerance of its search: for each critical shock half
+    /// of the tolerance from the middle of the bracket, all of it from the reported survivor.
     pub(super) fn search_uncertainty(&self, one: &Observation, number: Known) -> f64 {
         let Known::Is(value) = number else {
             return 0.0;

@@ -1,4 +1,4 @@
-//! The parameters of a match file.
+//! Reads the parameters of a match file.
 
 use super::fields::{Faults, Fields, wrong_kind};
 use super::prior::{Distribution, Parameter};
@@ -179,7 +179,7 @@ fn distribution(table: &Fields<'_>, faults: &mut Faults) -> Option<Distribution>
                 );
                 return None;
             }
-            // Six standard deviations hold all but 2e-9 of a normal distribution.
+            // Six standard deviations contain all but 2e-9 of a normal distribution.
             let range = range.unwrap_or([mean - 6.0 * sd, mean + 6.0 * sd]);
             if range[0] >= range[1] || range[1] < mean - 8.0 * sd || range[0] > mean + 8.0 * sd {
                 let fault = inner.fault_of("E133", "range", "holds nothing of the distribution");

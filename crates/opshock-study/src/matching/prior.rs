@@ -1,4 +1,4 @@
-//! Parameters that are not known, and points of their ranges.
+//! Prior distributions of unknown parameters, and points of their ranges.
 //!
 //! A point is given by one number from 0 to 1 for every parameter, its cumulative probability: where these are
 //! uniform and independent, the values are draws of the prior.
@@ -7,32 +7,32 @@ use rand::{Rng as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
-/// One parameter: a key of the study, or several that move together.
+/// One parameter: a key of the study, or several that change together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Name.
     pub name: String,
     /// Keys, each with the study's own value where values are relative to it.
     pub keys: Vec<(String, Option<f64>)>,
-    /// What is known before.
+    /// Its prior distribution.
     pub distribution: Distribution,
-    /// Probability that the keys are absent from the study, as a hard contact is.
+    /// Probability that the keys are absent from the study, as for a hard contact.
     pub unset_share: f64,
-    /// Where the range comes from.
+    /// Source of the range.
     pub source: String,
-    /// Cumulative probability from which the refinement starts: of the guess, or of the study's own value (the nearer end where
-    /// that is outside of the range, the first choice where it is none of them).
+    /// Cumulative probability from which the refinement starts: of the guess, or of the study's own value (the nearer
+    /// end where that is outside the range, the first choice where it is none of them).
     pub start: f64,
 }
 
-/// What is known of a parameter before anything was observed.
+/// Prior distribution of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Every value between two is as likely.
+    /// Uniform between two values.
     Uniform([f64; 2]),
-    /// Every ratio is as likely.
+    /// Log-uniform between two values.
     LogUniform([f64; 2]),
-    /// Normal with mean and standard deviation, cut off outside of a range.
+    /// Normal with mean and standard deviation, cut off outside a range.
     Normal {
         /// Mean.
         mean: f64,
@@ -41,7 +41,7 @@ pub enum Distribution {
         /// Ends of the range.
         range: [f64; 2],
     },
-    /// One of a list, as TOML, each as likely.
+    /// One of a list, as TOML, all equally likely.
     Choices(Vec<String>),
 }
 
@@ -57,7 +57,7 @@ pub enum ParameterValue {
 }
 
 impl Distribution {
-    /// Whether a number is a value of it.
+    /// Whether a number is in the range.
     pub(super) fn has(&self, value: f64) -> bool {
         match self {
             Distribution::Uniform([low, high])
@@ -121,7 +121,7 @@ impl Parameter {
         })
     }
 
-    /// The list it is one of, as TOML; empty for numbers, and for one that may be absent.
+    /// The list of choices, as TOML; empty for numbers, and for a parameter that may be absent.
     pub fn choices(&self) -> &[String] {
         match &self.distribution {
             Distribution::Choices(list) if self.unset_share == 0.0 => list,
@@ -129,7 +129,7 @@ impl Parameter {
         }
     }
 
-    /// The middle of the probabilities that give the same choice; a number's probability stays.
+    /// The middle of the probabilities that give the same choice; a number's probability is unchanged.
     pub fn middle_of_choice(&self, probability: f64) -> f64 {
         match self.choices().len() {
             0 => probability,
@@ -140,7 +140,7 @@ impl Parameter {
         }
     }
 
-    /// `--set` and `--unset` arguments: key and text, which is absent where the key is taken away.
+    /// `--set` and `--unset` arguments: key and text, which is absent where the key is removed.
     pub fn settings(&self, probability: f64) -> Vec<(String, Option<String>)> {
         let value = self.value(probability);
         let of = |(key, own): &(String, Option<f64>)| {
@@ -157,7 +157,7 @@ impl Parameter {
         self.keys.iter().map(of).collect()
     }
 
-    /// The value in words, of the first key.
+    /// The value as text, of the first key.
     pub fn words(&self, probability: f64) -> String {
         let settings = self.settings(probability);
         settings[0].1.clone().unwrap_or_else(|| "absent".to_owned())
@@ -171,7 +171,7 @@ pub fn draw(seed: u64, index: u64, parameters: usize) -> Vec<f64> {
     (0..parameters).map(|_| generator.random()).collect()
 }
 
-/// Numbers from 0 to 1 for a step of a search: their own for every `stage` and `index`.
+/// Numbers from 0 to 1 for a step of a search: independent for every `stage` and `index`.
 pub fn numbers(seed: u64, stage: u32, index: u64) -> impl FnMut() -> f64 {
     let mut generator = ChaCha8Rng::seed_from_u64(seed ^ (u64::from(stage) << 32));
     generator.set_stream(index | 1 << 63);
@@ -227,7 +227,7 @@ mod tests {
                 panic!("a number");
             };
             assert!((value - 2.6).abs() < 1e-9, "{distribution:?}: {value}");
-            // Outside of the range, its nearer end.
+            // Outside the range, its nearer end.
             assert_eq!(
                 [1.0, 9.0].map(|one| distribution.probability(Some(one))),
                 [0.0, 1.0]

@@ -1,4 +1,4 @@
-//! The refinement: the smallest margin made as large as it can be, by differential evolution.
+//! Max-min refinement of a match: differential evolution that makes the smallest margin as large as possible.
 
 use super::emulator::predicted;
 use super::evaluations::Interrupted;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 const CHILDREN: usize = 200;
 /// Share of them with some coordinates drawn anew.
 const ANEW: f64 = 0.4;
-/// Share of a generation's children that go on from a stage to the next.
+/// Share of a generation's children that continue to the next stage.
 const GO_ON: f64 = 0.6;
 
 /// Sets that evolve together in a refinement.
@@ -21,19 +21,19 @@ pub(super) fn population_size(problem: &MatchProblem) -> usize {
     problem.parameters.len().clamp(6, 30)
 }
 
-/// What one differential evolution is to do.
+/// Task of one differential evolution.
 pub(super) struct Evolution<'e> {
     /// Its place among all: it has random numbers of its own.
     pub(super) search: u32,
-    /// A parameter that keeps its value.
+    /// A parameter with a fixed value.
     pub(super) held: Option<(usize, f64)>,
-    /// The observations of the problem, those that do not count without a range.
+    /// The observations of the problem; those that do not contribute are without a range.
     pub(super) seen: &'e [Observation],
-    /// Stages that those need.
+    /// Stages that these need.
     pub(super) stages: Vec<Stage>,
     /// Sets that are tried before any children.
     pub(super) joining: Vec<Vec<f64>>,
-    /// Sets tried at most.
+    /// Largest number of sets tried.
     pub(super) most: u64,
     /// Places of observations; one set with which they all hold is enough.
     pub(super) ends_with: Option<&'e [usize]>,
@@ -41,19 +41,19 @@ pub(super) struct Evolution<'e> {
 
 /// How a differential evolution ended.
 pub(super) struct Evolved {
-    /// The sets it ended with.
+    /// The final sets.
     pub(super) population: Vec<Sample>,
     /// Sets tried.
     pub(super) tried: u64,
-    /// A set was found with which all hold that it ends with.
+    /// A set was found with which all hold.
     pub(super) is_had: bool,
     /// Whether it was interrupted.
     pub(super) ended: Result<(), Interrupted>,
 }
 
 impl Run<'_, '_> {
-    /// Takes the best of the sets that did not come through all stages through them: what rules out a set early may be little.
-    /// The guesses, with every choice of the parameter that has a search for each, go with them.
+    /// Runs the best incomplete sets through all stages: they may have been ruled out early by little. With them go the
+    /// guesses, with every choice of the parameter of which each choice has a search.
     pub(super) fn promote(&mut self) -> Result<(), Interrupted> {
         let effort = &self.problem.effort;
         let seen = &self.problem.observations;
@@ -86,8 +86,8 @@ impl Run<'_, '_> {
         sample.score(seen, &self.found.scales)
     }
 
-    /// Differential evolution from the best sets, each start from others of them; `search` is its place among all. Where a
-    /// parameter is held, from the best sets with its value; the best of all join them, with that value in place of their own.
+    /// Differential evolution from the best sets, each start from others of them; `search` is its place among all. For
+    /// a fixed parameter, from the best sets with its value; the best others join them, changed to that value.
     pub(super) fn refine(
         &mut self,
         [search, start]: [u32; 2],
@@ -101,7 +101,7 @@ impl Run<'_, '_> {
         let mut all: Vec<(f64, &Sample)> = whole.map(|one| (self.score(one, seen), one)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.dedup_by(|a, b| a.1.unit == b.1.unit);
-        // Every start its own part of the best, so that they are different ones.
+        // Every start has its own part of the best, so that the starts differ.
         let stride = problem.effort.starts as usize;
         let has_value = |one: &Sample| {
             held.is_none_or(|(place, p)| {
@@ -152,7 +152,7 @@ impl Run<'_, '_> {
         evolved.ended
     }
 
-    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341). Every set it tries is kept among all.
+    /// Differential evolution (Storn and Price 1997, J. Global Optimization 11, 341). Every set it tries is kept.
     pub(super) fn evolve(&mut self, first: Vec<Sample>, of: &Evolution<'_>) -> Evolved {
         let has_all = |samples: &[Sample]| {
             of.ends_with
@@ -195,8 +195,8 @@ impl Run<'_, '_> {
         }
     }
 
-    /// `n` children, more of the better sets, each with its parent's place: of some that are drawn, that which lacks least by
-    /// what was simulated so far.
+    /// `n` children, more of the better sets, each with its parent's place: of several that are drawn, the one that is
+    /// predicted to miss least.
     fn children(
         &self,
         population: &[(f64, Sample)],
@@ -236,7 +236,7 @@ impl Run<'_, '_> {
             .collect()
     }
 
-    /// Those that lack least by what is known of them and what is predicted of the rest go on to the next stage.
+    /// The children that miss least, by known numbers and predictions of the others, go on to the next stage.
     fn most_promising(
         &mut self,
         children: Vec<(usize, Sample)>,
@@ -262,8 +262,8 @@ impl Run<'_, '_> {
         all.into_iter().map(|(_, child)| child).collect()
     }
 
-    /// Children that are no worse than their parents join, and the best stay. Stage by stage: one that is worse by what is known
-    /// of it is not simulated on, nor those that promise least.
+    /// Children that are no worse than their parents join, and the best stay. After each stage, those that are worse
+    /// already and the least promising ones are not simulated further.
     fn compete(
         &mut self,
         population: &mut Vec<(f64, Sample)>,
@@ -292,7 +292,7 @@ impl Run<'_, '_> {
             population.push((self.score(&one, of.seen), one));
         }
         best_first(population);
-        // Sets that differ by less than the search resolves are one; parents come first.
+        // Sets that differ by less than the search resolves are equal; parents come first.
         let all = std::mem::take(population);
         let (again, once): (Vec<_>, Vec<_>) = {
             let mut last = None;
@@ -323,8 +323,8 @@ fn child(
     if a == b {
         b = (b + 1) % population.len();
     }
-    // Steps of every size along differences, which shrink with the population, and beside them; of one coordinate up to all,
-    // as observations depend on some parameters alone. Or some coordinates anew, anywhere.
+    // Steps of every size along differences, which shrink with the population, and across them; of one coordinate up to
+    // all, as observations depend on some parameters alone. Or some coordinates drawn anew.
     let (towards, along) = (random() * random(), 0.9 * 10_f64.powf(-1.5 * random()));
     let size = 0.2 * 10_f64.powf(-3.0 * random());
     let (is_anew, share) = (random() < ANEW, random());

@@ -1,4 +1,4 @@
-//! A parameter set, and how it stands to the observations.
+//! A parameter set with its numbers, and how well the observations hold with it.
 
 use std::cmp::Ordering;
 
@@ -25,7 +25,7 @@ impl Sample {
             .all(|(known, _)| *known != Known::NotAsked)
     }
 
-    /// Some observation is implausible, by what is known.
+    /// Some observation is implausible by the known numbers.
     pub fn is_ruled_out(&self, observations: &[Observation]) -> bool {
         self.implausibilities(observations).any(|i| i >= RULED_OUT)
     }
@@ -51,7 +51,7 @@ impl Sample {
         pairs.filter_map(|(place, (one, (known, u)))| Some((place, one.margin(*known, *u)?)))
     }
 
-    /// How far it is from all that was observed; 0 where nothing is implausible.
+    /// Distance from all observations; 0 where none is implausible.
     pub(super) fn distance(&self, observations: &[Observation]) -> f64 {
         self.implausibilities(observations)
             .map(|i| i.min(FAR).ln_1p())
@@ -65,7 +65,7 @@ impl Sample {
         (0..observations.len()).filter(holds).collect()
     }
 
-    /// All of some observations hold, by their places.
+    /// All of some observations hold, given by their places.
     pub(super) fn holds_all(&self, places: &[usize], observations: &[Observation]) -> bool {
         let holds = |place: &usize| observations[*place].holds(self.numbers[*place].0);
         places.iter().all(|place| holds(place) == Some(true))
@@ -79,7 +79,7 @@ impl Sample {
         short.map(|(place, _)| place).collect()
     }
 
-    /// Least weight of observations that do not hold first, then by [`Self::score`].
+    /// Order by the least weight of observations that do not hold, then by [`Self::score`].
     pub(super) fn order(
         &self,
         other: &Self,
@@ -104,9 +104,9 @@ impl Sample {
         })
     }
 
-    /// What the search makes as large as it can: the smallest margin where all reach their numerical uncertainty, else what
-    /// is missing, with a step for each observation that does not, so that one more reaches it before the others come nearer.
-    /// `scales` are distances of each number that count as half a step.
+    /// Objective of the search: the smallest margin where all reach their numerical uncertainty. Else minus the
+    /// shortfall, with a step for each observation that does not reach it, so that one more reaches it before the
+    /// others come nearer. `scales` are distances of each number that are half a step.
     pub(super) fn score(&self, observations: &[Observation], scales: &[f64]) -> f64 {
         let pairs = observations.iter().zip(&self.numbers).zip(scales);
         let missing: f64 = pairs

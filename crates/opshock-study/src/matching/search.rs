@@ -1,4 +1,4 @@
-//! The search: independent draws of the prior, waves that explore what is left, refinement of the smallest margin.
+//! Search for matching parameter sets: draws of the prior, waves that explore what is left, refinement of the margin.
 
 use super::evaluations::{Asked, Evaluations, Interrupted};
 use super::file::MatchProblem;
@@ -8,10 +8,10 @@ use super::sample::{Sample, scales};
 use super::searched::{Ended, Searched, WaveReport};
 use crate::store::StoreError;
 
-/// Sets from which a wave starts at least; the nearest where fewer are left.
+/// Least number of sets from which a wave starts; the nearest where fewer are left.
 const PARENTS: usize = 20;
 
-/// Searches for parameter sets; `tell` hears of every wave.
+/// Searches for parameter sets; `tell` is called for every wave.
 ///
 /// # Errors
 /// The store cannot be written. What was computed before is kept.
@@ -35,8 +35,8 @@ pub fn search(
 }
 
 impl Evaluations<'_> {
-    /// A parameter set through every stage, with the numerical uncertainties that a search measured; `None` when a stop was
-    /// asked for.
+    /// A parameter set through every stage, with the numerical uncertainties that a search measured; `None` after a
+    /// requested stop.
     ///
     /// # Errors
     /// The store cannot be written.
@@ -96,7 +96,7 @@ impl Run<'_, '_> {
         self.contradict()
     }
 
-    /// Measures the numerical uncertainty: the largest change of a number when every discretisation is refined once.
+    /// Measures the numerical uncertainty: the largest change of a number when every parameter is refined once.
     fn numerics(&mut self) -> Result<(), Interrupted> {
         let problem = self.problem;
         let is_measured = |stage: Stage| {
@@ -159,7 +159,7 @@ impl Run<'_, '_> {
             }
         }
         self.found.scales = scales(&samples, &problem.observations);
-        // What is not ruled out goes on to the later stages.
+        // Sets that are not ruled out go on to the later stages.
         let mut left: Vec<usize> = (0..samples.len())
             .filter(|k| {
                 !samples[*k].is_ruled_out(&self.problem.observations) && !samples[*k].is_whole()
@@ -191,7 +191,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Fills in the numbers of a stage.
+    /// Computes the numbers of a stage.
     pub(super) fn evaluate(
         &mut self,
         stage: Stage,
@@ -259,7 +259,7 @@ impl Run<'_, '_> {
         if left.len() >= PARENTS {
             return left;
         }
-        // The farther a set has come through the stages, the nearer it is.
+        // The more stages a set has passed, the nearer it is.
         let unknown = |k: usize| {
             samples[k]
                 .numbers
@@ -283,7 +283,7 @@ impl Run<'_, '_> {
         all.into_iter().take(PARENTS).map(|(k, ..)| k).collect()
     }
 
-    /// Half of a wave fills the box around what is left; half steps along differences of two of its sets.
+    /// Half of a wave fills the box around the sets left; half steps along differences of two of them.
     fn wave(&mut self, wave: u32) -> Result<(), Interrupted> {
         let (seed, n) = (self.problem.seed, self.problem.parameters.len());
         let parents = self.parents();
@@ -370,7 +370,7 @@ fn box_of<'s>(units: impl Iterator<Item = &'s [f64]>, parameters: usize) -> Vec<
     hull(units, parameters).into_iter().map(wider).collect()
 }
 
-/// Back into 0 to 1 at its ends.
+/// Reflects a value at the ends of 0 to 1.
 pub(super) fn reflected(x: f64) -> f64 {
     let x = x.rem_euclid(2.0);
     if x > 1.0 { 2.0 - x } else { x }

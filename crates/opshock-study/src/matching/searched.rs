@@ -1,17 +1,17 @@
-//! What a search has found so far.
+//! Results of a search for matching parameter sets so far.
 
 use super::sample::Sample;
 
-/// What a wave did.
+/// Report of a wave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveReport {
-    /// What was done.
+    /// Name of the wave.
     pub name: String,
     /// Parameter sets tried.
     pub tried: u64,
     /// Those that are not ruled out.
     pub kept: u64,
-    /// What the sets kept so far leave of each parameter's range, a share; empty without any.
+    /// Share of each parameter's range that the sets so far leave; empty without any.
     pub left: Vec<f64>,
 }
 
@@ -20,11 +20,11 @@ pub struct WaveReport {
 pub enum Ended {
     /// Everything asked for was computed.
     Complete,
-    /// A stop was asked for before.
+    /// A stop was requested before.
     Stopped,
 }
 
-/// All that was found.
+/// All results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Searched {
     /// Parameter sets: draws of the prior first, in their order.
@@ -33,9 +33,9 @@ pub struct Searched {
     pub draws: usize,
     /// Measured numerical uncertainty of every observation; 0 where it is given, exact or not measured.
     pub measured_u: Vec<f64>,
-    /// Distances of each number outside its range that are usual in the prior.
+    /// Typical distance of each number outside its range in the prior.
     pub(super) scales: Vec<f64>,
-    /// What was done.
+    /// Waves.
     pub waves: Vec<WaveReport>,
     /// Parameter sets of the refinement, over all starts.
     pub refined: u64,
@@ -46,7 +46,7 @@ pub struct Searched {
 }
 
 impl Searched {
-    /// Before anything was done.
+    /// Before any wave.
     pub(super) fn nothing(observations: usize) -> Self {
         Self {
             samples: Vec::new(),
@@ -61,7 +61,7 @@ impl Searched {
     }
 }
 
-/// Observations that searches of their own did not find a set for.
+/// Observations for which searches of their own found no set.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Contradicted {
     /// Their places.

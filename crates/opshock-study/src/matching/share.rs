@@ -6,12 +6,12 @@ use statrs::distribution::{Beta, ContinuousCDF as _};
 /// A share of the prior.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// Draws with it.
+    /// Draws that have the property.
     pub with: u64,
     /// Independent draws of the prior.
     pub of: u64,
-    /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); with none, the upper end
-    /// is one-sided, about 3/n.
+    /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); without any draw,
+    /// the upper end is one-sided, about 3/n.
     pub interval: [f64; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What accuracy costs, as files: table (Markdown, CSV), JSON, work-precision plots.
+//! Writes the refinement studies of `opshock accuracy`, error against cost: tables, JSON, work-precision plots.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
 use super::error::{ReportError, json};
 use super::table::csv_line;
-use crate::accuracy::{Accuracy, PointLadders, QUANTITIES, RungRow};
+use crate::accuracy::{Accuracy, PointStudies, QUANTITIES, SettingRow};
 use crate::store::aside::write_all;
 
 /// Writes `accuracy.md`, `accuracy.csv`, `accuracy.json` and, per point, `accuracy-N.svg` and
@@ -32,21 +32,24 @@ pub fn write_accuracy(folder: &Path, accuracy: &Accuracy) -> Result<Vec<PathBuf>
     Ok(write_all(folder, files)?)
 }
 
-/// Work-precision plots of a point: error of three quantities against wall time, a panel a ladder.
-pub fn figure(point: &PointLadders, program: &str) -> Figure {
-    let mut ladders: Vec<&str> = point
-        .rungs
+/// Work-precision plots of a point: error of three quantities against wall time, a panel a refinement study.
+pub fn figure(point: &PointStudies, program: &str) -> Figure {
+    let mut studies: Vec<&str> = point
+        .settings
         .iter()
-        .map(|rung| rung.ladder.as_str())
+        .map(|setting| setting.parameter.as_str())
         .collect();
-    ladders.dedup();
-    let panels = ladders
+    studies.dedup();
+    let panels = studies
         .iter()
-        .map(|ladder| {
+        .map(|parameter| {
             let of = |column: usize| -> Vec<Sample> {
-                let rungs = point.rungs.iter();
-                let rungs = rungs.filter(|rung| rung.ladder == *ladder && !rung.is_reference);
-                rungs.filter_map(|rung| sample(rung, column)).collect()
+                let settings = point.settings.iter();
+                let settings = settings
+                    .filter(|setting| setting.parameter == *parameter && !setting.is_reference);
+                settings
+                    .filter_map(|setting| sample(setting, column))
+                    .collect()
             };
             let marked = |name: &str, colour, marker, column| {
                 Series::marked(
@@ -58,7 +61,7 @@ pub fn figure(point: &PointLadders, program: &str) -> Figure {
                 )
             };
             Panel {
-                title: (*ladder).to_owned(),
+                title: (*parameter).to_owned(),
                 x: Axis::log("Time of one shock (s)"),
                 y: Axis::log("Relative error"),
                 series: vec![
@@ -74,16 +77,16 @@ pub fn figure(point: &PointLadders, program: &str) -> Figure {
         .collect();
     Figure {
         title: format!("What accuracy costs: {}", point.label),
-        subtitle: format!("each knob alone, then all together   [{program}]"),
+        subtitle: format!("each discretisation parameter alone, then all together   [{program}]"),
         columns: 3,
         panel_px: (360.0, 300.0),
         panels,
     }
 }
 
-fn sample(rung: &RungRow, column: usize) -> Option<Sample> {
-    let error = rung.errors[column].filter(|&error| error > 1e-9)?;
-    let [_, median_s, _] = rung.wall_s?;
+fn sample(setting: &SettingRow, column: usize) -> Option<Sample> {
+    let error = setting.errors[column].filter(|&error| error > 1e-9)?;
+    let [_, median_s, _] = setting.wall_s?;
     Some(Sample {
         x: median_s,
         value: Value::Known {
@@ -91,13 +94,18 @@ fn sample(rung: &RungRow, column: usize) -> Option<Sample> {
             low: error,
             high: error,
         },
-        open: !rung.is_on_front && rung.ladder == "joint",
-        note: format!("{} = {}: {:.3} %", rung.ladder, rung.value, 100.0 * error),
+        open: !setting.is_on_front && setting.parameter == "joint",
+        note: format!(
+            "{} = {}: {:.3} %",
+            setting.parameter,
+            setting.value,
+            100.0 * error
+        ),
     })
 }
 
 fn csv(accuracy: &Accuracy) -> String {
-    let mut header: Vec<String> = ["point", "ladder", "value", "fineness", "is_reference"]
+    let mut header: Vec<String> = ["point", "parameter", "value", "fineness", "is_reference"]
         .map(String::from)
         .to_vec();
     header.extend(QUANTITIES.map(|name| format!("{name}_error")));
@@ -119,17 +127,17 @@ fn csv(accuracy: &Accuracy) -> String {
     let mut text = csv_line(&header);
     let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.6e}"));
     for point in &accuracy.points {
-        for rung in &point.rungs {
+        for setting in &point.settings {
             let mut row = vec![
                 point.label.clone(),
-                rung.ladder.clone(),
-                rung.value.clone(),
-                rung.fineness.to_string(),
-                rung.is_reference.to_string(),
+                setting.parameter.clone(),
+                setting.value.clone(),
+                setting.fineness.to_string(),
+                setting.is_reference.to_string(),
             ];
-            row.extend(rung.errors.iter().map(|&error| number(error)));
-            let wall = rung.wall_s.map(|w| w.map(Some)).unwrap_or([None; 3]);
-            let measured = &rung.measured;
+            row.extend(setting.errors.iter().map(|&error| number(error)));
+            let wall = setting.wall_s.map(|w| w.map(Some)).unwrap_or([None; 3]);
+            let measured = &setting.measured;
             row.push(number(measured.critical_g));
             row.push(measured.critical_runs.to_string());
             row.extend(wall.map(number));
@@ -137,7 +145,7 @@ fn csv(accuracy: &Accuracy) -> String {
                 number(Some(measured.build_s)),
                 measured.work.to_string(),
                 measured.structure_steps.to_string(),
-                rung.is_on_front.to_string(),
+                setting.is_on_front.to_string(),
                 measured.failure.clone().unwrap_or_default(),
             ]);
             text.push_str(&csv_line(&row));
@@ -152,19 +160,19 @@ pub fn markdown(accuracy: &Accuracy) -> String {
     for point in &accuracy.points {
         let _ = write!(
             text,
-            "\n## {}, probing shock {:.1} G\n\n| knob | value | critical shock (G) | shocks for it | its error (%) | clearance (%) | \
+            "\n## {}, probing shock {:.1} G\n\n| discretisation parameter | value | critical shock (G) | shocks for it | its error (%) | clearance (%) | \
              flying height (%) | impulse (%) | rim (%) | slider (%) | first touch (%) | time of a shock (s) | film work |\n\
              | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
             point.label, point.probe_g
         );
-        for rung in &point.rungs {
-            let measured = &rung.measured;
-            let name = match (rung.is_reference, rung.is_on_front) {
-                (true, _) => format!("{} (reference)", rung.value),
-                (false, true) => format!("**{}**", rung.value),
-                (false, false) => rung.value.clone(),
+        for setting in &point.settings {
+            let measured = &setting.measured;
+            let name = match (setting.is_reference, setting.is_on_front) {
+                (true, _) => format!("{} (reference)", setting.value),
+                (false, true) => format!("**{}**", setting.value),
+                (false, false) => setting.value.clone(),
             };
-            let errors: String = rung
+            let errors: String = setting
                 .errors
                 .iter()
                 .map(|error| match error {
@@ -172,7 +180,7 @@ pub fn markdown(accuracy: &Accuracy) -> String {
                     None => " |".into(),
                 })
                 .collect();
-            let wall = rung.wall_s.map_or(String::new(), |[q1, median, q3]| {
+            let wall = setting.wall_s.map_or(String::new(), |[q1, median, q3]| {
                 format!("{median:.3} ({q1:.3} to {q3:.3})")
             });
             let critical = match (&measured.failure, measured.critical_g) {
@@ -183,18 +191,18 @@ pub fn markdown(accuracy: &Accuracy) -> String {
             let _ = writeln!(
                 text,
                 "| {} | {name} | {critical} | {} |{errors} {wall} | {:.2e} |",
-                rung.ladder, measured.critical_runs, measured.work as f64
+                setting.parameter, measured.critical_runs, measured.work as f64
             );
         }
         text.push_str(
-            "\n| knob | order read on | observed | formal |\n| --- | --- | ---: | ---: |\n",
+            "\n| discretisation parameter | order read on | observed | formal |\n| --- | --- | ---: | ---: |\n",
         );
         for order in &point.orders {
             let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:.2}"));
             let _ = writeln!(
                 text,
                 "| {} | {} | {} | {} |",
-                order.ladder,
+                order.parameter,
                 order.quantity,
                 match order.is_disordered {
                     true => "no order".to_owned(),
@@ -206,10 +214,10 @@ pub fn markdown(accuracy: &Accuracy) -> String {
     }
     let _ = write!(
         text,
-        "\nErrors are against the ladder's reference; in the reference's own row they say how \
-         uncertain it is (the finest rung's error, fallen at the formal order). All ladders but \
+        "\nErrors are against the refinement study's reference; in the reference's own row they say how \
+         uncertain it is (the finest setting's error, fallen at the formal order). All studies but \
          `film_cells`, the grid as it is, `film_cells_corrected` and `joint` stand on a quarter of the film's cells. Bold: on the front of \
-         the joint settings. Orders are in the knob's own number (cells, modes, 1/step, 1/tolerance). \
+         the joint settings. Orders are in the discretisation's own number (cells, modes, 1/step, 1/tolerance). \
          Times are of this machine.\n\n{}, study {}\n",
         accuracy.program, accuracy.digest
     );

@@ -1,4 +1,4 @@
-//! Two tables of critical shocks, point by point: only what differs.
+//! Compares two tables of critical shocks point by point, and lists only what differs.
 //!
 //! Points are matched by ramp, width, sign and further axes. An axis that only one study has is
 //! matched with the other study's setting of that key. Intervals that touch count as overlapping.
@@ -22,17 +22,17 @@ pub struct Side<'a> {
     pub resolved_study: Option<&'a str>,
 }
 
-/// Whether two critical shocks are told apart by what is known of their errors.
+/// Whether the difference of two critical shocks is beyond their uncertainty intervals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Significance {
-    /// Error bars do not overlap.
-    BeyondBars,
-    /// Error bars overlap, search brackets do not.
-    WithinBars,
+    /// Uncertainty intervals do not overlap.
+    BeyondUncertainties,
+    /// Uncertainty intervals overlap, search brackets do not.
+    WithinUncertainties,
     /// Search brackets overlap already.
     WithinBrackets,
-    /// Search brackets do not overlap, and a side has no error bar.
+    /// Search brackets do not overlap, and a side has no uncertainty interval.
     BeyondBrackets,
     /// A side has no bracket.
     Unknown,
@@ -48,19 +48,19 @@ impl Significance {
         if overlap(bracket_a, bracket_b) {
             return Significance::WithinBrackets;
         }
-        match (bar(a), bar(b)) {
-            (Some(a), Some(b)) if overlap(a, b) => Significance::WithinBars,
-            (Some(_), Some(_)) => Significance::BeyondBars,
+        match (uncertainty(a), uncertainty(b)) {
+            (Some(a), Some(b)) if overlap(a, b) => Significance::WithinUncertainties,
+            (Some(_), Some(_)) => Significance::BeyondUncertainties,
             _ => Significance::BeyondBrackets,
         }
     }
 
     fn words(self) -> &'static str {
         match self {
-            Significance::BeyondBars => "beyond error bars",
-            Significance::WithinBars => "within error bars",
+            Significance::BeyondUncertainties => "beyond uncertainty intervals",
+            Significance::WithinUncertainties => "within uncertainty intervals",
             Significance::WithinBrackets => "within brackets",
-            Significance::BeyondBrackets => "beyond brackets, no bars",
+            Significance::BeyondBrackets => "beyond brackets, no intervals",
             Significance::Unknown => "unknown",
         }
     }
@@ -76,8 +76,8 @@ fn bracket(point: &PointSummary) -> Option<[f64; 2]> {
     }
 }
 
-/// Error bar, never narrower than the bracket, G; a bound has its bracket alone.
-fn bar(point: &PointSummary) -> Option<[f64; 2]> {
+/// Uncertainty interval, never narrower than the bracket, G; a bound has its bracket alone.
+fn uncertainty(point: &PointSummary) -> Option<[f64; 2]> {
     let [low, high] = bracket(point)?;
     if point.status != Status::Ok {
         return Some([low, high]);
@@ -102,7 +102,7 @@ pub struct PointDifference {
     pub differs: Vec<&'static str>,
     /// `a_crit_g` of B over that of A, less one, per cent; `None` unless both are bracketed.
     pub change_pct: Option<f64>,
-    /// Whether the critical shocks are told apart.
+    /// Whether the difference is beyond the uncertainty intervals.
     pub significance: Significance,
 }
 
@@ -235,7 +235,7 @@ fn axes_of(
         .collect()
 }
 
-/// Columns of the answer that differ; what the search spent is no answer.
+/// Columns of the answer that differ; the cost of the search is not part of the answer.
 fn differing(a: &PointSummary, b: &PointSummary) -> Vec<&'static str> {
     [
         ("a_crit_g", a.a_crit_g != b.a_crit_g),

@@ -1,4 +1,4 @@
-//! Critical shock against pulse width: the curve a study is made for.
+//! Draws the critical shock against pulse width: the curve a study is made for.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
 use crate::search::Sign;
@@ -15,7 +15,7 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotte
 /// Critical shock of every ramp model (and further axis value) against pulse width, a panel for
 /// each sign on one common ordinate.
 ///
-/// Marks are `a_crit_g` with its error bar; an open mark has a reservation (see the table's
+/// Marks are `a_crit_g` with its uncertainty interval; an open mark has a reservation (see the table's
 /// status and flags); an open arrow is only a bound: no failure up to, or failure already at, the
 /// end of the searched range. Series of equal values are set some pixels apart.
 pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
@@ -56,14 +56,15 @@ pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
         .points
         .iter()
         .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
-    let has_bar = |point: &PointSummary| point.err_low_g.is_some();
+    let has_uncertainty = |point: &PointSummary| point.err_low_g.is_some();
     let mut subtitle = "highest surviving amplitude".to_owned();
-    if summary.points.iter().any(has_bar) {
-        subtitle.push_str(" with its error bar");
+    if summary.points.iter().any(has_uncertainty) {
+        subtitle.push_str(" with its uncertainty interval");
     }
-    let lacks_bar = |point: &PointSummary| point.status == Status::Ok && !has_bar(point);
-    if summary.points.iter().any(lacks_bar) {
-        subtitle.push_str("; no bar: error not known");
+    let lacks_uncertainty =
+        |point: &PointSummary| point.status == Status::Ok && !has_uncertainty(point);
+    if summary.points.iter().any(lacks_uncertainty) {
+        subtitle.push_str("; no interval: error not known");
     }
     if bounded {
         subtitle.push_str("; open arrow: no bracket within the searched range");
@@ -181,7 +182,7 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
     })
 }
 
-/// One ordinate for all panels, with room for error bars and arrows. Linear from zero, so that
+/// One ordinate for all panels, with room for uncertainty intervals and arrows. Linear from zero, so that
 /// heights compare as they are, unless the values span so much that the small ones would vanish.
 fn ordinate(summary: &Summary) -> Axis {
     let mut values = Vec::new();

@@ -1,4 +1,4 @@
-//! A committed `table.csv` of critical shocks read back, for a figure without its store.
+//! Reads a `table.csv` of critical shocks back, for a figure without its store.
 
 use super::table::{AFTER_AXES, BEFORE_AXES};
 use crate::search::Sign;
@@ -33,8 +33,8 @@ pub enum TableError {
     },
 }
 
-/// Reads the `table.csv` of a report; beside it the BLAKE3 of the file. What the table leaves out
-/// (parts of the bars, brackets, totals) is empty.
+/// Reads the `table.csv` of a report; returns it with the BLAKE3 digest of the file. What the table does not
+/// hold (contributions to the intervals, brackets, totals) is empty.
 ///
 /// # Errors
 ///
@@ -114,7 +114,7 @@ fn point(
     Ok(PointSummary {
         ramp: cells[0].clone(),
         pulse_ms: number("pulse_ms", &cells[1])?,
-        sign: Sign::parse(&cells[2]).ok_or_else(|| fault("sign", &cells[2], "+ or -"))?,
+        sign: Sign::from_word(&cells[2]).ok_or_else(|| fault("sign", &cells[2], "+ or -"))?,
         axes: cells[BEFORE_AXES.len()..]
             .iter()
             .map(|text| match text.parse() {
@@ -126,7 +126,7 @@ fn point(
         a_fail_g: maybe(1)?,
         err_low_g: maybe(2)?,
         err_high_g: maybe(3)?,
-        err_parts: Vec::new(),
+        contributions: Vec::new(),
         levels: String::new(),
         onset_g: maybe(4)?,
         runs: after[5]
@@ -140,7 +140,7 @@ fn point(
             })
             .collect::<Result<_, _>>()?,
         brackets_g: Vec::new(),
-        certified_from_g: None,
+        scanned_from_g: None,
         largest_gap_pct: None,
     })
 }
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_fault_names_file_line_and_column() {
-        for (from, to, told) in [
+        for (from, to, reported) in [
             (
                 "203.9",
                 "high",
@@ -205,7 +205,7 @@ mod tests {
             ),
         ] {
             let error = parse(&TABLE.replace(from, to), "t.csv").expect_err("a fault");
-            assert_eq!(error.to_string(), told);
+            assert_eq!(error.to_string(), reported);
         }
         assert!(parse("", "t.csv").is_err());
     }

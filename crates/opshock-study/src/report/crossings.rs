@@ -1,11 +1,11 @@
-//! Where the critical shocks of two ramp models change places.
+//! Finds the pulse widths at which the critical shocks of two ramp models change places.
 
 use std::fmt::Write as _;
 
 use super::html::text::escaped;
 use crate::search::Sign;
 use crate::store::AxisValue;
-use crate::sweep::refine::Crossed;
+use crate::sweep::added_points::Crossed;
 use serde::Serialize;
 
 /// A crossing of two ramps' curves.

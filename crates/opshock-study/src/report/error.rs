@@ -1,4 +1,4 @@
-//! What can go wrong with a file of a report; values as JSON.
+//! The error of a file of a report that cannot be made; values as JSON.
 
 use super::chart::ChartError;
 use crate::store::StoreError;

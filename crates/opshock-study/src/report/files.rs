@@ -1,4 +1,4 @@
-//! The files of a report in one folder.
+//! Makes the files of a report.
 
 use super::html::{ReportSource, html};
 use super::{chart::ChartError, critical_shock::critical_shock_figure, table};

@@ -1,4 +1,4 @@
-//! Margin curves: smallest clearance against amplitude, at every point of a study.
+//! Draws margin curves: smallest clearance against amplitude, at every point of a study.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
 use super::critical_shock::{series_name, signed_series, signs};

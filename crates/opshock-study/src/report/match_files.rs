@@ -1,4 +1,4 @@
-//! A match as files: Markdown, HTML, JSON, CSV, a plot of the ranges, and studies with the matching values.
+//! Writes a match (parameters that make observations true) as Markdown, HTML, JSON, CSV, plots and studies.
 
 use std::fmt::Write as _;
 
@@ -15,8 +15,8 @@ use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 /// How a study that a match wrote begins.
 pub const STUDY_OF_A_MATCH: &str = "# match \"";
 
-/// `match.md`, `match.html`, `match.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`, `ranges.png`,
-/// `choices.svg` and `choices.png` where the refinement has a search for each choice, and `matching-1.toml` and on, one study for each set of the gallery: names and bytes.
+/// Names and bytes of `match.md`, `.html`, `.json`, `observations.csv`, `parameters.csv`, `samples.csv`, `ranges.svg`
+/// and `.png`, `choices.svg` and `.png` where each choice was searched, and a `matching-N.toml` for each set shown.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! A match as tables, for every format.
+//! Arranges a match (parameters that make observations true) as tables, for every format.
 
 use std::fmt::Write as _;
 
@@ -149,7 +149,7 @@ pub(super) fn tables(answer: &MatchAnswer) -> Vec<Table> {
                 let after = one
                     .after
                     .as_ref()
-                    .map_or_else(|| "too few plausible sets to tell".to_owned(), to);
+                    .map_or_else(|| "too few plausible sets to say".to_owned(), to);
                 vec![
                     one.name.clone(),
                     to(&one.before),

@@ -1,4 +1,4 @@
-//! Summary, tables and plots; never simulates.
+//! Writes tables, plots and pages from stored results; never simulates.
 
 mod accuracy_files;
 pub mod chart;

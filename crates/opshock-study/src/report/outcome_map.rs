@@ -1,4 +1,4 @@
-//! Outcome map: every simulation of a study in the plane of pulse width and amplitude.
+//! Draws the outcome map: every simulation of a study in the plane of pulse width and amplitude.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
 use super::critical_shock::{series_name, signed_series, signs};

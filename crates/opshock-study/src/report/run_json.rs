@@ -1,8 +1,8 @@
-//! What one simulation answered, for machines: the JSON of `opshock run --json`.
+//! The result of one simulation as JSON: what `opshock run --json` prints.
 
 use opshock_solver::simulation::{
-    ArmContact, BaseRecord, Complementarity, EnergyBook, HubRecord, Outcome, StopRecord, Verdict,
-    Warning,
+    ArmContact, BaseRecord, Complementarity, EnergyBalance, HubRecord, Outcome, StopRecord,
+    Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -139,7 +139,7 @@ pub struct StopJson {
     pub closed_s: f64,
 }
 
-/// Energy book of disk and ramp.
+/// Energy balance of disk and ramp.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
     missing_docs,
@@ -171,7 +171,7 @@ pub struct HubJson {
     pub bearing_n_s: f64,
     /// Axial impulse of the ramp, N s.
     pub contact_n_s: f64,
-    /// What the momentum book leaves over, as a share of the largest momentum.
+    /// Residual of the momentum balance, as a share of the largest momentum.
     pub momentum_closure: f64,
 }
 
@@ -190,7 +190,7 @@ pub struct BaseJson {
     pub mounts_n_s: f64,
     /// Impulse of the contact between disk and ramp, N s.
     pub contact_n_s: f64,
-    /// What the momentum book leaves over, as a share of the largest momentum.
+    /// Residual of the momentum balance, as a share of the largest momentum.
     pub momentum_closure: f64,
 }
 
@@ -238,23 +238,23 @@ impl RunJson {
     pub fn new(outcome: &Outcome, start_s: f64, wall_s: f64) -> Self {
         let at = |time_s: f64| time_s + start_s;
         let (t_fail_s, place) = match &outcome.verdict {
-            Verdict::Fails { t_fail_s, place } => (
+            Some(Verdict::Fails { t_fail_s, place }) => (
                 Some(at(*t_fail_s)),
                 Some(PlaceJson {
                     x_m: place.x_m,
                     y_m: place.y_m,
                 }),
             ),
-            Verdict::Survives | Verdict::Undecided { .. } => (None, None),
+            _ => (None, None),
         };
         let finite = |v: f64| v.is_finite().then_some(v);
         let disk = &outcome.disk;
         let cost = &outcome.cost;
         Self {
-            verdict: outcome.answer().map(verdict_word),
+            verdict: outcome.verdict.as_ref().map(verdict_word),
             cause: match &outcome.verdict {
-                Verdict::Undecided { cause } => Some(cause.to_string()),
-                Verdict::Survives | Verdict::Fails { .. } => None,
+                Some(Verdict::Undecided { cause }) => Some(cause.to_string()),
+                _ => None,
             },
             t_fail_s,
             place,
@@ -336,18 +336,18 @@ fn stop(record: &StopRecord, start_s: f64) -> StopJson {
     }
 }
 
-fn energy(book: &EnergyBook) -> EnergyJson {
+fn energy(balance: &EnergyBalance) -> EnergyJson {
     EnergyJson {
-        kinetic_j: book.kinetic_j,
-        elastic_j: book.elastic_j,
-        h_end_j: book.h_end_j,
-        h_peak_j: book.h_peak_j,
-        shock_work_j: book.shock_work_j,
-        damping_loss_j: book.damping_loss_j,
-        impact_loss_j: book.impact_loss_j,
-        algorithmic_j: book.algorithmic_j,
-        spindle_work_j: book.spindle_work_j,
-        closure: book.closure,
+        kinetic_j: balance.kinetic_j,
+        elastic_j: balance.elastic_j,
+        h_end_j: balance.h_end_j,
+        h_peak_j: balance.h_peak_j,
+        shock_work_j: balance.shock_work_j,
+        damping_loss_j: balance.damping_loss_j,
+        impact_loss_j: balance.impact_loss_j,
+        algorithmic_j: balance.algorithmic_j,
+        spindle_work_j: balance.spindle_work_j,
+        closure: balance.closure,
     }
 }
 

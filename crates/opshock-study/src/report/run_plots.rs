@@ -1,4 +1,4 @@
-//! Pictures of one simulation against time.
+//! Plots one simulation against time.
 
 use super::chart::{Axis, Dash, Figure, Panel, Rule, Series, colour};
 use super::error::ReportError;

@@ -1,4 +1,4 @@
-//! What one simulation answered, for people.
+//! The result of one simulation as text, for people.
 
 use super::run_json::{ArmJson, RunJson};
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! Every simulation behind a table, a row each. Times are seconds after the onset of the pulse.
+//! Lists every simulation behind a table of critical shocks, a row each. Times are s after the onset of the pulse.
 
 use super::table::csv_line;
 use crate::search::Verdict;

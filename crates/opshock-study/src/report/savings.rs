@@ -1,9 +1,9 @@
-//! What the rules saved in a sweep, from the simulations it finished.
+//! Computes what the rules R1 to R9, which leave out effects that a question does not need, saved in a sweep.
 //!
-//! Runs are counted. Their cost is told in accepted steps of the head, of which nearly all of a
-//! sweep's time is made, and in seconds at this sweep's own seconds a step. What was not run is
-//! estimated as the method beside it says. Rules that save building and structure alone are counted
-//! and not timed: a few per cent of a sweep together.
+//! Runs are counted. Their cost is given in accepted steps of the head, which take nearly all of a
+//! sweep's time, and in seconds at this sweep's own seconds a step. Each saving says by which method
+//! the runs not made were estimated. Rules that save building and structure alone are counted and
+//! not timed: a few per cent of a sweep together.
 
 use serde::Serialize;
 
@@ -70,7 +70,7 @@ pub fn savings(results: &Results) -> Vec<Saving> {
         counted(
             "R3",
             plain().count() - bare,
-            "counted: runs with a ramp, whose harmonics n >= 1 slept until the first touch",
+            "counted: runs with a ramp, whose harmonics n >= 1 were inactive until the first touch",
         ),
         of_head(
             "R4",

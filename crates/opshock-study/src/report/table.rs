@@ -1,6 +1,6 @@
-//! Critical shocks as a table: terminal, Markdown, CSV.
+//! Writes critical shocks as a table: terminal, Markdown, CSV.
 
-use crate::store::summary::{ERROR_PARTS, PointSummary, Status, Summary};
+use crate::store::summary::{CONTRIBUTIONS, PointSummary, Status, Summary};
 
 /// Columns of the table before those of the study's axes.
 pub(super) const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
@@ -90,7 +90,7 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
     }
     text.push_str(
         "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; error: \
-         bar of `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
+         uncertainty of `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
          `> A`: no failure up to A; `< A`: failure already at A.\n",
     );
     text.push_str(&parts_table(summary));
@@ -115,8 +115,8 @@ pub fn terminal(summary: &Summary) -> String {
         totals.open,
         totals.runs
     ));
-    if let Some(share) = bars_cost(summary) {
-        text.push_str(&format!("error bars: {share}\n"));
+    if let Some(share) = uncertainty_cost(summary) {
+        text.push_str(&format!("uncertainty intervals: {share}\n"));
     }
     text
 }
@@ -152,33 +152,34 @@ pub(super) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Runs and work of the error bars beside those of the search; `None` without any.
-pub(super) fn bars_cost(summary: &Summary) -> Option<String> {
+/// Runs and work of the uncertainty intervals beside those of the search; `None` without any.
+pub(super) fn uncertainty_cost(summary: &Summary) -> Option<String> {
     let totals = &summary.totals;
-    let search = totals.film_work - totals.bar_film_work;
-    (totals.bar_runs > 0 && search > 0).then(|| {
+    let search = totals.film_work - totals.uncertainty_film_work;
+    (totals.uncertainty_runs > 0 && search > 0).then(|| {
         format!(
-            "{} of the {} runs, {:.0} % on top of the search's film work (solves x cells)",
-            totals.bar_runs,
+            "{} of the {} runs, {:.0} % more than the search's own work on the film (solves times cells)",
+            totals.uncertainty_runs,
             totals.runs,
-            100.0 * totals.bar_film_work as f64 / search as f64
+            100.0 * totals.uncertainty_film_work as f64 / search as f64
         )
     })
 }
 
-/// What a reader of the parts must know.
-pub(super) const PARTS_NOTE: &str = "Halves of the parts, which add up to half the bar: the search bracket and what \
-    finer knobs have shown lie on one side, the rest on both. \
-    `x3`: the knob showed no formal order and its part carries the wide factor. `structure`, `head`: \
-    all knobs of disk and ramp, of the head, turned together.";
+/// What a reader of the contributions must know.
+pub(super) const CONTRIBUTIONS_NOTE: &str = "Half of each contribution, in per cent of `A_crit`; they add up to the half-width of the interval. \
+    The bracket of the search, and what a refined scene has shown, lie on one side of `A_crit`, the others on both. \
+    `x3`: safety factor 3, since the errors did not fall at the formal order; 1.25 elsewhere. \
+    `structure`, `head`: all discretisation parameters of disk and ramp, or of the head, changed together.";
 
-/// Half the parts of every error bar as per cent of `A_crit`, header and rows; `x3` marks the wide
-/// factor. `None` where the bars have no other part than the bracket.
-pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
-    let names: Vec<&str> = ERROR_PARTS
+/// Half the contributions of every uncertainty interval as per cent of `A_crit`, header and rows; `x3` marks the safety
+/// factor 3. `None` where the intervals have no other contribution than the bracket.
+pub(super) fn contributions(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
+    let names: Vec<&str> = CONTRIBUTIONS
         .into_iter()
         .filter(|name| {
-            let has = |point: &PointSummary| point.err_parts.iter().any(|(known, _)| known == name);
+            let has =
+                |point: &PointSummary| point.contributions.iter().any(|(known, _)| known == name);
             summary.points.iter().any(has)
         })
         .collect();
@@ -187,11 +188,11 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
     }
     let mut header: Vec<String> = ["ramp", "pulse (ms)", "sign"].map(String::from).to_vec();
     header.extend(summary.axes.iter().cloned());
-    header.push("half bar (%)".into());
+    header.push("half-width (%)".into());
     header.extend(names.iter().map(|name| format!("{name} (%)")));
-    let has_climbed = summary.points.iter().any(|point| !point.levels.is_empty());
-    if has_climbed {
-        header.push("knobs turned finer".into());
+    let is_refined = summary.points.iter().any(|point| !point.levels.is_empty());
+    if is_refined {
+        header.push("refinement levels".into());
     }
     let mut rows = Vec::new();
     for point in &summary.points {
@@ -210,13 +211,16 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
             _ => String::new(),
         });
         row.extend(names.iter().map(|name| {
-            let part = point.err_parts.iter().find(|(known, _)| known == name);
-            part.map_or(String::new(), |(_, part)| {
-                let wide = if part.factor > 2.0 { " x3" } else { "" };
-                format!("{}{wide}", per_cent(0.5 * (part.low_g + part.high_g)))
+            let contribution = point.contributions.iter().find(|(known, _)| known == name);
+            contribution.map_or(String::new(), |(_, contribution)| {
+                let wide = if contribution.factor > 2.0 { " x3" } else { "" };
+                format!(
+                    "{}{wide}",
+                    per_cent(0.5 * (contribution.low_g + contribution.high_g))
+                )
             })
         }));
-        if has_climbed {
+        if is_refined {
             row.push(point.levels.clone());
         }
         rows.push(row);
@@ -225,7 +229,7 @@ pub(super) fn parts(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)
 }
 
 fn parts_table(summary: &Summary) -> String {
-    let Some((header, rows)) = parts(summary) else {
+    let Some((header, rows)) = contributions(summary) else {
         return String::new();
     };
     let words = 3 + summary.axes.len();
@@ -236,14 +240,14 @@ fn parts_table(summary: &Summary) -> String {
         })
         .collect();
     let mut text = format!(
-        "\n## What the error bars are made of\n\n| {} |\n|{rules}\n",
+        "\n## What the uncertainty intervals are made of\n\n| {} |\n|{rules}\n",
         header.join(" | ")
     );
     for row in rows {
         text.push_str(&format!("| {} |\n", row.join(" | ")));
     }
-    text.push_str(&format!("\n{PARTS_NOTE}"));
-    if let Some(cost) = bars_cost(summary) {
+    text.push_str(&format!("\n{CONTRIBUTIONS_NOTE}"));
+    if let Some(cost) = uncertainty_cost(summary) {
         text.push_str(&format!(" Cost: {cost}."));
     }
     text.push('\n');

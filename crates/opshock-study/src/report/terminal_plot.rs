@@ -1,4 +1,4 @@
-//! Critical shock against pulse width as text, for a terminal.
+//! Plots critical shock against pulse width as text, for a terminal.
 
 use super::critical_shock::{series_name, series_names};
 use crate::search::Sign;

@@ -1,8 +1,8 @@
-//! Time series for ParaView and everything else that reads VTK's XML files.
+//! Writes time series for ParaView and everything else that reads VTK's XML files.
 //!
 //! | series | grid | data |
 //! |---|---|---|
-//! | `disk.pvd` | the disk's middle surface, quadrilaterals | points: `deflection_m`, `displacement_m` (vector, for *Warp By Vector*) |
+//! | `disk.pvd` | the disk's middle surface, quadrilaterals | points: `deflection_m`, `displacement_m` (vector) |
 //! | `ramp.pvd` | both arms as boxes about the disk's edge | points: `displacement_m`; cells: `contact_force_n` |
 //! | `film.pvd` | the cells under the slider, in slider coordinates | cells: `pressure_pa`, `gap_m` |
 //!

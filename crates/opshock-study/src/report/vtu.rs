@@ -1,4 +1,4 @@
-//! Unstructured grids as VTK's XML files hold them, numbers as text with every digit.
+//! Writes unstructured grids as VTK's XML files, numbers as text with every digit.
 
 use std::fmt::Write as _;
 

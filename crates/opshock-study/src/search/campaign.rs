@@ -1,12 +1,11 @@
-//! Search of all points: starts each when its predecessors are answered, follows lower failures
-//! from width to width, and reads the rows.
+//! Search of all points of a study: starts each when its predecessors are answered, looks for lower failures found at
+//! one pulse width at its neighbours, and reads the rows of the table.
 //!
-//! A point passes three stages. *Waiting*: a predecessor has no answer or the amplitude of first
-//! touch is not known. *Searching*: it asks its own probes. *Settled*: it has its base answer, from
-//! which its successors start. When all widths of one ramp, sign and axes (a chain) are settled,
-//! lower failures found at one width are given to its neighbours; these rounds go on until none is
-//! left to give. Then the chain is final. Each round looks at all widths as the round before left
-//! them, so the order in which probes come back does not matter.
+//! A point passes three stages. *Waiting*: a predecessor has no answer or the amplitude of first touch is not known.
+//! *Searching*: it requests its own probes. *Settled*: it has its base answer, from which its successors start. When
+//! all widths of one ramp, sign and axes (a chain) are settled, lower failures found at one width are given to its
+//! neighbours; these rounds go on until none is left to give. Then the chain is final. Each round uses all widths as
+//! the round before left them, so the order in which probes come back does not matter.
 
 use std::collections::BTreeSet;
 
@@ -33,12 +32,12 @@ pub enum Touch {
     Unknown,
 }
 
-/// Which answers a starting amplitude is made from.
+/// Answers that a starting amplitude may be made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trust {
     /// Those that no longer change.
     Settled,
-    /// Those of a closed bracket too, under which no lower failure has been found so far.
+    /// Those of a closed bracket, too, below which no lower failure has been found so far.
     Likely,
 }
 
@@ -46,7 +45,7 @@ enum Trust {
 enum Stage {
     Waiting,
     Searching(Box<PointSearch>),
-    Copied { onset_node: i32 },
+    Copied { onset_amplitude: i32 },
 }
 
 #[derive(Clone, Debug)]
@@ -66,7 +65,7 @@ pub struct Campaign {
     points: Vec<PointState>,
     chain_final: Vec<bool>,
     n_final_chains: usize,
-    /// (source, low end of its window, neighbour) already given.
+    /// (source, low end of its non-monotone interval, neighbour) already given.
     given: BTreeSet<(usize, i32, usize)>,
     changed: Vec<usize>,
 }
@@ -111,18 +110,18 @@ impl Campaign {
         &self.settings
     }
 
-    /// Tells the amplitude of first touch of a point. Every point needs it before it starts.
+    /// Takes the amplitude of first touch of a point. Every point needs it before it starts.
     pub fn set_touch(&mut self, point: usize, touch: Touch) {
         self.points[point].touch = Some(touch);
         self.start_ready(vec![point]);
     }
 
-    /// Amplitude of first touch as told.
+    /// Amplitude of first touch as reported.
     pub fn touch(&self, point: usize) -> Option<Touch> {
         self.points[point].touch
     }
 
-    /// The next probe of a point; `None` while it waits and when it has nothing to ask.
+    /// The next probe of a point; `None` while it waits and when it requests none.
     pub fn ask(&self, point: usize) -> Option<Asked> {
         match &self.points[point].stage {
             Stage::Searching(search) => search.ask(),
@@ -130,13 +129,13 @@ impl Campaign {
         }
     }
 
-    /// Takes the verdict of the probe that `point` asks.
+    /// Takes the verdict of the probe that `point` requests.
     ///
     /// # Panics
     ///
-    /// The point asks nothing.
+    /// The point requests nothing.
     pub fn tell(&mut self, point: usize, verdict: &Verdict) {
-        self.tell_margin(point, verdict, None);
+        self.report_margin(point, verdict, None);
     }
 
     /// As [`Campaign::tell`], with the smallest clearance of the run, m.
@@ -144,11 +143,11 @@ impl Campaign {
     /// # Panics
     ///
     /// As there.
-    pub fn tell_margin(&mut self, point: usize, verdict: &Verdict, h_min_m: Option<f64>) {
+    pub fn report_margin(&mut self, point: usize, verdict: &Verdict, h_min_m: Option<f64>) {
         let Stage::Searching(search) = &mut self.points[point].stage else {
             panic!("verdict for point {point}, which does not search");
         };
-        search.tell_margin(verdict, h_min_m);
+        search.report_margin(verdict, h_min_m);
         if search.ask().is_none() {
             if self.points[point].base.is_none() {
                 self.settle(point);
@@ -158,7 +157,7 @@ impl Campaign {
         }
     }
 
-    /// Points that began to ask, beside the one told, since this was called last.
+    /// Points that began to request probes since the last call, except the one whose verdict was reported.
     pub fn take_changed(&mut self) -> Vec<usize> {
         std::mem::take(&mut self.changed)
     }
@@ -199,21 +198,21 @@ impl Campaign {
     pub fn findings(&self, point: usize) -> Findings {
         let state = &self.points[point];
         let companion = self.order.relations[point].companion;
-        let onset_node = self.onset_node(point);
-        let mut findings = match (&state.stage, companion, onset_node) {
+        let onset_amplitude = self.onset_amplitude(point);
+        let mut findings = match (&state.stage, companion, onset_amplitude) {
             (Stage::Searching(search), Some(companion), Some(node)) => search
                 .findings()
                 .lowered_by(&self.findings(companion), node),
             (Stage::Searching(search), _, _) => search.findings(),
-            (Stage::Copied { onset_node }, Some(companion), _) => {
-                self.findings(companion).copied_below(*onset_node)
+            (Stage::Copied { onset_amplitude }, Some(companion), _) => {
+                self.findings(companion).copied_below(*onset_amplitude)
             }
             (Stage::Copied { .. } | Stage::Waiting, _, _) => Findings {
                 status: Status::Open,
                 survivor: None,
                 failure: None,
                 brackets: Vec::new(),
-                certified_from: None,
+                scanned_from: None,
                 largest_gap: None,
                 flags: BTreeSet::new(),
                 runs: 0,
@@ -229,9 +228,8 @@ impl Campaign {
         findings
     }
 
-    /// Search that a waiting point would make if its companion's answer, still open, turned out to
-    /// lie above first touch, and brackets that are still scanned below stayed: what idle cores may
-    /// compute ahead.
+    /// Search that a waiting point would make if its companion's answer, still open, changed out to lie above first
+    /// touch, and brackets that are still scanned below remained: what idle cores may compute ahead.
     pub fn likely_search(&self, point: usize) -> Option<PointSearch> {
         let state = &self.points[point];
         if !matches!(state.stage, Stage::Waiting) {
@@ -240,23 +238,23 @@ impl Campaign {
         let touch = state.touch?;
         let relations = &self.order.relations[point];
         let hint_g = self.hint_g(point, touch, Trust::Likely)?;
-        let onset_node = self.onset_node(point)?;
-        if onset_node > self.settings.range.high {
+        let onset_amplitude = self.onset_amplitude(point)?;
+        if onset_amplitude > self.settings.range.high {
             return None;
         }
         Some(PointSearch::new(
             self.settings,
             Start {
                 hint_g,
-                onset_node: relations.companion.map(|_| onset_node),
+                onset_amplitude: relations.companion.map(|_| onset_amplitude),
                 width_rank: relations.width_rank,
             },
         ))
     }
 
-    fn onset_node(&self, point: usize) -> Option<i32> {
+    fn onset_amplitude(&self, point: usize) -> Option<i32> {
         match self.points[point].touch {
-            Some(Touch::At { onset_g }) => Some(self.settings.lattice.at_or_above(onset_g)),
+            Some(Touch::At { onset_g }) => Some(self.settings.grid.at_or_above(onset_g)),
             Some(Touch::NoRamp | Touch::Unknown) | None => None,
         }
     }
@@ -291,22 +289,22 @@ impl Campaign {
         let Some(hint_g) = self.hint_g(point, touch, Trust::Settled) else {
             return false;
         };
-        let inheritance = match (companion, self.onset_node(point)) {
+        let inheritance = match (companion, self.onset_amplitude(point)) {
             (Some(findings), Some(node)) => findings.bequeath(node, self.settings.range.high),
             _ => Inheritance::Nothing,
         };
-        let start = |onset_node| Start {
+        let start = |onset_amplitude| Start {
             hint_g,
-            onset_node,
+            onset_amplitude,
             width_rank: relations.width_rank,
         };
-        let (stage, base) = match (inheritance, companion, self.onset_node(point)) {
-            (Inheritance::Whole, Some(findings), Some(onset_node)) => (
-                Stage::Copied { onset_node },
-                Some(findings.copied_below(onset_node)),
+        let (stage, base) = match (inheritance, companion, self.onset_amplitude(point)) {
+            (Inheritance::Whole, Some(findings), Some(onset_amplitude)) => (
+                Stage::Copied { onset_amplitude },
+                Some(findings.copied_below(onset_amplitude)),
             ),
-            (Inheritance::Below { onset_node }, _, _) => {
-                let search = PointSearch::new(self.settings, start(Some(onset_node)));
+            (Inheritance::Below { onset_amplitude }, _, _) => {
+                let search = PointSearch::new(self.settings, start(Some(onset_amplitude)));
                 (Stage::Searching(Box::new(search)), None)
             }
             _ => {
@@ -334,7 +332,7 @@ impl Campaign {
         self.close_round(self.order.relations[point].chain);
     }
 
-    /// Gives lower failures to neighbours when every width of a chain has nothing to ask.
+    /// Gives lower failures to neighbours when no width of a chain has a probe to request.
     fn close_round(&mut self, chain: usize) {
         let widths = self.order.chains[chain].clone();
         let idle = |point: usize| self.points[point].base.is_some() && self.ask(point).is_none();
@@ -417,15 +415,15 @@ impl Campaign {
         })
     }
 
-    /// Amplitude that a point hands on; `None` while it is open.
+    /// Amplitude that other points start from; `None` while it is open.
     fn answer_g(&self, point: usize, trust: Trust) -> Option<Option<f64>> {
-        let SearchSettings { lattice, range, .. } = &self.settings;
+        let SearchSettings { grid, range, .. } = &self.settings;
         let Some(findings) = &self.points[point].base else {
             let bracketed = self.search(point).filter(|_| trust == Trust::Likely)?;
             let failure = bracketed
                 .first_failure()
                 .and(bracketed.evidence().lowest_failure())?;
-            return Some(Some(lattice.amplitude_g(failure)));
+            return Some(Some(grid.amplitude_g(failure)));
         };
         let node = match findings.status {
             Status::Ok => findings.failure,
@@ -433,6 +431,6 @@ impl Campaign {
             Status::BelowRange => Some(range.low),
             Status::Undecided | Status::Open => None,
         };
-        Some(node.map(|node| lattice.amplitude_g(node)))
+        Some(node.map(|node| grid.amplitude_g(node)))
     }
 }

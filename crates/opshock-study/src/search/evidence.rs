@@ -1,10 +1,10 @@
-//! What is known about a point: nodes with their verdicts.
+//! Evidence about a point: amplitudes with their verdicts.
 
 use std::collections::BTreeMap;
 
-/// Verdict of a node after all its retries.
+/// Verdict of a grid point after all its retries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NodeVerdict {
+pub enum AmplitudeVerdict {
     /// Survives.
     Survives,
     /// Fails.
@@ -13,11 +13,11 @@ pub enum NodeVerdict {
     Undecided,
 }
 
-/// Nodes tested, by index. Every verdict is kept; survival need not be monotone.
+/// Grid points tested, by index. Every verdict is kept; survival need not be monotone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
-    nodes: BTreeMap<i32, NodeVerdict>,
-    /// Of these the lowest that fails, and how many have no verdict: asked for at every probe.
+    nodes: BTreeMap<i32, AmplitudeVerdict>,
+    /// Of these the lowest that fails, and the number without verdict: needed at every probe.
     lowest_failure: Option<i32>,
     n_undecided: usize,
     /// Smallest clearances of survivors, bits of metres.
@@ -25,27 +25,28 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Records a node.
-    pub fn insert(&mut self, index: i32, verdict: NodeVerdict) {
+    /// Records a grid point.
+    pub fn insert(&mut self, index: i32, verdict: AmplitudeVerdict) {
         let before = self.nodes.insert(index, verdict);
-        self.n_undecided += usize::from(verdict == NodeVerdict::Undecided);
-        self.n_undecided -= usize::from(before == Some(NodeVerdict::Undecided));
+        self.n_undecided += usize::from(verdict == AmplitudeVerdict::Undecided);
+        self.n_undecided -= usize::from(before == Some(AmplitudeVerdict::Undecided));
         let is_lower = self.lowest_failure.is_none_or(|lowest| index < lowest);
-        if verdict == NodeVerdict::Fails && is_lower {
+        if verdict == AmplitudeVerdict::Fails && is_lower {
             self.lowest_failure = Some(index);
-        } else if self.lowest_failure == Some(index) && verdict != NodeVerdict::Fails {
-            let fails = |(_, verdict): &(&i32, &NodeVerdict)| **verdict == NodeVerdict::Fails;
+        } else if self.lowest_failure == Some(index) && verdict != AmplitudeVerdict::Fails {
+            let fails =
+                |(_, verdict): &(&i32, &AmplitudeVerdict)| **verdict == AmplitudeVerdict::Fails;
             self.lowest_failure = self.nodes.iter().find(fails).map(|(&index, _)| index);
         }
     }
 
-    /// Records the smallest clearance, m, of a node that survives.
+    /// Records the smallest clearance, m, of a grid point that survives.
     pub fn insert_margin(&mut self, index: i32, h_min_m: f64) {
         self.margins.insert(index, h_min_m.to_bits());
     }
 
-    /// Where the clearance of the two highest survivors below `limit` (exclusive) would vanish on a
-    /// straight line, in nodes; `None` when it does not fall, or one of the two has none.
+    /// Where the clearance of the two highest survivors below `limit` (exclusive) would vanish on a straight line, in
+    /// grid steps; `None` when it does not fall, or one of the two has none.
     pub fn vanishing_point(&self, limit: Option<i32>) -> Option<f64> {
         let high = self.highest_survivor_below(limit)?;
         let low = self.highest_survivor_below(Some(high))?;
@@ -55,8 +56,8 @@ impl Evidence {
         (slope > 0.0 && h_high >= 0.0).then(|| f64::from(high) + h_high / slope)
     }
 
-    /// Verdict of a node, if tested.
-    pub fn get(&self, index: i32) -> Option<NodeVerdict> {
+    /// Verdict of a grid point, if tested.
+    pub fn get(&self, index: i32) -> Option<AmplitudeVerdict> {
         self.nodes.get(&index).copied()
     }
 
@@ -65,33 +66,37 @@ impl Evidence {
         self.nodes.is_empty()
     }
 
-    /// Highest tested node, decided or not.
+    /// Highest tested grid point, decided or not.
     pub fn top(&self) -> Option<i32> {
         self.nodes.keys().next_back().copied()
     }
 
-    /// Lowest tested node, decided or not.
+    /// Lowest tested grid point, decided or not.
     pub fn bottom(&self) -> Option<i32> {
         self.nodes.keys().next().copied()
     }
 
-    /// Lowest failing node.
+    /// Lowest failing grid point.
     pub fn lowest_failure(&self) -> Option<i32> {
         self.lowest_failure
     }
 
-    /// Lowest node of `nodes` with a verdict.
-    pub fn lowest_with(&self, verdict: NodeVerdict, nodes: std::ops::Range<i32>) -> Option<i32> {
+    /// Lowest grid point of `nodes` with a verdict.
+    pub fn lowest_with(
+        &self,
+        verdict: AmplitudeVerdict,
+        nodes: std::ops::Range<i32>,
+    ) -> Option<i32> {
         let known = self.nodes.range(nodes);
         let mut with = known.filter(|(_, known)| **known == verdict);
         with.next().map(|(&index, _)| index)
     }
 
-    /// Lowest node, not below `floor`, down to which every node below `top` is known and none fails.
+    /// Lowest grid point, not below `floor`, down to which every one below `top` is known and none fails.
     pub fn unbroken_below(&self, top: i32, floor: i32) -> i32 {
         let mut at = top;
         for (&index, verdict) in self.nodes.range(floor.min(top)..top).rev() {
-            if index != at - 1 || *verdict == NodeVerdict::Fails {
+            if index != at - 1 || *verdict == AmplitudeVerdict::Fails {
                 break;
             }
             at = index;
@@ -99,7 +104,7 @@ impl Evidence {
         at
     }
 
-    /// Highest survivor below `limit` (exclusive), of all nodes when there is no limit.
+    /// Highest survivor below `limit` (exclusive), of all grid points when there is no limit.
     pub fn highest_survivor_below(&self, limit: Option<i32>) -> Option<i32> {
         let below = match limit {
             Some(limit) => self.nodes.range(..limit),
@@ -107,40 +112,40 @@ impl Evidence {
         };
         below
             .rev()
-            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .find(|(_, verdict)| **verdict == AmplitudeVerdict::Survives)
             .map(|(index, _)| *index)
     }
 
-    /// Undecided nodes strictly between two nodes, ascending.
+    /// Undecided grid points strictly between two grid points, ascending.
     pub fn undecided_between(&self, low: i32, high: i32) -> Vec<i32> {
         if low + 1 >= high {
             return Vec::new();
         }
         self.nodes
             .range(low + 1..high)
-            .filter(|(_, verdict)| **verdict == NodeVerdict::Undecided)
+            .filter(|(_, verdict)| **verdict == AmplitudeVerdict::Undecided)
             .map(|(index, _)| *index)
             .collect()
     }
 
-    /// Number of undecided nodes.
+    /// Number of undecided grid points.
     pub fn n_undecided(&self) -> usize {
         self.n_undecided
     }
 
-    /// Every (survivor, next higher decided node that fails), ascending.
+    /// Every (survivor, next higher decided grid point that fails), ascending.
     pub fn brackets(&self) -> Vec<(i32, i32)> {
         let mut brackets = Vec::new();
         let mut survivor = None;
         for (&index, verdict) in &self.nodes {
             match verdict {
-                NodeVerdict::Survives => survivor = Some(index),
-                NodeVerdict::Fails => {
+                AmplitudeVerdict::Survives => survivor = Some(index),
+                AmplitudeVerdict::Fails => {
                     if let Some(low) = survivor.take() {
                         brackets.push((low, index));
                     }
                 }
-                NodeVerdict::Undecided => {}
+                AmplitudeVerdict::Undecided => {}
             }
         }
         brackets
@@ -154,27 +159,27 @@ impl Evidence {
         }
     }
 
-    /// The lowest failure and the last node before the next higher survivor: where the lowest
-    /// window of failure lies.
+    /// The lowest failure and the last grid point before the next higher survivor: where the lowest non-monotone
+    /// interval lies.
     pub fn window_of_failure(&self) -> Option<(i32, i32)> {
         let low = self.lowest_failure()?;
         let top = self.top()?;
         let above = self
             .nodes
             .range(low..)
-            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .find(|(_, verdict)| **verdict == AmplitudeVerdict::Survives)
             .map_or(top, |(index, _)| index - 1);
         Some((low, above))
     }
 
-    /// Largest step between neighbouring survivors from `low` up to `high`, nodes.
+    /// Largest step between neighbouring survivors from `low` up to `high`, grid steps.
     ///
-    /// `low` counts as a survivor whether tested or not.
+    /// `low` is a survivor here, tested or not.
     pub fn largest_gap(&self, low: i32, high: i32) -> i32 {
         let mut last = low;
         let mut largest = 0;
         for (&index, verdict) in self.nodes.range(low..=high) {
-            if *verdict == NodeVerdict::Survives {
+            if *verdict == AmplitudeVerdict::Survives {
                 largest = largest.max(index - last);
                 last = index;
             }
@@ -186,7 +191,7 @@ impl Evidence {
     pub fn lowest_survivor(&self) -> Option<i32> {
         self.nodes
             .iter()
-            .find(|(_, verdict)| **verdict == NodeVerdict::Survives)
+            .find(|(_, verdict)| **verdict == AmplitudeVerdict::Survives)
             .map(|(index, _)| *index)
     }
 }
@@ -199,9 +204,9 @@ mod tests {
     fn a_verdict_that_replaces_another_counts_once() {
         let mut evidence = Evidence::default();
         for (index, verdict) in [
-            (7, NodeVerdict::Fails),
-            (3, NodeVerdict::Undecided),
-            (5, NodeVerdict::Fails),
+            (7, AmplitudeVerdict::Fails),
+            (3, AmplitudeVerdict::Undecided),
+            (5, AmplitudeVerdict::Fails),
         ] {
             evidence.insert(index, verdict);
         }
@@ -209,15 +214,18 @@ mod tests {
             (evidence.lowest_failure(), evidence.n_undecided()),
             (Some(5), 1)
         );
-        evidence.insert(3, NodeVerdict::Survives);
-        evidence.insert(5, NodeVerdict::Survives);
+        evidence.insert(3, AmplitudeVerdict::Survives);
+        evidence.insert(5, AmplitudeVerdict::Survives);
         assert_eq!(
             (evidence.lowest_failure(), evidence.n_undecided()),
             (Some(7), 0)
         );
-        assert_eq!(evidence.lowest_with(NodeVerdict::Survives, 4..9), Some(5));
-        assert_eq!(evidence.lowest_with(NodeVerdict::Fails, 0..7), None);
-        evidence.insert(6, NodeVerdict::Undecided);
+        assert_eq!(
+            evidence.lowest_with(AmplitudeVerdict::Survives, 4..9),
+            Some(5)
+        );
+        assert_eq!(evidence.lowest_with(AmplitudeVerdict::Fails, 0..7), None);
+        evidence.insert(6, AmplitudeVerdict::Undecided);
         let below = |top, floor| evidence.unbroken_below(top, floor);
         assert_eq!(
             [below(7, 0), below(7, 6), below(8, 0), below(4, 9)],

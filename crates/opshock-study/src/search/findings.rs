@@ -1,4 +1,4 @@
-//! The answer of a point's search, in nodes.
+//! Result of a point's search, in points of the amplitude grid.
 
 use std::collections::BTreeSet;
 
@@ -16,12 +16,12 @@ pub struct Findings {
     /// Every (survivor, next higher failure), ascending.
     pub brackets: Vec<(i32, i32)>,
     /// Lower end of the scan.
-    pub certified_from: Option<i32>,
-    /// Largest step between survivors from there up to the survivor, nodes.
+    pub scanned_from: Option<i32>,
+    /// Largest step between survivors from there up to the survivor, grid steps.
     pub largest_gap: Option<i32>,
     /// What a reader must know.
     pub flags: BTreeSet<Flag>,
-    /// Simulations asked for.
+    /// Simulations requested.
     pub runs: u64,
     /// Of these without verdict.
     pub undecided_runs: u64,
@@ -32,26 +32,28 @@ pub struct Findings {
 pub enum Inheritance {
     /// Everything: the answer lies below first touch, or first touch above the range.
     Whole,
-    /// Survival below the node of first touch.
+    /// Survival below the grid point of first touch.
     Below {
-        /// First node that touches.
-        onset_node: i32,
+        /// First grid point that touches.
+        onset_amplitude: i32,
     },
     /// Nothing.
     Nothing,
 }
 
 impl Findings {
-    /// What a point whose disk first touches at `onset_node` takes from these no-ramp findings;
-    /// `highest` is the highest node of the range.
-    pub fn bequeath(&self, onset_node: i32, highest: i32) -> Inheritance {
+    /// What a point whose disk first touches at `onset_amplitude` takes from these no-ramp findings;
+    /// `highest` is the highest grid point of the range.
+    pub fn bequeath(&self, onset_amplitude: i32, highest: i32) -> Inheritance {
         match self.status {
             Status::Ok | Status::AboveRange | Status::BelowRange => {
-                let answered_below = self.failure.is_some_and(|failure| failure < onset_node);
-                if answered_below || onset_node > highest {
+                let answered_below = self
+                    .failure
+                    .is_some_and(|failure| failure < onset_amplitude);
+                if answered_below || onset_amplitude > highest {
                     Inheritance::Whole
                 } else {
-                    Inheritance::Below { onset_node }
+                    Inheritance::Below { onset_amplitude }
                 }
             }
             Status::Undecided | Status::Open => Inheritance::Nothing,
@@ -59,11 +61,12 @@ impl Findings {
     }
 
     /// Findings of a point that takes its whole answer from these no-ramp findings.
-    pub fn copied_below(&self, onset_node: i32) -> Findings {
+    pub fn copied_below(&self, onset_amplitude: i32) -> Findings {
         let mut copy = self.clone();
         copy.runs = 0;
         copy.undecided_runs = 0;
-        copy.brackets.retain(|&(_, failure)| failure < onset_node);
+        copy.brackets
+            .retain(|&(_, failure)| failure < onset_amplitude);
         if copy.brackets.len() < 2 {
             copy.flags.remove(&Flag::NonMonotone);
         }
@@ -72,8 +75,11 @@ impl Findings {
     }
 
     /// A point's own findings with a failure below first touch that its companion found later.
-    pub fn lowered_by(mut self, companion: &Findings, onset_node: i32) -> Findings {
-        let Some(failure) = companion.failure.filter(|&failure| failure < onset_node) else {
+    pub fn lowered_by(mut self, companion: &Findings, onset_amplitude: i32) -> Findings {
+        let Some(failure) = companion
+            .failure
+            .filter(|&failure| failure < onset_amplitude)
+        else {
             return self;
         };
         self.status = companion.status;
@@ -82,9 +88,9 @@ impl Findings {
         let below = companion
             .brackets
             .iter()
-            .filter(|&&(_, failure)| failure < onset_node);
+            .filter(|&&(_, failure)| failure < onset_amplitude);
         self.brackets = below.copied().chain(self.brackets).collect();
-        self.certified_from = companion.certified_from;
+        self.scanned_from = companion.scanned_from;
         self.largest_gap = companion.largest_gap;
         self.flags.insert(Flag::NonMonotone);
         self.flags.insert(Flag::NoTouch);

@@ -1,4 +1,4 @@
-//! Where the answer of a point is expected, from points answered before.
+//! Starting amplitude of a point's search, estimated from points answered before.
 //!
 //! Everything is a logarithm; with a ramp, of the amplitude relative to first touch. A point's
 //! *excess* is its logarithm less that of its reference point. Excess varies slowly with the width,
@@ -23,7 +23,7 @@ pub(super) struct Known {
 
 /// Expected answer of `at`, G, from the answered widths next to it; `None`: nothing to go by.
 pub(super) fn expected_g(at: Known, answered: &[Known]) -> Option<f64> {
-    // Relative to first touch only when every point that speaks has one.
+    // Relative to first touch only when every point used has one.
     let speakers = || answered.iter().filter(|known| known.answer_g.is_some());
     let is_touched = at.onset_g.is_some() && speakers().all(|known| known.onset_g.is_some());
     let height = |onset_g: Option<f64>, answer_g: f64| {

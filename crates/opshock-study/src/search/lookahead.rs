@@ -1,7 +1,7 @@
-//! Probes that will probably be asked: work for cores that would otherwise idle.
+//! Probes that a search will probably request: work for cores that would otherwise idle.
 //!
-//! The search is run ahead on assumed verdicts. What is computed ahead only answers a probe sooner
-//! when the search comes to ask it; it never enters the evidence by itself.
+//! The search is run ahead on assumed verdicts. A result computed ahead only answers a probe sooner when the search
+//! requests it; it never enters the evidence by itself.
 
 use super::point::PointSearch;
 use super::probe::{Probe, Purpose, Verdict};
@@ -13,34 +13,34 @@ pub enum Lookup {
     Known(Verdict, Option<f64>),
     /// Being computed.
     Running,
-    /// Nobody computes it.
+    /// Not being computed.
     Free,
 }
 
-/// A probe that may be asked.
+/// A probe that may be requested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// The probe.
     pub probe: Probe,
-    /// Why it would be asked.
+    /// Why it would be requested.
     pub purpose: Purpose,
-    /// Chance that it will be asked, 1 for the probe that is asked now.
+    /// Chance that it will be requested, 1 for the present request.
     pub likelihood: f64,
 }
 
-/// Less likely probes are not worth a core.
+/// Least chance for which a probe is computed ahead.
 const LEAST_LIKELIHOOD: f64 = 0.2;
 
 /// Chance that a probe survives.
 fn survival_chance(purpose: Purpose) -> f64 {
     match purpose {
-        Purpose::Hunt | Purpose::Bisect => 0.5,
+        Purpose::Bracketing | Purpose::Bisect => 0.5,
         Purpose::Scan | Purpose::Window | Purpose::ErrorBar => 0.95,
         Purpose::FollowUp => 0.6,
     }
 }
 
-/// Free probes that `search` asks now or may ask next, at most `limit`.
+/// Free probes that `search` requests now or may request next, at most `limit`.
 pub fn candidates(
     search: &PointSearch,
     likelihood: f64,
@@ -55,7 +55,7 @@ pub fn candidates(
         let Some(asked) = search.ask() else { continue };
         match lookup(asked.probe) {
             Lookup::Known(verdict, h_min_m) => {
-                search.tell_margin(&verdict, h_min_m);
+                search.report_margin(&verdict, h_min_m);
                 open.push((search, likelihood));
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Order of the points, and who learns from whom.
+//! Order in which the points of a study are searched, and the points from which each takes its starting amplitude.
 //!
 //! The order is a property of the points' values, never of their place in the study: widths ends
 //! first and then midpoints; ramps none, rigid, deformable; `+` before `-`. Each point takes its
@@ -13,8 +13,8 @@
 //!
 //! With a ramp all amplitudes are taken relative to first touch (`hint`).
 //!
-//! Widths that refinement added come after all of the rounds before: their neighbours, answered, are
-//! those of earlier rounds, which learn nothing from them.
+//! Widths added in later rounds come after all points of the rounds before. Their answered neighbours are those of
+//! earlier rounds, whose starting amplitudes do not depend on them.
 //!
 //! A point with a ramp also has a *companion*: the same point without ramp. Below the amplitude of
 //! first touch its answers are the companion's.
@@ -45,7 +45,7 @@ pub struct Coordinates {
     pub sign: Sign,
     /// Further axes as sortable text; equal text = equal values.
     pub axes: Vec<String>,
-    /// Round of refinement that added the width, 0 for the study's own.
+    /// Round in which the width was added, 0 for the study's own.
     pub round: u32,
 }
 
@@ -62,7 +62,7 @@ pub struct Relations {
     pub neighbours: [Option<usize>; 2],
     /// Points of the same ramp, sign, axes and round, by width: a number naming the group.
     pub chain: usize,
-    /// Place of the width in its chain, counted on from the chains of earlier rounds.
+    /// Place of the width in its chain; the numbering continues that of the chains of earlier rounds.
     pub width_rank: usize,
 }
 

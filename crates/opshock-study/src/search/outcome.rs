@@ -1,4 +1,4 @@
-//! How the search of a point ended, and what a reader of its row must know.
+//! How the search of a point ended, and the flags of its row in the table.
 
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Word in products.
+    /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {
             Status::Ok => "ok",
@@ -58,8 +58,8 @@ pub enum Flag {
     WindowUndecided,
     /// A verdict needed another step, coupling or contact method.
     Retry,
-    /// A node without verdict widens the bracket or leaves a gap in the scan.
-    UndecidedNode,
+    /// A grid point without verdict widens the bracket or leaves a gap in the scan.
+    UndecidedAmplitude,
     /// A run without verdict did not converge.
     NotConverged,
     /// A run without verdict reached the step limit.
@@ -74,16 +74,17 @@ pub enum Flag {
     NoTouch,
     /// The amplitude of first touch is not known, so nothing is taken from the no-ramp answer.
     OnsetUnknown,
-    /// A part of the error bar does not show its knob's formal order and carries the wide factor.
-    BarWide,
-    /// A part of the error bar could not be estimated and is not in it.
-    BarPartial,
-    /// Half the error bar is more than the accuracy asked for.
-    BarExceeds,
-    /// So it is on the finest rung that the point may climb to.
-    BarFloor,
-    /// The answer is that of finer knobs than the study's, named in `levels`.
-    Climbed,
+    /// A contribution to the uncertainty interval shows no formal order and carries the safety factor 3.
+    #[serde(rename = "safety_factor_3")]
+    SafetyFactor3,
+    /// A contribution to the uncertainty interval could not be estimated and is missing from it.
+    ContributionMissing,
+    /// The half-width of the uncertainty interval is more than the target uncertainty.
+    TargetNotMet,
+    /// So it is at maximum refinement.
+    RefinementLimit,
+    /// The answer is that of parameters refined beyond the study's, named in `levels`.
+    Refined,
 }
 
 impl Flag {
@@ -92,7 +93,7 @@ impl Flag {
         Flag::Window,
         Flag::WindowUndecided,
         Flag::Retry,
-        Flag::UndecidedNode,
+        Flag::UndecidedAmplitude,
         Flag::NotConverged,
         Flag::StepLimit,
         Flag::NotFinite,
@@ -100,21 +101,21 @@ impl Flag {
         Flag::NotBuilt,
         Flag::NoTouch,
         Flag::OnsetUnknown,
-        Flag::BarWide,
-        Flag::BarPartial,
-        Flag::BarExceeds,
-        Flag::BarFloor,
-        Flag::Climbed,
+        Flag::SafetyFactor3,
+        Flag::ContributionMissing,
+        Flag::TargetNotMet,
+        Flag::RefinementLimit,
+        Flag::Refined,
     ];
 
-    /// Word in products.
+    /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {
             Flag::NonMonotone => "non_monotone",
             Flag::Window => "window",
             Flag::WindowUndecided => "window_undecided",
             Flag::Retry => "retry",
-            Flag::UndecidedNode => "undecided_node",
+            Flag::UndecidedAmplitude => "undecided_amplitude",
             Flag::NotConverged => "not_converged",
             Flag::StepLimit => "step_limit",
             Flag::NotFinite => "not_finite",
@@ -122,11 +123,11 @@ impl Flag {
             Flag::NotBuilt => "not_built",
             Flag::NoTouch => "no_touch",
             Flag::OnsetUnknown => "onset_unknown",
-            Flag::BarWide => "bar_wide",
-            Flag::BarPartial => "bar_partial",
-            Flag::BarExceeds => "bar_exceeds",
-            Flag::BarFloor => "bar_floor",
-            Flag::Climbed => "climbed",
+            Flag::SafetyFactor3 => "safety_factor_3",
+            Flag::ContributionMissing => "contribution_missing",
+            Flag::TargetNotMet => "target_not_met",
+            Flag::RefinementLimit => "refinement_limit",
+            Flag::Refined => "refined",
         }
     }
 

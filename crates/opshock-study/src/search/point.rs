@@ -1,39 +1,38 @@
-//! Search of one point: names the next probe and is told its verdict.
+//! Search of one point: names the next probe (amplitude and way of running it) and takes its verdict.
 //!
-//! The next probe is a function of what was told before, of the settings and of the start alone.
-//! In this order:
+//! The next probe is a function of the verdicts so far, of the settings and of the start alone. In this order:
 //!
-//! 1. the retry ladder of a node without verdict;
-//! 2. the hunt for a bracket, and its halving (`hunt`);
-//! 3. the scan for lower failures (`certify`); a failure found becomes the bracket and is halved
-//!    in turn, so that in the end the lowest failure in the evidence has a survivor next to it;
-//! 4. failures of neighbouring widths to be followed;
+//! 1. the retries of a grid point without verdict;
+//! 2. exponential search for a bracket, and its halving (`bracketing`);
+//! 3. the scan for lower failures (`monotonicity_scan`); a failure found becomes the bracket and is halved in turn, so
+//!    that in the end the lowest failure in the evidence has a survivor next to it;
+//! 4. failures of neighbouring widths to be looked for here;
 //! 5. the highest survivor below the lowest failure, in a doubled window.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::certify::Scan;
-use super::evidence::{Evidence, NodeVerdict};
+use super::amplitude_grid::AmplitudeRange;
+use super::bracketing::{Bracketing, BracketingStep, aimed, bisect, survives_at_top};
+use super::evidence::{AmplitudeVerdict, Evidence};
 use super::findings::Findings;
-use super::hunt::{Hunt, HuntStep, aimed, bisect, survives_at_top};
-use super::lattice::NodeRange;
+use super::monotonicity_scan::Scan;
 use super::outcome::{Flag, Status};
 use super::probe::{Probe, Purpose, Retry, Verdict};
-use super::settings::{Certify, SearchSettings};
+use super::settings::{MonotonicityScan, SearchSettings};
 
 /// What a point starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Where the answer is expected, G.
     pub hint_g: Option<f64>,
-    /// Lowest node of this point's own; below it the no-ramp answer survives. `None`: the whole
-    /// range is this point's own.
-    pub onset_node: Option<i32>,
+    /// Lowest grid point of this point's own; below it the no-ramp answer survives. `None`: the whole range is this
+    /// point's own.
+    pub onset_amplitude: Option<i32>,
     /// Place of the width among the widths of the same ramp, sign and axes: shifts the scan.
     pub width_rank: usize,
 }
 
-/// A probe that was asked and told.
+/// A probe that was requested and answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// The probe.
@@ -46,12 +45,12 @@ pub struct Asked {
 #[derive(Clone, Debug)]
 pub struct PointSearch {
     settings: SearchSettings,
-    nodes: NodeRange,
+    nodes: AmplitudeRange,
     assumed_survivor: Option<i32>,
-    hunt: Hunt,
+    bracketing: Bracketing,
     scan: Scan,
     evidence: Evidence,
-    windows: BTreeMap<i32, NodeVerdict>,
+    windows: BTreeMap<i32, AmplitudeVerdict>,
     retry: Retry,
     targets: Vec<i32>,
     bracketed: bool,
@@ -64,26 +63,26 @@ pub struct PointSearch {
 impl PointSearch {
     /// Search from a start.
     pub fn new(settings: SearchSettings, start: Start) -> PointSearch {
-        let SearchSettings { lattice, range, .. } = settings;
-        let own = start.onset_node.filter(|&node| node > range.low);
-        let nodes = NodeRange {
+        let SearchSettings { grid, range, .. } = settings;
+        let own = start.onset_amplitude.filter(|&node| node > range.low);
+        let nodes = AmplitudeRange {
             low: own.unwrap_or(range.low).min(range.high),
             high: range.high,
         };
-        let gap = match settings.certify {
-            Certify::Full => 1,
-            Certify::Off | Certify::Staggered => settings.scan_gap,
+        let gap = match settings.monotonicity_scan {
+            MonotonicityScan::Full => 1,
+            MonotonicityScan::Off | MonotonicityScan::Sampled => settings.scan_gap,
         };
         PointSearch {
             settings,
             nodes,
             assumed_survivor: own.map(|node| node - 1),
-            hunt: Hunt::new(&lattice, nodes, start.hint_g),
+            bracketing: Bracketing::new(&grid, nodes, start.hint_g),
             scan: Scan {
                 gap,
                 phase: Scan::phase_of(start.width_rank, gap),
-                keep: (own.is_none() && settings.certify == Certify::Staggered)
-                    .then_some((lattice.nodes_per_octave / 2, 2)),
+                keep: (own.is_none() && settings.monotonicity_scan == MonotonicityScan::Sampled)
+                    .then_some((grid.steps_per_octave / 2, 2)),
                 floor: nodes.low,
             },
             evidence: Evidence::default(),
@@ -98,7 +97,7 @@ impl PointSearch {
         }
     }
 
-    /// The same search of a point without ramp, scanned more coarsely (`certify`).
+    /// The same search of a point without ramp, scanned more coarsely (`monotonicity_scan`).
     #[must_use]
     pub fn without_ramp(mut self) -> PointSearch {
         self.scan.keep = self.scan.keep.map(|_| ((self.scan.gap + 1) / 2, 4));
@@ -118,27 +117,27 @@ impl PointSearch {
         })
     }
 
-    /// Takes the verdict of the probe asked last.
+    /// Takes the verdict of the probe requested last.
     ///
     /// # Panics
     ///
-    /// No probe was asked: the search had its answer.
+    /// No probe was requested: the search had its answer.
     pub fn tell(&mut self, verdict: &Verdict) {
-        self.tell_margin(verdict, None);
+        self.report_margin(verdict, None);
     }
 
-    /// As [`PointSearch::tell`], with the smallest clearance of the run, m: it may choose which node
-    /// of a bracket is tested next, and never decides one.
+    /// As [`PointSearch::tell`], with the smallest clearance of the run, m: it may choose which grid point of a bracket
+    /// is tested next, and never decides one.
     ///
     /// # Panics
     ///
     /// As there.
-    pub fn tell_margin(&mut self, verdict: &Verdict, h_min_m: Option<f64>) {
+    pub fn report_margin(&mut self, verdict: &Verdict, h_min_m: Option<f64>) {
         let asked = self.ask().expect("a verdict without a probe");
         self.log.push(asked);
-        let node_verdict = match verdict {
-            Verdict::Survives => NodeVerdict::Survives,
-            Verdict::Fails { .. } => NodeVerdict::Fails,
+        let amplitude_verdict = match verdict {
+            Verdict::Survives => AmplitudeVerdict::Survives,
+            Verdict::Fails { .. } => AmplitudeVerdict::Fails,
             Verdict::Undecided { cause, .. } => {
                 self.undecided_runs += 1;
                 self.flags.insert(Flag::from(*cause));
@@ -146,29 +145,28 @@ impl PointSearch {
                     self.retry = next;
                     return;
                 }
-                NodeVerdict::Undecided
+                AmplitudeVerdict::Undecided
             }
         };
-        if asked.probe.retry != Retry::None && node_verdict != NodeVerdict::Undecided {
+        if asked.probe.retry != Retry::None && amplitude_verdict != AmplitudeVerdict::Undecided {
             self.flags.insert(Flag::Retry);
         }
         self.retry = Retry::None;
         if asked.purpose == Purpose::Window {
-            self.windows.insert(asked.probe.index, node_verdict);
+            self.windows.insert(asked.probe.index, amplitude_verdict);
             return;
         }
-        if asked.purpose == Purpose::Hunt {
-            self.hunt.count(asked.probe.index);
+        if asked.purpose == Purpose::Bracketing {
+            self.bracketing.count(asked.probe.index);
         }
-        self.evidence.insert(asked.probe.index, node_verdict);
-        if let (NodeVerdict::Survives, Some(h_min_m)) = (node_verdict, h_min_m) {
+        self.evidence.insert(asked.probe.index, amplitude_verdict);
+        if let (AmplitudeVerdict::Survives, Some(h_min_m)) = (amplitude_verdict, h_min_m) {
             self.evidence.insert_margin(asked.probe.index, h_min_m);
         }
         self.note_bracket();
     }
 
-    /// Adds nodes that failed at a neighbouring width; those that cannot lower the answer are
-    /// passed over when their turn comes.
+    /// Adds grid points that failed at a neighbouring width; those that cannot lower the answer are passed over later.
     pub fn follow(&mut self, nodes: &[i32]) {
         self.targets.extend_from_slice(nodes);
     }
@@ -178,7 +176,7 @@ impl PointSearch {
         &self.evidence
     }
 
-    /// Probes told, in order.
+    /// Probes answered, in order.
     pub fn log(&self) -> &[Asked] {
         &self.log
     }
@@ -188,7 +186,7 @@ impl PointSearch {
         self.first_failure
     }
 
-    /// Whether a node would be this point's own to test and could lower its answer.
+    /// Whether a grid point would be this point's own to test and could lower its answer.
     pub fn is_open_below_failure(&self, node: i32) -> bool {
         node >= self.nodes.low
             && self.evidence.get(node).is_none()
@@ -208,16 +206,16 @@ impl PointSearch {
             flags.insert(Flag::NonMonotone);
         }
         if self.evidence.n_undecided() > 0 {
-            flags.insert(Flag::UndecidedNode);
+            flags.insert(Flag::UndecidedAmplitude);
         }
         match survivor.and_then(|node| self.windows.get(&node)) {
-            Some(NodeVerdict::Fails) => {
+            Some(AmplitudeVerdict::Fails) => {
                 flags.insert(Flag::Window);
             }
-            Some(NodeVerdict::Undecided) => {
+            Some(AmplitudeVerdict::Undecided) => {
                 flags.insert(Flag::WindowUndecided);
             }
-            Some(NodeVerdict::Survives) | None => {}
+            Some(AmplitudeVerdict::Survives) | None => {}
         }
         let mut brackets = self.evidence.brackets();
         if let (Some(failure), Some(assumed)) = (failure, self.assumed_survivor)
@@ -225,7 +223,8 @@ impl PointSearch {
         {
             brackets.insert(0, (assumed, failure));
         }
-        let certified_from = (self.settings.certify != Certify::Off && self.bracketed)
+        let scanned_from = (self.settings.monotonicity_scan != MonotonicityScan::Off
+            && self.bracketed)
             .then(|| {
                 self.assumed_survivor
                     .map_or_else(|| self.evidence.lowest_survivor(), |_| Some(self.nodes.low))
@@ -237,8 +236,8 @@ impl PointSearch {
             survivor,
             failure,
             brackets,
-            certified_from,
-            largest_gap: match (certified_from, survivor) {
+            scanned_from,
+            largest_gap: match (scanned_from, survivor) {
                 (Some(low), Some(high)) if low <= high => {
                     Some(self.evidence.largest_gap(low, high))
                 }
@@ -262,7 +261,7 @@ impl PointSearch {
         }
     }
 
-    /// Highest survivor below the lowest failure, the node below first touch included.
+    /// Highest survivor below the lowest failure, the grid point below first touch included.
     fn survivor(&self) -> Option<i32> {
         let failure = self.evidence.lowest_failure();
         self.evidence
@@ -275,13 +274,13 @@ impl PointSearch {
         let Some(failure) = self.evidence.lowest_failure() else {
             return false;
         };
-        if self.bracketed && self.settings.certify != Certify::Off {
+        if self.bracketed && self.settings.monotonicity_scan != MonotonicityScan::Off {
             return self.scan.next(&self.evidence, failure).is_none();
         }
         matches!(
-            self.hunt
+            self.bracketing
                 .step(&self.evidence, self.nodes, self.assumed_survivor),
-            HuntStep::Bracketed { .. }
+            BracketingStep::Bracketed { .. }
         )
     }
 
@@ -290,17 +289,19 @@ impl PointSearch {
             return;
         }
         match self
-            .hunt
+            .bracketing
             .step(&self.evidence, self.nodes, self.assumed_survivor)
         {
-            HuntStep::Bracketed { survivor, failure } => {
+            BracketingStep::Bracketed { survivor, failure } => {
                 if bisect(&self.evidence, survivor, failure).is_none() {
                     self.bracketed = true;
                     self.first_failure = Some(failure);
                 }
             }
-            HuntStep::Exhausted => self.bracketed = survives_at_top(&self.evidence, self.nodes),
-            HuntStep::Test(_) => {}
+            BracketingStep::Exhausted => {
+                self.bracketed = survives_at_top(&self.evidence, self.nodes)
+            }
+            BracketingStep::Test(_) => {}
         }
     }
 
@@ -310,17 +311,17 @@ impl PointSearch {
         }
         if !self.bracketed {
             return match self
-                .hunt
+                .bracketing
                 .step(&self.evidence, self.nodes, self.assumed_survivor)
             {
-                HuntStep::Test(node) => Some((node, 1, Purpose::Hunt)),
-                HuntStep::Bracketed { survivor, failure } => {
+                BracketingStep::Test(node) => Some((node, 1, Purpose::Bracketing)),
+                BracketingStep::Bracketed { survivor, failure } => {
                     let halvings = self.log.iter().filter(|a| a.purpose == Purpose::Bisect);
                     aimed(&self.evidence, survivor, failure, halvings.count())
                         .or_else(|| bisect(&self.evidence, survivor, failure))
                         .map(|node| (node, 1, Purpose::Bisect))
                 }
-                HuntStep::Exhausted => None,
+                BracketingStep::Exhausted => None,
             };
         }
         self.next_below()
@@ -332,7 +333,7 @@ impl PointSearch {
     fn next_below(&self) -> Option<(i32, u8, Purpose)> {
         let failure = self.evidence.lowest_failure();
         let own_survivor = self.evidence.highest_survivor_below(failure);
-        let scans = self.settings.certify != Certify::Off;
+        let scans = self.settings.monotonicity_scan != MonotonicityScan::Off;
         let Some(survivor) = own_survivor.or(self.survivor()) else {
             // A failure without a survivor below it: go on down to the end of the range.
             let failure = failure?;

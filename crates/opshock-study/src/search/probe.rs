@@ -1,46 +1,51 @@
-//! A probe of the search and what it answers.
+//! A probe: one simulation that the search requests, and its answer.
 //!
-//! The verdict has three values and is never the sign of a stored number: a clearance that is not
-//! a number decides nothing.
+//! The verdict has three values and is never the sign of a stored number: a clearance that is not a number decides
+//! nothing.
 
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 use serde::Serialize;
 
-/// Which way the disk moves first.
+/// Sign of a shock: plus moves the disk first towards a slider that faces down, over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub enum Sign {
-    /// Inertia load along +z: the disk first moves towards the slider.
+    /// Inertia load along +z.
     #[serde(rename = "+")]
     Plus,
-    /// The disk first moves away from the slider.
+    /// The disk first moves away from such a slider.
     #[serde(rename = "-")]
     Minus,
 }
 
 impl Sign {
-    /// `"+"` or `"-"`.
-    pub fn as_str(self) -> &'static str {
+    /// Both, in canonical order.
+    pub const ALL: [Self; 2] = [Self::Plus, Self::Minus];
+
+    /// Word in study files and tables.
+    pub const fn as_str(self) -> &'static str {
         match self {
-            Sign::Plus => "+",
-            Sign::Minus => "-",
+            Self::Plus => "+",
+            Self::Minus => "-",
         }
+    }
+
+    /// The sign of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|sign| sign.as_str() == word)
     }
 
     /// 1 or -1.
     pub fn factor(self) -> f64 {
         match self {
-            Sign::Plus => 1.0,
-            Sign::Minus => -1.0,
+            Self::Plus => 1.0,
+            Self::Minus => -1.0,
         }
     }
+}
 
-    /// Reads `"+"` or `"-"`.
-    pub fn parse(text: &str) -> Option<Sign> {
-        match text {
-            "+" => Some(Sign::Plus),
-            "-" => Some(Sign::Minus),
-            _ => None,
-        }
+impl std::fmt::Display for Sign {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
     }
 }
 
@@ -61,8 +66,8 @@ pub enum Retry {
 }
 
 impl Retry {
-    /// All levels in the order tried.
-    pub const LADDER: [Retry; 5] = [
+    /// All retries in the order tried.
+    pub const REFINEMENT_STUDY: [Retry; 5] = [
         Retry::None,
         Retry::HalfStep,
         Retry::QuarterStep,
@@ -70,7 +75,7 @@ impl Retry {
         Retry::OtherContact,
     ];
 
-    /// Place on the ladder, 0 is the plain run.
+    /// Place in that order, 0 is the plain run.
     pub fn level(self) -> u8 {
         match self {
             Retry::None => 0,
@@ -81,9 +86,9 @@ impl Retry {
         }
     }
 
-    /// The retry of a level, `None` beyond the ladder.
+    /// The retry of a place, `None` beyond the last.
     pub fn from_level(level: u8) -> Option<Retry> {
-        Self::LADDER.get(usize::from(level)).copied()
+        Self::REFINEMENT_STUDY.get(usize::from(level)).copied()
     }
 
     /// The next thing to try.
@@ -91,7 +96,7 @@ impl Retry {
         Self::from_level(self.level() + 1)
     }
 
-    /// Label of products.
+    /// Label in output files.
     pub fn label(self) -> &'static str {
         match self {
             Retry::None => "",
@@ -103,14 +108,14 @@ impl Retry {
     }
 }
 
-/// One simulation asked for: a node of the amplitude lattice and how to run it.
+/// One simulation requested: a point of the amplitude grid and how to run it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Probe {
-    /// Node of the lattice, of the bar's lattice when `is_fine`.
+    /// Point of the amplitude grid, of the uncertainty interval's when `is_fine`.
     pub index: i32,
-    /// The run belongs to an error bar, whose lattice is [`super::bar::SUBNODES`] times as fine.
+    /// The run belongs to an uncertainty interval, whose grid is [`super::uncertainty::SUBDIVISIONS`] times as fine.
     pub is_fine: bool,
-    /// Knobs turned away from the study's resolution.
+    /// Refinement levels relative to the study's resolution.
     pub levels: Levels,
     /// Multiple of the study's window simulated: 1, or 2 for the window check.
     pub window_factor: u8,
@@ -119,7 +124,7 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// A plain probe of a node.
+    /// A plain probe of a grid point.
     pub fn at(index: i32) -> Probe {
         Probe {
             index,
@@ -131,11 +136,11 @@ impl Probe {
     }
 }
 
-/// Why the search asked.
+/// Purpose of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Looking for a bracket from the hint.
-    Hunt,
+    /// Looking for a bracket from the starting amplitude.
+    Bracketing,
     /// Halving the bracket.
     Bisect,
     /// Looking for lower failures.
@@ -144,27 +149,27 @@ pub enum Purpose {
     FollowUp,
     /// The highest survivor in a doubled window.
     Window,
-    /// What a knob changes, for the error bar.
+    /// What a discretisation parameter changes, for the uncertainty interval.
     ErrorBar,
 }
 
 impl Purpose {
-    /// Word in products.
+    /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {
-            Purpose::Hunt => "hunt",
+            Purpose::Bracketing => "bracketing",
             Purpose::Bisect => "bisect",
             Purpose::Scan => "scan",
             Purpose::FollowUp => "follow_up",
             Purpose::Window => "window",
-            Purpose::ErrorBar => "error_bar",
+            Purpose::ErrorBar => "uncertainty",
         }
     }
 
     /// Reads the word back.
     pub fn parse(text: &str) -> Option<Purpose> {
         [
-            Purpose::Hunt,
+            Purpose::Bracketing,
             Purpose::Bisect,
             Purpose::Scan,
             Purpose::FollowUp,
@@ -194,7 +199,7 @@ pub enum Verdict {
     Undecided {
         /// Why, as a stable word.
         cause: UndecidedCause,
-        /// A sentence with figures.
+        /// A sentence with numbers.
         message: String,
     },
 }
@@ -210,7 +215,7 @@ impl Verdict {
     }
 }
 
-/// Why a run has no verdict.
+/// Cause of a run without verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum UndecidedCause {
     /// The coupled solve did not converge at the smallest step.
@@ -234,7 +239,7 @@ impl UndecidedCause {
         UndecidedCause::NotBuilt,
     ];
 
-    /// Word in products.
+    /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {
             UndecidedCause::NotConverged => "not_converged",
@@ -251,7 +256,7 @@ impl UndecidedCause {
     }
 }
 
-/// Work of a run in counts that do not depend on the machine.
+/// Work of a run in numbers that do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RunCost {
     /// Accepted head steps.
@@ -280,7 +285,7 @@ impl RunCost {
     }
 }
 
-/// What a simulation answered.
+/// Result of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbeResult {
     /// Verdict.

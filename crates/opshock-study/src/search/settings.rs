@@ -1,37 +1,48 @@
-//! How a search is made.
+//! Settings of a search: tolerance, range and scan for lower failures.
 
-use super::lattice::{Lattice, LatticeError, NodeRange};
+use super::amplitude_grid::{AmplitudeGrid, AmplitudeGridError, AmplitudeRange};
 
 /// How thoroughly lower failures are looked for below the bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Certify {
+pub enum MonotonicityScan {
     /// Not at all: failure is taken to be monotone.
     Off,
-    /// Nodes at most `max_gap` apart, shifted from width to width so that neighbouring widths
+    /// Grid points at most `max_gap` apart, shifted from width to width so that neighbouring widths
     /// fill each other's gaps.
-    Staggered,
-    /// Every node.
+    Sampled,
+    /// Every amplitude of the grid.
     Full,
+}
+
+impl MonotonicityScan {
+    /// The word in study files.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Sampled => "sampled",
+            Self::Full => "full",
+        }
+    }
 }
 
 /// Settings of every point's search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSettings {
-    /// Lattice of the tolerance.
-    pub lattice: Lattice,
-    /// Nodes searched.
-    pub range: NodeRange,
+    /// Amplitude grid of the tolerance.
+    pub grid: AmplitudeGrid,
+    /// Grid points searched.
+    pub range: AmplitudeRange,
     /// Scan below the bracket.
-    pub certify: Certify,
-    /// Largest step between scanned nodes, in nodes.
+    pub monotonicity_scan: MonotonicityScan,
+    /// Largest step between scanned grid points, in grid steps.
     pub scan_gap: i32,
     /// Rerun the highest survivor in a doubled window.
     pub window_check: bool,
-    /// Nodes without verdict after which a point is given up.
+    /// Grid points without verdict after which a point is given up.
     pub max_undecided: usize,
 }
 
-/// Four undecided nodes are twenty runs with their retries.
+/// Four undecided grid points are twenty runs with their retries.
 const MAX_UNDECIDED: usize = 4;
 
 impl SearchSettings {
@@ -39,20 +50,20 @@ impl SearchSettings {
     ///
     /// # Errors
     ///
-    /// [`LatticeError`].
+    /// [`AmplitudeGridError`].
     pub fn new(
         (min_g, max_g): (f64, f64),
         tolerance: f64,
-        certify: Certify,
+        monotonicity_scan: MonotonicityScan,
         max_gap: f64,
         window_check: bool,
-    ) -> Result<SearchSettings, LatticeError> {
-        let lattice = Lattice::for_tolerance(tolerance)?;
+    ) -> Result<SearchSettings, AmplitudeGridError> {
+        let grid = AmplitudeGrid::for_tolerance(tolerance)?;
         Ok(SearchSettings {
-            lattice,
-            range: lattice.range(min_g, max_g)?,
-            certify,
-            scan_gap: lattice.nodes_within(max_gap.max(0.0)),
+            grid,
+            range: grid.range(min_g, max_g)?,
+            monotonicity_scan,
+            scan_gap: grid.nodes_within(max_gap.max(0.0)),
             window_check,
             max_undecided: MAX_UNDECIDED,
         })

@@ -1,5 +1,5 @@
-//! Files replaced whole: written aside, synced, renamed, and the folder synced. Every file that the
-//! program makes gets its name here, but for the journal, which makes its own the same way.
+//! Replaces files whole: written aside, synced, renamed, and the folder synced. All files of the program are written
+//! here, but for the journal, which does the same by itself.
 
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt as _;

@@ -1,4 +1,4 @@
-//! Finished simulations run again with nothing left out, and what that showed.
+//! Result of an audit: finished simulations run again with the full model, and the differences.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub struct Audit {
     pub program_version: String,
     /// Its commit.
     pub commit: String,
-    /// Share of the simulations asked for, 0 to 1.
+    /// Share of the simulations requested, 0 to 1.
     pub share: f64,
     /// Simulations behind the study's answers.
     pub of_runs: usize,
@@ -29,7 +29,7 @@ pub struct Audit {
     pub differences: Vec<Difference>,
 }
 
-/// One number of one simulation that is not the same in full.
+/// One number of one simulation that differs with the full model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Difference {
     /// The point, as tables name it.
@@ -40,7 +40,7 @@ pub struct Difference {
     pub quantity: String,
     /// As stored.
     pub planned: String,
-    /// In full.
+    /// With the full model.
     pub full: String,
 }
 
@@ -85,7 +85,7 @@ impl std::fmt::Display for Difference {
         } = self;
         write!(
             f,
-            "{point} at {amplitude_g:.4} G: {quantity} is {planned} as stored and {full} in full"
+            "{point} at {amplitude_g:.4} G: {quantity} is {planned} as stored and {full} with the full model"
         )
     }
 }

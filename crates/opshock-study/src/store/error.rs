@@ -1,4 +1,4 @@
-//! What can be wrong with a store.
+//! Errors of a store.
 
 use std::path::{Path, PathBuf};
 
@@ -22,17 +22,18 @@ pub enum StoreError {
         /// What to do.
         hint: &'static str,
     },
-    /// Written by a newer program.
+    /// Written by a newer or an older program.
     #[error(
-        "{code}: {path} has format {found}, this program reads up to {known}; use a newer opshock",
+        "{code}: {path} has format {found}, this program reads {known}; {}",
+        if found > known { "use a newer opshock" } else { "sweep the study anew, into another folder" },
         code = self.code()
     )]
-    Newer {
+    OtherFormat {
         /// File.
         path: PathBuf,
         /// Its format.
         found: u32,
-        /// Newest format known here.
+        /// The format known here.
         known: u32,
     },
     /// Not what it should be, or cut short.
@@ -85,7 +86,7 @@ impl StoreError {
     pub fn code(&self) -> &'static str {
         match self {
             StoreError::OtherStudy { .. } => "E188",
-            StoreError::Newer { .. } => "E181",
+            StoreError::OtherFormat { .. } => "E181",
             StoreError::Damaged { .. } => "E182",
             StoreError::Unwritable { .. } | StoreError::Unreadable { .. } => "E183",
             StoreError::Locked { .. } => "E184",

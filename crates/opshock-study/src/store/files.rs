@@ -1,4 +1,4 @@
-//! The system calls under a journal, so that tests can put a file system there that fails.
+//! System calls of a journal, behind a trait so that tests can use a file system that fails.
 
 use std::ffi::OsStr;
 use std::fmt::Debug;
@@ -61,7 +61,7 @@ pub fn read(files: &impl Files, path: &Path) -> Result<Option<Vec<u8>>, StoreErr
 
 /// A file that grows at its end.
 pub trait OpenFile: Debug + Send {
-    /// Writes the first bytes at the end; says how many.
+    /// Writes the first bytes at the end; returns how many.
     ///
     /// # Errors
     ///
@@ -72,7 +72,7 @@ pub trait OpenFile: Debug + Send {
     ///
     /// # Errors
     ///
-    /// What of it is durable is not known, and asking again does not tell.
+    /// What of it is durable is not known, and a repeated call does not show it.
     fn sync(&mut self) -> std::io::Result<()>;
 
     /// Writes all bytes at the end.

@@ -1,4 +1,4 @@
-//! The folder of a store: opened for a sweep, or read.
+//! The folder of a store: opens it for a sweep, or reads it.
 //!
 //! `study.toml` as given, `study.resolved.toml` with every default, `journal`, `results.h5`,
 //! `histories/`, `lock`.
@@ -27,7 +27,7 @@ pub struct Loaded {
     pub touches: HashMap<PointDigest, StoredTouch>,
     /// The study they were made for; `None` where nothing is stored.
     pub owner: Option<Owner>,
-    /// What a person should know about the state of the store: code and sentence.
+    /// Messages about the state of the store: code and sentence.
     pub notes: Vec<(&'static str, String)>,
 }
 
@@ -64,10 +64,9 @@ pub struct Store {
 impl Store {
     /// Opens or makes the store in `folder` and reads what is finished.
     ///
-    /// Before anything else it writes and syncs a probe file, so that a sweep never computes what
-    /// it could not keep. A torn journal is cut; one with damage in the middle is kept as
-    /// `journal.damaged` and written anew from its whole records; a missing one is written from
-    /// `results.h5`; damaged results are replaced when the journal is sound.
+    /// Before anything else it writes and syncs a probe file, so that a sweep never computes what it could not store. A
+    /// torn journal is cut; one with damage in the middle is kept as `journal.damaged` and written anew from its whole
+    /// records; a missing one is written from `results.h5`; damaged results are replaced when the journal is sound.
     ///
     /// # Errors
     ///
@@ -116,7 +115,9 @@ impl Store {
                 let intact =
                     content.header.is_some() && content.damage.iter().all(|damage| damage.at_end);
                 for damage in &content.damage {
-                    loaded.notes.push(("journal_damage", told(damage, intact)));
+                    loaded
+                        .notes
+                        .push(("journal_damage", reported(damage, intact)));
                 }
                 let mut records = content.records;
                 if !intact {
@@ -156,11 +157,11 @@ impl Store {
         &self.folder
     }
 
-    /// Appends finished simulations; they count once this returns.
+    /// Appends finished simulations; they are stored once this returns.
     ///
     /// # Errors
     ///
-    /// The disk refused; nothing of this call counts.
+    /// The disk refused; nothing of this call is stored.
     pub fn append(&mut self, records: &[Record]) -> Result<(), StoreError> {
         self.journal.append(records)
     }
@@ -208,7 +209,7 @@ pub fn load(folder: &Path) -> Result<(Loaded, Option<Results>), StoreError> {
     Ok((loaded, stored))
 }
 
-fn told(damage: &journal::Damage, intact: bool) -> String {
+fn reported(damage: &journal::Damage, intact: bool) -> String {
     let journal::Damage { offset, length, .. } = damage;
     if intact {
         format!("journal: {length} bytes at {offset} held no whole record and were cut off")
@@ -223,12 +224,12 @@ fn told(damage: &journal::Damage, intact: bool) -> String {
 /// What the study changed since the store was used last.
 fn changes(owner: &Owner, resolved: &str) -> Option<(&'static str, String)> {
     let changed = owner.changed(resolved)?;
-    let told: Vec<String> = changed.iter().map(ToString::to_string).collect();
-    (!told.is_empty()).then(|| {
+    let reported: Vec<String> = changed.iter().map(ToString::to_string).collect();
+    (!reported.is_empty()).then(|| {
         let message = format!(
             "the study has changed since the last sweep into this store: {}; simulations that \
              stay valid are used again",
-            told.join(", ")
+            reported.join(", ")
         );
         ("study_changed", message)
     })
@@ -251,7 +252,7 @@ fn keep_text(folder: &Path, name: &str, text: &str) -> Result<(), StoreError> {
     }
 }
 
-/// Facts of this process for a session.
+/// Program, host and process of a session.
 pub fn session(threads: usize) -> Session {
     Session {
         program_version: crate::provenance::VERSION.to_owned(),

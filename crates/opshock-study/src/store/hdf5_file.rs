@@ -1,10 +1,8 @@
-//! HDF5 files as bytes: made in memory and read from memory, so that the HDF5 library never meets
-//! the disk.
+//! HDF5 files as bytes, made in memory and read from memory, so that the HDF5 library never accesses the disk.
 //!
-//! It writes what is left when the last of a file's groups is dropped, where an error has no way
-//! out, and it may crash on a file with flipped bytes. Bytes are written by
-//! [`aside`](super::aside), whose errors are those of the operating system, and their
-//! seal (`store/seal.rs`) is checked before they are opened.
+//! The library writes what is left when the last of a file's groups is dropped, where an error cannot be returned, and
+//! it may crash on a file with flipped bytes. Bytes are written by [`aside`](super::aside), whose errors are those of
+//! the operating system, and their seal (`store/seal.rs`) is checked before they are opened.
 #![expect(
     unsafe_code,
     reason = "the HDF5 crate has no images of files: one C call makes them, two open them"
@@ -67,8 +65,8 @@ pub fn open(bytes: &[u8]) -> Result<File> {
     })
 }
 
-/// A name for a file in memory: HDF5 tells files by it, and looks whether one is on the disk, where
-/// none can be below a device.
+/// A name for a file in memory: HDF5 distinguishes files by it, and looks whether one is on the disk, where none can be
+/// below a device.
 fn name() -> String {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
     format!("/dev/null/{}", NUMBER.fetch_add(1, Ordering::Relaxed))

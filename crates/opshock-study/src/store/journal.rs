@@ -1,4 +1,4 @@
-//! The journal: an append-only file, the truth of a store.
+//! The journal: the file to which every finished run is appended, and from which a store can be rebuilt.
 //!
 //! ```text
 //! "OPSHOCKJ"  format u32  length u32  header (JSON)  crc32 u32
@@ -6,13 +6,13 @@
 //! "OPJR"  length u32  crc32 u32  kind and content (`record`)
 //! ```
 //!
-//! Little-endian. The checksum covers the length and the content. A record counts once
-//! `fdatasync` returned; a failed write or sync is final for the process.
+//! Little-endian. The checksum covers the length and the content. A record is stored once `fdatasync` returned; after a
+//! failed write or sync the process writes nothing more.
 //!
-//! A kill or a power loss may leave the last records torn: what is not whole at the end is left
-//! out when the journal is opened for writing, which writes it anew. Damage in the middle (a flipped bit) costs the
-//! record it hits: the reader finds the next record by its mark and its checksum, and says what
-//! it skipped. Runs are found by content, so records do not depend on each other.
+//! A kill or a power loss may leave the last record incomplete. The next process that writes copies the whole records to
+//! a new file, which takes the journal's name, and appends to that. Damage in the middle (a flipped bit) costs the record it hits: the reader finds the
+//! next record by its mark and its checksum, and reports the bytes skipped. Runs are found by content, so records do
+//! not depend on each other.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ use super::files::{self, Files, OpenFile, RealFiles};
 use super::record::Record;
 
 /// Number of the journal's format; raised when an older reader would go wrong.
-pub const JOURNAL_FORMAT: u32 = 1;
+pub const JOURNAL_FORMAT: u32 = 2;
 
 const MAGIC: &[u8; 8] = b"OPSHOCKJ";
 const MARK: &[u8; 4] = b"OPJR";
@@ -30,22 +30,19 @@ const MARK: &[u8; 4] = b"OPJR";
 const FRAME: usize = 12;
 /// Name under which a journal is made before it gets its own.
 const ASIDE: &str = ".aside-journal";
-/// A longer record is not one of ours.
+/// Largest length of a record; a longer one is not one of ours.
 const LONGEST: usize = 1 << 24;
 
-/// The study that a journal belongs to. What journals of earlier programs lack is empty.
+/// The study that a journal belongs to.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct JournalHeader {
     /// Name of the study.
     pub study: String,
     /// Digest of every setting.
-    #[serde(default)]
     pub digest: String,
     /// The study file, seen from the store's folder.
-    #[serde(default)]
     pub file: Option<PathBuf>,
     /// The study with every default.
-    #[serde(default)]
     pub resolved: String,
 }
 
@@ -98,10 +95,10 @@ pub fn read_in(files: &impl Files, path: &Path) -> Result<Option<JournalContent>
 ///
 /// # Errors
 ///
-/// [`StoreError::Newer`].
+/// [`StoreError::OtherFormat`].
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<JournalContent, StoreError> {
     match header_at_start(bytes) {
-        Some((format, ..)) if format > JOURNAL_FORMAT => Err(StoreError::Newer {
+        Some((format, ..)) if format != JOURNAL_FORMAT => Err(StoreError::OtherFormat {
             path: path.to_owned(),
             found: format,
             known: JOURNAL_FORMAT,
@@ -240,10 +237,8 @@ impl JournalWriter {
 
 impl<F: OpenFile> JournalWriter<F> {
     /// Makes a journal with these records aside, syncs it, and renames it over `path`.
-    ///
-    /// A journal is opened again by this alone, with the records read from it. To append to the old
-    /// file would not do: after a failed sync its bytes may be readable and yet on no disk, and no
-    /// later sync writes them.
+    /// A journal is opened again by this alone, with the records read from it. Appending to the old file would be
+    /// unsafe: after a failed sync its bytes may be readable and yet on no disk, and no later sync writes them.
     ///
     /// # Errors
     ///
@@ -279,7 +274,7 @@ impl<F: OpenFile> JournalWriter<F> {
     ///
     /// # Errors
     ///
-    /// The write or the sync failed; none of these records counts, and every later append fails.
+    /// The write or the sync failed; none of these records is stored, and every later append fails.
     pub fn append(&mut self, records: &[Record]) -> Result<(), StoreError> {
         if self.failed {
             let earlier = std::io::Error::other("an earlier write or sync failed");

@@ -1,7 +1,6 @@
-//! One writer per store: an advisory lock on the file `lock`, which also says who holds it.
+//! Ensures one writer per store: an advisory lock on the file `lock`, which also names its holder.
 //!
-//! The kernel drops the lock when its holder ends, however it ends; what stays in the file is
-//! then only text.
+//! The kernel drops the lock when its holder ends, however it ends; the remaining text has no effect.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};

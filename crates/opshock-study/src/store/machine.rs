@@ -1,4 +1,4 @@
-//! Facts of the machine and the time of day, which never enter results.
+//! Host name and time of day, which never enter results.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 

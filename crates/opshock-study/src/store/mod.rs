@@ -1,9 +1,8 @@
-//! Journal, HDF5 results, lock, resume.
+//! Storage of finished simulations: journal, HDF5 results, lock, resume.
 //!
-//! A store is a folder. Its `journal` is the truth: one checksummed record per finished simulation,
-//! on the disk before it counts. `results.h5` is made from it, replaced whole, readable at any
-//! time, and enough to resume from when the journal is gone. Simulations are found by content, so
-//! a changed study finds what is still valid.
+//! A store is a folder. Its `journal` is the truth: one checksummed record per finished simulation, on the disk before
+//! it is reported. `results.h5` is made from it, replaced whole, readable at any time, and enough to resume from when
+//! the journal is gone. Simulations are found by content, so a changed study finds what is still valid.
 
 pub mod aside;
 pub mod audit;
@@ -28,4 +27,4 @@ pub use folder::{Loaded, Store, load};
 pub use owner::{Owner, StudyTexts};
 pub use record::{PointDigest, Record, RunKey, RunMachine, RunRecord, StoredTouch, TouchRecord};
 pub use results::{PointKeep, Results, RunRow, Session};
-pub use summary::{AxisValue, ErrorPart, Flag, PointSummary, Status, Summary, Totals};
+pub use summary::{AxisValue, Contribution, Flag, PointSummary, Status, Summary, Totals};

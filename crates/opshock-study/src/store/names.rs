@@ -1,4 +1,4 @@
-//! Names of what stands in the folder of a store.
+//! Names of the files and folders of a store.
 
 /// Name of the results file in a store.
 pub const RESULTS_FILE: &str = "results.h5";

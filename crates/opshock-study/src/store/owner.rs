@@ -1,4 +1,4 @@
-//! The study that a store belongs to, told by content.
+//! The study that a store belongs to, recognised by content.
 //!
 //! Results are shown for a study only where every setting is the one they were made with. A sweep may
 //! go on in the store of an earlier form of the same study file, for simulations are found by their own
@@ -31,7 +31,7 @@ pub struct StudyTexts {
 /// Settings that a message lists at most.
 const LISTED: usize = 6;
 
-/// What a store says about its study; empty where it does not say.
+/// What a store records of its study; empty where it records nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Owner {
     /// Name.
@@ -45,9 +45,9 @@ pub struct Owner {
 }
 
 impl Owner {
-    /// Of the store in `folder` with these files; `None` when they do not say. The journal comes
-    /// first: a sweep of a changed study writes it before new results. Then the results, and last,
-    /// for journals of an earlier program and damaged ones, the study that lies beside.
+    /// Of the store in `folder` with these files; `None` when they record nothing. The journal comes first: a sweep of
+    /// a changed study writes it before new results. Then the results, and last, for journals of an earlier program and
+    /// damaged ones, the study that lies beside.
     pub(super) fn of(
         folder: &Path,
         journal: Option<&JournalHeader>,
@@ -135,7 +135,7 @@ impl Owner {
         ))
     }
 
-    /// Settings of `resolved` that are others in the store; `None` where the store does not tell.
+    /// Settings of `resolved` that differ in the store; `None` where the store does not record them.
     pub fn changed(&self, resolved: &str) -> Option<Vec<SettingDifference>> {
         let before = difference::flat(self.resolved.as_deref()?)?;
         Some(difference::differing(&before, &difference::flat(resolved)?))

@@ -1,9 +1,9 @@
-//! What is kept of a finished simulation, and its bytes.
+//! Record of a finished simulation, and its bytes.
 //!
 //! Little-endian; lengths before text; a number that does not exist is a zero byte, one that
 //! exists a one byte and its eight bytes, so that every double comes back with the same bits.
 
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 
 use crate::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
 
@@ -17,14 +17,14 @@ impl PointDigest {
         self.0.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// The same point with its knobs turned.
+    /// The same point at other refinement levels.
     #[must_use]
-    pub fn turned(&self, levels: Levels) -> PointDigest {
+    pub fn changed(&self, levels: Levels) -> PointDigest {
         if levels.is_none() {
             return *self;
         }
         let mut hasher = blake3::Hasher::new();
-        hasher.update(b"opshock turned knobs 1");
+        hasher.update(b"opshock refinement levels 1");
         hasher.update(&self.0);
         hasher.update(levels.label().as_bytes());
         PointDigest(*hasher.finalize().as_bytes())
@@ -58,11 +58,11 @@ pub struct RunKey {
     pub amplitude_bits: u64,
     /// Multiple of the window.
     pub window_factor: u8,
-    /// Place on the retry ladder.
+    /// Place in the order of the retries.
     pub retry: u8,
 }
 
-/// Facts of the machine, kept apart from results.
+/// Time of the run on its machine, kept apart from results.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunMachine {
     /// Measured time, s.
@@ -111,7 +111,7 @@ pub enum Record {
     Touch(TouchRecord),
     /// A process began to write: program, machine, start, as JSON.
     Session(String),
-    /// Numbers of a parameter set of a match: not asked, none, or a number.
+    /// Numbers of a parameter set of a match: not computed, none, or a number.
     Numbers {
         /// What they were made of.
         key: PointDigest,
@@ -289,7 +289,7 @@ fn decode_run(input: &mut Input<'_>) -> Option<RunRecord> {
     })
 }
 
-/// Names of a run's counts, in the order of [`cost_counts`].
+/// Names of a run's numbers of work, in the order of [`cost_counts`].
 pub(super) const COST_NAMES: [&str; 6] = [
     "steps",
     "rejected",
@@ -299,7 +299,7 @@ pub(super) const COST_NAMES: [&str; 6] = [
     "film_unknowns",
 ];
 
-/// Counts of a run.
+/// Numbers of work of a run.
 pub(super) fn cost_counts(cost: &RunCost) -> [u64; 6] {
     [
         cost.steps,

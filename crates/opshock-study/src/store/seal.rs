@@ -1,5 +1,5 @@
-//! A checksum behind the end of an HDF5 file: the HDF5 library may crash on a file with flipped
-//! bytes, so they are found before it sees the file.
+//! Seals HDF5 files with a checksum behind their end: the HDF5 library may crash on a file with flipped bytes, so they
+//! are found before it reads the file.
 //!
 //! ```text
 //! ... HDF5 ...   blake3 of it, 32 bytes   "OPSHOCKS"

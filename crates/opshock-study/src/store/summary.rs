@@ -1,8 +1,8 @@
-//! Critical shocks of a study as rows: what tables, curves and JSON are made from.
+//! Table of a study's critical shocks as rows: the source of tables, curves and JSON.
 //!
 //! The JSON is `{"study", "digest", "points": [{"ramp", "pulse_ms", "sign", ...axes, "a_crit_g",
-//! "a_fail_g", "err_low_g", "err_high_g", "err_parts", "levels", "onset_g", "runs", "status", "flags",
-//! "brackets_g", "certified_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
+//! "a_fail_g", "err_low_g", "err_high_g", "contributions", "levels", "onset_g", "runs", "status", "flags",
+//! "brackets_g", "scanned_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
 //! null. Nothing in it depends on the machine, the number of threads or the time of day, so that
 //! equal results are equal bytes.
 
@@ -31,10 +31,10 @@ impl std::fmt::Display for AxisValue {
     }
 }
 
-/// Names of the parts of error bars, in the order in which they are listed.
+/// Names of the contributions of uncertainty intervals, in the order in which they are listed.
 ///
-/// `structure` and `head` stand for all knobs of disk and ramp, and of the head, turned together.
-pub const ERROR_PARTS: [&str; 10] = [
+/// `structure` and `head` stand for all discretisation parameters of disk and ramp, and of the head, changed together.
+pub const CONTRIBUTIONS: [&str; 10] = [
     "search",
     "film_grid",
     "ramp_mesh",
@@ -47,21 +47,21 @@ pub const ERROR_PARTS: [&str; 10] = [
     "coupling_tolerance",
 ];
 
-/// One source of a row's error bar, G.
+/// One source of a row's uncertainty interval, G.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ErrorPart {
+pub struct Contribution {
     /// Below the reported value, G.
     pub low_g: f64,
     /// Above the reported value, G.
     pub high_g: f64,
-    /// Factor of safety in both: 1 for a bound, 1.25 where the formal order was observed, else 3.
+    /// Safety factor in both: 1 for a bound, 1.25 where the formal order was observed, else 3.
     pub factor: f64,
 }
 
 /// Critical shock of one point.
 ///
-/// The bar is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`; an error that was not computed is absent. `a_fail_g` is the lowest failing
-/// amplitude in the evidence, `a_crit_g` the highest surviving one below it.
+/// The interval is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`; an error that was not computed is absent.
+/// `a_fail_g` is the lowest failing amplitude in the evidence, `a_crit_g` the highest surviving one below it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointSummary {
     /// Name of the ramp model.
@@ -76,13 +76,13 @@ pub struct PointSummary {
     pub a_crit_g: Option<f64>,
     /// Lowest failure, G.
     pub a_fail_g: Option<f64>,
-    /// Error bar below `a_crit_g`, G.
+    /// Uncertainty interval below `a_crit_g`, G.
     pub err_low_g: Option<f64>,
-    /// Error bar above `a_crit_g`, G.
+    /// Uncertainty interval above `a_crit_g`, G.
     pub err_high_g: Option<f64>,
-    /// What the bar is made of, by name; the parts add up.
-    pub err_parts: Vec<(String, ErrorPart)>,
-    /// Knobs turned finer than the study has them for this answer; empty: none.
+    /// Contributions to the interval, by name; they add up.
+    pub contributions: Vec<(String, Contribution)>,
+    /// Refinement levels of this answer beyond the study's resolution; empty: none.
     pub levels: String,
     /// Amplitude at which the disk first touches the ramp within the window, G.
     pub onset_g: Option<f64>,
@@ -90,17 +90,17 @@ pub struct PointSummary {
     pub runs: u64,
     /// How the search ended.
     pub status: Status,
-    /// What a reader must know, sorted.
+    /// Flags, sorted.
     pub flags: Vec<Flag>,
     /// Every (survivor, next higher failure) pair of the evidence, G, ascending.
     pub brackets_g: Vec<[f64; 2]>,
     /// Lower end of what was searched: below it the no-ramp answer or nothing is known, G.
-    pub certified_from_g: Option<f64>,
+    pub scanned_from_g: Option<f64>,
     /// Largest untested step between survivors from there to `a_crit_g`, per cent.
     pub largest_gap_pct: Option<f64>,
 }
 
-/// Counts over all points.
+/// Totals over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Totals {
     /// Points of the study.
@@ -119,20 +119,20 @@ pub struct Totals {
     pub runs: u64,
     /// Of these without verdict.
     pub undecided_runs: u64,
-    /// Of these for the error bars.
-    pub bar_runs: u64,
+    /// Of these for the uncertainty intervals.
+    pub uncertainty_runs: u64,
     /// Work of all runs.
     pub cost: RunCost,
-    /// Work of those for the error bars.
-    pub bar_cost: RunCost,
+    /// Work of those for the uncertainty intervals.
+    pub uncertainty_cost: RunCost,
     /// Film solves times film unknowns, summed over all runs.
     pub film_work: u64,
-    /// The same over the runs for the error bars.
-    pub bar_film_work: u64,
+    /// The same over the runs for the uncertainty intervals.
+    pub uncertainty_film_work: u64,
 }
 
 impl Totals {
-    /// Counts of these rows and of the simulations of their sequences.
+    /// Totals of these rows and of the simulations of their sequences.
     pub fn of<'a>(
         points: &[PointSummary],
         runs: impl IntoIterator<Item = (Purpose, &'a ProbeResult)>,
@@ -154,9 +154,9 @@ impl Totals {
             let work = run.cost.film_solves * run.cost.film_unknowns;
             totals.film_work += work;
             if purpose == Purpose::ErrorBar {
-                totals.bar_runs += 1;
-                totals.bar_cost.add(&run.cost);
-                totals.bar_film_work += work;
+                totals.uncertainty_runs += 1;
+                totals.uncertainty_cost.add(&run.cost);
+                totals.uncertainty_film_work += work;
             }
             totals.runs += 1;
             totals.undecided_runs += u64::from(matches!(run.verdict, Verdict::Undecided { .. }));
@@ -177,7 +177,7 @@ pub struct Summary {
     pub axes: Vec<String>,
     /// Rows in the study's order.
     pub points: Vec<PointSummary>,
-    /// Counts.
+    /// Totals.
     pub totals: Totals,
 }
 
@@ -200,24 +200,28 @@ impl Serialize for Row<'_> {
         map.serialize_entry("a_fail_g", &point.a_fail_g)?;
         map.serialize_entry("err_low_g", &point.err_low_g)?;
         map.serialize_entry("err_high_g", &point.err_high_g)?;
-        map.serialize_entry("err_parts", &Parts(&point.err_parts))?;
+        map.serialize_entry("contributions", &Contributions(&point.contributions))?;
         map.serialize_entry("levels", &point.levels)?;
         map.serialize_entry("onset_g", &point.onset_g)?;
         map.serialize_entry("runs", &point.runs)?;
         map.serialize_entry("status", &point.status)?;
         map.serialize_entry("flags", &point.flags)?;
         map.serialize_entry("brackets_g", &point.brackets_g)?;
-        map.serialize_entry("certified_from_g", &point.certified_from_g)?;
+        map.serialize_entry("scanned_from_g", &point.scanned_from_g)?;
         map.serialize_entry("largest_gap_pct", &point.largest_gap_pct)?;
         map.end()
     }
 }
 
-struct Parts<'a>(&'a [(String, ErrorPart)]);
+struct Contributions<'a>(&'a [(String, Contribution)]);
 
-impl Serialize for Parts<'_> {
+impl Serialize for Contributions<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, part)| (name, part)))
+        serializer.collect_map(
+            self.0
+                .iter()
+                .map(|(name, contribution)| (name, contribution)),
+        )
     }
 }
 
@@ -259,21 +263,21 @@ mod tests {
                 a_fail_g: None,
                 err_low_g: None,
                 err_high_g: None,
-                err_parts: vec![],
+                contributions: vec![],
                 levels: String::new(),
                 onset_g: None,
                 runs: 3,
                 status: Status::AboveRange,
                 flags: vec![Flag::NonMonotone],
                 brackets_g: vec![],
-                certified_from_g: None,
+                scanned_from_g: None,
                 largest_gap_pct: None,
             }],
             totals: Totals::default(),
         };
         let text = serde_json::to_string(&summary).expect("serialises");
         assert!(text.starts_with(
-            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"err_parts":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
+            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"contributions":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
         ), "{text}");
     }
 }

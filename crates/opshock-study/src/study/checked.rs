@@ -1,4 +1,4 @@
-//! A study that has passed every check, and how it is read.
+//! A study that has passed every check: read from a file, with its points, settings and digest.
 
 use super::fault::{self, Severity, StudyError, StudyErrors};
 use super::included::{self, Location};
@@ -9,9 +9,10 @@ use super::set_arg::SetArg;
 use super::settings::{Settings, View};
 use super::source::{self, Origin, Source};
 use super::text_file;
-use super::words::{Certify, Effects, KeepHistories, LeftOut, Ramp, Sign};
+use super::words::{Effects, KeepHistories, LeftOut, Ramp};
 use super::{complete, example, fields, resolved, scene, tree};
-use opshock_solver::scene::knob::Knob;
+use crate::search::{MonotonicityScan, Sign};
+use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use std::path::{Path, PathBuf};
 
@@ -68,29 +69,29 @@ pub struct SearchSettings {
     pub amplitude_max_g: f64,
     /// Width of the final bracket, per cent.
     pub tolerance_pct: f64,
-    /// How far the evidence reaches.
-    pub certify: Certify,
+    /// Which amplitudes below the lowest failure are simulated, to see that none of them fails.
+    pub monotonicity_scan: MonotonicityScan,
     /// Largest untested gap below the lowest failure, per cent.
-    pub max_gap_pct: f64,
-    /// Whether what the resolution contributes is estimated.
-    pub error_bars: bool,
-    /// Times that a point whose bar exceeds the accuracy asked is turned finer.
-    pub climbs: u8,
+    pub scan_gap_pct: f64,
+    /// Whether the contributions of the resolution to the uncertainty are estimated.
+    pub uncertainty: bool,
+    /// Times that a point which misses the target is refined.
+    pub max_refinements: u8,
     /// How widths are added; `None`: not at all.
-    pub refine: Option<RefineSettings>,
+    pub added_points: Option<AddedPointsSettings>,
 }
 
 /// How widths are added.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RefineSettings {
-    /// Straight lines between neighbouring answers are to be this good, per cent.
+pub struct AddedPointsSettings {
+    /// Largest error of linear interpolation between neighbouring answers, per cent.
     pub tolerance_pct: Option<f64>,
-    /// Widths between which two ramp models change places are to be this close, per cent.
+    /// Largest distance of the two widths between which two ramp models change places, per cent.
     pub crossing_pct: Option<f64>,
     /// No widths are added closer than this, per cent.
     pub closest_pct: f64,
     /// Points added at most.
-    pub most_points: usize,
+    pub max_points: usize,
 }
 
 /// Settings of the store.
@@ -188,11 +189,11 @@ impl Study {
                 amplitude_min_g: view.number(fields::SEARCH_AMPLITUDE_G_MIN.path()),
                 amplitude_max_g: view.number(fields::SEARCH_AMPLITUDE_G_MAX.path()),
                 tolerance_pct: view.number(fields::SEARCH_TOLERANCE_PCT.path()),
-                certify: view.get(&fields::SEARCH_CERTIFY),
-                max_gap_pct: view.number(fields::SEARCH_MAX_GAP_PCT.path()),
-                error_bars: view.get(&fields::SEARCH_ERROR_BARS),
-                climbs: view.get(&fields::SEARCH_CLIMBS),
-                refine: refine(&view),
+                monotonicity_scan: view.get(&fields::SEARCH_MONOTONICITY_SCAN),
+                scan_gap_pct: view.number(fields::SEARCH_SCAN_GAP_PCT.path()),
+                uncertainty: view.get(&fields::SEARCH_UNCERTAINTY),
+                max_refinements: view.get(&fields::SEARCH_MAX_REFINEMENTS),
+                added_points: added_points(&view),
             },
             output: OutputSettings {
                 keep_histories: view.get(&fields::OUTPUT_KEEP_HISTORIES),
@@ -233,13 +234,13 @@ impl Study {
     /// Which discretisation parameters are values of the model; `None` where all are refined.
     pub fn not_refined(&self) -> Option<String> {
         let scene = &self.points.first()?.scene;
-        let value = |knob: &Knob| match knob {
-            Knob::FilmGrid => format!("{} film cells", scene.film_resolution.cells),
-            Knob::DiskModes => {
+        let value = |discretisation: &Discretisation| match discretisation {
+            Discretisation::FilmGrid => format!("{} film cells", scene.film_resolution.cells),
+            Discretisation::DiskModes => {
                 let cut_khz = scene.disk_resolution.cut_hz / 1e3;
                 format!("disk modes to {cut_khz} kHz")
             }
-            Knob::SuspensionModes => {
+            Discretisation::SuspensionModes => {
                 let count = scene.head_resolution.suspension_modes;
                 format!("{count} suspension modes")
             }
@@ -284,8 +285,7 @@ impl Study {
         points::table_order(&self.points, &self.axes)
     }
 
-    /// The study with points added at other widths, each like one of [`Study::points`], in the
-    /// round after the last.
+    /// The study with points added at other widths, each like one of [`Study::points`], in the next round.
     #[must_use]
     pub fn with_widths(mut self, added: impl IntoIterator<Item = (usize, f64)>) -> Self {
         let last = self.points.iter().map(|point| point.round).max();
@@ -309,17 +309,17 @@ impl Study {
 }
 
 /// How widths are added, if they are.
-fn refine(view: &View<'_>) -> Option<RefineSettings> {
-    let most_points = view.get(&fields::SEARCH_REFINE_MOST_POINTS);
-    let refine = RefineSettings {
-        tolerance_pct: view.maybe_number(fields::SEARCH_REFINE_TOLERANCE_PCT.path()),
-        crossing_pct: view.maybe_number(fields::SEARCH_REFINE_CROSSING_PCT.path()),
+fn added_points(view: &View<'_>) -> Option<AddedPointsSettings> {
+    let max_points = view.get(&fields::SEARCH_ADDED_POINTS_MAX_POINTS);
+    let added = AddedPointsSettings {
+        tolerance_pct: view.maybe_number(fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path()),
+        crossing_pct: view.maybe_number(fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path()),
         closest_pct: view
-            .maybe_number(fields::SEARCH_REFINE_CLOSEST_PCT.path())
+            .maybe_number(fields::SEARCH_ADDED_POINTS_CLOSEST_PCT.path())
             .unwrap_or(2.0),
-        most_points: most_points.unwrap_or(60),
+        max_points: max_points.unwrap_or(60),
     };
-    (refine.tolerance_pct.is_some() || refine.crossing_pct.is_some()).then_some(refine)
+    (added.tolerance_pct.is_some() || added.crossing_pct.is_some()).then_some(added)
 }
 
 /// Checks a number of worker threads.

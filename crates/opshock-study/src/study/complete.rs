@@ -1,4 +1,4 @@
-//! Completing what a study file says: choices, defaults, and what is missing.
+//! Completes the settings read from a study file: alternatives, defaults, and an error for every missing key.
 
 use super::datum::Datum;
 use super::fault::StudyError;
@@ -27,7 +27,7 @@ pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
     }
     included::pulse_table(reader, location);
     defaults(reader);
-    // Its slot is compared with the disk's thickness.
+    // The gap between its contacts is compared with the disk's thickness.
     ramp_mesh::read(reader, location);
     for of in std::iter::once("").chain(heads.iter().map(String::as_str)) {
         imported_suspension::read(reader, location, of);
@@ -118,7 +118,7 @@ fn settle_choices(reader: &mut Reader, of: &str) {
     }
 }
 
-/// Fills in what the study leaves out.
+/// Fills in the defaults of keys that the study does not set.
 fn defaults(reader: &mut Reader) {
     let unchosen = |reader: &Reader, path: &str| {
         CHOICES.iter().any(|choice| {

@@ -1,4 +1,4 @@
-//! One value of a key, as a study gives it.
+//! One value of a key of the study file.
 
 /// One value of a key.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Two resolved studies key by key.
+//! Compares two resolved studies (every setting written out with its default) key by key.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The study `opshock new` writes.
+//! Writes the study that `opshock new` prints.
 
 /// A short, valid study with a name.
 pub fn text(name: &str) -> String {
@@ -17,7 +17,7 @@ pub fn text(name: &str) -> String {
 # Everything left out has a default; `opshock check --resolved` lists them all,
 # `opshock schema` explains them.
 
-study_format = 1
+study_format = 2
 name = "{name}"
 
 [pulse]

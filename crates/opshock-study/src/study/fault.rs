@@ -1,4 +1,4 @@
-//! What is wrong with a study, where, and what would be right.
+//! A fault of a study: what is wrong, where, and what would be valid.
 //!
 //! A message has a stable code, file, line and column, the key, the value found, what is allowed
 //! and a hint. E... are errors, W... warnings (they stop batch runs unless accepted by code),
@@ -257,8 +257,7 @@ impl miette::Diagnostic for Shown<'_> {
 pub struct StudyErrors {
     /// The faults listed, at most [`MAX_LISTED`].
     pub errors: Vec<StudyError>,
-    /// How many more were found. Of many combinations of axes only so many are looked at that some
-    /// thousand faults are known.
+    /// How many more were found. Once some thousand are known, no further combination of axes is checked.
     pub unlisted: usize,
 }
 

@@ -1,7 +1,7 @@
 //! A key of the study file with the Rust type of its value.
 //!
-//! `fields!` makes of one line the key, the constant by which code reads it, and, where the value goes into a scene
-//! as it is, its place there. A key of another kind than its type does not compile.
+//! From one line `fields!` makes the key and the constant by which code reads it. Where the value goes into a scene
+//! unchanged, the line names its place there. A key of another kind than its type does not compile.
 
 use std::marker::PhantomData;
 
@@ -12,9 +12,9 @@ use super::words::names;
 use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
-use opshock_solver::scene::accuracy::Rung;
-use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::Output;
+use opshock_solver::scene::preset::Preset;
 
 /// A key whose value is a `T`.
 pub struct Field<T> {
@@ -40,7 +40,7 @@ impl<T: Value> Field<T> {
     /// When compiled: if the key's values are of another kind than `T`, or may be absent and `T` may not.
     pub(super) const fn of(key: Key) -> Self {
         assert!(T::IS.fits(key.kind), "the key's kind is not the field's");
-        let may_be_absent = matches!(key.presence, Presence::Optional(_) | Presence::Rung);
+        let may_be_absent = matches!(key.presence, Presence::Optional(_) | Presence::ByPreset);
         assert!(T::MAY_BE_ABSENT || !may_be_absent, "the key may be absent");
         Self {
             key,
@@ -250,18 +250,18 @@ named! {
     super::words::RailKind: super::words::RAIL_KINDS;
     super::words::LengthUnit: super::words::LENGTH_UNITS;
     super::words::Faces: super::words::FACES;
-    super::words::Certify: super::words::CERTIFY;
+    crate::search::MonotonicityScan: super::words::MONOTONICITY_SCAN;
     super::words::Effects: super::words::EFFECTS;
     super::words::KeepHistories: super::words::KEEP_HISTORIES;
     FlowModel: super::words::FLOWS;
     Coupling: super::words::COUPLINGS;
-    Rung: super::words::RUNGS;
+    Preset: super::words::PRESETS;
     Units: Units::WORDS;
     super::words::Ramp: super::words::RAMPS;
-    super::words::Sign: super::words::SIGNS;
+    crate::search::Sign: super::words::SIGNS;
     super::words::LeftOut: super::words::LEAVE_OUT;
     Output: super::words::OUTPUTS;
-    Knob: super::words::DISCRETISATION;
+    Discretisation: super::words::DISCRETISATION;
 }
 
 /// What is read as a part of the settings, empty where there is none.
@@ -312,7 +312,7 @@ macro_rules! fields {
         /// The table as it is written here.
         pub(super) static TABLE: &[Key] = &[$($name.key),*];
 
-        /// Brings each value that goes into a scene as it is to its place; what may be absent and is leaves the place alone.
+        /// Writes each value that goes into a scene unchanged to its place; an absent value leaves the place alone.
         pub(super) static PLACES: &[(&str, fn(&View<'_>, &mut Scene))] = &[$($(
             ($name.path(), |view, $scene| {
                 if let Some(value) = view.given(&$name) {

@@ -11,18 +11,18 @@
 use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::disk::HubParameters;
-use opshock_solver::scene::accuracy::Rung;
-use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::Output;
+use opshock_solver::scene::preset::Preset;
 use opshock_solver::scene::{Coupling, Scene};
 
 use super::field::{Corners, Field, Many, Named, Numbers, Pair, Tables, Text, fields};
 use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, open};
 use super::settings::View;
 use super::words::{
-    self, Certify, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, Ramp, RunOut,
-    Shape, Sign,
+    self, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, Ramp, RunOut, Shape,
 };
+use crate::search::{MonotonicityScan, Sign};
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
 
 const RATIO: Kind = Number(FROM_ZERO);
@@ -33,7 +33,7 @@ fn hub(scene: &mut Scene) -> &mut HubParameters {
 }
 
 fields! {
-    STUDY_FORMAT: i64 = Key::required("study_format", Integer(1, 1), "1", "Version of the study file's format.");
+    STUDY_FORMAT: i64 = Key::required("study_format", Integer(2, 2), "2", "Version of the study file's format.");
     NAME: Text = Key::required("name", Kind::Text, "\"Fig. 13: three ramp models\"", "Name of the study, printed on every product.");
     OUTPUTS: Many<Output> = Key::or("outputs", Output::KIND_OF_MANY, "[\"critical_shock\"]", "What is wanted; only the effects these need are simulated.").code("E158");
     // heads
@@ -164,7 +164,7 @@ fields! {
     RAMP_DEFORMABLE_COUPLED_MODES_BOTTOM_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass.");
     RAMP_DEFORMABLE_COUPLED_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base.");
     RAMP_DEFORMABLE_COUPLED_MODES_DAMPING_RATIO: Option<f64> = Key::optional("ramp.deformable.coupled_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132");
-    RAMP_DEFORMABLE_PRONY: Tables = Key::optional("ramp.deformable.prony", Kind::Tables, "elastic modes", "[{ share = 0.02, time_ms = 0.1 }, { share = 0.03, time_ms = 0.01 }, { share = 0.05, time_ms = 0.001 }]", "Prony series by which the stiffness of every mode relaxes; frequencies are those of the instantaneous modulus. Damping ratios count beside it.").code("E132");
+    RAMP_DEFORMABLE_PRONY: Tables = Key::optional("ramp.deformable.prony", Kind::Tables, "elastic modes", "[{ share = 0.02, time_ms = 0.1 }, { share = 0.03, time_ms = 0.01 }, { share = 0.05, time_ms = 0.001 }]", "Prony series by which the stiffness of every mode relaxes; frequencies are those of the instantaneous modulus. Damping ratios add to it.").code("E132");
     RAMP_DEFORMABLE_PRONY_SHARE: f64 = Key::required("ramp.deformable.prony[].share", Number(open(0.0, 1.0)), "0.02", "Share of the instantaneous modulus that relaxes; the sum stays below 1.").code("E132");
     RAMP_DEFORMABLE_PRONY_TIME_MS: f64 = Key::required("ramp.deformable.prony[].time_ms", LENGTH, "0.1", "Relaxation time.").usual(1e-4, 1e3).code("E132");
     RAMP_DEFORMABLE_DAMPING_RATIO: f64 = Key::or("ramp.deformable.damping_ratio", RATIO, "0.02", "Damping ratio of the arms' modes.").code("E132");
@@ -255,34 +255,37 @@ fields! {
     SEARCH_AMPLITUDE_G_MIN: f64 = Key::or("search.amplitude_g.min", Number(ABOVE_ZERO), "20.0", "Lowest amplitude tried.").usual(0.1, 1e4).code("E156");
     SEARCH_AMPLITUDE_G_MAX: f64 = Key::or("search.amplitude_g.max", Number(ABOVE_ZERO), "2000.0", "Highest amplitude tried.").usual(1.0, 1e5).code("E156");
     SEARCH_TOLERANCE_PCT: f64 = Key::or("search.tolerance_pct", Number(closed(1e-6, 50.0)), "1.0", "Width of the final bracket.").usual(0.01, 20.0).code("E156");
-    SEARCH_CERTIFY: Certify = Key::or("search.certify", Certify::KIND, "\"staggered\"", "How far the evidence below the lowest failure reaches.");
-    SEARCH_MAX_GAP_PCT: f64 = Key::or("search.max_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest untested gap below the lowest failure.").code("E156");
-    SEARCH_ERROR_BARS: bool = Key::or("search.error_bars", Flag, "true", "Adds to each critical shock what the resolution contributes to its error.");
-    SEARCH_CLIMBS: u8 = Key::or("search.climbs", Integer(0, 100), "3", "Times that a point whose error bar exceeds the accuracy is answered anew on finer knobs.");
-    SEARCH_REFINE_TOLERANCE_PCT: Option<f64> = Key::optional("search.refine.tolerance_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until straight lines between the answers of a ramp model are this good.").usual(1.0, 50.0).code("E156");
-    SEARCH_REFINE_CROSSING_PCT: Option<f64> = Key::optional("search.refine.crossing_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until those between which two ramp models change places are this close.").usual(1.0, 50.0).code("E156");
-    SEARCH_REFINE_CLOSEST_PCT: Option<f64> = Key::optional("search.refine.closest_pct", Number(above(0.0, 100.0)), "2", "2.0", "No widths are added closer than this.").usual(0.5, 50.0).code("E156");
-    SEARCH_REFINE_MOST_POINTS: Option<usize> = Key::optional("search.refine.most_points", Integer(1, 100_000), "60", "60", "Points added at most.");
+    SEARCH_MONOTONICITY_SCAN: MonotonicityScan = Key::or("search.monotonicity_scan", MonotonicityScan::KIND, "\"sampled\"", "Which amplitudes below the lowest failure are simulated, to see that none of them fails: all (full), some (sampled), none (off).");
+    SEARCH_SCAN_GAP_PCT: f64 = Key::or("search.scan_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest gap between the amplitudes that a sampled scan simulates.").code("E156");
+    SEARCH_UNCERTAINTY: bool = Key::or("search.uncertainty", Flag, "true", "Gives each critical shock its uncertainty interval.");
+    SEARCH_TARGET_UNCERTAINTY_PCT: Option<f64> = Key::optional("search.target_uncertainty_pct", Number(above(0.0, 100.0)), "that of the preset: 5, 1, 0.1", "1.0", "Uncertainty wanted of each critical shock: a point that misses it is refined.").usual(0.05, 20.0).code("E156");
+    SEARCH_MAX_REFINEMENTS: u8 = Key::or("search.max_refinements", Integer(0, 100), "3", "Times that a point which misses the target uncertainty is refined and answered anew.");
+    SEARCH_ADDED_POINTS_TOLERANCE_PCT: Option<f64> = Key::optional("search.added_points.tolerance_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until straight lines between the answers of a ramp model are this good.").usual(1.0, 50.0).code("E156");
+    SEARCH_ADDED_POINTS_CROSSING_PCT: Option<f64> = Key::optional("search.added_points.crossing_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until those between which two ramp models change places are this close.").usual(1.0, 50.0).code("E156");
+    SEARCH_ADDED_POINTS_CLOSEST_PCT: Option<f64> = Key::optional("search.added_points.closest_pct", Number(above(0.0, 100.0)), "2", "2.0", "No widths are added closer than this.").usual(0.5, 50.0).code("E156");
+    SEARCH_ADDED_POINTS_MAX_POINTS: Option<usize> = Key::optional("search.added_points.max_points", Integer(1, 100_000), "60", "60", "Points added at most.");
     // solver
-    SOLVER_ACCURACY: Rung = Key::or("solver.accuracy", Rung::KIND, "\"1%\"", "Accuracy of the critical shock: sets every resolution not given here.").code("E157");
     SOLVER_EFFECTS: Effects = Key::or("solver.effects", Effects::KIND, "\"auto\"", "auto simulates only what the outputs need.").fixed();
     SOLVER_LEAVE_OUT: Many<LeftOut> = Key::or("solver.leave_out", LeftOut::KIND_OF_MANY, "[]", "Effects left out by hand; refused when an output needs them.");
-    SOLVER_COUPLING: Option<Coupling> = Key::rung("solver.coupling", Coupling::KIND, "\"monolithic\"", "How film and slider are solved together.") => |scene| scene.head_resolution.coupling;
-    SOLVER_FAIL_BELOW_NM: f64 = Key::or("solver.fail_below_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0) => |scene| scene.fail_below_m;
-    SOLVER_MAX_STEPS: Option<u64> = Key::rung("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided.") => |scene| scene.head_resolution.max_steps;
-    SOLVER_DISK_CUT_KHZ: Option<f64> = Key::rung("solver.disk_cut_khz", LENGTH, "30.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0) => |scene| scene.disk_resolution.cut_hz;
-    SOLVER_NOT_REFINED: Many<Knob> = Key::optional("solver.not_refined", Knob::KIND_OF_MANY, "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: no error bar counts them, no refinement changes them.");
-    SOLVER_DISK_HARMONICS: Option<usize> = Key::rung("solver.disk_harmonics", Integer(1, 2000), "40", "Largest number of nodal diameters.") => |scene| scene.disk_resolution.n_harmonics;
-    SOLVER_DISK_ELEMENTS: Option<usize> = Key::rung("solver.disk_elements", Integer(2, 5000), "40", "Radial finite elements of the disk.") => |scene| scene.disk_resolution.n_elements;
-    SOLVER_STATIC_CORRECTION: Option<bool> = Key::rung("solver.static_correction", Flag, "true", "Adds the residual flexibility of the ramp point.") => |scene| scene.disk_resolution.static_correction;
-    SOLVER_STRUCTURE_STEP_US: Option<f64> = Key::rung("solver.structure_step_us", LENGTH, "0.5", "Step on which disk and ramp are stored and contact is resolved.").usual(1e-3, 20.0) => |scene| scene.structure_resolution.step_s;
-    SOLVER_HEAD_TOLERANCE: Option<f64> = Key::rung("solver.head_tolerance", Number(open(0.0, 1.0)), "1.0e-3", "Relative local error of the clearance per step.").usual(1e-9, 0.1) => |scene| scene.head_resolution.tolerance;
-    SOLVER_APPROACH_SHARE: Option<f64> = Key::rung("solver.approach_share", Number(open(0.0, 1.0)), "0.25", "Largest share of the clearance closed in one step.") => |scene| scene.head_resolution.approach_share;
-    SOLVER_FILM_CELLS: Option<usize> = Key::rung("solver.film_cells", Integer(16, 4_000_000), "2000", "Wanted number of film cells.") => |scene| scene.film_resolution.cells;
-    SOLVER_FILM_REFERENCE_CELLS: Option<usize> = Key::rung("solver.film_reference_cells", Integer(0, 1_000_000), "1000", "Cells of the grid that, cut finer, tells what the film's own leaves out (2000 at least for a skewed slider); 0: nothing is added, as where film_cells is set alone.") => |scene| scene.film_resolution.reference_cells;
-    SOLVER_FILM_FLOOR_NM: Option<f64> = Key::rung("solver.film_floor_nm", LENGTH, "0.3", "Floor of the height the film sees.").usual(0.01, 5.0) => |scene| scene.film_resolution.floor_m;
-    SOLVER_COUPLING_TOLERANCE: Option<f64> = Key::rung("solver.coupling_tolerance", Number(open(0.0, 0.1)), "1.0e-6", "Relative residual of the coupled solve; a hundredth of head_tolerance when that is set alone.").usual(1e-12, 1e-2) => |scene| scene.head_resolution.coupling_tolerance;
-    SOLVER_SUSPENSION_MODES: Option<usize> = Key::rung("solver.suspension_modes", Integer(1, 200), "16", "Modes of the suspension kept above the pinned dimple.") => |scene| scene.head_resolution.suspension_modes;
+    SOLVER_COUPLING: Option<Coupling> = Key::by_preset("solver.coupling", Coupling::KIND, "\"monolithic\"", "How film and slider are solved together.") => |scene| scene.head_resolution.coupling;
+    SOLVER_MAX_STEPS: Option<u64> = Key::by_preset("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided.") => |scene| scene.head_resolution.max_steps;
+    // resolution
+    RESOLUTION_PRESET: Preset = Key::or("resolution.preset", Preset::KIND, "\"standard\"", "Named set of discretisation parameters: gives those that are not set here.").code("E157");
+    RESOLUTION_DISK_CUT_KHZ: Option<f64> = Key::by_preset("resolution.disk_cut_khz", LENGTH, "240.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0) => |scene| scene.disk_resolution.cut_hz;
+    RESOLUTION_NOT_REFINED: Many<Discretisation> = Key::optional("resolution.not_refined", Discretisation::KIND_OF_MANY, "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: they contribute to no uncertainty interval, and no refinement changes them.");
+    RESOLUTION_DISK_HARMONICS: Option<usize> = Key::by_preset("resolution.disk_harmonics", Integer(1, 2000), "112", "Largest number of nodal diameters.") => |scene| scene.disk_resolution.n_harmonics;
+    RESOLUTION_DISK_ELEMENTS: Option<usize> = Key::by_preset("resolution.disk_elements", Integer(2, 5000), "80", "Radial finite elements of the disk.") => |scene| scene.disk_resolution.n_elements;
+    RESOLUTION_STATIC_CORRECTION: Option<bool> = Key::by_preset("resolution.static_correction", Flag, "true", "Adds the residual flexibility of the ramp point.") => |scene| scene.disk_resolution.static_correction;
+    RESOLUTION_STRUCTURE_STEP_US: Option<f64> = Key::by_preset("resolution.structure_step_us", LENGTH, "0.25", "Step on which disk and ramp are stored and contact is resolved.").usual(1e-3, 20.0) => |scene| scene.structure_resolution.step_s;
+    RESOLUTION_HEAD_TOLERANCE: Option<f64> = Key::by_preset("resolution.head_tolerance", Number(open(0.0, 1.0)), "2.0e-2", "Relative local error of the clearance per step.").usual(1e-9, 0.1) => |scene| scene.head_resolution.tolerance;
+    RESOLUTION_APPROACH_SHARE: Option<f64> = Key::by_preset("resolution.approach_share", Number(open(0.0, 1.0)), "0.25", "Largest share of the clearance closed in one step.") => |scene| scene.head_resolution.approach_share;
+    RESOLUTION_FILM_CELLS: Option<usize> = Key::by_preset("resolution.film_cells", Integer(16, 4_000_000), "1000", "Wanted number of film cells.") => |scene| scene.film_resolution.cells;
+    RESOLUTION_FILM_CORRECTION_CELLS: Option<usize> = Key::by_preset("resolution.film_correction_cells", Integer(0, 1_000_000), "1000", "Cells of the defect-correction grid, whose forces correct those of the film (2000 at least for a skewed slider); 0: no correction, as where film_cells is set alone.") => |scene| scene.film_resolution.correction_cells;
+    RESOLUTION_MIN_FILM_HEIGHT_NM: Option<f64> = Key::by_preset("resolution.min_film_height_nm", LENGTH, "0.3", "Minimum film height, a regularisation: the height that the film sees does not fall below it.").usual(0.01, 5.0) => |scene| scene.film_resolution.min_height_m;
+    RESOLUTION_COUPLING_TOLERANCE: Option<f64> = Key::by_preset("resolution.coupling_tolerance", Number(open(0.0, 0.1)), "2.0e-4", "Relative residual of the coupled solve; a hundredth of head_tolerance when that is set alone.").usual(1e-12, 1e-2) => |scene| scene.head_resolution.coupling_tolerance;
+    RESOLUTION_SUSPENSION_MODES: Option<usize> = Key::by_preset("resolution.suspension_modes", Integer(1, 200), "32", "Modes of the suspension kept above the pinned dimple.") => |scene| scene.head_resolution.suspension_modes;
+    // failure
+    FAILURE_CLEARANCE_NM: f64 = Key::or("failure.clearance_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0) => |scene| scene.fail_below_m;
     // fields
     FIELDS_TIMES_MS: Numbers = Key::optional("fields.times_ms", Kind::Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152");
     // output

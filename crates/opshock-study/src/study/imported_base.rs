@@ -1,4 +1,4 @@
-//! A base plate given by another program's matrices: files to modes under the shock.
+//! Reduces a base plate given by another program's matrices to modes under the shock.
 //!
 //! As with a suspension, the files are read with the study, and the modes take their place in it. z is the disk's
 //! axis; spindle, ramp and pivot are nodes with displacement z (3).
@@ -72,7 +72,7 @@ pub fn read(reader: &mut Reader, location: &Location) {
         }
         return;
     }
-    // Matrices beside modes are told as given twice, and what is missing with everything else that is.
+    // Matrices beside modes are reported as given twice; missing keys are reported with all others.
     if reader.settings.has(MODES) {
         return;
     }

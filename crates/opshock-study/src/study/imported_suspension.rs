@@ -1,4 +1,4 @@
-//! A suspension given by another program's matrices: files to modes on the base.
+//! Reduces a suspension given by another program's matrices to modes on the base.
 //!
 //! As with a ramp's mesh, the files are read with the study, and the modes they reduce to take their
 //! place in it. The suspension reaches along x from its root to its tip, z is the disk's axis; the
@@ -86,7 +86,7 @@ pub fn read(reader: &mut Reader, location: &Location, of: &str) {
         }
         return;
     }
-    // What is missing of the three is told with everything else that is missing.
+    // A missing one of the three is reported with all other missing keys.
     if is_given != [true; 3] || !reader.settings.are_sound(&[&table]) {
         return;
     }

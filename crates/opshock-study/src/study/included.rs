@@ -1,4 +1,4 @@
-//! What a study takes from elsewhere: the surface's preset or file, the file of a sampled pulse.
+//! Reads what a study takes from elsewhere: the air-bearing surface (preset or file) and a sampled pulse (file).
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -218,8 +218,8 @@ pub enum Presence {
     Together(&'static str),
     /// May be absent; the text says what that means.
     Optional(&'static str),
-    /// Set by `solver.accuracy` when absent.
-    Rung,
+    /// Set by `resolution.preset` when absent.
+    ByPreset,
 }
 
 /// One key of the study file.
@@ -302,14 +302,14 @@ impl Key {
         key
     }
 
-    /// A key whose default comes from the accuracy rung.
-    pub const fn rung(
+    /// A key whose default comes from the resolution preset.
+    pub const fn by_preset(
         path: &'static str,
         kind: Kind,
         example: &'static str,
         help: &'static str,
     ) -> Self {
-        let mut key = Self::new(path, kind, Presence::Rung, help);
+        let mut key = Self::new(path, kind, Presence::ByPreset, help);
         key.example = example;
         key
     }
@@ -332,11 +332,11 @@ impl Key {
         self
     }
 
-    /// The same key in the list of heads; what an entry leaves out is the study's.
+    /// The same key in the list of heads; an entry without it takes the study's value.
     pub(super) fn of_a_head(&self) -> Self {
         let is_member = self.path.contains("[].");
         Self {
-            // A handful of paths, once in a program's life.
+            // A handful of paths, made once per process.
             path: String::leak(format!("heads[].{}", self.path)),
             presence: match is_member {
                 true => self.presence,
@@ -369,7 +369,7 @@ impl Key {
 
     /// Whether a list of values makes an axis of the study.
     pub fn may_be_axis(&self) -> bool {
-        const SCENE: [&str; 9] = [
+        const SCENE: [&str; 11] = [
             "pulse",
             "disk",
             "hub",
@@ -379,6 +379,8 @@ impl Key {
             "gas",
             "surface_forces",
             "solver",
+            "resolution",
+            "failure",
         ];
         self.kind.is_single()
             && SCENE.contains(&self.section())

@@ -1,4 +1,4 @@
-//! Keys by their path: those of the table ([`super::fields`]) and what a head may have of its own.
+//! Finds keys of the study file by path: those of the table ([`super::fields`]) and those a head may have of its own.
 
 use std::sync::LazyLock;
 

@@ -1,4 +1,4 @@
-//! Matrices of another program: from the files that a study names to what the solid crate reduces.
+//! Reads mass and stiffness matrices of another program, in SI, without the nodes that the base holds.
 
 use super::field::{Field, Numbers, Text};
 use super::settings::View;

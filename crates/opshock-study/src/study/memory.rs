@@ -1,4 +1,4 @@
-//! Memory that simulations need, and whether a machine has it.
+//! Estimates the memory that simulations need, and checks that a machine has it.
 //!
 //! Every number is a measured peak of resident memory less that of a program that does nothing, on x86-64 Linux;
 //! `tests/products/memory.rs` holds the estimates against such peaks.
@@ -21,8 +21,8 @@ const UNIT_RESPONSE: [f64; 2] = [190.0, 330.0];
 const MOTION: f64 = 48.0;
 /// The same of histories that are kept, and of what is written or drawn of them: 211 (HDF5), 325 (CSV), 535 (plots).
 const HISTORY: f64 = 450.0;
-/// Models with turned knobs that an error bar asks for, and that a sweep keeps.
-const TURNED: [usize; 2] = [9, 24];
+/// Models with changed discretisation parameters: of one uncertainty interval, and the most that a sweep keeps.
+const REFINED: [usize; 2] = [9, 24];
 
 /// Bytes that simulations need beyond those of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ impl Demand {
         // Pressure and height, once in the head's run and once in its outcome.
         let fields = 32.0 * cells * plan.field_times_s.len() as f64;
         let kept = if record { HISTORY * n + fields } else { 0.0 };
-        let reference = reference_bytes(film.reference_cells as f64);
+        let reference = reference_bytes(film.correction_cells as f64);
         Demand {
             models: 0.0,
             film: match plan.needs >= Needs::Flight {
@@ -58,7 +58,7 @@ impl Demand {
     /// The steady flight of a scene with its impedance.
     pub fn impedance(scene: &Scene) -> Demand {
         let film = &scene.film_resolution;
-        let reference = reference_bytes(film.reference_cells as f64);
+        let reference = reference_bytes(film.correction_cells as f64);
         Demand {
             film: (IMPEDANCE * (film.cells as f64).powf(1.5)).max(reference),
             ..Demand::default()
@@ -86,18 +86,18 @@ impl Demand {
         }
     }
 
-    /// A whole sweep: windows may be doubled, points refined to films of `finer` times the cells, and films held still
-    /// on finer ones yet.
+    /// A whole sweep: windows may be doubled, points refined to films of `finer` times the cells, and quasi-static
+    /// films computed on still finer grids.
     pub fn sweep(study: &Study, finer: f64) -> Demand {
         let search = &study.search;
         let mut all = Demand::models(study);
         let mut longest: f64 = 0.0;
         for point in &study.points {
             let film = &point.scene.film_resolution;
-            let (cells, reference) = (finer * film.cells as f64, film.reference_cells as f64);
+            let (cells, reference) = (finer * film.cells as f64, film.correction_cells as f64);
             all.film = all.film.max(film_bytes(cells));
-            if search.error_bars {
-                // A grid of twice the reference's cells, or the film's own, with every cell cut in four.
+            if search.uncertainty {
+                // Twice the cells of the defect-correction grid, or the film's own, with every cell cut in four.
                 let held = if reference > 0.0 {
                     8.0 * reference
                 } else {
@@ -112,12 +112,12 @@ impl Demand {
             let kept = if is_kept { HISTORY * n } else { 0.0 };
             all.steps = all.steps.max(2.0 * (model + MOTION * n) + kept);
         }
-        let turned = match search.error_bars {
-            true => TURNED[1].min(TURNED[0] * study.points.len()) as f64 * longest,
+        let changed = match search.uncertainty {
+            true => REFINED[1].min(REFINED[0] * study.points.len()) as f64 * longest,
             false => 0.0,
         };
         // Of every point the model of the doubled window is kept too.
-        all.models += 2.0 * all.models + turned;
+        all.models += 2.0 * all.models + changed;
         all
     }
 
@@ -152,8 +152,8 @@ impl Demand {
             ("-j", format!("-j {fitting} fits"))
         } else if self.film > self.steps.max(self.models) {
             let hint =
-                "take fewer film_cells or film_reference_cells, or a machine with more memory";
-            (fields::SOLVER_FILM_CELLS.path(), hint.to_owned())
+                "take fewer film_cells or film_correction_cells, or a machine with more memory";
+            (fields::RESOLUTION_FILM_CELLS.path(), hint.to_owned())
         } else {
             let hint = "take a shorter window_ms, a longer structure_step_us, fewer fields.times_ms or points, \
                         or a machine with more memory";

@@ -1,4 +1,4 @@
-//! Study files: reading, checking, axes, points.
+//! Reads study files, checks them and makes their points: every combination of the values on their axes.
 //!
 //! A study is TOML with a unit in every key. One table of keys ([`keys::KEYS`]) says what may
 //! stand in it; reading, messages, defaults, the JSON Schema and the resolved study all come from
@@ -40,6 +40,7 @@ mod ramp_mesh;
 mod ramp_remeshed;
 mod ramp_solid;
 mod read;
+mod renamed;
 mod resolved;
 pub mod samples;
 mod scene;
@@ -56,7 +57,8 @@ pub mod unit;
 mod validity;
 mod words;
 
-pub use checked::{OutputSettings, RefineSettings, SearchSettings, Study, check_threads};
+pub use crate::search::Sign;
+pub use checked::{AddedPointsSettings, OutputSettings, SearchSettings, Study, check_threads};
 pub use fault::{Severity, StudyError, StudyErrors};
 pub use overlay::Override;
 pub use points::{Axis, AxisValue, Point};
@@ -65,6 +67,4 @@ pub use ramp_remeshed::RemeshedRamp;
 pub use resolved::{digest_of, number_at};
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
 pub use set_arg::{SetArg, SetSyntaxError};
-pub use words::{
-    Certify, Effects, Faces, KeepHistories, LeftOut, Ramp, Sign, coupling_word, rung_word,
-};
+pub use words::{Effects, Faces, KeepHistories, LeftOut, Ramp, coupling_word, preset_word};

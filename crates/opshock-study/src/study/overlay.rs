@@ -1,4 +1,4 @@
-//! The command line laid over a study file: its values win, and what they replace is recorded.
+//! Lays the settings of the command line over a study file: they win, and the values they replace are recorded.
 
 use super::fault::StudyError;
 use super::keys;
@@ -12,7 +12,7 @@ pub struct Override {
     pub key: String,
     /// Value in the file, as written; empty when the file did not have the key.
     pub file_value: String,
-    /// Value that counts, as written on the command line; empty when the key was taken away.
+    /// Value that replaces it, as written on the command line; empty when the key was taken away.
     pub set_value: String,
 }
 

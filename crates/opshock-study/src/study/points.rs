@@ -1,9 +1,8 @@
-//! Axes and points, in the canonical order of the search and the natural order of tables.
+//! Makes the axes and points of a study, in the canonical order of the search and the natural order of tables.
 
 use std::collections::HashMap;
 
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::accuracy::Rung;
 
 use super::datum::Datum;
 use super::fault::{Severity, StudyError};
@@ -15,8 +14,9 @@ use super::scene;
 use super::settings::{Settings, View};
 use super::unit;
 use super::validity::{Check, PointRules};
-use super::words::{Faces, Ramp, Sign};
+use super::words::{Faces, Ramp};
 use crate::identity::CellId;
+use crate::search::Sign;
 
 /// A value on an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,20 +92,20 @@ pub struct Point {
     pub faces: Faces,
     /// What a running-out disk takes of the ramp's gaps, within the scene, m; 0 unless asked for.
     pub gap_taken_m: f64,
-    /// Accuracy asked for.
-    pub accuracy: Rung,
+    /// Uncertainty wanted of the critical shock, a share of it.
+    pub target_uncertainty: f64,
     /// Column and value on every further axis, in axis order.
     pub axes: Vec<(String, AxisValue)>,
     /// The scene as the head sees it, with z from the disk to the head.
     pub scene: Scene,
     /// Its ramp on other meshes; `None` for one that is no solid.
     pub remeshed: Option<RemeshedRamp>,
-    /// Round of refinement that added the width, 0 for the study's own.
+    /// Round that added the width, 0 for the study's own.
     pub round: u32,
 }
 
 impl Point {
-    /// Sign of the scene's amplitude: the shock's, turned for a head that faces up.
+    /// Sign of the scene's amplitude: the shock's, reversed for a head that faces up.
     pub fn factor(&self) -> f64 {
         self.sign.factor() * self.faces.factor()
     }
@@ -355,7 +355,12 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
         sign,
         faces,
         gap_taken_m: scene::gap_taken_m(view),
-        accuracy: scene::rung(view),
+        target_uncertainty: view
+            .get(&fields::SEARCH_TARGET_UNCERTAINTY_PCT)
+            .map_or_else(
+                || scene::preset(view).target_uncertainty(),
+                |pct| 1e-2 * pct,
+            ),
         axes: axes
             .iter()
             .filter_map(|axis| {
@@ -369,7 +374,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
     }
 }
 
-/// The point `like` at another width, added in a round of refinement.
+/// The point `like` at another width, added in a later round.
 pub fn at_width(settings: &Settings, like: &Point, pulse_ms: f64, round: u32) -> Point {
     let axes = axes(settings);
     let mut found = None;

@@ -1,6 +1,6 @@
-//! Plane polygons: area, order of corners, crossing edges.
+//! Geometry of plane polygons: area, order of corners, crossing edges.
 
-/// Twice the area would be the cross-product sum; this is the area, positive counter-clockwise.
+/// Area, half the sum of cross products; positive counter-clockwise.
 pub fn signed_area(corners: &[[f64; 2]]) -> f64 {
     let n = corners.len();
     0.5 * (0..n)

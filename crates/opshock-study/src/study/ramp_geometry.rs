@@ -1,4 +1,4 @@
-//! A deformable ramp given by its geometry: settings to oscillators.
+//! Reduces a deformable ramp given by its geometry to oscillators: finite elements, then their modes.
 //!
 //! The oscillators are rounded to nine digits: those of two machines differ by the rounding of
 //! different vector instructions, and the same study must be the same study on both.
@@ -93,7 +93,7 @@ pub fn solid_ramp(view: &View<'_>) -> SolidRamp {
             *field(&mut geometry) = length_m;
         }
     }
-    // The rim stands in the middle of the slot.
+    // The rim stands midway between the contacts.
     let half_disk_m = 0.5 * view.get(&fields::DISK_THICKNESS_MM);
     let clearance_m = |side: &Field<Option<f64>>| {
         let own_m = view.get(side);
@@ -249,7 +249,7 @@ mod tests {
 
     fn study(lines: &str) -> Study {
         let text = format!(
-            "study_format = 1\nname = \"a\"\noutputs = [\"contact_force\"]\n\
+            "study_format = 2\nname = \"a\"\noutputs = [\"contact_force\"]\n\
              [pulse]\nwidths_ms = [1.0]\nsigns = [\"+\"]\n\
              [ramp]\nmodels = [\"deformable\"]\n{lines}"
         );

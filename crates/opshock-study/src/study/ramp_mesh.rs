@@ -1,8 +1,8 @@
-//! A deformable ramp given by a mesh of the user: a file of Gmsh to oscillators.
+//! Reduces a deformable ramp given by a mesh of the user, a file of Gmsh, to oscillators.
 //!
 //! The file is read with the study, so that what is simulated, stored and compared is the ramp as it
 //! was then: its oscillators take the place of the table, as samples take that of a pulse's file.
-//! They are rounded as those of a geometry are.
+//! They are rounded to nine digits, as those of a ramp given by its geometry.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -50,7 +50,7 @@ pub const MODES: &str = fields::RAMP_DEFORMABLE_COUPLED_MODES.path();
 const MOST_NODES: usize = 25_000;
 /// Longest edge of the box around a ramp, m.
 const SIZE_M: std::ops::RangeInclusive<f64> = 0.5e-3..=0.1;
-/// Difference between slot and disk with clearances that is told, m.
+/// Difference between the contacts' gap and disk with clearances from which on a note says so, m.
 const SLOT_M: f64 = 2e-6;
 
 /// Reads the mesh a study names, if it wants a deformable ramp, into the list of oscillators.
@@ -97,7 +97,7 @@ pub fn read(reader: &mut Reader, location: &Location) {
                     StudyError::at("N208", &place, file_key, message)
                         .value(place.text())
                         .hint(
-                            "the study's clearances count; the mesh gives only how the ramp moves",
+                            "the study's clearances are used; the mesh gives only how the ramp moves",
                         ),
                 );
             }

@@ -1,4 +1,4 @@
-//! A ramp from geometry on finer and coarser meshes: what the mesh's part of an error bar is made of.
+//! Meshes a ramp given by its geometry finer and coarser, for the mesh's contribution to an uncertainty interval.
 
 use super::fields;
 use super::ramp_geometry;
@@ -67,7 +67,7 @@ mod tests {
     fn the_mesh_of_the_study_lies_between_a_coarser_and_a_finer_one() {
         let facing = |size: &str, faces: &str| {
             let text = format!(
-                "study_format = 1\nname = \"a\"\noutputs = [\"contact_force\"]\n\
+                "study_format = 2\nname = \"a\"\noutputs = [\"contact_force\"]\n\
                  [pulse]\nwidths_ms = [1.0]\nsigns = [\"+\"]\n\
                  [ramp]\nmodels = [\"rigid\", \"deformable\"]\n\
                  [ramp.deformable.geometry]\nmaterial = \"POM\"\nmesh_size_mm = {size}\n\

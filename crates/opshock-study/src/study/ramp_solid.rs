@@ -1,4 +1,4 @@
-//! The solid behind a study's deformable ramp, where the study gives one.
+//! Gives the finite elements of a study's deformable ramp, where the study has a geometry or a mesh of it.
 
 use super::checked::Study;
 use super::fault::{StudyError, StudyErrors};

@@ -1,5 +1,5 @@
-//! `study.resolved.toml`: every setting with its default, in the order of the table of keys; and
-//! the digest of a study.
+//! Writes `study.resolved.toml`, every setting with its default in the order of the table of keys, and
+//! computes the digest of a study from it.
 //!
 //! The text is itself a study: reading it gives the same points and the same digest. Numbers are
 //! written with the shortest digits that read back to the same bits.
@@ -146,7 +146,7 @@ fn hash(resolved: &str) -> blake3::Hash {
     hasher.finalize()
 }
 
-/// TOML of the value at a path: what was set, or what the accuracy rung stands for.
+/// TOML of the value at a path: what was set, or what the resolution preset gives.
 fn value_at(settings: &Settings, path: &str) -> Option<String> {
     if let Some(setting) = settings.get(path) {
         return Some(if setting.is_axis {
@@ -165,24 +165,24 @@ fn value_at(settings: &Settings, path: &str) -> Option<String> {
     }
     let key = keys::find(path)?;
     let is_axis = |path| settings.get(path).is_some_and(|setting| setting.is_axis);
-    let follows_axis = is_axis(fields::SOLVER_ACCURACY.path())
-        || path == fields::SOLVER_COUPLING_TOLERANCE.path()
-            && is_axis(fields::SOLVER_HEAD_TOLERANCE.path())
-        || path == fields::SOLVER_FILM_REFERENCE_CELLS.path() && has_skews(settings);
-    (key.presence == Presence::Rung && !follows_axis)
-        .then(|| rung_value(settings, path))
+    let follows_axis = is_axis(fields::RESOLUTION_PRESET.path())
+        || path == fields::RESOLUTION_COUPLING_TOLERANCE.path()
+            && is_axis(fields::RESOLUTION_HEAD_TOLERANCE.path())
+        || path == fields::RESOLUTION_FILM_CORRECTION_CELLS.path() && has_skews(settings);
+    (key.presence == Presence::ByPreset && !follows_axis)
+        .then(|| preset_value(settings, path))
         .flatten()
 }
 
-/// Whether points differ in their skew, on which the film's reference depends.
+/// Whether points differ in their skew, on which the defect-correction grid depends.
 fn has_skews(settings: &Settings) -> bool {
     const SKEW: &str = fields::SLIDER_SKEW_DEG.path();
     let is_axis = settings.get(SKEW).is_some_and(|setting| setting.is_axis);
     is_axis || settings.per_head().any(|own| own == SKEW)
 }
 
-/// A value the rung gives, back in the unit of its key.
-fn rung_value(settings: &Settings, path: &str) -> Option<String> {
+/// A value the preset gives, back in the unit of its key.
+fn preset_value(settings: &Settings, path: &str) -> Option<String> {
     let view = View::first(settings);
     let base = scene::resolutions(&view);
     let values = [
@@ -195,51 +195,51 @@ fn rung_value(settings: &Settings, path: &str) -> Option<String> {
             base.head.max_steps.to_string(),
         ),
         (
-            fields::SOLVER_DISK_CUT_KHZ.path(),
+            fields::RESOLUTION_DISK_CUT_KHZ.path(),
             number(base.disk.cut_hz / 1e3),
         ),
         (
-            fields::SOLVER_DISK_HARMONICS.path(),
+            fields::RESOLUTION_DISK_HARMONICS.path(),
             base.disk.n_harmonics.to_string(),
         ),
         (
-            fields::SOLVER_DISK_ELEMENTS.path(),
+            fields::RESOLUTION_DISK_ELEMENTS.path(),
             base.disk.n_elements.to_string(),
         ),
         (
-            fields::SOLVER_STATIC_CORRECTION.path(),
+            fields::RESOLUTION_STATIC_CORRECTION.path(),
             base.disk.static_correction.to_string(),
         ),
         (
-            fields::SOLVER_STRUCTURE_STEP_US.path(),
+            fields::RESOLUTION_STRUCTURE_STEP_US.path(),
             number(nearest(base.structure.step_s, 1e6)),
         ),
         (
-            fields::SOLVER_HEAD_TOLERANCE.path(),
+            fields::RESOLUTION_HEAD_TOLERANCE.path(),
             number(base.head.tolerance),
         ),
         (
-            fields::SOLVER_APPROACH_SHARE.path(),
+            fields::RESOLUTION_APPROACH_SHARE.path(),
             number(base.head.approach_share),
         ),
         (
-            fields::SOLVER_FILM_CELLS.path(),
+            fields::RESOLUTION_FILM_CELLS.path(),
             base.film.cells.to_string(),
         ),
         (
-            fields::SOLVER_FILM_REFERENCE_CELLS.path(),
-            base.film.reference_cells.to_string(),
+            fields::RESOLUTION_FILM_CORRECTION_CELLS.path(),
+            base.film.correction_cells.to_string(),
         ),
         (
-            fields::SOLVER_FILM_FLOOR_NM.path(),
-            number(nearest(base.film.floor_m, 1e9)),
+            fields::RESOLUTION_MIN_FILM_HEIGHT_NM.path(),
+            number(nearest(base.film.min_height_m, 1e9)),
         ),
         (
-            fields::SOLVER_COUPLING_TOLERANCE.path(),
+            fields::RESOLUTION_COUPLING_TOLERANCE.path(),
             number(base.head.coupling_tolerance),
         ),
         (
-            fields::SOLVER_SUSPENSION_MODES.path(),
+            fields::RESOLUTION_SUSPENSION_MODES.path(),
             base.head.suspension_modes.to_string(),
         ),
     ];

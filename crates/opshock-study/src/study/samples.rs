@@ -1,4 +1,4 @@
-//! Sampled pulses: two columns, time in ms and relative acceleration.
+//! Reads a sampled pulse: two columns, time in ms and relative acceleration.
 
 use std::sync::Arc;
 

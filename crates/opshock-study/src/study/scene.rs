@@ -1,4 +1,4 @@
-//! One point's settings as a scene in SI: plain values by the table of keys, and what several keys make together.
+//! Builds the scene of one point, all data of a simulation in SI, from the settings of the study.
 
 use opshock_solver::disk::{DiskDamping, Wave};
 use opshock_solver::gas::{self, GasParameters};
@@ -6,7 +6,7 @@ use opshock_solver::ramp::{
     ArmMode, Arms, CoupledMode, NoRamp, OneBody, RampBody, RampParameters, Relaxation, RigidRamp,
     Viscoelastic,
 };
-use opshock_solver::scene::accuracy::{self, Resolutions, Rung, SKEWED_REFERENCE_CELLS};
+use opshock_solver::scene::preset::{self, Preset, Resolutions, SKEWED_CORRECTION_CELLS};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline};
@@ -37,7 +37,7 @@ fn place(view: &View<'_>, below: &str, scene: &mut Scene) {
 
 /// The scene with z along the drive's axis and a head over the disk.
 fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
-    let mut scene = at_rung(view);
+    let mut scene = at_preset(view);
     place(view, "", &mut scene);
     scene.pulse = pulse(view, width_ms);
     scene.oblique = oblique(view);
@@ -51,22 +51,23 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         .collect();
     complete_suspension(view, &mut scene.suspension);
     scene.gas = gas_parameters(view);
-    scene.not_refined = view.get(&fields::SOLVER_NOT_REFINED);
+    scene.not_refined = view.get(&fields::RESOLUTION_NOT_REFINED);
     scene
 }
 
 /// Coupling tolerance as a share of the head's, unless the study sets it.
 const COUPLING_SHARE: f64 = 0.01;
 
-/// Accuracy asked for at a point.
-pub fn rung(view: &View<'_>) -> Rung {
-    view.get(&fields::SOLVER_ACCURACY)
+/// Resolution preset of a point.
+pub fn preset(view: &View<'_>) -> Preset {
+    view.get(&fields::RESOLUTION_PRESET)
 }
 
-/// The rung's resolutions with what the study sets itself.
+/// The preset's resolutions with what the study sets itself.
 pub fn resolutions(view: &View<'_>) -> Resolutions {
-    let mut scene = at_rung(view);
+    let mut scene = at_preset(view);
     place(view, "solver.", &mut scene);
+    place(view, "resolution.", &mut scene);
     Resolutions {
         disk: scene.disk_resolution,
         structure: scene.structure_resolution,
@@ -75,29 +76,29 @@ pub fn resolutions(view: &View<'_>) -> Resolutions {
     }
 }
 
-/// The default drive at the resolutions of the rung, and what follows from single ones that the study sets.
-fn at_rung(view: &View<'_>) -> Scene {
+/// The default drive at the resolutions of the preset, and what follows from single ones that the study sets.
+fn at_preset(view: &View<'_>) -> Scene {
     let mut scene = Scene::default_drive();
     let Resolutions {
         disk,
         structure,
         film,
         head,
-    } = accuracy::resolutions(rung(view));
+    } = preset::resolutions(preset(view));
     scene.disk_resolution = disk;
     scene.structure_resolution = structure;
     scene.film_resolution = film;
     scene.head_resolution = head;
     let is_skewed = view.get(&fields::SLIDER_SKEW_DEG) != 0.0;
-    let reference = &mut scene.film_resolution.reference_cells;
-    match view.get(&fields::SOLVER_FILM_CELLS) {
+    let reference = &mut scene.film_resolution.correction_cells;
+    match view.get(&fields::RESOLUTION_FILM_CELLS) {
         // A grid that the study sets is taken as it is.
         Some(_) => *reference = 0,
-        None if is_skewed => *reference = SKEWED_REFERENCE_CELLS.max(*reference),
+        None if is_skewed => *reference = SKEWED_CORRECTION_CELLS.max(*reference),
         None => {}
     }
-    // What the solve leaves must stay small beside the error of a step.
-    if let Some(tolerance) = view.get(&fields::SOLVER_HEAD_TOLERANCE) {
+    // The residual of the coupled solve must stay small beside the error of a step.
+    if let Some(tolerance) = view.get(&fields::RESOLUTION_HEAD_TOLERANCE) {
         // The smallest tolerance of all has no hundredth but 0, which is none.
         scene.head_resolution.coupling_tolerance =
             (COUPLING_SHARE * tolerance).max(f64::MIN_POSITIVE);
@@ -364,7 +365,7 @@ pub fn suspension(view: &View<'_>) -> SuspensionParameters {
 
 /// Stops and imported modes of the suspension.
 fn complete_suspension(view: &View<'_>, suspension: &mut SuspensionParameters) {
-    // What a stop leaves out is the dimple's.
+    // A stop without a value of its own takes the dimple's.
     let dimple = suspension.dimple;
     let contact = |stiffness: &Field<Option<f64>>, damping: &Field<Option<f64>>| ContactLaw {
         stiffness_n_per_m: view.get(stiffness).unwrap_or(dimple.stiffness_n_per_m),

@@ -1,5 +1,4 @@
-//! JSON Schema of study files, for editors, and the list of unit suffixes; both from the table of
-//! keys.
+//! Writes the JSON Schema of study files, for editors, and the list of unit suffixes, from the table of keys.
 
 use serde_json::{Map, Value, json};
 
@@ -86,7 +85,7 @@ fn described(key: &Key) -> Value {
         help.push_str(&format!(" In {}.", unit.symbol));
     }
     match key.presence {
-        Presence::Rung => help.push_str(" Set by solver.accuracy when absent."),
+        Presence::ByPreset => help.push_str(" Set by resolution.preset when absent."),
         Presence::Optional(absent) => help.push_str(&format!(" Absent: {absent}.")),
         _ => {}
     }

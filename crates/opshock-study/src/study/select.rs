@@ -1,4 +1,4 @@
-//! One shock out of a study: which point, and with which amplitude.
+//! Selects one shock of a study: a point and an amplitude.
 
 use opshock_solver::quantity;
 
@@ -9,9 +9,10 @@ use super::points::{self, Point};
 use super::settings::View;
 use super::unit;
 use super::validity::Check;
-use super::words::{Ramp, Sign};
+use super::words::Ramp;
+use crate::search::Sign;
 
-/// What the command line says about a single shock. Axes it leaves out must have one value.
+/// What the command line says about a single shock. Axes it does not name must have one value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choice {
     /// Ramp model; need not be one of the study's.

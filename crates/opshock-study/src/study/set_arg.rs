@@ -1,4 +1,4 @@
-//! `--set section.key=VALUE` and `--unset section.key`: one setting from the command line.
+//! Reads `--set section.key=VALUE` and `--unset section.key`: one setting from the command line.
 
 use std::sync::Arc;
 

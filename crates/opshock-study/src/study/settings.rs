@@ -1,4 +1,4 @@
-//! The checked values of a study, by dotted path, and how one point looks at them.
+//! Holds the checked values of a study by dotted path, and gives those of one point.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -198,7 +198,7 @@ impl<'a> View<'a> {
         self.read.get()
     }
 
-    /// Counts axes that are read from now on.
+    /// Records axes that are read from now on.
     pub fn forget_read(&self) {
         self.read.set(0);
     }

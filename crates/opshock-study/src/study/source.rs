@@ -1,5 +1,4 @@
-//! Texts a study is made of (the study file, `--set` arguments, surface files, defaults), and
-//! places in them.
+//! The texts a study is made of (study file, `--set` arguments, surface files, defaults), and places in them.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,7 +1,8 @@
-//! Unknown names: what was probably meant.
+//! Suggests what was probably meant by an unknown key or section.
 
 use super::fault::StudyError;
 use super::keys;
+use super::renamed;
 use super::source::Place;
 use super::tree::Node;
 use super::unit::{self, Dimension, Unit};
@@ -36,6 +37,10 @@ pub fn unknown(
 ) -> Unknown {
     let plain = |fault: StudyError| Unknown { fault, meant: None };
     let siblings = keys::names_below(pattern);
+    if let Some(today) = renamed::today(path) {
+        let fault = StudyError::at("E110", place, path, "this key of format 1 has another name");
+        return plain(fault.value(node.place.text()).allowed(today));
+    }
     if is_section {
         let sections = keys::sections();
         let fault = StudyError::at("E111", place, path, format!("unknown section [{name}]"))
@@ -98,7 +103,8 @@ const ALIASES: &[(&str, &str)] = &[
     ("head", "slider"),
     ("air", "gas"),
     ("bearing", "gas"),
-    ("numerics", "solver"),
+    ("numerics", "resolution"),
+    ("accuracy", "resolution"),
     ("sweep", "search"),
     ("store", "output"),
 ];

@@ -1,4 +1,4 @@
-//! Named air-bearing surfaces.
+//! The named air-bearing surfaces, each as the text of a surface file.
 
 /// Text of a named surface, in the form of a surface file.
 pub fn text(name: &str) -> Option<&'static str> {

@@ -1,4 +1,4 @@
-//! Reading refuses what is no ordinary text before any parser sees it: other file kinds (E105),
+//! Reads a text file and refuses what is no ordinary text before any parser sees it: other file kinds (E105),
 //! loops (E106), sizes beyond [`MAX_BYTES`] and nesting beyond [`MAX_DEPTH`] (E104), text that is
 //! not UTF-8 (E102).
 

@@ -1,4 +1,4 @@
-//! A TOML text as a tree of values that know their places.
+//! Parses a TOML text into a tree of values with their places in the text.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub struct Node {
     pub key_place: Place,
 }
 
-/// A TOML value. Numbers keep their text, so that overflow can be told from infinity.
+/// A TOML value. Numbers keep their text, so that overflow can be distinguished from infinity.
 #[derive(Clone, Debug)]
 pub enum Value {
     /// Text.

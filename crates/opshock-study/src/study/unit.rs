@@ -1,4 +1,4 @@
-//! Unit suffixes of the keys, and the one conversion of a number from its key's unit into SI.
+//! Converts a number from the unit in its key's name into SI; the only place that does.
 //!
 //! The unit of a number stands in the name of its key: the longest suffix of [`UNITS`] the key
 //! ends with (`clearance_um`, `youngs_modulus_gpa`, `rpm`). A suffix is only recognised after an
@@ -217,7 +217,7 @@ pub static UNITS: &[Unit] = &[
     foreign("rad_per_s", "rad/s", Dimension::RotationSpeed),
     foreign("kpa", "kPa", Dimension::Pressure),
     foreign("mpa", "MPa", Dimension::Pressure),
-    foreign("bar", "bar", Dimension::Pressure),
+    foreign("interval", "interval", Dimension::Pressure),
     foreign("n_per_mm", "N/mm", Dimension::Stiffness),
     foreign("rad", "rad", Dimension::Angle),
     foreign("mrad", "mrad", Dimension::Angle),
@@ -335,7 +335,7 @@ mod tests {
     fn decimal_units_give_the_double_nearest_to_the_decimal_value() {
         assert_eq!(si("thickness_mm", 0.635), 0.000635);
         assert_eq!(si("web_um", 26.9), 26.9e-6);
-        assert_eq!(si("film_floor_nm", 0.3), 0.3e-9);
+        assert_eq!(si("min_film_height_nm", 0.3), 0.3e-9);
         assert_eq!(si("mass_mg", 57.9), 57.9e-6);
         assert_eq!(si("tolerance_pct", 1.0), 0.01);
     }

@@ -1,14 +1,14 @@
-//! The words of a study as values.
+//! Gives each word that a study file may hold its value.
 //!
 //! Each list of words stands once, with the value of each: the table of keys takes the words from here ([`names`]),
-//! [`Field`](super::field::Field) the values. A word without a value cannot be written
-//! down, and a value that is printed has a word.
+//! [`Field`](super::field::Field) the values. So every word has a value, and every value that is printed a word.
 
+use crate::search::{MonotonicityScan, Sign};
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
-use opshock_solver::scene::accuracy::Rung;
-use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::{Needs, Output};
+use opshock_solver::scene::preset::Preset;
 
 /// The words of a list.
 pub const fn names<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
@@ -42,14 +42,14 @@ pub const SIGNS: [(&str, Sign); 2] = worded!(Sign::ALL);
 pub const OUTPUTS: [(&str, Output); 12] = worded!(Output::ALL);
 /// `solver.leave_out`.
 pub const LEAVE_OUT: [(&str, LeftOut); 1] = [("air_bearing", LeftOut::AirBearing)];
-/// `solver.not_refined`: discretisation parameters of a scene.
-pub const DISCRETISATION: [(&str, Knob); 6] = worded!([
-    Knob::FilmGrid,
-    Knob::DiskModes,
-    Knob::SuspensionModes,
-    Knob::StructureStep,
-    Knob::HeadTolerance,
-    Knob::CouplingTolerance,
+/// `resolution.not_refined`: discretisation parameters of a scene.
+pub const DISCRETISATION: [(&str, Discretisation); 6] = worded!([
+    Discretisation::FilmGrid,
+    Discretisation::DiskModes,
+    Discretisation::SuspensionModes,
+    Discretisation::StructureStep,
+    Discretisation::HeadTolerance,
+    Discretisation::CouplingTolerance,
 ]);
 /// Named materials of a ramp.
 pub const RAMP_MATERIALS: &[&str] = &["POM", "LCP", "PEEK", "PEI", "PPS", "aluminium", "steel"];
@@ -86,19 +86,22 @@ pub const COUPLINGS: [(&str, Coupling); 4] = [
     (coupling_word(Coupling::Aitken), Coupling::Aitken),
     (coupling_word(Coupling::Anderson), Coupling::Anderson),
 ];
-/// `solver.accuracy`.
-pub const RUNGS: [(&str, Rung); 3] = [
-    (rung_word(Rung::FivePercent), Rung::FivePercent),
-    (rung_word(Rung::OnePercent), Rung::OnePercent),
-    (rung_word(Rung::TenthPercent), Rung::TenthPercent),
+/// `resolution.preset`.
+pub const PRESETS: [(&str, Preset); 3] = [
+    (preset_word(Preset::Coarse), Preset::Coarse),
+    (preset_word(Preset::Standard), Preset::Standard),
+    (preset_word(Preset::Fine), Preset::Fine),
 ];
 /// `slider.faces`.
 pub const FACES: [(&str, Faces); 2] = [("down", Faces::Down), ("up", Faces::Up)];
-/// `search.certify`.
-pub const CERTIFY: [(&str, Certify); 3] = [
-    (Certify::Staggered.as_str(), Certify::Staggered),
-    (Certify::Off.as_str(), Certify::Off),
-    (Certify::Full.as_str(), Certify::Full),
+/// `search.monotonicity_scan`.
+pub const MONOTONICITY_SCAN: [(&str, MonotonicityScan); 3] = [
+    (
+        MonotonicityScan::Sampled.as_str(),
+        MonotonicityScan::Sampled,
+    ),
+    (MonotonicityScan::Off.as_str(), MonotonicityScan::Off),
+    (MonotonicityScan::Full.as_str(), MonotonicityScan::Full),
 ];
 /// `solver.effects`.
 pub const EFFECTS: [(&str, Effects); 2] = [
@@ -218,69 +221,6 @@ impl Faces {
     }
 }
 
-/// Sign of a shock: plus moves the disk first towards a slider that faces down, over it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Sign {
-    /// +
-    Plus,
-    /// -
-    Minus,
-}
-
-impl Sign {
-    /// Both, in canonical order.
-    pub const ALL: [Self; 2] = [Self::Plus, Self::Minus];
-
-    /// The word in study files and tables.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Plus => "+",
-            Self::Minus => "-",
-        }
-    }
-
-    /// The sign of a word.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|sign| sign.as_str() == word)
-    }
-
-    /// 1 or -1.
-    pub fn factor(self) -> f64 {
-        match self {
-            Self::Plus => 1.0,
-            Self::Minus => -1.0,
-        }
-    }
-}
-
-impl std::fmt::Display for Sign {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(self.as_str())
-    }
-}
-
-/// How far the evidence below the lowest failure reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Certify {
-    /// No scan.
-    Off,
-    /// Scan with growing gaps.
-    Staggered,
-    /// Every lattice amplitude.
-    Full,
-}
-
-impl Certify {
-    /// The word in study files.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Staggered => "staggered",
-            Self::Full => "full",
-        }
-    }
-}
-
 /// Whether only the needed effects are simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effects {
@@ -340,12 +280,12 @@ impl KeepHistories {
     }
 }
 
-/// Word of a rung.
-pub const fn rung_word(rung: Rung) -> &'static str {
-    match rung {
-        Rung::FivePercent => "5%",
-        Rung::OnePercent => "1%",
-        Rung::TenthPercent => "0.1%",
+/// Word of a preset.
+pub const fn preset_word(preset: Preset) -> &'static str {
+    match preset {
+        Preset::Coarse => "coarse",
+        Preset::Standard => "standard",
+        Preset::Fine => "fine",
     }
 }
 

@@ -1,4 +1,4 @@
-//! A seeded sample of finished simulations, run again with nothing left out and nothing shared.
+//! Audit of a store: a reproducible sample of finished simulations is run again with the full model.
 
 use rayon::prelude::*;
 
@@ -45,7 +45,7 @@ pub fn audit(
     }
 }
 
-/// Place of a simulation in the draw.
+/// Sorting key of a simulation in the sample.
 fn drawn(key: &RunKey) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(b"opshock audit 1");
@@ -73,9 +73,9 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
         point.pulse_ms,
         point.sign.as_str()
     );
-    told(row.result())
+    reported(row.result())
         .into_iter()
-        .zip(told(&full))
+        .zip(reported(&full))
         .filter(|(planned, full)| planned != full)
         .map(|((quantity, planned), (_, full))| Difference {
             point: label.clone(),
@@ -87,8 +87,8 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
         .collect()
 }
 
-/// Every number of an answer but the work, written so that other bits are another text.
-fn told(result: &ProbeResult) -> [(&'static str, String); 6] {
+/// Every number of an answer but the work, written so that different bits give different text.
+fn reported(result: &ProbeResult) -> [(&'static str, String); 6] {
     let number = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{v:e}"));
     let (verdict, [t, x, y]) = match &result.verdict {
         Verdict::Survives => ("survives".to_owned(), [None; 3]),

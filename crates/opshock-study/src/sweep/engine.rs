@@ -1,8 +1,8 @@
-//! The sweep: hands jobs to threads, tells the searches, keeps the writer fed.
+//! Runs a sweep: hands jobs to threads, reports verdicts to the searches, and sends results to the writer.
 //!
-//! One thread holds the searches and hands the best job to each thread that idles: first what a
-//! search asks, the point with the longest chain of successors first; else what a search will
-//! probably ask. Answers come back in any order and change nothing but when a probe is answered.
+//! One thread has the searches and hands the best job to each idle thread: first a request of a search, the point with
+//! the longest chain of successors first; else what a search will probably request. The order in which answers come
+//! back changes only when a probe is answered.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -15,11 +15,11 @@ use super::estimate;
 use super::guard;
 use super::histories::{self, Wanted};
 use super::input::SweepInput;
-use super::ledger::{Job, Ledger, Told};
 use super::lucky::lucky;
 use super::neighbours::Neighbours;
 use super::options::{Ending, SweepEnd, SweepOptions};
 use super::progress::{Event, Progress};
+use super::registry::{Job, Registry, Reported};
 use super::shard::Shard;
 use super::simulator::Simulator;
 use super::writer::{self, Message};
@@ -31,13 +31,13 @@ use crate::store::{
 
 /// Room between the searches and the writer.
 const CHANNEL: usize = 1024;
-/// How often stop, budget and checkpoint are looked at.
+/// Time between two checks of stop, budget and checkpoint.
 const TICK: Duration = Duration::from_millis(50);
-/// What is left is told anew once the known runs have grown by this part of them, or this time on.
+/// The estimate of what is left is renewed when the known runs have grown by this part, or after this time.
 const ESTIMATE_SHARE: usize = 256;
 const BETWEEN_ESTIMATES: Duration = Duration::from_secs(1);
 
-/// Sweeps a study into the store in `folder`, or goes on with it.
+/// Sweeps a study into the store in `folder`, or continues it.
 ///
 /// # Errors
 ///
@@ -87,8 +87,8 @@ pub fn sweep(
     })
 }
 
-/// Forgets runs without verdict, except those of a node that a later retry decided: made again
-/// they would end as before, and the retry is known.
+/// Forgets runs without verdict, except those of an amplitude that a later retry decided: made again they would end as
+/// before, and the retry is known.
 fn forget_undecided(runs: &mut HashMap<RunKey, RunRecord>) {
     let node = |key: &RunKey| (key.point, key.amplitude_bits, key.window_factor);
     let is_undecided = |run: &RunRecord| matches!(run.result.verdict, Verdict::Undecided { .. });
@@ -121,16 +121,16 @@ struct Run<'a> {
     input: &'a SweepInput,
     options: &'a SweepOptions,
     session: Session,
-    ledger: Ledger<'a>,
+    registry: Registry<'a>,
     notes: Vec<(&'static str, String)>,
     to_writer: Sender<Message>,
     /// The writer gave up; its error is taken when it is joined.
     is_writer_gone: bool,
     brackets: Vec<(Option<f64>, Option<f64>)>,
     is_reported: Vec<bool>,
-    /// Changes of the ledger after the last report.
+    /// Changes of the registry after the last report.
     seen_changes: u64,
-    /// Known runs at which what is left is told next, and when it was told last.
+    /// Known runs at which the estimate is renewed next, and when it was renewed last.
     estimate_at: usize,
     estimated: Instant,
     began: Instant,
@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
             input,
             options,
             session,
-            ledger: Ledger::new(input, loaded),
+            registry: Registry::new(input, loaded),
             notes,
             to_writer,
             is_writer_gone: false,
@@ -175,34 +175,34 @@ impl<'a> Run<'a> {
 
     /// Restricts the run to a shard's part.
     fn divide(&mut self, shard: &Shard, whole: &Path) {
-        let order = self.ledger.campaign().order();
+        let order = self.registry.campaign().order();
         let owned = shard.owned(order);
-        // What refinement added is seen to its end by every shard: the next round waits for it.
+        // Every shard completes the added widths: the next round waits for them.
         let points = self.input.points.iter().zip(&owned);
         let wanted: Vec<bool> = points
             .map(|(point, &is_own)| is_own || point.coordinates.round > 0)
             .collect();
         self.neighbours = Some(Neighbours::new(shard, whole, order, owned, &wanted));
-        self.ledger.want(wanted);
+        self.registry.want(wanted);
         self.ask_neighbours();
     }
 
-    /// Takes what other shards have finished, and the points of those that are not at work.
+    /// Takes results of other shards, and the points of those that are not at work.
     fn ask_neighbours(&mut self) {
         let asked = self.neighbours.as_mut().and_then(Neighbours::ask);
         let Some((allowed, news)) = asked else {
             return;
         };
-        self.ledger.allow(allowed);
+        self.registry.allow(allowed);
         for record in news {
-            let told = match record {
-                Record::Run(run) if !self.ledger.runs().contains_key(&run.key) => {
-                    self.ledger.finished(run)
+            let reported = match record {
+                Record::Run(run) if !self.registry.runs().contains_key(&run.key) => {
+                    self.registry.finished(run)
                 }
-                Record::Touch(TouchRecord { point, touch }) => self.ledger.touched(point, touch),
+                Record::Touch(TouchRecord { point, touch }) => self.registry.touched(point, touch),
                 Record::Run(_) | Record::Session(_) | Record::Numbers { .. } => continue,
             };
-            self.report(&told, None);
+            self.report(&reported, None);
         }
     }
 
@@ -210,8 +210,8 @@ impl<'a> Run<'a> {
         for (code, message) in std::mem::take(&mut self.notes) {
             self.tell(Event::Warning { code, message });
         }
-        let told = self.ledger.absorb_all();
-        self.report(&told, None);
+        let reported = self.registry.absorb_all();
+        self.report(&reported, None);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.options.threads)
             .thread_name(|number| format!("sweep-{number}"))
@@ -220,14 +220,14 @@ impl<'a> Run<'a> {
         let mut ending = self.hand_out(simulator, &pool);
         if ending == Ending::Complete {
             // Answers are safe before the histories are recorded.
-            let results = self.ledger.results(&self.session);
+            let results = self.registry.results(&self.session);
             self.send(Message::Checkpoint(Box::new(results)));
             if let Some(stopped) = self.record_histories(simulator, &pool, folder)? {
                 ending = stopped;
             }
         }
-        let results = self.ledger.results(&self.session);
-        for message in lucky(self.input, &self.ledger, &results) {
+        let results = self.registry.results(&self.session);
+        for message in lucky(self.input, &self.registry, &results) {
             self.tell(Event::Warning {
                 code: "lucky",
                 message,
@@ -251,7 +251,7 @@ impl<'a> Run<'a> {
         Ok(end)
     }
 
-    /// Runs what is kept once more, recording; says why if it did not get to the end.
+    /// Repeats kept runs with recording; returns the reason if it did not finish.
     ///
     /// # Errors
     ///
@@ -262,10 +262,10 @@ impl<'a> Run<'a> {
         pool: &rayon::ThreadPool,
         folder: &Path,
     ) -> Result<Option<Ending>, StoreError> {
-        let wanted = histories::wanted(self.input, &self.ledger);
+        let wanted = histories::wanted(self.input, &self.registry);
         let busy_ms = AtomicU64::new(0);
         let this = &*self;
-        // What there is to warn of; the reason where a run was left out.
+        // Warnings; the reason where a run was omitted.
         let recorded = pool.install(|| {
             use rayon::prelude::*;
             let record = |one: &Wanted| {
@@ -308,8 +308,8 @@ impl<'a> Run<'a> {
             loop {
                 self.ask_neighbours();
                 let stopped = self.stopped();
-                while in_flight < threads && stopped.is_none() && !self.ledger.is_done() {
-                    let Some(job) = self.ledger.next_job(self.options.speculate) else {
+                while in_flight < threads && stopped.is_none() && !self.registry.is_done() {
+                    let Some(job) = self.registry.next_job(self.options.speculate) else {
                         break;
                     };
                     if let Job::Run { key, .. } = job
@@ -324,7 +324,7 @@ impl<'a> Run<'a> {
                         Job::Onset { point } => (point, 0.0, self.input.points[point].digest),
                         Job::Run { point, asked, key } => (
                             point,
-                            self.ledger.amplitude_m_per_s2(point, asked.probe),
+                            self.registry.amplitude_m_per_s2(point, asked.probe),
                             key.point,
                         ),
                     };
@@ -341,12 +341,12 @@ impl<'a> Run<'a> {
                             },
                         };
                         let wall_s = began.elapsed().as_secs_f64();
-                        // Nobody listens any more only after a panic of the listener itself.
+                        // The receiver is gone only after it panicked.
                         let _ = to_here.send(Done { answer, wall_s });
                     });
                     in_flight += 1;
                 }
-                let waits = self.neighbours.is_some() && !self.ledger.is_done();
+                let waits = self.neighbours.is_some() && !self.registry.is_done();
                 if in_flight == 0 && (stopped.is_some() || !waits) {
                     return stopped.unwrap_or(Ending::Complete);
                 }
@@ -358,7 +358,7 @@ impl<'a> Run<'a> {
                     Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
                 }
                 if checkpoint_at.elapsed() >= self.input.checkpoint {
-                    let results = self.ledger.results(&self.session);
+                    let results = self.registry.results(&self.session);
                     self.send(Message::Checkpoint(Box::new(results)));
                     checkpoint_at = Instant::now();
                 }
@@ -384,8 +384,8 @@ impl<'a> Run<'a> {
                     point: digest,
                     touch,
                 })));
-                let told = self.ledger.touched(digest, touch);
-                self.report(&told, None);
+                let reported = self.registry.touched(digest, touch);
+                self.report(&reported, None);
             }
             Answer::Run { key, result } => {
                 self.computed_runs += 1;
@@ -402,36 +402,36 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Keeps a finished simulation and tells the searches.
+    /// Keeps a finished simulation and reports it to the searches.
     fn keep(&mut self, record: RunRecord, wall_s: Option<f64>) {
         let key = record.key;
         self.send(Message::Keep(Record::Run(record.clone())));
-        let told = self.ledger.finished(record);
-        self.report(&told, wall_s.map(|wall_s| (key, wall_s)));
+        let reported = self.registry.finished(record);
+        self.report(&reported, wall_s.map(|wall_s| (key, wall_s)));
     }
 
-    /// Tells what is left. It looks at every point and run, so not after each of many runs.
+    /// Reports what is left. It visits every point and run, so not after each of many runs.
     fn estimate(&mut self) {
-        let n_runs = self.ledger.runs().len();
+        let n_runs = self.registry.runs().len();
         let is_due = n_runs >= self.estimate_at || self.estimated.elapsed() >= BETWEEN_ESTIMATES;
-        if is_due || self.ledger.is_done() {
-            let left = estimate::estimate(self.input, &self.ledger, self.options.threads);
+        if is_due || self.registry.is_done() {
+            let left = estimate::estimate(self.input, &self.registry, self.options.threads);
             self.tell(Event::Estimated(left));
             self.estimate_at = n_runs + 1 + n_runs / ESTIMATE_SHARE;
             self.estimated = Instant::now();
         }
     }
 
-    /// Tells what the searches were told.
-    fn report(&mut self, told: &[Told], computed: Option<(RunKey, f64)>) {
-        for &Told { point, asked, key } in told {
-            if self.ledger.first_of(point, asked) {
+    /// Reports which probes were answered.
+    fn report(&mut self, reported: &[Reported], computed: Option<(RunKey, f64)>) {
+        for &Reported { point, asked, key } in reported {
+            if self.registry.first_of(point, asked) {
                 self.tell(Event::PointStarted { point });
             }
-            let verdict = self.ledger.runs()[&key].result.verdict.as_str();
+            let verdict = self.registry.runs()[&key].result.verdict.as_str();
             self.tell(Event::ProbeDone {
                 point,
-                amplitude_g: self.ledger.amplitude_g(asked.probe),
+                amplitude_g: self.registry.amplitude_g(asked.probe),
                 verdict,
                 purpose: asked.purpose.as_str(),
                 retry: asked.probe.retry.label(),
@@ -440,11 +440,11 @@ impl<'a> Run<'a> {
                     .map(|(_, wall_s)| wall_s),
             });
         }
-        let mut points: Vec<usize> = told.iter().map(|told| told.point).collect();
+        let mut points: Vec<usize> = reported.iter().map(|reported| reported.point).collect();
         points.sort_unstable();
         points.dedup();
         for point in points {
-            let row = self.ledger.row(point);
+            let row = self.registry.row(point);
             let bracket = (row.a_crit_g, row.a_fail_g);
             if bracket != self.brackets[point] {
                 self.brackets[point] = bracket;
@@ -456,17 +456,17 @@ impl<'a> Run<'a> {
                 });
             }
         }
-        if self.seen_changes != self.ledger.n_changes() {
-            self.seen_changes = self.ledger.n_changes();
+        if self.seen_changes != self.registry.n_changes() {
+            self.seen_changes = self.registry.n_changes();
             for point in 0..self.is_reported.len() {
-                if !self.is_reported[point] && self.ledger.is_final(point) {
+                if !self.is_reported[point] && self.registry.is_final(point) {
                     self.is_reported[point] = true;
-                    let summary = self.ledger.row(point);
+                    let summary = self.registry.row(point);
                     self.tell(Event::PointDone { point, summary });
                 }
             }
         }
-        if !told.is_empty() {
+        if !reported.is_empty() {
             self.estimate();
         }
     }

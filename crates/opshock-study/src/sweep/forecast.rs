@@ -1,4 +1,4 @@
-//! What a sweep is going to cost, before it starts.
+//! Forecast of a sweep's cost before it starts: number of simulations, time and disk space.
 //!
 //! The number of simulations comes from the search itself, run on some tens of made-up tables of
 //! failure with the study's own first touches, a fixed seed each. The time of one comes from one
@@ -12,20 +12,20 @@ use serde::Serialize;
 
 use super::guard;
 use super::input::SweepInput;
-use super::ledger::Ledger;
+use super::registry::Registry;
 use super::simulator::Simulator;
 use crate::search::{Campaign, Coordinates, Probe, RampClass, Sign, Touch, Verdict};
 use crate::store::{Loaded, StoredTouch};
 use crate::study::KeepHistories;
 
-/// A number with its range.
+/// An estimate with its range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// Hardly less.
+    /// Lower end.
     pub min: f64,
     /// Expected.
     pub likely: f64,
-    /// Hardly more.
+    /// Upper end.
     pub max: f64,
 }
 
@@ -55,22 +55,22 @@ impl Spread {
     }
 }
 
-/// What a sweep is going to cost. Times and runs are what is left to do.
+/// Forecast of a sweep. Times and runs are what is left to do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Forecast {
     /// Points of the study.
     pub points: u64,
     /// Points whose answer the store has.
     pub answered: u64,
-    /// Points that refinement may add; counted in every maximum, and in nothing else.
+    /// Points that may be added; contained in every maximum, and in nothing else.
     #[serde(skip_serializing_if = "is_none")]
     pub added_points: u64,
     /// Finished simulations in the store that stay valid.
     pub reused_runs: u64,
     /// Simulations of the searches.
     pub search_runs: Spread,
-    /// Simulations for the error bars.
-    pub bar_runs: Spread,
+    /// Simulations for the uncertainty intervals.
+    pub uncertainty_runs: Spread,
     /// All simulations.
     pub runs: Spread,
     /// Seconds of one simulation by ramp model.
@@ -91,8 +91,8 @@ fn is_none(count: &u64) -> bool {
 }
 
 impl Forecast {
-    /// Counts `points` of refinement in every maximum, at the price of the study's own: twice the
-    /// likely number of runs of a point, at the pace of a long one.
+    /// Includes `points` added ones in every maximum, at the cost of the study's own: twice the likely number of runs
+    /// of a point, at the pace of a long one.
     pub fn may_add(&mut self, points: u64) {
         let open = self.points - self.answered;
         if open == 0 {
@@ -103,7 +103,7 @@ impl Forecast {
         let share = points as f64 / open as f64;
         for spread in [
             &mut self.search_runs,
-            &mut self.bar_runs,
+            &mut self.uncertainty_runs,
             &mut self.runs,
             &mut self.core_h,
             &mut self.wall_h,
@@ -116,15 +116,15 @@ impl Forecast {
 
 /// Made-up tables.
 const SAMPLES: u64 = 40;
-/// Simulations of an error bar for each knob: on the committed table of Fig. 13 a bar took 11 to 70
-/// with six knobs, 37 in the mean.
-const PER_KNOB: Spread = Spread {
+/// Simulations of an uncertainty interval for each discretisation parameter: on the committed table of Fig. 13 an
+/// interval took 11 to 70 with six discretisation parameters, 37 in the mean.
+const PER_DISCRETISATION: Spread = Spread {
     min: 2.0,
     likely: 6.0,
     max: 12.0,
 };
-/// A simulation beside the one measured: shorter when it fails early, longer near the answer, with
-/// finer knobs or in a doubled window.
+/// Time of a simulation relative to the one measured: shorter when it fails early, longer near the answer, with refined
+/// parameters or in a doubled window.
 const PACE: Spread = Spread {
     min: 0.5,
     likely: 1.0,
@@ -138,7 +138,7 @@ const STORE_BYTES: f64 = 150e3;
 /// Columns of a history.
 const HISTORY_COLUMNS: f64 = 20.0;
 
-/// What sweeping `input` is going to cost with what is `loaded` from its store.
+/// Forecast for sweeping `input` with the results `loaded` from its store.
 ///
 /// `history_nodes` is the number of time steps of a kept history.
 pub fn forecast(
@@ -161,10 +161,10 @@ pub fn forecast(
 
     let valid = |digest| input.points.iter().any(|point| point.digest == digest);
     let reused_runs = loaded.runs.keys().filter(|key| valid(key.point)).count() as u64;
-    let mut ledger = Ledger::new(input, loaded);
-    ledger.absorb_all();
+    let mut registry = Registry::new(input, loaded);
+    registry.absorb_all();
     let open: Vec<bool> = (0..input.points.len())
-        .map(|point| !ledger.is_final(point))
+        .map(|point| !registry.is_final(point))
         .collect();
 
     let mut samples: Vec<(f64, Vec<f64>)> = (0..SAMPLES)
@@ -185,15 +185,15 @@ pub fn forecast(
         likely: at(0.5).0,
         max: at(0.95).0,
     };
-    let knobs = |point: usize| {
+    let discretisations = |point: usize| {
         input.points[point]
-            .bar
+            .uncertainty
             .as_ref()
-            .map_or(0, |bar| bar.knobs.len())
+            .map_or(0, |uncertainty| uncertainty.discretisations.len())
     };
     let is_open = |point: &usize| open[*point];
-    let all_knobs: usize = (0..open.len()).filter(is_open).map(knobs).sum();
-    let bar_runs = PER_KNOB.scaled(all_knobs as f64);
+    let all_discretisations: usize = (0..open.len()).filter(is_open).map(discretisations).sum();
+    let uncertainty_runs = PER_DISCRETISATION.scaled(all_discretisations as f64);
 
     // Seconds: every point at the pace of its ramp model.
     let pace_of = |point: usize| {
@@ -206,7 +206,7 @@ pub fn forecast(
             let s = pace_of(point);
             (
                 sum.0 + s * at(0.5).1[point],
-                sum.1 + s * knobs(point) as f64,
+                sum.1 + s * discretisations(point) as f64,
             )
         });
     let per_likely = if search_runs.likely > 0.0 {
@@ -216,9 +216,9 @@ pub fn forecast(
     };
     let seconds = search_runs
         .scaled(per_likely)
-        .plus(PER_KNOB.scaled(barred))
+        .plus(PER_DISCRETISATION.scaled(barred))
         .times(PACE);
-    let runs = search_runs.plus(bar_runs);
+    let runs = search_runs.plus(uncertainty_runs);
     let histories = match input.keep_histories {
         KeepHistories::None => 0.0,
         KeepHistories::Bracket => 2.0 * input.points.len() as f64,
@@ -233,7 +233,7 @@ pub fn forecast(
         added_points: 0,
         reused_runs,
         search_runs,
-        bar_runs,
+        uncertainty_runs,
         runs,
         seconds_per_run,
         core_h: seconds.scaled(1.0 / 3600.0),
@@ -278,8 +278,8 @@ fn pace(
     pace
 }
 
-/// Time of one simulation of a point, a little above first touch or in the middle of the range. The
-/// first builds what all share, so a second is measured.
+/// Time of one simulation of a point, a little above first touch or in the middle of the range. The first builds shared
+/// models, so a second is measured.
 fn measured(input: &SweepInput, simulator: &dyn Simulator, point: usize, touch: Touch) -> f64 {
     let settings = &input.settings;
     let guess_g = match touch {
@@ -287,17 +287,17 @@ fn measured(input: &SweepInput, simulator: &dyn Simulator, point: usize, touch: 
         Touch::NoRamp | Touch::Unknown => {
             let nodes = settings.range;
             settings
-                .lattice
+                .grid
                 .amplitude_g(nodes.low + (nodes.high - nodes.low) / 2)
         }
     };
     let node = settings
-        .lattice
+        .grid
         .nearest(guess_g)
         .clamp(settings.range.low, settings.range.high);
     let sign = input.points[point].coordinates.sign.factor();
     let run = |node: i32| {
-        let amplitude = sign * m_per_s2_from_g(settings.lattice.amplitude_g(node));
+        let amplitude = sign * m_per_s2_from_g(settings.grid.amplitude_g(node));
         guard::simulate(simulator, point, Probe::at(node), amplitude);
     };
     run(node);
@@ -322,7 +322,7 @@ fn made_up(input: &SweepInput, touches: &[Touch], sample: u64) -> Vec<f64> {
     while !campaign.is_done() {
         for (point, at) in coordinates.iter().enumerate() {
             while let Some(asked) = campaign.ask(point) {
-                let amplitude_g = settings.lattice.amplitude_g(asked.probe.index);
+                let amplitude_g = settings.grid.amplitude_g(asked.probe.index);
                 let fails = law.fails(at, touches[point], amplitude_g);
                 let verdict = if fails {
                     Verdict::Fails {
@@ -352,7 +352,7 @@ struct Law {
     /// changes with the width.
     place: [f64; 2],
     drift: f64,
-    /// A window of failure as shares of the amplitude that fails.
+    /// A non-monotone interval as shares of the amplitude that fails.
     window: Option<(f64, f64)>,
 }
 
@@ -367,8 +367,8 @@ impl Law {
             z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
             ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
         };
-        let lattice = input.settings.lattice;
-        let highest_g = lattice.amplitude_g(input.settings.range.high);
+        let grid = input.settings.grid;
+        let highest_g = grid.amplitude_g(input.settings.range.high);
         let touch_g = |touch: &Touch| match touch {
             Touch::At { onset_g } => *onset_g,
             Touch::NoRamp | Touch::Unknown => 0.0,
@@ -376,7 +376,7 @@ impl Law {
         let lowest_g = touches
             .iter()
             .map(touch_g)
-            .fold(lattice.amplitude_g(input.settings.range.low), f64::max)
+            .fold(grid.amplitude_g(input.settings.range.low), f64::max)
             .min(highest_g);
         Law {
             none_g: lowest_g * (highest_g / lowest_g).powf(0.7 * share()),

@@ -1,19 +1,19 @@
-//! A study file as the sweep sees it.
+//! Converts a study file to the input of a sweep.
 
 use std::time::Duration;
 
 use opshock_solver::scene::Window;
-use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::Touch;
 use serde_json::json;
 
-use super::input::{BarPlan, SweepInput, SweepPoint};
+use super::input::{SweepInput, SweepPoint, UncertaintyPlan};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
-use crate::search::bar::FLOOR;
-use crate::search::{Certify, Coordinates, LatticeError, RampClass, SearchSettings, Sign};
+use crate::search::uncertainty::MOST_STEPS;
+use crate::search::{AmplitudeGridError, Coordinates, RampClass, SearchSettings, Sign};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
-use crate::study::{self, Faces, Point, Ramp, Study};
+use crate::study::{Faces, Point, Ramp, Study};
 
 impl SweepInput {
     /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
@@ -21,21 +21,16 @@ impl SweepInput {
     ///
     /// # Errors
     ///
-    /// The amplitude range holds no node of the tolerance's lattice.
-    pub fn of(study: &Study) -> Result<SweepInput, LatticeError> {
+    /// The amplitude range has no point of the tolerance's amplitude grid.
+    pub fn of(study: &Study) -> Result<SweepInput, AmplitudeGridError> {
         let search = &study.search;
-        let certify = match search.certify {
-            study::Certify::Off => Certify::Off,
-            study::Certify::Staggered => Certify::Staggered,
-            study::Certify::Full => Certify::Full,
-        };
         // A window that ends when the motion has died away needs no check by a longer one.
         let is_fixed = |point: &Point| matches!(point.scene.window, Window::Fixed { .. });
         let settings = SearchSettings::new(
             (search.amplitude_min_g, search.amplitude_max_g),
             search.tolerance_pct / 100.0,
-            certify,
-            search.max_gap_pct / 100.0,
+            search.monotonicity_scan,
+            search.scan_gap_pct / 100.0,
             study.points.iter().any(is_fixed),
         )?;
         Ok(SweepInput {
@@ -61,8 +56,7 @@ impl SweepInput {
     }
 }
 
-/// What the study's plan makes of each ramp: effects at the start of a run, rules applied below
-/// and above the first touch.
+/// The study's plan for each ramp: effects at the start of a run, rules applied below and above the first touch.
 fn plan_json(study: &Study) -> String {
     let plan = study.plan();
     let mut scenes = serde_json::Map::new();
@@ -73,26 +67,22 @@ fn plan_json(study: &Study) -> String {
             .iter()
             .map(|effect| (effect.name.to_owned(), json!(effect.state.as_str())))
             .collect::<serde_json::Map<_, _>>();
-        let told = json!({
+        let reported = json!({
             "effects": effects,
             "rules_below_touch": plan.applied(scene, false),
             "rules_above_touch": plan.applied(scene, true),
         });
-        scenes.entry(point.ramp.as_str()).or_insert(told);
+        scenes.entry(point.ramp.as_str()).or_insert(reported);
     }
     let outputs: Vec<&str> = plan.outputs.iter().map(|output| output.as_str()).collect();
-    let mut told = json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes});
+    let mut reported = json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes});
     if !plan.field_times_s.is_empty() {
-        told["field_times_s"] = json!(plan.field_times_s);
+        reported["field_times_s"] = json!(plan.field_times_s);
     }
-    told.to_string()
+    reported.to_string()
 }
 
 fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {
-    let sign = match point.sign {
-        study::Sign::Plus => Sign::Plus,
-        study::Sign::Minus => Sign::Minus,
-    };
     SweepPoint {
         coordinates: Coordinates {
             ramp_class: match point.ramp {
@@ -102,7 +92,7 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
             },
             ramp: point.ramp.as_str().to_owned(),
             pulse_ms: point.pulse_ms,
-            sign,
+            sign: point.sign,
             axes: point
                 .axes
                 .iter()
@@ -110,32 +100,38 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
                 .collect(),
             round: point.round,
         },
-        axes: point.axes.iter().map(|(_, value)| told(value)).collect(),
-        digest: digest(point, sign),
-        bar: search.error_bars.then(|| bar_plan(point, search.climbs)),
+        axes: point
+            .axes
+            .iter()
+            .map(|(_, value)| reported(value))
+            .collect(),
+        digest: digest(point, point.sign),
+        uncertainty: search
+            .uncertainty
+            .then(|| uncertainty_plan(point, search.max_refinements)),
     }
 }
 
-/// Films below this many cells resolve no rail and say nothing about finer ones.
+/// Number of cells below which a film does not resolve rails and is no estimate of finer ones.
 const COARSEST_FILM: usize = 60;
 
-fn bar_plan(point: &Point, climbs: u8) -> BarPlan {
+fn uncertainty_plan(point: &Point, refinements: u8) -> UncertaintyPlan {
     let cells = point.scene.film_resolution.cells;
-    let mut knobs = point.scene.knobs();
-    knobs.extend(point.remeshed.as_ref().map(|_| Knob::RampMesh));
-    BarPlan {
-        knobs,
+    let mut discretisations = point.scene.discretisations();
+    discretisations.extend(point.remeshed.as_ref().map(|_| Discretisation::RampMesh));
+    UncertaintyPlan {
+        discretisations,
         film_halvings: (0..=3_i8)
             .rev()
             .find(|&halvings| cells >> halvings >= COARSEST_FILM)
             .unwrap_or(0),
         mesh_halvings: match &point.remeshed {
-            Some(ramp) => ramp.halvings(FLOOR + 1),
+            Some(ramp) => ramp.halvings(MOST_STEPS + 1),
             None => 0,
         },
         holds_films: true,
-        accuracy: point.accuracy.share(),
-        climbs,
+        target: point.target_uncertainty,
+        refinements,
     }
 }
 
@@ -171,17 +167,17 @@ fn digest(point: &Point, sign: Sign) -> PointDigest {
     PointDigest(*hasher.finalize().as_bytes())
 }
 
-fn told(value: &study::AxisValue) -> AxisValue {
+fn reported(value: &crate::study::AxisValue) -> AxisValue {
     match value {
-        study::AxisValue::Number(number) => AxisValue::Number(*number),
-        study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
-        study::AxisValue::Word(word) => AxisValue::Text(word.clone()),
-        study::AxisValue::Flag(flag) => AxisValue::Text(flag.to_string()),
+        crate::study::AxisValue::Number(number) => AxisValue::Number(*number),
+        crate::study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
+        crate::study::AxisValue::Word(word) => AxisValue::Text(word.clone()),
+        crate::study::AxisValue::Flag(flag) => AxisValue::Text(flag.to_string()),
     }
 }
 
 /// Text that sorts as the value does.
-fn sortable(value: &study::AxisValue) -> String {
+fn sortable(value: &crate::study::AxisValue) -> String {
     let ordered = |number: f64| {
         let bits = (number + 0.0).to_bits();
         // Negative numbers descend by their bits; the flip makes all of them ascend.
@@ -193,10 +189,10 @@ fn sortable(value: &study::AxisValue) -> String {
         format!("{flipped:016x}")
     };
     match value {
-        study::AxisValue::Number(number) => ordered(*number),
-        study::AxisValue::Integer(number) => ordered(*number as f64),
-        study::AxisValue::Word(word) => word.clone(),
-        study::AxisValue::Flag(flag) => flag.to_string(),
+        crate::study::AxisValue::Number(number) => ordered(*number),
+        crate::study::AxisValue::Integer(number) => ordered(*number as f64),
+        crate::study::AxisValue::Word(word) => word.clone(),
+        crate::study::AxisValue::Flag(flag) => flag.to_string(),
     }
 }
 
@@ -209,7 +205,7 @@ mod tests {
         let numbers = [-2e300, -1.5, -1e-300, 0.0, 1e-300, 2.0, 10.0, 1e9];
         let texts: Vec<String> = numbers
             .iter()
-            .map(|&number| sortable(&study::AxisValue::Number(number)))
+            .map(|&number| sortable(&crate::study::AxisValue::Number(number)))
             .collect();
         assert!(texts.is_sorted(), "{texts:?}");
     }

@@ -1,5 +1,4 @@
-//! Simulations kept from harming each other: a panic or a number that is not one becomes an
-//! undecided run of its own probe.
+//! Isolates simulations from each other: a panic or a number that is not one becomes an undecided run of its own probe.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

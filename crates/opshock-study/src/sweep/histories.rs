@@ -1,13 +1,13 @@
-//! Histories kept beside the results, a file a run ([`KeptRun`]).
+//! Histories recorded beside the results, a file for each kept run ([`KeptRun`]).
 //!
-//! Simulations of the search record nothing. When every point has its answer, those whose
-//! histories are kept run once more with recording; the answer is the same to the bit. A file that
-//! is there counts when it is whole and says that it is of this run.
+//! Simulations of the search record nothing. When every point has its answer, those whose histories are kept run once
+//! more with recording; the answer is the same to the bit. An existing file is used when it is whole and belongs to
+//! this run.
 
 use std::path::Path;
 
 use super::input::SweepInput;
-use super::ledger::Ledger;
+use super::registry::Registry;
 use super::simulator::Simulator;
 use crate::provenance;
 use crate::search::Probe;
@@ -62,16 +62,16 @@ impl Wanted {
 }
 
 /// Histories of final points.
-pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>) -> Vec<Wanted> {
+pub(super) fn wanted(input: &SweepInput, registry: &Registry<'_>) -> Vec<Wanted> {
     let mut wanted = Vec::new();
-    for point in (0..input.points.len()).filter(|&point| ledger.wants(point)) {
-        for probe in probes(input, ledger, point) {
+    for point in (0..input.points.len()).filter(|&point| registry.wants(point)) {
+        for probe in probes(input, registry, point) {
             wanted.push(Wanted {
                 point,
                 probe,
-                key: ledger.key(point, probe),
-                amplitude_m_per_s2: ledger.amplitude_m_per_s2(point, probe),
-                amplitude_g: input.settings.lattice.amplitude_g(probe.index),
+                key: registry.key(point, probe),
+                amplitude_m_per_s2: registry.amplitude_m_per_s2(point, probe),
+                amplitude_g: input.settings.grid.amplitude_g(probe.index),
             });
         }
     }
@@ -79,25 +79,25 @@ pub(super) fn wanted(input: &SweepInput, ledger: &Ledger<'_>) -> Vec<Wanted> {
 }
 
 /// Probes of a point whose histories are kept.
-fn probes(input: &SweepInput, ledger: &Ledger<'_>, point: usize) -> Vec<Probe> {
-    let Some(search) = ledger.campaign().search(point) else {
+fn probes(input: &SweepInput, registry: &Registry<'_>, point: usize) -> Vec<Probe> {
+    let Some(search) = registry.campaign().search(point) else {
         return Vec::new();
     };
-    if !ledger.campaign().is_final(point) {
+    if !registry.campaign().is_final(point) {
         return Vec::new();
     }
-    let findings = ledger.campaign().findings(point);
-    let told = search.log().iter().map(|asked| asked.probe);
+    let findings = registry.campaign().findings(point);
+    let reported = search.log().iter().map(|asked| asked.probe);
     match input.keep_histories {
         KeepHistories::None => Vec::new(),
-        KeepHistories::All => told.collect(),
+        KeepHistories::All => reported.collect(),
         KeepHistories::Bracket => {
             let ends = [findings.survivor, findings.failure];
             let is_end =
                 |probe: &Probe| probe.window_factor == 1 && ends.contains(&Some(probe.index));
-            // A node decided on a retry keeps that run, which is its last.
+            // An amplitude decided by a retry keeps that run, which is its last.
             let mut kept: Vec<Probe> = Vec::new();
-            for probe in told.filter(is_end) {
+            for probe in reported.filter(is_end) {
                 kept.retain(|other| other.index != probe.index);
                 kept.push(probe);
             }
@@ -133,9 +133,10 @@ pub(super) fn record(
     };
     use opshock_solver::simulation::Verdict;
     let (verdict, t_fail_s) = match &outcome.verdict {
-        Verdict::Survives => ("survives", None),
-        Verdict::Fails { t_fail_s, .. } => ("fails", Some(input.start_s + t_fail_s)),
-        Verdict::Undecided { .. } => ("undecided", None),
+        Some(Verdict::Survives) => ("survives", None),
+        Some(Verdict::Fails { t_fail_s, .. }) => ("fails", Some(input.start_s + t_fail_s)),
+        Some(Verdict::Undecided { .. }) => ("undecided", None),
+        None => ("none", None),
     };
     let at = &input.points[*point];
     let mut coordinates = vec![

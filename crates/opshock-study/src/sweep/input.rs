@@ -1,29 +1,29 @@
-//! What is swept: points with their coordinates and content, and how.
+//! Input of a sweep: points with their coordinates and digests, and the settings of search and uncertainty.
 
 use std::time::Duration;
 
-use opshock_solver::scene::knob::Knob;
+use opshock_solver::scene::discretisation::Discretisation;
 
 use super::progress::PointLabel;
 use crate::search::{Coordinates, SearchSettings};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
 use crate::study::KeepHistories;
 
-/// What an error bar is made of.
+/// Input of a point's uncertainty interval.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BarPlan {
-    /// Knobs that can change the answer.
-    pub knobs: Vec<Knob>,
+pub struct UncertaintyPlan {
+    /// Discretisation parameters that can change the answer.
+    pub discretisations: Vec<Discretisation>,
     /// Times the film's cells may be halved.
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved.
     pub mesh_halvings: i8,
-    /// A film can be held still at the lowest attitude of a shock ([`Knob::HeldFilm`]).
+    /// Quasi-static films at the lowest attitude of a shock can be computed ([`Discretisation::QuasiStaticFilm`]).
     pub holds_films: bool,
-    /// Accuracy asked for, a share.
-    pub accuracy: f64,
-    /// Times that the point may be turned finer where its bar exceeds that.
-    pub climbs: u8,
+    /// Target uncertainty, a share.
+    pub target: f64,
+    /// Largest number of adaptive refinements of the point.
+    pub refinements: u8,
 }
 
 /// A point of the study.
@@ -35,8 +35,8 @@ pub struct SweepPoint {
     pub axes: Vec<AxisValue>,
     /// Digest of the scene, the sign and the physics versions.
     pub digest: PointDigest,
-    /// How its error bar is made; `None`: the search bracket alone.
-    pub bar: Option<BarPlan>,
+    /// How its uncertainty interval is made; `None`: the search bracket alone.
+    pub uncertainty: Option<UncertaintyPlan>,
 }
 
 /// A study as the sweep sees it.
@@ -61,7 +61,7 @@ pub struct SweepInput {
 }
 
 impl SweepInput {
-    /// Names of the points for people.
+    /// Names of the points, as messages show them.
     pub fn labels(&self) -> Vec<PointLabel> {
         self.points
             .iter()

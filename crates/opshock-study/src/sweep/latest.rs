@@ -1,4 +1,4 @@
-//! What recent runs have left, the oldest dropped first.
+//! A cache that drops its oldest values when their total weight exceeds a limit.
 
 use std::collections::VecDeque;
 
@@ -11,7 +11,7 @@ pub(super) struct Latest<K, V> {
 }
 
 impl<K: PartialEq, V> Latest<K, V> {
-    /// Room for a weight of `most`.
+    /// Cache with a limit of `most`.
     pub(super) fn new(most: usize) -> Self {
         Self {
             kept: VecDeque::new(),
@@ -20,7 +20,7 @@ impl<K: PartialEq, V> Latest<K, V> {
         }
     }
 
-    /// Keeps a value in the place of one that its key had, and drops the oldest while all weigh too much.
+    /// Keeps a value in place of its key's former one, and drops the oldest while the total exceeds the limit.
     pub(super) fn keep(&mut self, key: K, value: V, weight: usize) {
         self.take(&key);
         self.weight += weight;
@@ -40,7 +40,7 @@ impl<K: PartialEq, V> Latest<K, V> {
             .map(|(_, value, _)| value)
     }
 
-    /// The value of a key, which is not kept any longer.
+    /// Takes the value of a key out of the cache.
     pub(super) fn take(&mut self, key: &K) -> Option<V> {
         let place = self.kept.iter().rposition(|(known, ..)| known == key)?;
         let (_, value, weight) = self.kept.remove(place)?;
@@ -63,7 +63,7 @@ mod tests {
         latest.keep(3, 0, 2);
         assert_eq!((latest.get(&2), latest.get(&1)), (None, Some(&15)));
         assert_eq!((latest.take(&1), latest.take(&1)), (Some(15), None));
-        // What weighs too much by itself is not kept.
+        // A value above the limit is not kept.
         latest.keep(4, 0, 11);
         assert_eq!((latest.get(&3), latest.get(&4)), (None, None));
     }

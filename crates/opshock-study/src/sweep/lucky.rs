@@ -1,16 +1,16 @@
-//! Failures that no search asked for.
+//! Warnings about failures below an answer that no search requested.
 
 use super::input::SweepInput;
-use super::ledger::Ledger;
+use super::registry::Registry;
 use crate::search::Verdict;
 use crate::store::summary::{PointSummary, Status};
 use crate::store::{PointDigest, Results};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use std::collections::HashMap;
 
-/// Failures below a point's answer that no search asked for: computed ahead, or of an earlier
-/// form of the study. They do not enter the answer, which would then depend on luck.
-pub(super) fn lucky(input: &SweepInput, ledger: &Ledger<'_>, results: &Results) -> Vec<String> {
+/// Failures below a point's answer that no search requested: computed ahead, or of an earlier form of the study. They
+/// do not enter the answer, which would then depend on chance.
+pub(super) fn lucky(input: &SweepInput, registry: &Registry<'_>, results: &Results) -> Vec<String> {
     let mut places: HashMap<PointDigest, Vec<usize>> = HashMap::new();
     for (place, point) in input.points.iter().enumerate() {
         places.entry(point.digest).or_default().push(place);
@@ -25,10 +25,10 @@ pub(super) fn lucky(input: &SweepInput, ledger: &Ledger<'_>, results: &Results) 
         let amplitude_g = amplitude / STANDARD_GRAVITY_M_PER_S2;
         for &place in places.get(&record.key.point).into_iter().flatten() {
             let row = &results.summary.points[place];
-            if is_below_answer(row, ledger.failure_g(place), amplitude_g) {
+            if is_below_answer(row, registry.failure_g(place), amplitude_g) {
                 messages.push(format!(
                     "{} {} ms {}: a run outside the search fails at {amplitude_g:.4} G, below \
-                     the answer; a smaller max_gap_pct or certify = \"full\" would find it",
+                     the answer; a smaller max_gap_pct or monotonicity_scan = \"full\" would find it",
                     row.ramp,
                     row.pulse_ms,
                     row.sign.as_str()
@@ -39,8 +39,8 @@ pub(super) fn lucky(input: &SweepInput, ledger: &Ledger<'_>, results: &Results) 
     messages
 }
 
-/// An amplitude lies below the lowest failure that the search found on the study's own knobs, which a climbed answer
-/// says nothing about; below the end of the range where it found none.
+/// An amplitude lies below the lowest failure that the search found at the study's own resolution (a refined answer
+/// does not matter); below the end of the range where it found none.
 fn is_below_answer(row: &PointSummary, failure_g: Option<f64>, amplitude_g: f64) -> bool {
     match (row.status, failure_g) {
         (Status::Open, _) => false,

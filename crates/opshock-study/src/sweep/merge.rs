@@ -1,4 +1,4 @@
-//! Stores united: every finished simulation of several stores in one, and the table from them.
+//! Merges stores: every finished simulation of several stores in one, and the table from them.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use crate::store::{
     Loaded, Record, Results, RunKey, Session, Store, StoreError, StoredTouch, TouchRecord,
 };
 
-/// What was united.
+/// Result of a merge.
 #[derive(Debug)]
 pub struct Merged {
     /// Table and simulations.
     pub results: Results,
-    /// Simulations taken over, per store.
+    /// Simulations added, per store.
     pub taken: Vec<u64>,
-    /// Simulations whose numbers differ between two stores while their verdicts agree: machines
-    /// with other instructions. The first store's are kept.
+    /// Simulations whose numbers differ between two stores while their verdicts agree: machines with other
+    /// instructions. The first store's are kept.
     pub rounding: u64,
     /// Histories that were not taken because they are damaged.
     pub left: Vec<StoreError>,
@@ -57,8 +57,8 @@ pub enum MergeEnd {
     Disagree(Vec<Disagreement>),
 }
 
-/// Unites what `from` holds with the store in `folder`, which is made when it is missing. Histories
-/// come along. The result does not depend on who simulated what.
+/// Merges the stores `from` into the one in `folder`, which is made when it is missing, with their histories. The
+/// result does not depend on which machine simulated what.
 ///
 /// # Errors
 ///
@@ -103,7 +103,7 @@ pub fn merge(
     })))
 }
 
-/// Records of `source` that `loaded` does not have, in an order of their own.
+/// Records of `source` that `loaded` does not have, in a reproducible order.
 fn missing(loaded: &Loaded, source: &Loaded) -> Vec<Record> {
     let mut touches: Vec<_> = source
         .touches
@@ -139,7 +139,7 @@ fn compare(sources: &[(PathBuf, Loaded)]) -> (Vec<Disagreement>, u64) {
                 continue;
             };
             let words = [result.verdict.as_str(), run.result.verdict.as_str()];
-            // A verdict replaces none: that is no contradiction.
+            // A verdict replaces an undecided run: that is no contradiction.
             if words[0] != words[1] && !words.contains(&"undecided") {
                 let at = Disagreement {
                     amplitude_m_per_s2: f64::from_bits(key.amplitude_bits),
@@ -156,8 +156,7 @@ fn compare(sources: &[(PathBuf, Loaded)]) -> (Vec<Disagreement>, u64) {
     (found.into_iter().map(|(_, at)| at).collect(), rounding)
 }
 
-/// Takes recorded histories that `to` does not have; returns what is wrong with those that were
-/// left where they are.
+/// Takes recorded histories that `to` does not have; returns the faults of those that were not taken.
 fn take_histories(
     results: &Results,
     from: &[PathBuf],

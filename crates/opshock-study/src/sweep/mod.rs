@@ -1,35 +1,34 @@
-//! Sweeps: points in parallel, one writer, progress.
+//! Sweeps of a study: points in parallel, one writer, progress.
 //!
-//! A sweep asks a [`Simulator`] for verdicts and tells them to the searches of all points. What is
-//! finished goes through a bounded channel to one writer thread, which puts it on the disk and only
-//! then tells [`Progress`]. Running a sweep again goes on where it stopped, and ends with the same
-//! table to the bit: the table is a function of the probes that the searches ask, and their verdicts
-//! of the scenes.
+//! A sweep gets verdicts from a [`Simulator`] and reports them to the searches of all points. Finished simulations go
+//! through a bounded channel to one writer thread, which puts them on the disk and only then informs [`Progress`]. A
+//! sweep run again continues where it stopped, and ends with the same table to the bit: the table is a function of the
+//! probes that the searches request, and their verdicts of the scenes.
 
+pub mod added_points;
 mod audit;
 mod engine;
 mod estimate;
 pub mod forecast;
 mod from_study;
 mod guard;
-mod held;
 mod histories;
 mod input;
 mod latest;
-mod ledger;
 mod lucky;
 mod merge;
+mod model_cache;
 mod neighbours;
 mod options;
 pub mod physics;
 mod probed;
 pub mod progress;
-pub mod refine;
+mod quasi_static;
+mod registry;
 mod replay;
 pub mod rounds;
 mod rows;
 pub mod shard;
-mod shelf;
 pub mod simulator;
 pub mod stop;
 mod unkept;
@@ -37,14 +36,14 @@ mod writer;
 
 pub use audit::audit;
 pub use engine::sweep;
-pub use input::{BarPlan, SweepInput, SweepPoint};
+pub use input::{SweepInput, SweepPoint, UncertaintyPlan};
 pub use merge::{Disagreement, MergeEnd, Merged, merge};
+pub use model_cache::Counts;
 pub use options::{Ending, SweepEnd, SweepOptions};
 pub use physics::Physics;
 pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use replay::{replay, stored};
 pub use shard::Shard;
-pub use shelf::Counts;
 pub use simulator::{Onset, Simulator};
 pub use stop::StopFlag;
 pub use unkept::unkept;

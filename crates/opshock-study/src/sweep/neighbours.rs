@@ -1,4 +1,4 @@
-//! The other parts of a divided sweep, as one part sees them.
+//! The other parts of a sweep divided into shards, as one part sees them.
 
 use super::shard::{self, Others, Shard};
 use crate::search::order::Order;
@@ -6,7 +6,7 @@ use crate::store::Record;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// How often a shard looks at the stores of the others.
+/// Time between two readings of the other shards' stores.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 
 /// The other parts of a divided sweep.
@@ -16,13 +16,13 @@ pub(super) struct Neighbours {
     owners: Vec<usize>,
     /// Points of this part.
     owned: Vec<bool>,
-    /// Points whose answers this part cannot do without.
+    /// Points whose answers this part needs.
     needed: Vec<bool>,
     asked_at: Option<Instant>,
 }
 
 impl Neighbours {
-    /// Neighbours of a shard that owns the points `owned` and completes those `wanted`; not asked yet.
+    /// Neighbours of a shard that owns the points `owned` and completes those `wanted`; not read yet.
     pub(super) fn new(
         shard: &Shard,
         whole: &Path,
@@ -39,8 +39,8 @@ impl Neighbours {
         }
     }
 
-    /// Points that are left to this part, since those that own them are not at work, and what others have
-    /// finished; `None` when they were asked just now.
+    /// Points that are left to this part, since their owners are not at work, and the results of others; `None` when
+    /// they were read just now.
     pub(super) fn ask(&mut self) -> Option<(Vec<bool>, Vec<Record>)> {
         let is_recent = |at: Instant| at.elapsed() < BETWEEN_LOOKS;
         if self.asked_at.is_some_and(is_recent) {

@@ -1,4 +1,4 @@
-//! How a sweep is run, and why it ended.
+//! Options of a sweep, and the reason why it ended.
 
 use super::shard::Shard;
 use super::stop::StopFlag;
@@ -6,18 +6,18 @@ use crate::store::summary::Summary;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// How a sweep is run; none of it changes the answer.
+/// Options of a sweep; none of them changes the answer.
 #[derive(Clone, Debug)]
 pub struct SweepOptions {
     /// Worker threads.
     pub threads: usize,
-    /// Asks the sweep to stop.
+    /// Request to stop.
     pub stop: StopFlag,
     /// Time after which the sweep saves and ends.
     pub budget: Option<Duration>,
-    /// Simulate again what had no verdict.
+    /// Simulate undecided runs again.
     pub retry_undecided: bool,
-    /// Let idle threads compute probes that will probably be asked.
+    /// Let idle threads compute probes that will probably be requested.
     pub speculate: bool,
     /// Stores, of any study, whose finished simulations answer what they can.
     pub reuse: Vec<PathBuf>,
@@ -45,7 +45,7 @@ impl SweepOptions {
 pub enum Ending {
     /// Every point has its answer.
     Complete,
-    /// A stop was asked for, by this signal if it was one.
+    /// A stop was requested, by this signal if it was one.
     Stopped {
         /// Signal number.
         signal: Option<i32>,
@@ -54,7 +54,7 @@ pub enum Ending {
     Budget,
 }
 
-/// What a sweep hands back.
+/// Result of a sweep.
 #[derive(Clone, Debug)]
 pub struct SweepEnd {
     /// The table.

@@ -1,27 +1,26 @@
-//! The simulator of a sweep that runs the physics.
+//! The simulator of a sweep: builds models of the study's scenes and runs shocks on them.
 //!
-//! Points with the same scene (the two signs) share one model; models share structure, or film and
-//! steady flight, where those are the same, and points that differ in the head alone share
-//! structural histories. Models are made when first asked for. None of this reaches the numbers:
-//! building is deterministic and a model never changes. With `effects = "full"` nothing is shared:
-//! every simulation builds its own model.
+//! Points with the same scene (the two signs) share one model; models share structure, or film and steady flight, where
+//! those are the same, and points that differ in the head alone share structural histories. Models are made when first
+//! needed. None of this changes the numbers: building is deterministic and a model never changes. With `effects =
+//! "full"` nothing is shared: every simulation builds its own model.
 
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_solver::scene::plan::{Mode, Plan};
 use opshock_solver::simulation::{
     Bearing, BuildError, Going, HeadState, Model, Outcome, Request, Workspace, run_structure,
     simulate_head_on,
 };
 
-use super::held::{Lowest, held_still};
 use super::latest::Latest;
+use super::model_cache::{Counts, ModelCache};
 use super::probed::{not_built, probe_result};
-use super::shelf::{Counts, Shelf};
+use super::quasi_static::{Lowest, quasi_static};
 use super::simulator::{Onset, Simulator};
 use crate::identity;
 use crate::provenance::PHYSICS_STRUCTURE;
@@ -36,15 +35,15 @@ struct Slot {
     /// Its ramp on other meshes.
     remeshed: Option<RemeshedRamp>,
     plain: OnceLock<Built>,
-    /// The doubled window, kept while both signs may ask for it.
+    /// The model of the doubled window, kept while both signs may need it.
     longer: Mutex<Option<Arc<Model>>>,
 }
 
 impl Slot {
-    /// The scene with turned knobs, the ramp's mesh among them.
+    /// The scene at other refinement levels, of the ramp's mesh, too.
     fn at_levels(&self, levels: Levels) -> Scene {
         let mut scene = self.scene.at_levels(levels);
-        let mesh = levels.of(Knob::RampMesh);
+        let mesh = levels.of(Discretisation::RampMesh);
         if let Some(ramp) = self.remeshed.as_ref().filter(|_| mesh != 0) {
             scene.ramp.model.contacts = Some(ramp.modes(mesh));
         }
@@ -52,17 +51,17 @@ impl Slot {
     }
 }
 
-/// Models with turned knobs that are kept, the oldest first. An error bar asks for nine or so, each
-/// several times and some by both signs; kept for all scenes they would fill the memory.
-const TURNED: usize = 24;
+/// Largest number of kept models at other refinement levels. An uncertainty interval needs about nine, each several
+/// times and some by both signs; kept for all scenes they would fill the memory.
+const REFINED: usize = 24;
 
 /// Survivors whose lowest attitude is kept: many times those of the points that two threads work on.
 const MOST_LOWEST: usize = 4096;
 
-/// Memory of the ends that are kept, bytes: some hundred on 1000 cells. A search asks for one of its last survivors.
+/// Memory of the kept final states, bytes: some hundred on 1000 cells. A search needs one of its last survivors.
 const MOST_END_BYTES: usize = 4 << 20;
 
-/// What tells one shock of a study from another, whatever lattice its amplitude was a node of.
+/// Identity of one shock of a study, independent of the amplitude grid that its amplitude was taken from.
 #[derive(Clone, Copy, PartialEq)]
 struct Shake {
     point: usize,
@@ -87,32 +86,32 @@ impl Shake {
 /// Runs the physics for the points of a study.
 pub struct Physics {
     slots: Vec<Slot>,
-    /// Slot, sign of the shock, and sense of its axis along the scene's, of every point.
+    /// Model place, sign of the shock, and sense of its axis along the scene's, of every point.
     points: Vec<(usize, f64, f64)>,
     plan: Plan,
-    /// Models with turned knobs, by slot and levels.
-    turned: Mutex<Latest<(usize, Levels), Arc<Model>>>,
-    donors: Mutex<Vec<Arc<Model>>>,
-    shelf: Shelf,
+    /// Models at other refinement levels, by place and levels.
+    changed: Mutex<Latest<(usize, Levels), Arc<Model>>>,
+    shared_models: Mutex<Vec<Arc<Model>>>,
+    cache: ModelCache,
     /// Structures that several scenes of the study have.
     shared_structures: HashSet<[u8; 16]>,
     /// Structures built so far.
     structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
-    /// Where recent survivors came closest to the disk.
+    /// Attitudes of recent survivors at their smallest clearance.
     lowest: Mutex<Latest<Shake, Lowest>>,
-    /// Where recent survivors ended, by point and bits of the signed amplitude, for the doubled window to go on from.
+    /// Final states of recent survivors, by point and bits of the signed amplitude: the doubled window continues them.
     ends: Mutex<Latest<(usize, u64), HeadState>>,
 }
 
 impl Physics {
-    /// Structural runs that points with a structure in common asked for so far, and how many of them an
-    /// earlier run answered.
+    /// Structural runs requested so far by points with a common structure, and how many of them an earlier run
+    /// answered.
     pub fn structural_runs(&self) -> Counts {
-        self.shelf.counts()
+        self.cache.counts()
     }
 
-    /// Structures of disk and ramp built so far, those of turned knobs and longer windows included.
+    /// Structures of disk and ramp built so far, with those of other refinement levels and longer windows.
     pub fn structures_built(&self) -> u64 {
         self.structures.load(Ordering::Relaxed)
     }
@@ -163,9 +162,9 @@ impl Physics {
             slots,
             points,
             plan,
-            turned: Mutex::new(Latest::new(TURNED)),
-            donors: Mutex::new(Vec::new()),
-            shelf: Shelf::default(),
+            changed: Mutex::new(Latest::new(REFINED)),
+            shared_models: Mutex::new(Vec::new()),
+            cache: ModelCache::default(),
             shared_structures,
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
@@ -187,9 +186,9 @@ impl Physics {
         let has_structure = |model: &Arc<Model>| model.has_structure(scene, &self.plan);
         let has_film = |model: &Arc<Model>| Bearing::is_shared(scene, model.scene());
         let has_reference = |model: &Arc<Model>| Bearing::has_reference(scene, model.scene());
-        let donors: Vec<Arc<Model>> = match self.plan.shares_parts {
+        let shared_models: Vec<Arc<Model>> = match self.plan.shares_parts {
             true => {
-                let all = lock(&self.donors);
+                let all = lock(&self.shared_models);
                 let structure = all.iter().find(|model| has_structure(model));
                 let film = all.iter().find(|model| has_film(model));
                 let film = film.or_else(|| all.iter().find(|model| has_reference(model)));
@@ -197,37 +196,37 @@ impl Physics {
             }
             false => Vec::new(),
         };
-        let given = donors.iter().map(|donor| &**donor);
+        let given = shared_models.iter().map(|shared_model| &**shared_model);
         let model = Arc::new(Model::assemble(scene, &self.plan, given)?);
         // Kept for others: a new film, or a structure that other points have too.
-        if !donors.iter().any(has_structure) {
+        if !shared_models.iter().any(has_structure) {
             self.structures.fetch_add(1, Ordering::Relaxed);
         }
         let gives_structure = self.shared_structures.contains(&structure_key(scene));
-        let is_new =
-            !donors.iter().any(has_film) || gives_structure && !donors.iter().any(has_structure);
+        let is_new = !shared_models.iter().any(has_film)
+            || gives_structure && !shared_models.iter().any(has_structure);
         if self.plan.shares_parts && is_new {
-            lock(&self.donors).push(Arc::clone(&model));
+            lock(&self.shared_models).push(Arc::clone(&model));
         }
         Ok(model)
     }
 
-    /// A scene with turned knobs in the study's window.
-    fn turned_model(&self, slot: usize, levels: Levels) -> Built {
+    /// A scene at other refinement levels in the study's window.
+    fn refined_model(&self, slot: usize, levels: Levels) -> Built {
         let key = (slot, levels);
-        let known = lock(&self.turned).get(&key).cloned();
+        let known = lock(&self.changed).get(&key).cloned();
         if let Some(model) = known {
             return Ok(model);
         }
         let model = self.build(&self.slots[slot].at_levels(levels))?;
-        lock(&self.turned).keep(key, Arc::clone(&model), 1);
+        lock(&self.changed).keep(key, Arc::clone(&model), 1);
         Ok(model)
     }
 
     /// The model a probe runs on.
     fn model_for(&self, point: usize, probe: Probe) -> Built {
         if !probe.levels.is_none() && probe.retry == Retry::None {
-            return self.turned_model(self.points[point].0, probe.levels);
+            return self.refined_model(self.points[point].0, probe.levels);
         }
         if probe.retry == Retry::None && probe.window_factor == 1 {
             return self.model(point);
@@ -258,7 +257,7 @@ impl Physics {
         }
     }
 
-    /// Runs a shock. What goes on where the same shock in the study's window ended does so from its end when that is
+    /// Runs a shock. A longer window continues the same shock in the study's window from its final state while that is
     /// still kept.
     fn run(&self, model: &Model, request: &Request, (point, probe): (usize, Probe)) -> Outcome {
         let mut workspace = lock(&self.workspaces).pop().unwrap_or_default();
@@ -286,7 +285,7 @@ impl Physics {
             let nodes = model.structure().n_steps() + 1;
             let run = || run_structure(model, request, &mut workspace);
             let shared = self
-                .shelf
+                .cache
                 .get_or_run((structure, amplitude_bits), nodes, run);
             let structure = shared.wait().as_ref();
             simulate_head_on(model, request, structure, going, &mut workspace)
@@ -308,7 +307,7 @@ fn structure_key(scene: &Scene) -> [u8; 16] {
     identity::structure_key(scene, PHYSICS_STRUCTURE)
 }
 
-/// A poisoned lock only means that another probe panicked; what it guards is whole at all times.
+/// A poisoned lock only means that another probe panicked; its data are consistent at all times.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex
         .lock()
@@ -317,9 +316,11 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 impl Simulator for Physics {
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
-        let steps = probe.levels.of(Knob::HeldFilm);
+        let steps = probe.levels.of(Discretisation::QuasiStaticFilm);
         let own = Probe {
-            levels: probe.levels.turned(Knob::HeldFilm, -steps),
+            levels: probe
+                .levels
+                .changed(Discretisation::QuasiStaticFilm, -steps),
             ..probe
         };
         let model = match self.model_for(point, own) {
@@ -343,12 +344,12 @@ impl Simulator for Physics {
         }
         let known = lock(&self.lowest).get(&key).copied();
         if let Some(lowest) = known {
-            return held_still(&model, lowest, steps);
+            return quasi_static(&model, lowest, steps);
         }
         let outcome = shake();
         match Lowest::of(&outcome) {
-            Some(lowest) => held_still(&model, lowest, steps),
-            // What fails has no margin to correct.
+            Some(lowest) => quasi_static(&model, lowest, steps),
+            // A failing run has no clearance to correct.
             None => probe_result(&outcome),
         }
     }
@@ -367,7 +368,7 @@ impl Simulator for Physics {
         if self.slots[slot].scene.ramp.model.is_absent() {
             return Onset::NoRamp;
         }
-        // In full nothing is taken from the answers without ramp.
+        // With the full model nothing is taken from the answers without ramp.
         if self.plan.mode == Mode::Full {
             return Onset::Unknown;
         }

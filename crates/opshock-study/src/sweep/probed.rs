@@ -1,4 +1,4 @@
-//! What a simulation answers, as the search sees it.
+//! Converts an outcome of the simulation to the result of a probe.
 
 use crate::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
 use opshock_solver::simulation::{BuildError, Cause, Outcome, Verdict as SolverVerdict};
@@ -19,13 +19,14 @@ pub(super) fn not_built(error: &BuildError) -> ProbeResult {
 /// An outcome as the search sees it.
 pub(super) fn probe_result(outcome: &Outcome) -> ProbeResult {
     let verdict = match &outcome.verdict {
-        SolverVerdict::Survives => Verdict::Survives,
-        SolverVerdict::Fails { t_fail_s, place } => Verdict::Fails {
+        // Of disk and ramp alone nothing fails.
+        None | Some(SolverVerdict::Survives) => Verdict::Survives,
+        Some(SolverVerdict::Fails { t_fail_s, place }) => Verdict::Fails {
             t_fail_s: *t_fail_s,
             x_m: place.x_m,
             y_m: place.y_m,
         },
-        SolverVerdict::Undecided { cause } => Verdict::Undecided {
+        Some(SolverVerdict::Undecided { cause }) => Verdict::Undecided {
             cause: match cause {
                 Cause::NotConverged { .. } => UndecidedCause::NotConverged,
                 Cause::StepLimit { .. } => UndecidedCause::StepLimit,

@@ -1,19 +1,19 @@
-//! Table and runs of a store, without simulating.
+//! Reads table and runs of a store, without simulating.
 
 use super::input::SweepInput;
-use super::ledger::Ledger;
+use super::registry::Registry;
 use crate::store::{self, Loaded, Results, Session, StoreError, folder};
 use std::path::Path;
 
 /// Table and runs from what is stored, without simulating.
 pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results {
-    let mut ledger = Ledger::new(input, loaded);
-    ledger.absorb_all();
-    ledger.results(session)
+    let mut registry = Registry::new(input, loaded);
+    registry.absorb_all();
+    registry.results(session)
 }
 
-/// Table and runs of a store as it stands, a sweep in progress or a killed one included; nothing
-/// is simulated, locked or changed.
+/// Table and runs of a store in its present state, also of a sweep in progress or a killed one; nothing is simulated,
+/// locked or changed.
 ///
 /// # Errors
 ///

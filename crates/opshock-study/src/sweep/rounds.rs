@@ -1,25 +1,24 @@
-//! What follows a sweep of a study that refines itself: the next round, by one process or by shards.
+//! Added widths after a sweep: the next round of a study that refines its widths, by one process or by shards.
 //!
-//! The widths of a round follow from all answers of the rounds before, so a shard that has answered
-//! its own points waits for the shards at work, reads what all have finished, and goes on with its
-//! part of the next round: every shard finds the same widths. Of the study's own widths a shard
-//! answers its part alone, however long the others stay away. Of added widths those are taken by
-//! whoever is at work, so that the shard that ends last ends the refinement.
+//! The widths of a round follow from all answers of the rounds before. So a shard that has answered its own points
+//! waits for the shards at work, reads the results of all, and goes on with its part of the next round: every shard
+//! finds the same widths. Of the study's own widths a shard answers its part alone, however long the others are away.
+//! Added widths are answered by any shard at work, so that the shard that ends last completes them.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use super::added_points::{next_round, refined};
 use super::input::SweepInput;
 use super::options::{Ending, SweepOptions};
-use super::refine::{next_round, refined};
 use super::replay::replay;
 use super::shard::{Others, Shard, stores};
-use crate::search::LatticeError;
+use crate::search::AmplitudeGridError;
 use crate::store::summary::Status;
 use crate::store::{self, Loaded, Record, StoreError, Summary, TouchRecord, folder};
 use crate::study::Study;
 
-/// How often a waiting shard looks at the others.
+/// Time between two looks of a waiting shard at the others.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 /// Looks without a shard at work after which none is expected: between two rounds a shard is not at
 /// work for an instant.
@@ -37,16 +36,16 @@ pub enum Next {
         /// Open points.
         points: usize,
     },
-    /// A stop was asked for, or the budget used up, while waiting for other shards.
+    /// A stop was requested, or the budget used up, while waiting for other shards.
     Stopped(Ending),
 }
 
 /// Why the next round is not known.
 #[derive(Debug, thiserror::Error)]
 pub enum RoundError {
-    /// The amplitude range holds no node of the lattice.
+    /// The amplitude range has no point of the amplitude grid.
     #[error(transparent)]
-    Lattice(#[from] LatticeError),
+    AmplitudeGrid(#[from] AmplitudeGridError),
     /// A store cannot be read.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -81,15 +80,14 @@ fn take(store: &Path, all: &mut Loaded) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// The study with every width that what is finished in `whole` calls for, where it refines itself:
-/// where a sweep begins. What shards have finished counts for a shard alone; a sweep of the whole
-/// takes from them what was merged.
+/// The study with every width that the results in `whole` require, where it refines its widths: the start of a sweep.
+/// Results of shards are used by a shard alone; a sweep of the whole uses those that were merged.
 ///
 /// # Errors
 ///
 /// [`RoundError`].
 pub fn first(study: &Study, whole: &Path, shard: Option<&Shard>) -> Result<Study, RoundError> {
-    if study.search.refine.is_none() {
+    if study.search.added_points.is_none() {
         return Ok(study.clone());
     }
     let mut known = Loaded::default();
@@ -100,8 +98,8 @@ pub fn first(study: &Study, whole: &Path, shard: Option<&Shard>) -> Result<Study
     Ok(refined(study, &known)?)
 }
 
-/// What follows a complete sweep of `study` into `whole` that ended with `summary`. A shard waits
-/// for the others as long as one is at work, `began` being what its budget counts from.
+/// The next step after a complete sweep of `study` into `whole` that ended with `summary`. A shard waits for the others
+/// as long as one is at work; its budget runs from `began`.
 ///
 /// # Errors
 ///
@@ -113,7 +111,7 @@ pub fn next(
     summary: &Summary,
     began: Instant,
 ) -> Result<Next, RoundError> {
-    if study.search.refine.is_none() {
+    if study.search.added_points.is_none() {
         return Ok(Next::Done);
     }
     let Some(shard) = &options.shard else {
@@ -124,7 +122,7 @@ pub fn next(
     let others = Others::of(shard, whole);
     let mut idle_looks = 0;
     loop {
-        // Asked before reading: what a shard finishes in between is not missed.
+        // Asked before reading: results that a shard finishes in between are not missed.
         let is_alone = !others.any_at_work();
         let results = replay(&input, finished(whole)?, &folder::session(1));
         let rows = &results.summary.points;

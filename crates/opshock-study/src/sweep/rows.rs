@@ -1,26 +1,26 @@
-//! Rows of the table from what the searches found.
+//! Rows of the table of critical shocks, made from the findings of the searches.
 
 use super::input::SweepPoint;
-use crate::search::bar::{Answer, SUBNODES};
-use crate::search::{Bar, Coordinates, Findings, Flag, Lattice, RampClass, Status};
-use crate::store::summary::{ErrorPart, PointSummary};
+use crate::search::uncertainty::{Answer, SUBDIVISIONS};
+use crate::search::{AmplitudeGrid, Coordinates, Findings, Flag, RampClass, Status, Uncertainty};
+use crate::store::summary::{Contribution, PointSummary};
 
 /// Row of a point.
 ///
-/// The answer lies between the highest survivor, which is reported, and the lowest failure above
-/// it: the bracket adds nothing below the reported value and its width above. The bracket alone is no error: without
-/// an error bar, or where no other part of it could be found, the row has none. Where the bar climbed,
-/// both are those of the finer knobs; brackets and scan stay those of the study's own.
+/// The answer lies between the highest survivor, which is reported, and the lowest failure above it: the bracket adds
+/// nothing below the reported value and its width above. The bracket alone is no error: without an uncertainty
+/// interval, or where it has no other contribution, the row has none. After adaptive refinement both are those of the
+/// refined parameters; brackets and scan remain those of the study's resolution.
 pub(super) fn row(
     point: &SweepPoint,
     findings: &Findings,
-    bar: Option<(&Answer, u64)>,
+    uncertainty: Option<(&Answer, u64)>,
     onset_g: Option<f64>,
-    lattice: &Lattice,
+    grid: &AmplitudeGrid,
 ) -> PointSummary {
-    let amplitude = |node: i32| lattice.amplitude_g(node);
-    let fine = lattice.finer(SUBNODES);
-    let (a_crit_g, a_fail_g) = match (findings.status, bar) {
+    let amplitude = |node: i32| grid.amplitude_g(node);
+    let fine = grid.finer(SUBDIVISIONS);
+    let (a_crit_g, a_fail_g) = match (findings.status, uncertainty) {
         (Status::Ok, Some((answer, _))) => (
             Some(fine.amplitude_g(answer.survivor)),
             Some(fine.amplitude_g(answer.failure)),
@@ -30,30 +30,35 @@ pub(super) fn row(
             findings.failure.map(amplitude),
         ),
     };
-    let err_parts = match (findings.status, bar, a_crit_g, a_fail_g) {
+    let contributions = match (findings.status, uncertainty, a_crit_g, a_fail_g) {
         (Status::Ok, Some((answer, _)), Some(a_crit_g), Some(a_fail_g)) => {
-            parts(&answer.bar, a_crit_g, a_fail_g)
+            contributions(&answer.uncertainty, a_crit_g, a_fail_g)
         }
         _ => Vec::new(),
     };
-    let sum = |of: fn(&ErrorPart) -> f64| {
-        (!err_parts.is_empty()).then(|| err_parts.iter().map(|(_, part)| of(part)).sum())
+    let sum = |of: fn(&Contribution) -> f64| {
+        (!contributions.is_empty()).then(|| {
+            contributions
+                .iter()
+                .map(|(_, contribution)| of(contribution))
+                .sum()
+        })
     };
     let mut flags = findings.flags.clone();
     let mut levels = String::new();
-    if let Some((answer, _)) = bar {
-        flags.extend(&answer.bar.flags);
+    if let Some((answer, _)) = uncertainty {
+        flags.extend(&answer.uncertainty.flags);
         levels = answer.levels.label();
         // The ramp takes the answer without ramp only below first touch.
         if let (Some(crit_g), Some(onset_g)) = (a_crit_g, onset_g)
             && flags.contains(&Flag::NoTouch)
             && crit_g > onset_g
         {
-            flags.insert(Flag::BarPartial);
+            flags.insert(Flag::ContributionMissing);
         }
     }
     if !levels.is_empty() {
-        flags.insert(Flag::Climbed);
+        flags.insert(Flag::Refined);
     }
     PointSummary {
         ramp: point.coordinates.ramp.clone(),
@@ -62,12 +67,12 @@ pub(super) fn row(
         axes: point.axes.clone(),
         a_crit_g,
         a_fail_g,
-        err_low_g: sum(|part| part.low_g),
-        err_high_g: sum(|part| part.high_g),
-        err_parts,
+        err_low_g: sum(|contribution| contribution.low_g),
+        err_high_g: sum(|contribution| contribution.high_g),
+        contributions,
         levels,
         onset_g,
-        runs: findings.runs + bar.map_or(0, |(_, runs)| runs),
+        runs: findings.runs + uncertainty.map_or(0, |(_, runs)| runs),
         status: findings.status,
         flags: flags.into_iter().collect(),
         brackets_g: findings
@@ -75,9 +80,9 @@ pub(super) fn row(
             .iter()
             .map(|&(low, high)| [amplitude(low), amplitude(high)])
             .collect(),
-        certified_from_g: findings.certified_from.map(amplitude),
+        scanned_from_g: findings.scanned_from.map(amplitude),
         largest_gap_pct: findings.largest_gap.map(|nodes| {
-            let octaves = f64::from(nodes) / f64::from(lattice.nodes_per_octave);
+            let octaves = f64::from(nodes) / f64::from(grid.steps_per_octave);
             100.0 * (octaves.exp2() - 1.0)
         }),
     }
@@ -99,29 +104,33 @@ pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
     }
 }
 
-/// The bracket to its last digit, and what the resolution adds as shares of the answer; nothing where
-/// that is not known.
-fn parts(bar: &Bar, a_crit_g: f64, a_fail_g: f64) -> Vec<(String, ErrorPart)> {
-    let others: Vec<_> = bar
-        .parts
+/// The width of the bracket, and the contributions of the resolution as shares of the answer; nothing where they are
+/// not known.
+fn contributions(
+    uncertainty: &Uncertainty,
+    a_crit_g: f64,
+    a_fail_g: f64,
+) -> Vec<(String, Contribution)> {
+    let others: Vec<_> = uncertainty
+        .contributions
         .iter()
-        .filter(|part| part.name != "search")
+        .filter(|contribution| contribution.name != "search")
         .collect();
     if others.is_empty() {
         return Vec::new();
     }
-    let search = ErrorPart {
+    let search = Contribution {
         low_g: 0.0,
         high_g: a_fail_g - a_crit_g,
         factor: 1.0,
     };
-    let others = others.into_iter().map(|part| {
-        let part_g = ErrorPart {
-            low_g: part.low * a_crit_g,
-            high_g: part.high * a_crit_g,
-            factor: part.factor,
+    let others = others.into_iter().map(|contribution| {
+        let part_g = Contribution {
+            low_g: contribution.low * a_crit_g,
+            high_g: contribution.high * a_crit_g,
+            factor: contribution.factor,
         };
-        (part.name.to_owned(), part_g)
+        (contribution.name.to_owned(), part_g)
     });
     std::iter::once(("search".to_owned(), search))
         .chain(others)

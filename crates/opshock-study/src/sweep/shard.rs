@@ -1,10 +1,9 @@
 //! A sweep divided among processes that share a folder, each with a store of its own.
 //!
-//! Shard `k/n` owns every n-th point of the canonical order, from the k-th on. It simulates what the
-//! searches of its points ask, keeps it in `STORE/shards/k-of-n`, and takes from the stores beside
-//! it what they have finished. A point whose answer it needs and whose owner is not at work (not
-//! started, killed) it searches itself, so that a single shard, or shards one after another, come
-//! to an end too. Who simulated what changes no answer: `opshock merge` unites the stores.
+//! Shard `k/n` owns every n-th point of the canonical order, from the k-th on. It simulates the requests of its points'
+//! searches, keeps them in `STORE/shards/k-of-n`, and reads the finished simulations of the stores beside it. A point
+//! whose answer it needs and whose owner is not at work (not started, killed) it searches itself, so that a single
+//! shard, or shards one after another, finish, too. The division changes no answer: `opshock merge` unites the stores.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -17,7 +16,7 @@ use crate::store::{Record, journal};
 
 /// Folder of the shards in a store.
 const SHARDS: &str = "shards";
-/// More shards than this are a mistake.
+/// Largest number of shards; more are a mistake.
 const MOST: usize = 100_000;
 
 /// One part of a divided sweep.
@@ -88,8 +87,8 @@ pub fn stores(whole: &Path) -> Result<Vec<PathBuf>, StoreError> {
     Ok(found)
 }
 
-/// Points whose searches a shard must see ended, by place in the study: those it wants, the widths
-/// that give each other their lower failures, and whatever these start from.
+/// Points whose searches a shard needs to be final, by place in the study: those it wants, the widths that give each
+/// other their lower failures, and whatever these start from.
 pub(super) fn needed(order: &Order, wanted: &[bool]) -> Vec<bool> {
     let mut needed = vec![false; wanted.len()];
     let mut open: Vec<usize> = (0..wanted.len()).filter(|&point| wanted[point]).collect();
@@ -141,7 +140,7 @@ impl Others {
             .any(|(_, is_at_work)| is_at_work)
     }
 
-    /// What journals hold that have grown. What cannot be read now is read later, or simulated.
+    /// New records of journals that have grown. What cannot be read now is read later, or simulated.
     pub(super) fn news(&mut self) -> Vec<Record> {
         let mut news = Vec::new();
         for (number, folder) in self.folders.iter().enumerate() {

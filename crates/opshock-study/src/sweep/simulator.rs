@@ -1,4 +1,4 @@
-//! What a sweep asks of the physics: a verdict for an amplitude, and where the ramp is touched.
+//! Interface of a sweep to the physics: a verdict for an amplitude, and the amplitude of first touch.
 
 use opshock_solver::simulation::Outcome;
 
@@ -6,13 +6,13 @@ use crate::search::{Probe, ProbeResult};
 
 /// Runs simulations for the points of a study, by their place in the study.
 ///
-/// Answers depend on the point and the probe alone: the same question gives the same bits on
-/// every thread and at every time. Calls come from several threads at once. A panic inside is
-/// caught by the sweep and becomes an undecided run of that probe alone.
+/// Answers depend on the point and the probe alone: the same request gives the same bits on every thread and at every
+/// time. Calls come from several threads at once. A panic inside is caught by the sweep and becomes an undecided run of
+/// that probe alone.
 pub trait Simulator: Sync {
     /// Simulates `probe` of point `point` at the signed amplitude.
     ///
-    /// `amplitude_m_per_s2` carries the point's sign and equals the lattice node of `probe.index`.
+    /// `amplitude_m_per_s2` carries the point's sign and equals the amplitude of grid point `probe.index`.
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult;
 
     /// Smallest amplitude, m/s2 (positive), at which the disk touches the ramp of `point` within

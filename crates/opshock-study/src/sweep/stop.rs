@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Asks a sweep to stop. Clones share the same request.
+/// Request to stop a sweep. Clones share the same request.
 #[derive(Clone, Debug, Default)]
 pub struct StopFlag {
     asked: Arc<AtomicBool>,
@@ -11,17 +11,17 @@ pub struct StopFlag {
 }
 
 impl StopFlag {
-    /// Asks to stop.
+    /// Requests the stop.
     pub fn ask(&self) {
         self.asked.store(true, Ordering::SeqCst);
     }
 
-    /// A stop was asked for.
+    /// A stop was requested.
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::SeqCst)
     }
 
-    /// Signal that asked, if one did.
+    /// Signal that requested it, if one did.
     pub fn signal(&self) -> Option<i32> {
         match self.signal.load(Ordering::SeqCst) {
             0 => None,
@@ -29,8 +29,8 @@ impl StopFlag {
         }
     }
 
-    /// Lets SIGINT, SIGTERM and SIGHUP ask; a second one ends the process at once with 128 + its
-    /// number. A signal that the process was started to ignore (`nohup`) stays ignored.
+    /// Lets SIGINT, SIGTERM and SIGHUP request a stop; a second one ends the process at once with 128 + its number. A
+    /// signal that the process was started to ignore (`nohup`) stays ignored.
     ///
     /// # Errors
     ///
@@ -55,7 +55,7 @@ impl StopFlag {
     }
 }
 
-/// Signals ignored by this process, bit 0 for number 1; none where the system does not tell.
+/// Signals ignored by this process, bit 0 for number 1; none where the system does not report it.
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     status

@@ -1,29 +1,29 @@
-//! A sweep on this thread alone that keeps nothing: for callers that keep its table themselves.
+//! A sweep on this thread alone that stores nothing: for callers that keep the table themselves.
 
 use super::guard;
 use super::input::SweepInput;
-use super::ledger::{Job, Ledger};
+use super::registry::{Job, Registry};
 use super::simulator::Simulator;
 use crate::store::summary::Summary;
 use crate::store::{Loaded, RunMachine, RunRecord, folder};
 
 /// The table of [`super::sweep`].
 pub fn unkept(input: &SweepInput, simulator: &dyn Simulator) -> Summary {
-    let mut ledger = Ledger::new(input, Loaded::default());
-    ledger.absorb_all();
-    while !ledger.is_done() {
-        let Some(job) = ledger.next_job(false) else {
+    let mut registry = Registry::new(input, Loaded::default());
+    registry.absorb_all();
+    while !registry.is_done() {
+        let Some(job) = registry.next_job(false) else {
             break;
         };
         match job {
             Job::Onset { point } => {
                 let touch = guard::onset(simulator, point);
-                ledger.touched(input.points[point].digest, touch);
+                registry.touched(input.points[point].digest, touch);
             }
             Job::Run { point, asked, key } => {
-                let amplitude = ledger.amplitude_m_per_s2(point, asked.probe);
+                let amplitude = registry.amplitude_m_per_s2(point, asked.probe);
                 let result = guard::simulate(simulator, point, asked.probe, amplitude);
-                ledger.finished(RunRecord {
+                registry.finished(RunRecord {
                     key,
                     result,
                     machine: RunMachine::default(),
@@ -31,5 +31,5 @@ pub fn unkept(input: &SweepInput, simulator: &dyn Simulator) -> Summary {
             }
         }
     }
-    ledger.results(&folder::session(1)).summary
+    registry.results(&folder::session(1)).summary
 }

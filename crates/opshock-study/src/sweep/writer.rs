@@ -1,8 +1,8 @@
-//! The one thread that writes the store and tells of progress.
+//! The one thread that writes the store and sends progress events.
 //!
-//! Messages are taken in order. Records that wait together are appended with one sync; only then
-//! are their events told and a checkpoint that includes them written. So whatever is reported as
-//! done is on the disk, and `results.h5` never holds a run that the journal lacks.
+//! Messages are taken in order. Records that wait together are appended with one sync; only then are their events sent
+//! and a checkpoint that includes them written. So everything reported as done is on the disk, and `results.h5` never
+//! has a run that the journal lacks.
 
 use crossbeam_channel::Receiver;
 
@@ -14,7 +14,7 @@ use crate::store::{Record, Results, Store, StoreError};
 pub(super) enum Message {
     /// Keep this.
     Keep(Record),
-    /// Tell this once everything before it is on the disk.
+    /// Send this event once everything before it is on the disk.
     Tell(Event),
     /// Replace `results.h5`.
     Checkpoint(Box<Results>),
@@ -27,7 +27,7 @@ const BATCH: usize = 256;
 ///
 /// # Errors
 ///
-/// The disk refused: nothing of the batch at hand counts and nothing more is written.
+/// The disk refused: nothing of the current batch is stored and nothing more is written.
 pub(super) fn write(
     store: &mut Store,
     messages: &Receiver<Message>,

@@ -1,4 +1,4 @@
-//! `opshock accuracy`: what each knob's accuracy costs, at some points of a study.
+//! `opshock accuracy`: error against cost of each discretisation parameter, at some points of a study.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -7,7 +7,9 @@ use super::global::GlobalArgs;
 use super::study_file;
 use clap::Args;
 use opshock_solver::simulation::Scope;
-use opshock_study::accuracy::{Accuracy, BRACKET, Bench, Measured, PointLadders, Setting, ladders};
+use opshock_study::accuracy::{
+    Accuracy, BRACKET, Bench, Measured, PointStudies, Setting, refinement_settings,
+};
 use opshock_study::identity;
 use opshock_study::provenance::{self, PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use opshock_study::report::write_accuracy;
@@ -18,7 +20,7 @@ use opshock_study::study::{Choice, Point, Ramp, Sign, Study};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Measure what accuracy costs: ladders on every knob against finer references
+/// Measure what accuracy costs: refinement studies on every discretisation parameter against finer references
 #[derive(Args, Debug)]
 pub struct AccuracyArgs {
     /// Study file
@@ -74,7 +76,7 @@ struct Line {
 }
 
 impl Memory<'_> {
-    /// Reads what was measured into `folder`; of a line that this program does not read nothing is known.
+    /// Reads the measurements kept in `folder`; lines that this program cannot read are ignored.
     fn open(folder: &Path) -> Result<Memory<'_>, StoreError> {
         let mut known = HashMap::new();
         for line in Self::bytes(folder)?.split(|&byte| byte == b'\n') {
@@ -116,7 +118,7 @@ pub fn run(
     let mut memory = Memory::open(&arguments.out)?;
     let mut measured = Vec::new();
     for point in &points {
-        measured.push(ladders_of(
+        measured.push(studies_of(
             &study,
             point,
             arguments.repeats,
@@ -168,20 +170,24 @@ fn points(study: &Study, places: &[Place]) -> Result<Vec<Point>, Failure> {
         .collect()
 }
 
-/// Measures every ladder of a point.
-fn ladders_of(
+/// Measures every refinement study of a point.
+fn studies_of(
     study: &Study,
     point: &Point,
     repeats: u16,
     memory: &mut Memory<'_>,
     console: &Console,
-) -> Result<PointLadders, Failure> {
+) -> Result<PointStudies, Failure> {
     let sign = point.factor();
-    let settings = ladders(&point.scene);
+    let settings = refinement_settings(&point.scene);
     let plan = Scope::Full.plan();
     let scenes = settings.iter().map(|setting| &setting.scene);
     let runs = scenes.map(|scene| Demand::run(scene, &plan, false));
-    super::memory::check("a ladder", runs.fold(Demand::default(), Demand::max), 1)?;
+    super::memory::check(
+        "a refinement study",
+        runs.fold(Demand::default(), Demand::max),
+        1,
+    )?;
     let key = |setting: &Setting| {
         let head = identity::head_key(&setting.scene, PHYSICS_STRUCTURE, PHYSICS_HEAD);
         let mut hasher = blake3::Hasher::new();
@@ -194,7 +200,7 @@ fn ladders_of(
     };
     // The study's own setting says where the probing shock stands.
     let own = Setting {
-        ladder: "own",
+        parameter: "own",
         value: String::new(),
         fineness: 1.0,
         is_reference: false,
@@ -232,7 +238,7 @@ fn ladders_of(
             point.label(),
             place + 1,
             settings.len(),
-            setting.ladder,
+            setting.parameter,
             setting.value
         ));
         let measured = match Bench::build(&setting.scene, sign) {
@@ -270,7 +276,7 @@ fn ladders_of(
             (setting, one)
         })
         .collect();
-    Ok(PointLadders::of(point.label(), probe_g, &measured))
+    Ok(PointStudies::of(point.label(), probe_g, &measured))
 }
 
 fn build(study: &Study, setting: &Setting, sign: f64) -> Result<Bench, Failure> {

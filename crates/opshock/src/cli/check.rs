@@ -1,4 +1,4 @@
-//! `opshock check`: is the study valid, and what does it ask for?
+//! `opshock check`: checks a study without simulating anything, and prints what it asks for.
 
 use super::console::Console;
 use super::exit::Exit;

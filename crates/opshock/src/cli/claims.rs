@@ -1,4 +1,4 @@
-//! `opshock claims`: the paper's statements against this program's numbers.
+//! `opshock claims`: judges the paper's statements by this program's numbers.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -13,7 +13,7 @@ use opshock_paper::claims::{
     findings, merged, rows, shock_sets, touched_ramps, with_sets, write_claims, write_sensitivity,
 };
 use opshock_solver::scene::Scene;
-use opshock_solver::scene::knob::{Knob, Levels};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_study::provenance;
 use opshock_study::store::Summary;
 use opshock_study::study::memory::Demand;
@@ -68,12 +68,12 @@ pub fn run(
     };
     let runner = Runner::new(global)?;
     let asked = with_sets(&study, &study_file::sets(global)?, &[&shock_sets()])?;
-    let (own, finer) = runner.with_finer_knobs(&asked)?;
+    let (own, finer) = runner.with_finer_discretisations(&asked)?;
     let summary = critical.as_ref().map(|(summary, _)| summary);
     let found = findings(&own, summary);
     let finer: Vec<(String, Vec<Option<Finding>>)> = finer
         .iter()
-        .map(|(knob, shocks)| ((*knob).to_owned(), findings(shocks, None)))
+        .map(|(discretisation, shocks)| ((*discretisation).to_owned(), findings(shocks, None)))
         .collect();
 
     let sensitivity = match (&arguments.sensitivity, &arguments.out) {
@@ -141,7 +141,7 @@ fn known_sensitivity(out: &Path, study: &Study, console: &Console) -> Option<Sen
     }
 }
 
-/// A knob of accuracy, and the shocks with it one step finer.
+/// A discretisation parameter, and the shocks with it refined by one step.
 type Finer = (&'static str, Shocks);
 
 /// Runs shocks and coarse searches on the asked number of threads.
@@ -174,10 +174,15 @@ impl Runner {
             .install(|| tasks.par_iter().enumerate().map(run).collect())
     }
 
-    fn with_finer_knobs(&self, study: &Study) -> Result<(Shocks, Vec<Finer>), Failure> {
+    fn with_finer_discretisations(&self, study: &Study) -> Result<(Shocks, Vec<Finer>), Failure> {
         let tasks = |levels| Shocks::tasks(study, levels).map_err(shock_failure);
         let own = tasks(Levels::NONE)?;
-        let finer = Knob::ALL.map(|knob| Ok((knob, tasks(Levels::NONE.turned(knob, 1))?)));
+        let finer = Discretisation::ALL.map(|discretisation| {
+            Ok((
+                discretisation,
+                tasks(Levels::NONE.changed(discretisation, 1))?,
+            ))
+        });
         let all_finer = finer.into_iter().collect::<Result<Vec<_>, Failure>>()?;
         let all = all_finer.iter().flat_map(|(_, tasks)| tasks).chain(&own);
         let demand = all
@@ -192,9 +197,9 @@ impl Runner {
         let scenes = own.iter().map(|task| task.scene().clone());
         let known: Vec<_> = scenes.zip(cases.iter().cloned()).collect();
         let mut finer = Vec::new();
-        for (knob, tasks) in all_finer {
+        for (discretisation, tasks) in all_finer {
             let cases = self.run(&tasks, &known).map_err(shock_failure)?;
-            finer.push((knob.as_str(), Shocks::of(cases)));
+            finer.push((discretisation.as_str(), Shocks::of(cases)));
         }
         Ok((Shocks::of(cases), finer))
     }

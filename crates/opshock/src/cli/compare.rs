@@ -1,4 +1,4 @@
-//! `opshock compare`: what differs between two stores.
+//! `opshock compare`: prints what differs between two stores (folders of a sweep's results).
 
 use super::console::Console;
 use super::exit::Exit;

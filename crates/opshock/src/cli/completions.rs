@@ -1,4 +1,4 @@
-//! `opshock completions`: completion script of a shell.
+//! `opshock completions`: prints the completion script of a shell.
 
 use super::console::Console;
 use super::exit::Exit;

@@ -1,4 +1,4 @@
-//! Where words go: results to stdout, messages to stderr.
+//! Writes the output of a command: results to stdout, messages to stderr.
 
 use super::failure::Failure;
 use anyhow::Context as _;
@@ -49,15 +49,15 @@ impl Console {
         self.result(&(text + "\n"))
     }
 
-    /// Tells something on stderr, unless quiet.
+    /// Prints a message on stderr, unless quiet.
     pub fn tell(&self, text: &str) {
         if !self.quiet {
-            // Nobody to tell is no reason to stop.
+            // A message that nobody can read is no reason to stop.
             let _ = writeln!(std::io::stderr(), "{text}");
         }
     }
 
-    /// Tells what stopped the command.
+    /// Prints what stopped the command.
     pub fn fail(&self, failure: &Failure) {
         let text = if self.json {
             format!("{:#}\n", failure.json())

@@ -1,4 +1,4 @@
-//! `opshock doctor`: can this machine be trusted with a sweep?
+//! `opshock doctor`: checks whether this machine can be trusted with a sweep.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -88,17 +88,17 @@ pub fn run(
     Ok(if ok { Exit::Complete } else { Exit::Difference })
 }
 
-/// Two points on a coarse film: seconds, through every part of a sweep.
+/// Two points with a coarse film: takes seconds and uses every part of a sweep.
 fn small_study() -> Result<Study, Failure> {
     let sets: Result<Vec<SetArg>, _> = [
         "ramp.models=[\"rigid\"]",
         "pulse.widths_ms=[0.5]",
         "pulse.window_ms=1.0",
         "search.tolerance_pct=20",
-        "search.certify=off",
-        "search.error_bars=false",
-        "solver.film_cells=300",
-        "solver.disk_cut_khz=10",
+        "search.monotonicity_scan=off",
+        "search.uncertainty=false",
+        "resolution.film_cells=300",
+        "resolution.disk_cut_khz=10",
         "output.keep_histories=none",
     ]
     .into_iter()
@@ -107,7 +107,7 @@ fn small_study() -> Result<Study, Failure> {
     Ok(Study::from_text(&Study::example("doctor"), &sets?)?)
 }
 
-/// A sweep as far as it must not depend on threads or files.
+/// The results of a sweep that must not depend on threads or files.
 struct Swept {
     /// The stored table equals the one handed back.
     comes_back: bool,

@@ -1,4 +1,4 @@
-//! Exit codes: what a script may rely on.
+//! The program's exit codes, which scripts may rely on.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! `opshock explain`: which effects each scene of a study calls for, and by which rule.
+//! `opshock explain`: prints which effects each scene of a study calls for, and by which rule.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -21,14 +21,14 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Print which effects each scene calls for: on, off or asleep, by which rule
+/// Print which effects each scene calls for: on, off or inactive, by which rule
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
     /// Study file
     study: PathBuf,
     #[command(flatten)]
     shock: ShockArgs,
-    /// Run the shock as planned and in full, and print the cost saved
+    /// Run the shock with the reduced and the full model, and print the cost saved
     #[arg(long, requires = "amplitude_g")]
     measure: bool,
 }
@@ -90,9 +90,9 @@ pub fn run(
     let swept = stored::read(&source, console).ok();
     let saved = swept.map_or(Vec::new(), |stored| stored.savings);
     if console.json {
-        let mut told = as_json(&study, &plan, amplitude_g, &all);
-        told["saved_in_sweep"] = json!(saved);
-        console.result_json(&told)?;
+        let mut reported = as_json(&study, &plan, amplitude_g, &all);
+        reported["saved_in_sweep"] = json!(saved);
+        console.result_json(&reported)?;
     } else {
         let mut text = as_text(&study, &plan, amplitude_g, &all);
         if !saved.is_empty() {
@@ -302,7 +302,7 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
         if let Some(m) = &scene.measured {
             let _ = writeln!(
                 text,
-                "{:width$}  measured {:.4} s as planned, {:.4} s in full: {:.1} % saved",
+                "{:width$}  measured {:.4} s (reduced model), {:.4} s (full model): {:.1} % saved",
                 "",
                 m.planned_s,
                 m.full_s,
@@ -311,13 +311,13 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
         }
     }
     text.push_str("modes: moving before the first touch / after it\n");
-    // Rules depend on the ramp above all; the rest of a ramp's scenes differ in numbers.
-    let mut told = Vec::new();
+    // Rules depend mostly on the ramp model; scenes with the same ramp model differ in numbers only.
+    let mut reported = Vec::new();
     for scene in all {
-        if told.contains(&scene.point.ramp) {
+        if reported.contains(&scene.point.ramp) {
             continue;
         }
-        told.push(scene.point.ramp);
+        reported.push(scene.point.ramp);
         let _ = writeln!(text, "\nrules for {}", scene.point.label());
         for d in &scene.rules {
             let applied = if d.applied { "yes" } else { "no" };

@@ -1,4 +1,4 @@
-//! `opshock export`: every simulation of a store as CSV or JSON; one shock for ParaView.
+//! `opshock export`: prints every simulation of a store as CSV or JSON; writes one shock for ParaView.
 
 use super::console::Console;
 use super::exit::Exit;

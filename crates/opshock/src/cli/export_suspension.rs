@@ -1,4 +1,4 @@
-//! `opshock export --format suspension`: the finite elements of a study's suspension as matrices.
+//! `opshock export --format suspension`: writes the finite elements of a study's suspension as matrices.
 
 use super::console::Console;
 use super::exit::Exit;

@@ -1,4 +1,4 @@
-//! `opshock export STUDY --format vtu`: one shock as time series for ParaView.
+//! `opshock export STUDY --format vtu`: writes one shock as time series for ParaView.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -141,7 +141,7 @@ fn disk(
         .map(|k| TAU * k as f64 / ANGLES as f64)
         .collect();
     let deflections = |radius_m: f64, angle_rad: f64| -> Result<Vec<f64>, StructureError> {
-        // The clamp does not move, and nothing is observed on the very edges.
+        // The clamp does not move, and no point on the edges themselves is observed.
         if radius_m <= inner {
             return Ok(vec![0.0; times_s.len()]);
         }

@@ -1,4 +1,4 @@
-//! What stops a command, and how it is told.
+//! The errors that stop a command, their messages and their exit codes.
 
 use super::exit::Exit;
 use super::terminal::{stderr_colour, stderr_width};
@@ -19,7 +19,7 @@ pub enum Failure {
     Store(StoreError),
     /// The machine refused: a file, a thread.
     Internal(anyhow::Error),
-    /// The reader of the output went away; nobody is left to be told.
+    /// The reader of the output went away: no message can be printed.
     ClosedPipe,
 }
 

@@ -1,4 +1,4 @@
-//! `opshock figures`: the figures of the paper from a study's scene, runs and critical shocks.
+//! `opshock figures`: draws the figures of the paper from a study's scene, runs and critical shocks.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -101,8 +101,8 @@ pub fn run(
     Ok(Exit::Complete)
 }
 
-/// The critical shocks in the store of a study and the store's name; `None`, and `without` is told, where
-/// the study as it is has not been swept.
+/// The critical shocks in the store of a study and the store's name; `None`, with a message that opens with
+/// `without`, where the study as it is has not been swept.
 pub(super) fn swept(
     study: &Path,
     global: &GlobalArgs,
@@ -169,11 +169,11 @@ fn cases(study: &Study, shock: Shock, console: &Console) -> Result<Vec<PaperCase
         }
         let caption = caption(study, &shot, &outcome);
         let verdict = match &outcome.verdict {
-            Verdict::Survives => "survives".to_owned(),
-            Verdict::Fails { t_fail_s, .. } => {
+            Some(Verdict::Survives) => "survives".to_owned(),
+            Some(Verdict::Fails { t_fail_s, .. }) => {
                 format!("fails at {:.3} ms", 1e3 * (t_fail_s + study.start_s))
             }
-            Verdict::Undecided { .. } => "undecided".to_owned(),
+            _ => "undecided".to_owned(),
         };
         let history = outcome
             .history
@@ -197,7 +197,7 @@ fn cases(study: &Study, shock: Shock, console: &Console) -> Result<Vec<PaperCase
     Ok(cases)
 }
 
-/// Fig. 1 to 3; those of ramp models that the study does not have are left out, and said so.
+/// Fig. 1 to 3; those of ramp models that the study does not have are left out, with a message.
 fn drawings(
     study: &Study,
     shock: Shock,

@@ -1,4 +1,4 @@
-//! Options of every command.
+//! Defines the options that every command has.
 
 use clap::{ArgAction, Args, ValueEnum};
 use opshock_study::sweep::ProgressKind;

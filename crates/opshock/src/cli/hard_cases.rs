@@ -1,4 +1,4 @@
-//! `opshock doctor --hard-cases`: the physical part of the hard cases on this machine.
+//! `opshock doctor --hard-cases`: runs the physical hard cases, scenes that break solvers, on this machine.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -30,7 +30,7 @@ struct CheckFinding {
     ok: bool,
 }
 
-/// Runs every case, as many at a time as there are threads, and tells them in order.
+/// Runs every case, as many at a time as there are threads, and prints them in order.
 pub fn run(threads: usize, console: &Console) -> Result<Exit, Failure> {
     let findings = findings(CASES, threads)?;
     if console.json {
@@ -171,7 +171,7 @@ mod tests {
             );
             assert!(text.contains("1 cases do not hold"), "{text}");
         }
-        // The figure beyond its bound is told, not the first of the case.
+        // The figure beyond its bound is printed, not the first of the case.
         let text = as_text(&findings(&all[1..2], 1).unwrap());
         assert!(
             text.contains("2.000e-6 <= 1.0e-6") && text.contains("large"),

@@ -1,4 +1,4 @@
-//! `opshock match`: parameters of a study that make a set of observations true.
+//! `opshock match`: finds parameters of a study that make a set of observations true.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -62,10 +62,10 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
             .is_some_and(|budget| began.elapsed() >= budget)
     };
     let asked_to_stop = || stop.is_asked() || is_over();
-    let told = Cell::new(began);
+    let reported = Cell::new(began);
     let progress = |stage: Stage, done: usize, of: usize| {
-        if told.get().elapsed() >= BETWEEN_LINES && !console.quiet {
-            told.set(Instant::now());
+        if reported.get().elapsed() >= BETWEEN_LINES && !console.quiet {
+            reported.set(Instant::now());
             console.tell(&format!("{}: {done} of {of} parameter sets", stage.words()));
         }
     };
@@ -193,7 +193,7 @@ pub(super) fn plan(file: &Path, global: &GlobalArgs, console: &Console) -> Resul
     Ok(Exit::Complete)
 }
 
-/// The largest of what a thread simulates at a time.
+/// The largest memory demand of what a thread simulates at a time.
 fn check_memory(problem: &MatchProblem, global: &GlobalArgs) -> Result<(), Failure> {
     let plan = problem.study.plan();
     let points = problem.study.points.iter();

@@ -1,7 +1,7 @@
-//! Whether what a command is about to do fits into the memory of this machine.
+//! Checks that what a command is about to do fits into the memory of this machine.
 
 use super::failure::Failure;
-use opshock_study::search::bar::most_film_steps;
+use opshock_study::search::uncertainty::most_film_steps;
 use opshock_study::study::Study;
 use opshock_study::study::memory::Demand;
 use std::path::Path;
@@ -14,15 +14,19 @@ pub fn check(what: &str, demand: Demand, workers: usize) -> Result<(), Failure> 
     Ok(demand.check(what, workers, available_bytes())?)
 }
 
-/// What a sweep needs, the finest films that its points may climb to included.
+/// What a sweep needs, including the finest film grids to which its points may be refined.
 pub fn of_sweep(study: &Study) -> Demand {
     let search = &study.search;
-    let climbs = if search.error_bars { search.climbs } else { 0 };
-    Demand::sweep(study, f64::from(most_film_steps(climbs)).exp2())
+    let refinements = if search.uncertainty {
+        search.max_refinements
+    } else {
+        0
+    };
+    Demand::sweep(study, f64::from(most_film_steps(refinements)).exp2())
 }
 
 /// What Linux says is available, or what a control group or a limit of this process leaves if that is less; without
-/// bound where the system does not tell.
+/// bound where the system gives no number.
 pub fn available_bytes() -> f64 {
     let machine =
         number_behind("/proc/meminfo", "MemAvailable:").map(|kilobytes| 1024.0 * kilobytes);

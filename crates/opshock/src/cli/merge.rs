@@ -1,4 +1,4 @@
-//! `opshock merge`: shards, or other stores of the same study, united in one.
+//! `opshock merge`: unites shards, or other stores of the same study, in one store.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -12,7 +12,7 @@ use opshock_study::report::table;
 use opshock_study::store::folder::session;
 use opshock_study::store::{self, Owner, StoreError, StudyTexts};
 use opshock_study::study::Study;
-use opshock_study::sweep::refine::refined;
+use opshock_study::sweep::added_points::refined;
 use opshock_study::sweep::{MergeEnd, SweepInput, merge, shard};
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
     let mut input = SweepInput::of(&study).context(no_range)?;
     input.texts = texts;
     let mut end = merge(&input, folder, &from, &session(1))?;
-    if study.search.refine.is_some() && matches!(end, MergeEnd::Merged(_)) {
+    if study.search.added_points.is_some() && matches!(end, MergeEnd::Merged(_)) {
         // The answers say which widths were added; with these the table is whole.
         let refined = refined(&study, &stored::finished(folder)?);
         let whole = SweepInput {

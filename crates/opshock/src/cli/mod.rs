@@ -1,5 +1,5 @@
-//! Command line: a file per command. Results go to stdout, messages to stderr; see [`Exit`] for
-//! the exit codes.
+//! Parses the command line and runs the command; a file per command. Results go to stdout, messages to
+//! stderr; see [`Exit`] for the exit codes.
 
 mod accuracy;
 mod check;
@@ -101,7 +101,7 @@ enum Command {
 pub fn main() -> ExitCode {
     tame_signals();
     let arguments: Vec<OsString> = std::env::args_os().collect();
-    // A mistake in the arguments must be told in JSON too, before they are understood.
+    // A mistake in the arguments must be reported in JSON too, before they are parsed.
     let json = arguments
         .iter()
         .skip(1)
@@ -131,7 +131,7 @@ pub fn main() -> ExitCode {
 }
 
 /// A write past a file-size limit fails with its error instead of ending the process by SIGXFSZ. Memory that
-/// the machine refuses is told by the standard library, which then aborts: that ends with
+/// the machine refuses is reported by the standard library, which then aborts: that ends with
 /// [`Exit::Internal`].
 fn tame_signals() {
     use signal_hook::consts::{SIGABRT, SIGXFSZ};
@@ -176,7 +176,7 @@ fn misunderstood(error: &clap::Error, console: &Console) -> Result<Exit, Failure
         return Ok(Exit::Complete);
     }
     if !console.json {
-        // Nobody to tell is no reason to end otherwise.
+        // A message that nobody can read does not change the exit code.
         let _ = error.print();
         return Ok(Exit::Usage);
     }

@@ -1,4 +1,4 @@
-//! `opshock modes --shapes DIR`: the modes of every body as grids and drawings.
+//! `opshock modes --shapes DIR`: writes the modes of every body as grids and drawings.
 
 use super::failure::{Failure, Fault};
 use super::steady_state::ModeJson;
@@ -141,7 +141,7 @@ fn ramp(study: &Study, scene: &Scene) -> Result<Option<RampShapes>, Failure> {
     }))
 }
 
-/// None for a suspension that another program's modes stand for: they tell of its dimple alone.
+/// None for a suspension given by another program's modes: they give the motion of its dimple alone.
 fn suspension(scene: &Scene) -> Result<Option<SuspensionShapes>, Failure> {
     if !scene.suspension.modes.is_empty() {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! `opshock modes`: natural frequencies of disk, ramp, suspension and the slider on its film; responses.
+//! `opshock modes`: prints natural frequencies of disk, ramp, suspension and the slider on its film, and responses.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -69,7 +69,7 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
             folder.display()
         ));
         if !scene.suspension.modes.is_empty() {
-            console.tell("no shapes of the suspension: its modes tell of its dimple alone");
+            console.tell("no shapes of the suspension: its modes describe its dimple alone");
         }
     }
     if console.json {

@@ -1,4 +1,4 @@
-//! `opshock new`: a study to start from.
+//! `opshock new`: prints a study to start from.
 
 use super::console::Console;
 use super::exit::Exit;

@@ -1,4 +1,4 @@
-//! `opshock plan`: what a sweep is going to cost, and a job script for Slurm.
+//! `opshock plan`: estimates what a sweep is going to cost, and prints a job script for Slurm.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -11,14 +11,14 @@ use opshock_study::matching::is_match_file;
 use opshock_study::study::Study;
 use opshock_study::study::difference::SettingDifference;
 use opshock_study::study::memory::Demand;
+use opshock_study::sweep::added_points::refined;
 use opshock_study::sweep::forecast::{Forecast, Spread, forecast};
-use opshock_study::sweep::refine::refined;
 use opshock_study::sweep::{Physics, SweepInput};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Tell what a sweep is going to cost: simulations, core-hours, time, disk
+/// Estimate what a sweep is going to cost: simulations, core-hours, time, disk
 #[derive(Args, Debug)]
 pub struct PlanArgs {
     /// Study file, or match file
@@ -44,10 +44,9 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
     let no_range = "the study has no amplitudes to search";
     let study = refined(&study, &loaded).context(no_range)?;
     let added = study.points.iter().filter(|point| point.round > 0).count();
-    let to_add = study
-        .search
-        .refine
-        .map_or(0, |refine| refine.most_points.saturating_sub(added));
+    let to_add = study.search.added_points.map_or(0, |added_points| {
+        added_points.max_points.saturating_sub(added)
+    });
     let input = SweepInput::of(&study).context(no_range)?;
     if let Some(owner) = &owner {
         owner.admit(&folder, &input.texts)?;
@@ -75,16 +74,16 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
         };
         console.result(&slurm::script(&job, global).context("cannot write the script")?)?;
     } else {
-        let told = Told {
+        let reported = Reported {
             changed: owner
                 .and_then(|owner| owner.changed(&input.texts.resolved))
                 .unwrap_or_default(),
             forecast,
         };
         if console.json {
-            console.result_json(&told)?;
+            console.result_json(&reported)?;
         } else {
-            console.result(&as_text(&study.name, &told))?;
+            console.result(&as_text(&study.name, &reported))?;
         }
     }
     Ok(Exit::Complete)
@@ -92,7 +91,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
 
 /// The forecast, and why simulations in the store no longer serve.
 #[derive(Serialize)]
-struct Told {
+struct Reported {
     #[serde(flatten)]
     forecast: Forecast,
     changed: Vec<SettingDifference>,
@@ -111,8 +110,8 @@ fn history_nodes(study: &Study) -> f64 {
     study.points.iter().map(nodes).fold(0.0, f64::max)
 }
 
-fn as_text(name: &str, told: &Told) -> String {
-    let forecast = &told.forecast;
+fn as_text(name: &str, reported: &Reported) -> String {
+    let forecast = &reported.forecast;
     let mut text = String::new();
     let mut line = |what: &str, value: String| {
         // Writing into a text cannot fail.
@@ -139,7 +138,7 @@ fn as_text(name: &str, told: &Told) -> String {
         "reuse",
         format!("{} finished simulations stay valid", forecast.reused_runs),
     );
-    for setting in &told.changed {
+    for setting in &reported.changed {
         line("  changed", setting.to_string());
     }
     let runs = |spread: Spread| {
@@ -150,7 +149,7 @@ fn as_text(name: &str, told: &Told) -> String {
     };
     line("simulations", runs(forecast.runs));
     line("  search", runs(forecast.search_runs));
-    line("  error bars", runs(forecast.bar_runs));
+    line("  uncertainty intervals", runs(forecast.uncertainty_runs));
     let paces: Vec<String> = forecast
         .seconds_per_run
         .iter()

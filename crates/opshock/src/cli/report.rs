@@ -1,4 +1,4 @@
-//! `opshock report`: the table of a store, and its files.
+//! `opshock report`: prints the critical shocks of a store, and writes table, figure and page.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -14,7 +14,7 @@ use opshock_study::report::{
 use opshock_study::store::names::RESULTS_FILE;
 use opshock_study::store::{Audit, Status, Summary, aside, results};
 use opshock_study::study::Study;
-use opshock_study::sweep::refine;
+use opshock_study::sweep::added_points;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -47,7 +47,7 @@ enum TableFormat {
 
 /// The table as JSON, with the audit when there was one and what the rules saved.
 #[derive(Serialize)]
-pub(super) struct Told<'a> {
+pub(super) struct Reported<'a> {
     #[serde(flatten)]
     summary: &'a Summary,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -64,11 +64,11 @@ fn crossings(stored: &Stored) -> Vec<CrossingRow> {
     let Some(study) = study.and_then(|text| Study::from_text(text, &[]).ok()) else {
         return Vec::new();
     };
-    let found = refine::crossings(&study, &stored.summary);
+    let found = added_points::crossings(&study, &stored.summary);
     found.iter().map(CrossingRow::of).collect()
 }
 
-impl<'a> Told<'a> {
+impl<'a> Reported<'a> {
     /// Of what a store holds.
     pub(super) fn of(stored: &'a Stored) -> Self {
         Self {
@@ -160,22 +160,22 @@ pub fn run(
         Some(TableFormat::Md) => {
             console.result(&table::markdown(&stored.summary, &source.provenance()))?;
         }
-        Some(TableFormat::Json) => console.result_json(&Told::of(&stored))?,
+        Some(TableFormat::Json) => console.result_json(&Reported::of(&stored))?,
     }
     Ok(exit_of(&stored.summary))
 }
 
 /// What `opshock accuracy` wrote.
 fn measured(path: &Path) -> Result<Accuracy, Failure> {
-    let told = |what: String| {
+    let reported = |what: String| {
         Failure::Usage(vec![Fault::new(
             "accuracy",
             format!("{}: {what}", path.display()),
         )])
     };
-    let text = std::fs::read_to_string(path).map_err(|error| told(error.to_string()))?;
+    let text = std::fs::read_to_string(path).map_err(|error| reported(error.to_string()))?;
     serde_json::from_str(&text)
-        .map_err(|error| told(format!("not an accuracy.json of this program: {error}")))
+        .map_err(|error| reported(format!("not an accuracy.json of this program: {error}")))
 }
 
 /// Complete, or complete but for open points.

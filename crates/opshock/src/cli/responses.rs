@@ -1,5 +1,5 @@
-//! `opshock modes --response SOURCE`: what disk, ramp, slider and suspension answer to a harmonic force or
-//! shock, and the film's stiffness and damping at the same frequencies.
+//! `opshock modes --response SOURCE`: computes the response of disk, ramp, slider and suspension to a harmonic
+//! force or shock, and the film's stiffness and damping at the same frequencies.
 
 use crate::cli::failure::{Failure, Fault};
 use crate::cli::{memory, study_file};
@@ -84,7 +84,7 @@ pub fn responses(
         return Err(usage("--response", source.to_owned(), allowed.into()));
     }
     let mut still = scene.clone();
-    // Small motions about flight over a plane disk.
+    // Small motions about steady flight over a plane disk.
     still.run_out.clear();
     let plan = Plan::new(&[Output::CriticalShock], Mode::Full);
     memory::check("the response", Demand::run(&still, &plan, false), 1)?;

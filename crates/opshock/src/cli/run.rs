@@ -1,4 +1,4 @@
-//! `opshock run`: one shock in full.
+//! `opshock run`: simulates one shock of a study; writes its histories and plots.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -69,7 +69,7 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
         if let (Some(path), Some(format)) = (&arguments.history, format) {
             write_history(path, format, history, &study, &shot, &outcome)?;
             console.tell(&format!("wrote {}", path.display()));
-            tell_fields(path, format, history, &study, console);
+            report_fields(path, format, history, &study, console);
         }
         if let Some(folder) = &arguments.plots {
             let figures = run_figures(history, &caption(&study, &shot, &outcome));
@@ -88,8 +88,8 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
         console.result(&run_text(&shock_words(&shot), &answer))?;
     }
     Ok(match outcome.verdict {
-        Verdict::Survives | Verdict::Fails { .. } => Exit::Complete,
-        Verdict::Undecided { .. } => Exit::Open,
+        Some(Verdict::Undecided { .. }) => Exit::Open,
+        _ => Exit::Complete,
     })
 }
 
@@ -107,7 +107,7 @@ pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outc
 }
 
 /// What became of the pressure fields asked for: where they are, and which the run did not reach.
-fn tell_fields(
+fn report_fields(
     path: &Path,
     format: HistoryFormat,
     history: &History,
@@ -183,7 +183,11 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
         point: coordinates,
         amplitude_g: shot.amplitude_g,
         start_s: study.start_s,
-        verdict: outcome.answer().map_or("none", verdict_word).to_owned(),
+        verdict: outcome
+            .verdict
+            .as_ref()
+            .map_or("none", verdict_word)
+            .to_owned(),
         t_fail_s: t_fail_s(study, outcome),
         effects: outcome
             .effects
@@ -212,8 +216,8 @@ pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCapti
 
 fn t_fail_s(study: &Study, outcome: &Outcome) -> Option<f64> {
     match outcome.verdict {
-        Verdict::Fails { t_fail_s, .. } => Some(t_fail_s + study.start_s),
-        Verdict::Survives | Verdict::Undecided { .. } => None,
+        Some(Verdict::Fails { t_fail_s, .. }) => Some(t_fail_s + study.start_s),
+        _ => None,
     }
 }
 

@@ -1,4 +1,4 @@
-//! `opshock schema`: the keys of a study, for editors.
+//! `opshock schema`: prints the JSON Schema of study files, for editors.
 
 use super::console::Console;
 use super::exit::Exit;

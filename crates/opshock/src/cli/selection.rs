@@ -1,4 +1,4 @@
-//! Which point of a study, and which shock.
+//! Options that choose a point of a study, and a shock.
 
 use super::failure::Failure;
 use clap::Args;

@@ -1,4 +1,4 @@
-//! A job-array script for Slurm: one task per shard, requeued until its part is complete.
+//! Writes a job-array script for Slurm: one task per shard (a part of the points), requeued until it is complete.
 
 use super::global::GlobalArgs;
 use super::sweep::{quoted, settings};

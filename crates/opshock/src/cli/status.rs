@@ -1,4 +1,4 @@
-//! `opshock status`: how far a sweep has come.
+//! `opshock status`: shows how far a sweep has come.
 
 use super::console::Console;
 use super::exit::Exit;

@@ -1,4 +1,4 @@
-//! `opshock steady`: the slider flying before the shock, or held at an attitude.
+//! `opshock steady`: computes the slider's steady flight before the shock, or its film at a given attitude.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -100,7 +100,7 @@ pub fn air_bearing_modes(study: &Study, scene: &Scene) -> Result<Vec<ModeJson>, 
 pub(super) fn json_of(study: &Study, scene: &Scene) -> Result<serde_json::Value, Failure> {
     let bearing = bearing(study, scene)?;
     let state = flying_state(&bearing, scene)?;
-    Ok(serde_json::to_value(state.json).context("the flight cannot be told as JSON")?)
+    Ok(serde_json::to_value(state.json).context("the flight cannot be written as JSON")?)
 }
 
 /// A state of the film and what is said about it.
@@ -117,7 +117,7 @@ fn bearing(study: &Study, scene: &Scene) -> Result<Bearing, Failure> {
     bearing.map_err(|error| study_file::cannot_be_simulated(study, &error))
 }
 
-/// The same film to hold a slider on. One that cannot fly has none, and the grid is taken as it is.
+/// The same film for a slider at a fixed attitude. For a slider that cannot fly, its defect is not corrected.
 fn film_to_hold(study: &Study, scene: &Scene, console: &Console) -> Result<Arc<Film>, Failure> {
     memory::check("the steady flight", Demand::impedance(scene), 1)?;
     match Bearing::build(scene, None) {

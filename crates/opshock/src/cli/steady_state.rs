@@ -1,4 +1,4 @@
-//! A steady flight as `opshock steady` prints it: JSON and text.
+//! Formats a steady flight for `opshock steady`, as JSON and as text.
 
 use nalgebra::Complex;
 use serde::{Serialize, Serializer};
@@ -30,7 +30,7 @@ pub(super) struct SteadyJson {
     pub(super) unknowns: usize,
     /// Equilibria below the flight; null for a held slider.
     pub(super) lower: Option<Vec<LowerJson>>,
-    /// What the film's grid leaves out of the air's force, put back.
+    /// Discretisation defect of the film's grid in the air's force, by which it is corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) correction: Option<LoadJson>,
     /// Shares of the forces in the gap beside the air's pressure, by name.

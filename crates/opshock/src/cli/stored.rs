@@ -1,4 +1,4 @@
-//! The store a command reads: named itself, or by its study.
+//! Finds and reads the store (a sweep's results) of a command: named itself, or by its study.
 
 use super::console::Console;
 use super::failure::{Failure, Fault};
@@ -9,7 +9,7 @@ use opshock_study::report::{RunDot, Saving, ShockFilm, savings};
 use opshock_study::store::folder::session;
 use opshock_study::store::{self, Audit, Loaded, Owner, Results, StoreError, Summary};
 use opshock_study::study::Study;
-use opshock_study::sweep::refine::refined;
+use opshock_study::sweep::added_points::refined;
 use opshock_study::sweep::{SweepInput, replay};
 use std::path::{Path, PathBuf};
 
@@ -105,7 +105,7 @@ pub struct Stored {
     pub plan: String,
 }
 
-/// Reads everything finished in a store, and tells what is wrong with it.
+/// Reads everything finished in a store, and warns of what is wrong with it.
 ///
 /// # Errors
 ///
@@ -121,7 +121,7 @@ impl Stored {
         let runs = results
             .runs
             .iter()
-            // With turned knobs the same amplitude may end otherwise: not an outcome of the study.
+            // Runs with changed discretisation parameters may end otherwise: not outcomes of the study.
             .filter(|row| row.levels.is_none())
             .map(|row| RunDot {
                 point: row.point,
@@ -140,7 +140,7 @@ impl Stored {
     }
 }
 
-/// As [`read`], in full.
+/// As [`read`], with every simulation.
 ///
 /// # Errors
 ///
@@ -161,8 +161,8 @@ pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<Strin
     }
     let owner = owner(&mut loaded, &source.folder)?;
     source.check(&owner)?;
-    // Simulations finished after the last checkpoint count too, and a study changed after it: the
-    // searches are played again.
+    // Simulations finished, or a study changed, after the last checkpoint are not in it: then the
+    // searches are replayed from the journal.
     let results = results.filter(|results| results.summary.digest == owner.digest);
     let n_runs = loaded.runs.len();
     let newer =

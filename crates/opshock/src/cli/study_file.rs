@@ -1,4 +1,4 @@
-//! The study a command works on.
+//! Reads the study a command works on, with the settings of the command line.
 
 use super::console::Console;
 use super::failure::{Failure, Fault};
@@ -24,20 +24,20 @@ pub fn sets(global: &GlobalArgs) -> Result<Vec<SetArg>, SetSyntaxError> {
     set.chain(unset).collect()
 }
 
-/// Reads a study with the `--set` arguments laid over it, and tells its warnings and notes.
+/// Reads a study with the `--set` arguments laid over it, and prints its warnings and notes.
 ///
 /// # Errors
 ///
 /// Every fault of the study.
 pub fn read(path: &Path, global: &GlobalArgs, console: &Console) -> Result<Study, Failure> {
     let study = Study::from_path(path, &sets(global)?)?;
-    let told: Vec<StudyError> = study
+    let reported: Vec<StudyError> = study
         .remarks
         .iter()
         .filter(|remark| !global.accept.iter().any(|code| code.trim() == remark.code))
         .cloned()
         .collect();
-    tell(&told, console);
+    tell(&reported, console);
     Ok(study)
 }
 
@@ -87,7 +87,7 @@ pub fn cannot_be_simulated(study: &Study, error: &(dyn std::error::Error + 'stat
             .value(format!("{}", nm(fail_below_m)))
             .allowed(format!("a limit below {:.3} nm", nm(min_clearance_m)))
             .hint("no failure by shock: see `opshock steady`");
-        fault.key = "solver.fail_below_nm".to_owned();
+        fault.key = "failure.clearance_nm".to_owned();
         return StudyErrors::from(fault).into();
     }
     if let Some(BuildError::Steady(SteadyError::CannotFly {

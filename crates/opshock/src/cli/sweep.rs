@@ -1,11 +1,11 @@
-//! `opshock sweep`: the critical shock of every point; run again, it resumes. A study that asks for
+//! `opshock sweep`: finds the critical shock of every point; run again, it resumes. A study that asks for
 //! touch thresholds alone gets those, without a search.
 
 use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::global::GlobalArgs;
-use super::report::{Told, exit_of};
+use super::report::{Reported, exit_of};
 use super::stored::{self, Source};
 use super::{memory, study_file, thresholds};
 use anyhow::Context as _;
@@ -103,7 +103,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
         if end.ending != Ending::Complete {
             break (input, end);
         }
-        if options.shard.is_some() && study.search.refine.is_some() {
+        if options.shard.is_some() && study.search.added_points.is_some() {
             console
                 .tell("this part is answered: what refinement adds waits for the shards at work");
         }
@@ -156,7 +156,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     if console.json {
         let folder = own.as_ref().unwrap_or(&folder);
         let source = Source::of_folder(folder);
-        console.result_json(&Told::of(&stored::read(&source, console)?))?;
+        console.result_json(&Reported::of(&stored::read(&source, console)?))?;
     } else {
         console.result(&table::terminal(&summary))?;
         if let Some(values) = study.not_refined() {
@@ -166,7 +166,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     match end.ending {
         Ending::Complete => Ok(audited.map_or_else(
             || exit_of(&summary),
-            |audit| tell_audit(&audit, &summary, console),
+            |audit| report_audit(&audit, &summary, console),
         )),
         Ending::Stopped { signal } => {
             console.tell(&resume(arguments, &folder, global));
@@ -180,25 +180,25 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     }
 }
 
-/// Why the next round of refinement is not known.
+/// Why the widths of the next round are not known.
 fn not_known(error: RoundError) -> Failure {
     match error {
         RoundError::Store(error) => error.into(),
-        RoundError::Lattice(error) => anyhow::Error::new(error)
+        RoundError::AmplitudeGrid(error) => anyhow::Error::new(error)
             .context("the study has no amplitudes to search")
             .into(),
     }
 }
 
-/// The widths that a round of refinement adds.
+/// The points that the next round adds.
 fn added(study: &Study, next: &Study) -> String {
     let new = &next.points[study.points.len()..];
     let labels: Vec<String> = new.iter().map(Point::label).collect();
     format!("{} points added: {}", new.len(), labels.join(", "))
 }
 
-/// Tells what an audit showed.
-fn tell_audit(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
+/// Prints what an audit showed.
+fn report_audit(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
     console.tell(&audit.sentence());
     for difference in &audit.differences {
         console.tell(&difference.to_string());

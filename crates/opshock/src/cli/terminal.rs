@@ -1,4 +1,4 @@
-//! What standard error is.
+//! Asks whether standard error is a terminal, with colour, and how wide.
 
 use std::io::IsTerminal as _;
 

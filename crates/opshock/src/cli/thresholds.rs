@@ -1,4 +1,4 @@
-//! `opshock sweep` of a study that asks for touch thresholds and nothing that needs a search: the
+//! `opshock sweep` of a study that asks for touch thresholds and nothing that needs a search: computes the
 //! amplitude of the first touch of every point, from the unit response of disk and ramp alone.
 
 use super::console::Console;

@@ -1,6 +1,6 @@
-//! What the file of a dynamic run says.
+//! Contents of the file of a dynamic run, `DynLULS.def`.
 
-/// What a file says of a drive under a shock.
+/// Data of a drive under a shock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DynamicFile {
     /// Version of the format.

@@ -1,13 +1,13 @@
-//! Sections of `DynLULS.def`: lines of asterisks open them, a line of names is followed by a line of values.
+//! Splits `DynLULS.def` into sections: lines of asterisks open them, a line of names is followed by a line of values.
 //!
-//! A section is known by its place in the order, and where its names are known, by them too.
+//! A section is identified by its place in the order and, where its names are known, by them too.
 
 use super::super::reader::Reader;
 use super::super::run::is_numeric;
 use crate::fault::{Fault, Faults};
 use crate::text::{Line, Word};
 
-/// Sections in their order, and the names that are known of them.
+/// Sections in their order, with their known names.
 pub const SECTIONS: [(&str, &[&str]); 19] = [
     (
         "problem",
@@ -39,7 +39,7 @@ pub const SECTIONS: [(&str, &[&str]); 19] = [
     ),
 ];
 
-/// Places in [`SECTIONS`] of what is read.
+/// Places in [`SECTIONS`] of the sections that are read.
 pub const PROBLEM: usize = 0;
 /// Actuator and skew.
 pub const ACTUATOR: usize = 1;
@@ -114,7 +114,7 @@ pub fn split<'a>(reader: &mut Reader<'a>) -> Result<Vec<Section<'a>>, Faults> {
         .into())
 }
 
-/// Names of a line in lower case, what stands in brackets left out.
+/// Names of a line in lower case, without parts in brackets.
 fn names(line: Line<'_>) -> Vec<String> {
     let mut depth = 0_usize;
     let outside = line.text.chars().filter(|c| {
@@ -130,7 +130,7 @@ fn names(line: Line<'_>) -> Vec<String> {
     outside.split_whitespace().map(str::to_lowercase).collect()
 }
 
-/// Values of a section in their order. Numbers that no line of names precedes are lists of other things.
+/// Values of a section in their order. Numbers without a line of names before them are lists and are skipped.
 ///
 /// # Errors
 /// E175 for names without values, and where the section lacks a name that it should have.

@@ -1,4 +1,4 @@
-//! `DynLULS.def`: slider, pulse, disk and ramp of a dynamic run (load, unload, shock).
+//! Reads and writes `DynLULS.def`: slider, pulse, disk and ramp of a dynamic run (load, unload, shock).
 //!
 //! Two lines of header, then 19 sections that a line of asterisks opens (`layout`). In a section a line of
 //! names is followed by a line of values. Names are known of the first four sections, and of the disk's
@@ -10,7 +10,7 @@
 //! | matrices | number of rows, a step's share, the slider's first freedom |
 //! | disk | before E: radii, thickness; the last two: Rayleigh damping |
 //!
-//! A range stands for each, so that values of another order are refused and not taken for these.
+//! Each has a range, so that values in another order are rejected and not mistaken for these.
 
 mod contents;
 pub(super) mod layout;

@@ -1,4 +1,4 @@
-//! The values of the sections, each within its range.
+//! Reads the values of `DynLULS.def`, each within its range.
 
 use super::super::reader::{Reader, within};
 use super::super::run;
@@ -34,7 +34,7 @@ pub fn read(source: &Source) -> Result<DynamicFile, Faults> {
         layout::SHOCK,
     ];
     let [problem, actuator, attitude, solver, disk, shock] = named.map(&mut section);
-    // What is missing in one section is told with what is missing in the others, before any value.
+    // What is missing in one section is reported with what is missing in the others, before any value.
     faults.or(())?;
     let optional = |at: usize| layout::values(file, &sections, at).unwrap_or_default();
     let (air, matrices) = (optional(layout::AIR), optional(layout::MATRICES));
@@ -77,7 +77,7 @@ pub fn read(source: &Source) -> Result<DynamicFile, Faults> {
 /// Mode of a pulse given by a table.
 const TABLE: usize = 5;
 
-/// What is told and not taken along may be any number.
+/// Values that are noted but not imported may be any number.
 const ANY: (f64, f64) = (-1e9, 1e9);
 
 /// Names of the gas, as in `run.dat`.
@@ -97,7 +97,7 @@ fn matrices_of(values: &[Value<'_>]) -> Option<Matrices> {
     (slider_row <= n_rows).then_some(Matrices { n_rows, slider_row })
 }
 
-/// Values of sections, and what is wrong with them.
+/// Values of sections, and the faults found.
 struct Values<'a> {
     file: &'a str,
     faults: Faults,
@@ -137,7 +137,7 @@ impl Values<'_> {
         })
     }
 
-    /// The model of the flow: one is known.
+    /// The model of the flow; only one is known.
     fn flow(&mut self, section: &[Value<'_>]) {
         let Some(value) = section.iter().find(|value| value.name == "iqpo") else {
             return;
@@ -215,7 +215,7 @@ impl Values<'_> {
         })
     }
 
-    /// By name the material; by order what stands before it and at the end.
+    /// The material by name; by order the values before it and at the end.
     fn disk(&mut self, section: &[Value<'_>], line: usize) -> Disk {
         let material = section.iter().position(|value| value.name == "e");
         let before = &section[..material.unwrap_or(0)];

@@ -1,10 +1,10 @@
-//! A dynamic run as `DynLULS.def`: what is read here, every digit, in 19 sections.
+//! Writes a dynamic run as `DynLULS.def`: all values that are read, with every digit, in 19 sections.
 
 use super::contents::{DynamicFile, FUKUI_KANEKO, SHAPES};
 use super::layout::{self, SECTIONS};
 use std::fmt::Write as _;
 
-/// The file. Sections that are not read hold a name and a zero; names that opshock does not know are its own.
+/// The file. Sections that are not read get a name and a zero; names unknown to the reader are opshock's own.
 pub fn write(file: &DynamicFile) -> String {
     let mut text = format!(
         "CML Version {} dynamic load, unload, shock\nwritten by opshock\n",

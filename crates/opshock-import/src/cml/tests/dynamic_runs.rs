@@ -1,4 +1,4 @@
-//! Dynamic runs (`DynLULS.def`).
+//! Tests of dynamic runs (`DynLULS.def`).
 
 use super::{shaken, source};
 use crate::cml::dynamic::{Shape, Shock};
@@ -22,7 +22,7 @@ fn dynamic_runs_go_round() {
     }
 }
 
-/// Capitals, units in brackets with spaces, frames of asterisks, comments behind values, numbers of Fortran, lists.
+/// Capitals, units in brackets with spaces, frames of asterisks, comments after values, Fortran numbers, lists.
 #[test]
 fn dynamic_runs_as_people_write_them() {
     let text = dynamic::write(&shaken())
@@ -43,7 +43,7 @@ fn dynamic_runs_as_people_write_them() {
     assert_eq!(file, shaken());
 }
 
-/// Every word of a value that is read, replaced by a letter: each is found, at its place.
+/// Every word of a value that is read is replaced by a letter: each fault is found, at its place.
 #[test]
 fn no_damaged_number_of_a_dynamic_run_is_read() {
     let text = dynamic::write(&shaken());
@@ -82,12 +82,12 @@ fn no_damaged_number_of_a_dynamic_run_is_read() {
             }
         }
     }
-    // All but an option, two counts of elements and two numbers of the time step.
+    // All but an option, two numbers of elements and two numbers of the time step.
     assert_eq!(n, 15 + 5 + 6 + 5 + 11);
 }
 
-/// In the place of another file the dynamic program's is told by its name or by names in it, whatever its first
-/// line says.
+/// In the place of another file the dynamic program's file is recognised by its name or by names in it, whatever its
+/// first line is.
 #[test]
 fn a_dynamic_run_in_the_place_of_another_file_is_refused_by_name() {
     for (name, text, line) in [

@@ -1,4 +1,4 @@
-//! Round trips, and faults where values are damaged; here the files that the tests write and read.
+//! Round trips, and faults of damaged values; this file holds the data that the tests write and read.
 
 mod dynamic_runs;
 mod runs;

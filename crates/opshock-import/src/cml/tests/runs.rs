@@ -1,4 +1,4 @@
-//! Static runs (`run.dat`).
+//! Tests of static runs (`run.dat`).
 
 use super::{codes, flights, source};
 use crate::cml::run;
@@ -21,7 +21,7 @@ fn with_line(old: &str, new: &str) -> Source {
     source("run.dat", &lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// A and B count beside `icmodel` alone, by their names and not by their place; what is not there is 0.
+/// A and B are read beside `icmodel` alone, by their names and not by their place; missing values are 0.
 #[test]
 fn surface_forces_are_read_by_name() {
     let values = |source: &Source| {
@@ -38,10 +38,10 @@ fn surface_forces_are_read_by_name() {
     );
     let alone = with_line(names, "icmodel stdasp dnsasp");
     assert_eq!(values(&alone), (0.0, 0.0, -0.5));
-    // Another section may call anything A.
+    // Another section may use A as a name.
     let elsewhere = with_line("imodel", "imodel A\n3 7.0\nx");
     assert_eq!(values(&elsewhere), (1.8e-19, 1.1e-76, -0.5));
-    for (line, what, told) in [
+    for (line, what, reported) in [
         ("0 -1.8e-19 0", "a", "-1.8e-19 J"),
         ("0 180 0", "a", "180 J"),
         ("0 1.8e-19 1e-9", "b", "1e-9 J m6"),
@@ -52,7 +52,7 @@ fn surface_forces_are_read_by_name() {
         let fault = &faults.listed[0];
         assert_eq!(
             (fault.what.as_str(), fault.value.as_str()),
-            (what, told),
+            (what, reported),
             "{faults}"
         );
         assert!(fault.line > 0, "{faults}");

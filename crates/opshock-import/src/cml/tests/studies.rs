@@ -1,4 +1,4 @@
-//! Surface files and studies that are written from CMLAir's.
+//! Tests of surface files and studies that are written from files of the CMLAir family.
 
 use super::{codes, flights, shaken, surface};
 use crate::cml::dynamic::{DynamicFile, Shape, Shock};
@@ -79,8 +79,8 @@ const DRIVE: study::Asked<'static> = study::Asked {
     speed: 1,
 };
 
-/// The sample drive's ramp is 0.35 mm inside the rim, 7 degrees before the slider; at another radius the same arm
-/// has the skew that its circle gives, and finds the same ramp.
+/// The sample drive's ramp is 0.35 mm inside the rim, 7 degrees before the slider. At another radius the same arm has
+/// the skew that its circle gives, and leads to the same ramp.
 #[test]
 fn the_ramps_place_follows_from_the_pivot() {
     let number = |file: &DynamicFile, section: &str, key: &str| -> f64 {

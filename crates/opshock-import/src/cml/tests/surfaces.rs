@@ -1,4 +1,4 @@
-//! Surfaces (`rail.dat`).
+//! Tests of surfaces (`rail.dat`).
 
 use super::{source, surface};
 use crate::cml::rail;
@@ -10,7 +10,7 @@ fn surfaces_go_round() {
     assert_eq!(rail::read(&source("rail.dat", &text)).unwrap(), file);
 }
 
-/// Every word of a sound file replaced by a letter, one after the other: each is found at its place.
+/// Every word of a valid file is replaced by a letter, one after the other: each fault is found at its place.
 #[test]
 fn no_damaged_number_of_a_surface_is_read() {
     let mut file = surface();

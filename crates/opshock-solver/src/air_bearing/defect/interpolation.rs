@@ -1,11 +1,11 @@
-//! Three numbers through scattered places in three dimensions.
+//! Interpolates three functions through scattered points in three dimensions.
 //!
 //! ```text
 //! f(x) = Σ_j c_j |x − x_j|³ + a + b·x,      Σ c_j = 0,  Σ c_j x_j = 0
 //! ```
 //!
-//! the smoothest interpolant in the sense of Duchon (1977, Lecture Notes in Mathematics 571, 85): exact at the places, and
-//! exact for linear functions.
+//! This is the smoothest interpolant in the sense of Duchon (1977, Lecture Notes in Mathematics 571, 85). It is exact
+//! at the points and exact for linear functions.
 
 #![expect(
     clippy::needless_range_loop,
@@ -15,7 +15,7 @@
 use crate::lanes::{Kernel, SUMS, total, widest};
 use nalgebra::DMatrix;
 
-/// How far apart places count along each variable: the second one varies least with.
+/// Scaling of distances along each variable; the functions vary least with the second one.
 const STRETCH: [f64; 3] = [1.0, 0.5, 1.0];
 
 /// Three functions with the same places.

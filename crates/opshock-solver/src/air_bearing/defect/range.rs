@@ -1,15 +1,15 @@
-//! The attitudes that shocks squeeze a slider into, and the variables in which a grid's defect is smooth.
+//! Attitudes that shocks compress a film into, and variables in which a grid's defect is smooth.
 //!
-//! Most of a squeezed film's load sits at the trailing edge between the two points that come closest when the
-//! slider rolls either way. With their heights h₁ and h₂ over the disk and the film's floor h₀ the variables are
+//! Most of the load of a compressed film sits at the trailing edge, between the two points that come closest when the
+//! slider rolls either way. With their heights h₁ and h₂ over the disk and the minimum film height h₀ the variables are
 //!
 //! ```text
 //! x = ½ ln (h₁ + h₀)(h₂ + h₀),   y = θ − θ_eq(½ (h₁ + h₂)),   w = ½ ln (h₁ + h₀)/(h₂ + h₀)
 //! ```
 //!
-//! with the pitch θ and θ_eq, what it is in equilibrium under a larger or smaller load, each over half its range.
-//! An attitude out of range counts as the nearest one in it. Where wind across the slider rolls it, the range of
-//! ½ (h₁ − h₂) lies about what that is in equilibrium, too.
+//! with the pitch θ and its equilibrium value θ_eq under a larger or smaller load, each over half its range. For an
+//! attitude outside the range, the nearest attitude inside is taken. Where wind across the slider rolls it, the range
+//! of ½ (h₁ − h₂) is centred on its equilibrium value as well.
 
 use crate::air_bearing::attitude::Attitude;
 
@@ -19,8 +19,8 @@ const MOST_LEAN: f64 = 0.8;
 /// Attitudes that samples fill.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::air_bearing) struct Range {
-    /// The film's floor h₀, m.
-    pub(in crate::air_bearing) floor_m: f64,
+    /// Minimum film height h₀, m.
+    pub(in crate::air_bearing) min_height_m: f64,
     /// Heights of the two points: at zero attitude, m, and derivatives by (h_c, pitch, roll).
     pub(in crate::air_bearing) points: [(f64, [f64; 3]); 2],
     /// Lowest and highest mean height of the points, m.
@@ -29,7 +29,7 @@ pub(in crate::air_bearing) struct Range {
     pub(in crate::air_bearing) lean_m: f64,
     /// θ_eq at three logarithms of the mean height, rad.
     pub(in crate::air_bearing) equilibrium: Parabola,
-    /// The half difference of the points' heights in equilibrium, m; nothing without wind across.
+    /// The half difference of the points' heights in equilibrium, m; zero without wind across.
     pub(in crate::air_bearing) leaning: Parabola,
     /// Largest distance of pitch from θ_eq, rad.
     pub(in crate::air_bearing) pitch_rad: f64,
@@ -65,9 +65,9 @@ impl Varying {
 }
 
 impl Range {
-    /// Smallest and largest half difference of the points' heights at a mean height: neither point lies in the disk.
+    /// Bounds of the half difference of the points' heights at a mean height: neither point lies in the disk.
     fn leans(&self, mean: Varying) -> [Varying; 2] {
-        let above_floor = Varying(mean.0 + self.floor_m, mean.1);
+        let above_floor = Varying(mean.0 + self.min_height_m, mean.1);
         let (centre_m, slope) = self.leaning.at(above_floor.0.ln());
         let most_m = MOST_LEAN * mean.0;
         let centre = match centre_m.abs() > most_m {
@@ -85,9 +85,9 @@ impl Range {
 
     /// The attitude at shares from -1 to 1 of the ranges of height, pitch and roll.
     pub(in crate::air_bearing) fn attitude(&self, [high, up, aside]: [f64; 3]) -> Attitude {
-        let [low_m, high_m] = self.heights_m.map(|h| (h + self.floor_m).ln());
+        let [low_m, high_m] = self.heights_m.map(|h| (h + self.min_height_m).ln());
         let logarithm = 0.5 * ((low_m + high_m) + high * (high_m - low_m));
-        let mean_m = logarithm.exp() - self.floor_m;
+        let mean_m = logarithm.exp() - self.min_height_m;
         let [least, most] = self.leans(Varying(mean_m, [0.0; 3]));
         let lean_m = 0.5 * (least.0 + most.0) + aside * (0.5 * (most.0 - least.0));
         let pitch_rad = self.equilibrium.at(logarithm).0 + up * self.pitch_rad;
@@ -111,7 +111,7 @@ impl Range {
         let [low_m, high_m] = self.heights_m;
         let mean = first.mixed(0.5, second, 0.5).clamped(low_m, high_m);
         let lean = first.mixed(0.5, second, -0.5);
-        // On the edge of the range, which follows the mean height where a point touches.
+        // On the limit of the range, which follows the mean height where a point touches.
         let [least, most] = self.leans(mean);
         let lean = match lean.0 {
             x if x < least.0 => least,
@@ -120,15 +120,15 @@ impl Range {
         };
         let above = |sense: f64| {
             let height = mean.mixed(1.0, lean, sense);
-            Varying(height.0 + self.floor_m, height.1).ln()
+            Varying(height.0 + self.min_height_m, height.1).ln()
         };
         let (first, second) = (above(1.0), above(-1.0));
-        let floor_m = Varying(mean.0 + self.floor_m, mean.1).ln();
-        let (pitch_rad, slope) = self.equilibrium.at(floor_m.0);
+        let min_height_m = Varying(mean.0 + self.min_height_m, mean.1).ln();
+        let (pitch_rad, slope) = self.equilibrium.at(min_height_m.0);
         let up = Varying(attitude.pitch_rad, [0.0, 1.0, 0.0]);
-        let up = up.mixed(1.0, floor_m.of(pitch_rad, slope), -1.0);
+        let up = up.mixed(1.0, min_height_m.of(pitch_rad, slope), -1.0);
         let up = up.clamped(-self.pitch_rad, self.pitch_rad);
-        let [low, high] = self.heights_m.map(|h| (h + self.floor_m).ln());
+        let [low, high] = self.heights_m.map(|h| (h + self.min_height_m).ln());
         let half = 0.5 * (high - low);
         let x = first.mixed(0.5 / half, second, 0.5 / half);
         [
@@ -147,7 +147,7 @@ pub(in crate::air_bearing) fn height(
     by_h * attitude.centre_height_m + by_pitch * attitude.pitch_rad + by_roll * attitude.roll_rad
 }
 
-/// A parabola by places and divided differences, level outside of some.
+/// Parabola in Newton's form (points and divided differences), optionally constant outside its points.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::air_bearing) struct Parabola {
     places: [f64; 3],
@@ -176,7 +176,7 @@ impl Parabola {
         }
     }
 
-    /// Level outside of its points.
+    /// The same, constant outside its points.
     pub(in crate::air_bearing) fn inside(self) -> Self {
         let [a, b, c] = self.places;
         let inside = [a.min(b).min(c), a.max(b).max(c)];

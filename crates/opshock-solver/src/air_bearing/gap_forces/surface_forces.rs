@@ -1,4 +1,4 @@
-//! Van der Waals and electrostatic forces between slider and disk.
+//! Van der Waals and electrostatic forces between slider and disk, integrated over the film's cells.
 //!
 //! ```text
 //! p(h) = −A/(6π h³) + B/(45π h⁹) − ε₀ V²/(2 h²)        per area, > 0 pushes apart
@@ -15,13 +15,13 @@
 //! | V | `potential_v` | V |
 //! | ε₀ | [`VACUUM_PERMITTIVITY_F_PER_M`] | F/m |
 //!
-//! Integrated over the film's cells with Gauss's rule of two by two points, at the height the film
-//! sees, its floor included: h → 0 leaves the force finite. Force and moments are functions of the
-//! attitude alone, so their derivatives stand beside those of the film at constant ψ.
+//! The integral uses Gauss's rule of two by two points per cell, at the height that the film sees. The minimum film
+//! height is included, so the force stays finite as h → 0. Force and moments depend on the attitude alone; their
+//! derivatives are added to those of the film at constant ψ.
 //!
-//! Source: Israelachvili, Intermolecular and Surface Forces (1992), ch. 10 and 11; Wu and Bogy, J.
-//! Tribology 124 (2002) 562; Thornton and Bogy, IEEE Trans. Magn. 39 (2003) 2420. Left out: overcoats
-//! and lubricant as layers of their own, roughness, retardation (beyond some tens of nanometres).
+//! Source: Israelachvili, Intermolecular and Surface Forces (1992), ch. 10 and 11; Wu and Bogy, J. Tribology 124 (2002)
+//! 562; Thornton and Bogy, IEEE Trans. Magn. 39 (2003) 2420. Neglected: overcoats and lubricant as layers of their own,
+//! roughness, retardation (beyond some tens of nanometres).
 
 use crate::air_bearing::attitude::Attitude;
 use crate::air_bearing::balance::Moments;
@@ -39,7 +39,7 @@ use crate::slider::surface::Surface;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// What acts between slider and disk beside the air.
+/// Parameters of the surface forces between slider and disk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct SurfaceForces {
     /// Hamaker's constant A of the attraction, J.
@@ -97,7 +97,7 @@ impl GapForce for SurfaceForces {
 #[derive(Clone, Debug)]
 struct Interaction {
     forces: SurfaceForces,
-    /// Points; the form holds the recess too.
+    /// The points; their form includes the recess.
     places: Places,
     area: Vec<f64>,
 }
@@ -185,8 +185,8 @@ impl Posed<'_> {
     #[inline(always)]
     fn block(&self, first: usize) -> ([f64; BLOCK], [f64; BLOCK], &[f64; BLOCK]) {
         let height = self.interaction.places.heights(first, self.attitude);
-        let [h, floor_slope] = self.film.floored_block(&height, &[0.0; BLOCK]);
-        (h, floor_slope, block(&self.interaction.area, first))
+        let [h, limit_slope] = self.film.limited_block(&height, &[0.0; BLOCK]);
+        (h, limit_slope, block(&self.interaction.area, first))
     }
 }
 
@@ -223,13 +223,13 @@ impl Kernel for Linearised<'_> {
         let Interaction { forces, places, .. } = self.0.interaction;
         let mut totals = Totals::default();
         for first in self.0.blocks() {
-            let (h, floor_slope, area) = self.0.block(first);
+            let (h, limit_slope, area) = self.0.block(first);
             let arms = height_by_attitude([block(&places.x, first), block(&places.y, first)]);
             let (mut load, mut per_height) = ([0.0; BLOCK], [0.0; BLOCK]);
             for k in 0..BLOCK {
                 let (pressure, slope) = forces.pressure(h[k]);
                 load[k] = area[k] * pressure;
-                per_height[k] = area[k] * slope * floor_slope[k];
+                per_height[k] = area[k] * slope * limit_slope[k];
             }
             totals.moments.add(&load, places, first);
             totals.add_by_height(&per_height, &arms);

@@ -1,4 +1,4 @@
-//! Viscous shear of the film on the slider, and what its couple with the suspension does to pitch and roll.
+//! Viscous shear of the film on the slider, and the pitch and roll moments of its couple with the suspension.
 //!
 //! ```text
 //! u(z) = U (h + λ − z)/(h + 2 λ) − ∇p (z (h − z) + λ h)/(2 μ)        slip at both walls, z from the disk
@@ -6,10 +6,10 @@
 //! M_pitch = −T ∬ τ_x dA,   M_roll = T ∬ τ_y dA
 //! ```
 //!
-//! The first part is Couette's with first-order slip at both walls. With λ = λ_a p_a/p, h + 2 λ = h (1 + 2 λ_a p_a/ψ):
-//! right in both limits, μ U/h of a continuum and p U/√(2π R T) of free molecules. All rarefied models of the flow
-//! factor take it; the continuum has λ = 0. The second part is Poiseuille's: the profile is symmetric whatever the
-//! slip, so either wall takes half of h ∇p.
+//! The first part is Couette flow with first-order slip at both walls. With λ = λ_a p_a/p, h + 2 λ = h (1 + 2 λ_a
+//! p_a/ψ). This is right in both limits: μ U/h of a continuum and p U/√(2π R T) of free molecules. All rarefied models
+//! of the flow factor use it; the continuum has λ = 0. The second part is Poiseuille flow: its profile is symmetric for
+//! any slip, so either wall takes half of h ∇p.
 //!
 //! The slider does not accelerate in the disk's plane: the suspension holds it at the dimple, on the slider's back, by
 //! the opposite force. Both make a couple with the slider's height T as its arm. Turning by pitch (leading edge up)
@@ -24,15 +24,15 @@
 //! | T | `arm_m` | m |
 //!
 //! On the grid the first part is taken at the cells' centres. In the second the height of a half cell is that of its
-//! face, so that a smooth face between cells of the pressures p₀ and p₁ gives −h (p₁ − p₀)/2, whatever stands on the
-//! face, and all of it together is exactly ½ ∬ (p − p_a) ∇h dA. At an etched step the face pressure is that of the
-//! fluxes ([`super::super::flux`]). Heights are those the film sees, its floor included.
+//! face. A smooth face between cells of the pressures p₀ and p₁ then gives −h (p₁ − p₀)/2 for any face pressure, and
+//! the sum is exactly ½ ∬ (p − p_a) ∇h dA. At an etched step the face pressure is that of the fluxes
+//! ([`super::super::flux`]). Heights are those the film sees, with the minimum film height.
 //!
 //! Source: Burgdorfer, J. Basic Engineering 81 (1959) 94 (slip at both walls); Hamrock, Fundamentals of Fluid Film
-//! Lubrication (1994), ch. 7 and 9 (shear on either wall). Left out: the pressure on slopes and on walls of recesses,
-//! whose part in the plane, −∬ (p − p_a) ∇h dA, is −2 times the second part above (0.14 mN beside a drag of 0.35 mN of
-//! the default drive) and would make the whole that of the disk's surface, turned round; what the slider's own motion
-//! adds but through the pressure; the suspension's yielding in the plane.
+//! Lubrication (1994), ch. 7 and 9 (shear on either wall). Neglected: the pressure on slopes and on walls of recesses,
+//! whose force in the plane, −∬ (p − p_a) ∇h dA, is −2 times the second part above (0.14 mN beside a drag of 0.35 mN of
+//! the default drive) and would make the whole the reverse of the force on the disk; the slider's own motion, except
+//! through the pressure; the suspension's compliance in the plane.
 
 use crate::air_bearing::film::{CellStates, Element, Film};
 use crate::air_bearing::flow_factor::FlowModel;
@@ -155,7 +155,7 @@ fn between_cells<const SLOPES: bool>(
         let base = face.place.height(cells.attitude);
         let half = -0.5 * face.length;
         if face.is_smooth() {
-            let (h, h_slope) = film.floored(base + low.recess);
+            let (h, h_slope) = film.limited(base + low.recess);
             let rise = cells.pressure(high.cell) - cells.pressure(low.cell);
             sum.add(d, half * h * rise);
             sum.add_by_height(d, &face.place, half * rise * h_slope);
@@ -185,7 +185,7 @@ fn on_edges<const SLOPES: bool>(film: &Film, cells: &CellStates<'_>, sum: &mut S
         let d = usize::from(k >= 2 * ny);
         let outwards = [face.place.x, face.place.y][d].signum();
         let half = -0.5 * outwards * face.length;
-        let (h, h_slope) = film.floored(face.place.height(cells.attitude) + face.side.recess);
+        let (h, h_slope) = film.limited(face.place.height(cells.attitude) + face.side.recess);
         let rise = film.ambient_pa() - cells.pressure(face.side.cell);
         sum.add(d, half * h * rise);
         sum.add_by_height(d, &face.place, half * rise * h_slope);
@@ -215,7 +215,7 @@ impl<'a> Step<'a> {
             halves,
             pressure: (a + c) * inverse_beta,
             inverse_beta,
-            h_slopes: sides.map(|side| film.floored(base + side.recess).1),
+            h_slopes: sides.map(|side| film.limited(base + side.recess).1),
         }
     }
 

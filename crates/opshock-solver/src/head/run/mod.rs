@@ -1,6 +1,6 @@
-//! One shock: the time loop, its events, the search for touch between steps, the record.
+//! Runs one shock through a head: time loop, events, search for touch between steps, records.
 
-mod books;
+mod balances;
 mod resume;
 mod running;
 mod shock;

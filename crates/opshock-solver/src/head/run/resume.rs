@@ -1,8 +1,8 @@
-//! Going on with a head where another run of the same shock has left it.
+//! Continues a run of a head from the state in which another run of the same shock ended.
 //!
-//! At the instant of a restart a run forgets what its steps have taught it: guesses, factors, contraction, the
-//! length of the next step. What it does then follows from state and rate alone, so that a run from the onset and
-//! one from a kept state have the same bits behind it.
+//! At the instant of a restart a run discards everything its steps have accumulated: guesses, factors, contraction and
+//! the length of the next step. What follows depends on state and rate alone, so that a run from the onset and one from
+//! a kept state agree bit for bit after the restart.
 
 use super::running::{Lowest, Run};
 use super::workspace::{HeadWorkspace, pulse_events};
@@ -17,15 +17,15 @@ use crate::slider::clearance::Clearance;
 pub struct Stretch<'a> {
     /// End of the run after the onset, s.
     pub end_s: f64,
-    /// Instant at which the head forgets its steps and factors, s; none behind `end_s`.
+    /// Instant at which the head discards its steps and factors, s; none after `end_s`.
     pub restart_s: Option<f64>,
-    /// State of a run of the same shock that ended there, untouched.
+    /// State of a run of the same shock that ended there without a touch.
     pub from: Option<&'a HeadState>,
-    /// The state at the end is kept, where the head has not touched.
+    /// Whether the state at the end is kept, if the head has not touched.
     pub keeps_end: bool,
 }
 
-/// A head that has not touched, at the end of a run.
+/// State of a head at the end of a run without a touch.
 #[derive(Clone, Debug)]
 pub struct HeadState {
     time_s: f64,
@@ -41,14 +41,14 @@ pub struct HeadState {
 }
 
 impl HeadState {
-    /// Memory that it takes, bytes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         size_of::<Self>() + size_of::<f64>() * (self.y.len() + self.rate.len())
     }
 }
 
 impl<'a> Run<'a> {
-    /// Goes on from `state`. Nothing is recorded.
+    /// Continues from `state`. Nothing is recorded.
     pub(super) fn resume(
         model: &'a HeadModel,
         motion: &'a dyn DiskMotion,
@@ -80,7 +80,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The state now.
+    /// The present state.
     pub(super) fn state(&self) -> HeadState {
         HeadState {
             time_s: self.time_s,
@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Forgets what steps have taught.
+    /// Discards what steps have accumulated.
     pub(super) fn forget(&mut self) {
         self.w.scratch.forget();
         self.w.stepper.forget();

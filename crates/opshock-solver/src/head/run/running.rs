@@ -1,4 +1,4 @@
-//! A run under way: where it stands, what it has met.
+//! A run in progress: its present state and its records so far.
 
 use super::workspace::{HeadWorkspace, pulse_events};
 use crate::air_bearing::Attitude;
@@ -16,7 +16,7 @@ pub(super) struct Run<'a> {
     pub(super) time_s: f64,
     pub(super) clearance: Clearance,
     pub(super) smallest: Lowest,
-    /// The first touch, once it lies behind: smallest clearance, dimple and stops are told up to it.
+    /// The first touch, once it has occurred; smallest clearance, dimple and stops are recorded up to it.
     pub(super) failed: Option<(f64, Place)>,
     pub(super) dimple: DimpleRecord,
     pub(super) dimple_force_n: f64,
@@ -27,7 +27,7 @@ pub(super) struct Run<'a> {
     pub(super) cost: HeadCost,
 }
 
-/// Where the slider came closest to the disk so far.
+/// The slider's closest approach to the disk so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lowest {
     pub(super) clearance: Clearance,
@@ -35,7 +35,7 @@ pub(super) struct Lowest {
     pub(super) attitude: Attitude,
 }
 
-/// A step that could be taken.
+/// A step that was computed and may be accepted.
 pub(super) struct TrialStep {
     /// Error over tolerance.
     pub(super) error: f64,

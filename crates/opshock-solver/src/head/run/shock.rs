@@ -1,4 +1,4 @@
-//! One shock through a head, from the onset or from where another run left it.
+//! Entry points for running one shock through a head, from the onset or from a kept state.
 
 use super::resume::{HeadState, Stretch};
 use super::running::Run;
@@ -12,10 +12,9 @@ use crate::head::outcome::HeadRun;
 impl HeadModel {
     /// Runs one shock for `window_s` after its onset under `motion` of the disk.
     ///
-    /// With `stops_at_touch` the run ends at the instant of its first touch; otherwise it goes on with
-    /// the film's floored height. Verdict, smallest clearance (then the limit) and forces are those up
-    /// to the first touch either way, with the same bits, whatever becomes of the run behind it;
-    /// histories and cost go on. `record` asks for histories.
+    /// With `stops_at_touch` the run ends at the instant of its first touch; otherwise it continues with the minimum
+    /// film height in the film equations. Verdict, smallest clearance (then the limit) and forces are those up to the
+    /// first touch either way, with the same bits; histories and cost continue. `record` requests histories.
     ///
     /// # Panics
     /// When `workspace` was made for another model's sizes.
@@ -36,8 +35,8 @@ impl HeadModel {
             .0
     }
 
-    /// The same over `stretch`, with the state at its end when that is kept. A run that goes on from another
-    /// has recorded nothing before.
+    /// The same over `stretch`, with the state at its end when that is kept. A run that continues another has recorded
+    /// nothing before.
     ///
     /// # Panics
     /// As [`HeadModel::run`], and when the state is that of another model.

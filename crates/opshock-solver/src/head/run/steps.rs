@@ -1,4 +1,4 @@
-//! The time loop: steps between events, accepted or not, up to what ends the run.
+//! Time loop of a run: computes, accepts or rejects steps between events, until the run ends.
 
 use super::running::{Lowest, Run, TrialStep};
 use crate::head::fields::FieldRecord;
@@ -30,13 +30,13 @@ impl Run<'_> {
         let resolution = &self.model.resolution;
         let table = self.model.tableau;
         let mut control = StepControl::new(table.error_order, SMALLEST_STEP_S, LARGEST_STEP_S);
-        let mut dt = control.rung(FIRST_STEP_S);
+        let mut dt = control.of_series(FIRST_STEP_S);
         let (mut next_motion, mut next_pulse) = (0, 0);
         let ends_untouched = stops_at_touch && mutant::is_on("R6 touch");
         while self.time_s < window_s {
             let event = self.next_event(window_s, &mut next_motion, &mut next_pulse);
             let left = event - self.time_s;
-            // A step that would leave a sliver before the event is halved or stretched to it.
+            // A step that would leave a tiny rest before the event is halved, or extended to the event.
             let trial = if dt >= 0.999 * left {
                 left
             } else if dt > 0.5 * left {
@@ -71,11 +71,10 @@ impl Run<'_> {
                 }
                 Ok(trial_step) if trial_step.approach > 1.25 && trial > 4.0 * SMALLEST_STEP_S => {
                     self.cost.rejected += 1;
-                    dt = control.rung(trial * (0.9 / trial_step.approach).max(0.1));
+                    dt = control.of_series(trial * (0.9 / trial_step.approach).max(0.1));
                 }
                 Ok(trial_step) => {
-                    // Time at an event is the event's own, so that rounding never opens a sliver
-                    // beside it.
+                    // The time at an event is the event's own, so that rounding never leaves a tiny step beside it.
                     let end_s = if trial == left {
                         event
                     } else {
@@ -94,11 +93,11 @@ impl Run<'_> {
                         return End::Window;
                     }
                     let wanted = control.after_accept(trial, trial_step.error);
-                    // A step cut short by an event says nothing against the step before it.
+                    // A step shortened by an event is no evidence against the step length before it.
                     let wanted = if trial < dt { wanted.max(dt) } else { wanted };
                     let bound = trial / trial_step.approach.max(1e-3);
                     dt = if wanted > bound {
-                        control.rung(bound)
+                        control.of_series(bound)
                     } else {
                         wanted
                     };
@@ -161,8 +160,8 @@ impl Run<'_> {
         })
     }
 
-    /// Error of the trial step over tolerance: gap error at the slider's ends, directly and
-    /// through its velocity, that of the film's gas, and that which the suspension's modes cause.
+    /// Error of the trial step over tolerance: gap error at the slider's ends, directly and through its velocity, error
+    /// of the film's gas, and error due to the suspension's modes.
     fn error_norm(&mut self, gap_m: f64) -> f64 {
         let model = self.model;
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
@@ -177,7 +176,7 @@ impl Run<'_> {
         ((gap + suspension) / gap_m + film) / model.resolution.tolerance
     }
 
-    /// Takes the whole trial step over, which ends at `end_s`.
+    /// Accepts the whole trial step, which ends at `end_s`.
     fn accept(&mut self, dt_s: f64, end_s: f64, step: &TrialStep) {
         self.keep_fields(dt_s, end_s);
         let before_s = self.time_s;
@@ -199,11 +198,11 @@ impl Run<'_> {
         self.cost.steps += 1;
         // A touch at the very end of the step has its row already.
         if self.time_s > before_s {
-            self.book(dt_s, &step.attitude);
+            self.balance(dt_s, &step.attitude);
         }
     }
 
-    /// Takes over a jump of the pivot's velocity now: dampers feel it at once.
+    /// Applies a jump of the pivot's velocity now: dampers feel it at once.
     fn jump_of_pivot(&mut self) {
         let [moved, after] = self.motion.pivot(self.time_s);
         let [_, before] = self.motion.pivot(self.time_s * (1.0 - 1e-12));

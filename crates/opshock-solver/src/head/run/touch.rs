@@ -1,4 +1,4 @@
-//! The search for touch between steps.
+//! Finds touch and smallest clearance between steps.
 
 use super::running::{Lowest, Run, TrialStep};
 use crate::air_bearing::Attitude;
@@ -6,7 +6,7 @@ use crate::head::outcome::Place;
 use crate::integrator::hermite;
 use crate::slider::clearance::Clearance;
 
-/// Places inside a step at which the clearance is looked at.
+/// Number of points inside a step at which the clearance is evaluated.
 const LOOKS: usize = 5;
 
 /// The first passage of the limit inside a step.
@@ -67,7 +67,7 @@ impl Run<'_> {
         let theta = crossing.unwrap_or(theta);
         let mut clearance = look(theta);
         if theta > 0.0 {
-            // Located to 1e-9 of the step: what is left to the limit is the search's own.
+            // Located to 1e-9 of the step: the remaining distance to the limit is the search's own error.
             clearance.value_m = limit;
         }
         Some(Touch {
@@ -77,9 +77,9 @@ impl Run<'_> {
         })
     }
 
-    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic
-    /// through both ends, in which the touch was located. Fields are kept up to `until_s`, while the
-    /// start of the step is there to find them from.
+    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic through both ends,
+    /// in which the touch was located. Fields are kept up to `until_s`, while the start of the step is still available
+    /// for interpolation.
     pub(super) fn touch(&mut self, dt_s: f64, until_s: f64, touch: &Touch) {
         self.keep_fields(dt_s, until_s);
         let w = &mut *self.w;
@@ -98,9 +98,9 @@ impl Run<'_> {
             time_s: touch.time_s,
             attitude,
         };
-        // A slider that begins below the limit fails at once: that instant has its row already.
+        // A slider that begins below the limit fails at once: that instant is already recorded.
         if self.time_s > before_s {
-            self.book(self.time_s - before_s, &attitude);
+            self.balance(self.time_s - before_s, &attitude);
         }
         let place = Place {
             x_m: touch.clearance.x_m,

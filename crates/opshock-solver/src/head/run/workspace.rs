@@ -1,4 +1,4 @@
-//! State and scratch of runs, sized once.
+//! State and scratch of runs of one head, sized once.
 
 use crate::fixed_point::FixedPoint;
 use crate::head::model::HeadModel;
@@ -15,7 +15,7 @@ pub struct HeadWorkspace {
     pub(super) stepper: Stepper,
     pub(super) scratch: StageScratch,
     pub(super) exchange: Option<FixedPoint>,
-    /// Coordinates and velocities over the pivot.
+    /// Coordinates and velocities relative to the pivot.
     pub(super) seen: [Vec<f64>; 2],
     pub(super) pulse_events_s: Vec<f64>,
 }

@@ -29,7 +29,7 @@ pub struct Dense {
     pub contacts: Vec<Contact>,
     /// u = T x.
     pub from_modes: DMatrix<f64>,
-    /// Its inverse by M, which is not the way of the program.
+    /// Its inverse by M, computed otherwise than in the program.
     pub to_modes: DMatrix<f64>,
 }
 
@@ -104,7 +104,11 @@ impl Dense {
                 n_s_per_m,
             });
         };
-        contact(vertical.clone(), parameters.gram_load_n, &parameters.dimple);
+        contact(
+            vertical.clone(),
+            parameters.steady_dimple_force_n(),
+            &parameters.dimple,
+        );
         for limiter in &parameters.limiters {
             let row = limiter.along_m * &pitch - limiter.across_m * &roll - &vertical;
             let law = &limiter.contact;

@@ -1,15 +1,14 @@
-//! Solution with the matrix of a stage: modes eliminated, seven unknowns left.
+//! Solves with the matrix of a stage: the suspension's modes are eliminated, which leaves seven unknowns.
 //!
-//! The derivative of a stage's residual by x is diagonal but for what acts at the ports (`ports`),
+//! The derivative of a stage's residual by x is diagonal except for forces at the ports (`ports`),
 //!
 //! ```text
 //! S = diag(m/d², D) + Pᵀ G P,    D = 1/d² + 2 ζ ω/d + ω²,    S δx = b
 //! ```
 //!
-//! with m the slider's inertia and G what film, gimbal and closed contacts do at the ports, the film by its
-//! condensed stiffness. With p = P δx = (q, s) and g = G p = (g_q, g_s) the modes' rows are
-//! δη = D⁻¹ (b_η − Rᵀ g_s); read at the joints, s = E q + R δη, they leave, by the identity of Sherman,
-//! Morrison and Woodbury,
+//! with m the slider's inertia and G the stiffness of film, gimbal and closed contacts at the ports, the film by its
+//! condensed stiffness. With p = P δx = (q, s) and g = G p = (g_q, g_s) the modes' rows are δη = D⁻¹ (b_η − Rᵀ g_s).
+//! Inserting them into s = E q + R δη gives, by the identity of Sherman, Morrison and Woodbury,
 //!
 //! ```text
 //! m/d² q + g_q + Eᵀ g_s = b_q,      s − E q + Y g_s = R D⁻¹ b_η,      Y = R D⁻¹ Rᵀ
@@ -19,11 +18,11 @@
 //! |---|---|---|
 //! | R | rows of the joints over the modes | 4 × modes |
 //! | Y | compliance of the suspension at its joints within the stage | 4 × 4 |
-//! | g | force that the correction δx raises at the ports | 3 + 4 |
+//! | g | force at the ports due to the correction δx | 3 + 4 |
 //!
-//! Y depends on d alone. The seven equations mix metres and radians, so they are solved by row exchanges
-//! with every unknown scaled ([`PivotedInverse`]). Digits are lost by the ratio of the joints' stiffness to the
-//! suspension's within the stage, Y k: up to the longest step solutions hold to 1e-13.
+//! Y depends on d alone. The seven equations mix metres and radians, so they are solved with row exchanges and every
+//! unknown scaled ([`PivotedInverse`]). Digits are lost by the ratio Y k of the joints' stiffness to the suspension's
+//! within the stage; up to the longest step, solutions are accurate to 1e-13.
 //!
 //! Source: W. W. Hager, "Updating the inverse of a matrix", SIAM Review 31 (1989) 221.
 
@@ -36,7 +35,7 @@ use crate::linalg::pivoted::PivotedInverse;
 /// The matrix of a stage, ready to solve with; storage allocated once.
 #[derive(Clone, Debug)]
 pub(super) struct StageMatrix {
-    /// d of what follows; `None`: of none.
+    /// d for which the following is valid; `None`: for none.
     d_s: Option<f64>,
     /// D⁻¹.
     flexibility: Vec<f64>,
@@ -62,7 +61,7 @@ impl StageMatrix {
         }
     }
 
-    /// Forgets everything: the next [`StageMatrix::prepare`] may be of another head.
+    /// Discards everything: the next [`StageMatrix::prepare`] may be of another head.
     pub fn forget(&mut self) {
         self.d_s = None;
     }

@@ -9,7 +9,7 @@ use crate::suspension::{
 };
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// Numbers without order between −1 and 1.
+/// Pseudo-random numbers between −1 and 1.
 fn spread(n: usize, seed: f64) -> DVector<f64> {
     DVector::from_fn(n, |i, _| {
         (seed + 2.3 * i as f64 + 0.7 * (i * i) as f64).sin()
@@ -25,7 +25,7 @@ fn worst(found: &[f64], wanted: &DVector<f64>, scale: &DVector<f64>) -> f64 {
     })
 }
 
-/// Heads with limiters, a lift tab, both and neither; of few and of many modes; by another program's modes.
+/// Heads with limiters, a lift tab, both and neither; with few and with many modes; with given modes.
 fn heads() -> Vec<(String, SuspensionParameters, usize)> {
     let mut plain = suspension();
     plain.gimbal.pitch_n_m_per_rad = 6.0e-5;
@@ -73,7 +73,7 @@ fn heads() -> Vec<(String, SuspensionParameters, usize)> {
     out
 }
 
-/// States (u, w, known w) with the dimple closed and open, stops met and not.
+/// States (u, w, known w) with the dimple closed and open, stops closed and open.
 fn states(dense: &Dense) -> Vec<[DVector<f64>; 3]> {
     let n = dense.len();
     let mut out = Vec::new();
@@ -283,7 +283,7 @@ fn harmonic_matrix_is_the_dense_one() {
     }
 }
 
-/// The error's measure is that of the reduction's coordinates: Σ |ψᵀMφᵢ| ωᵢ² |e_i| over the pinned modes.
+/// The error's measure equals that in the reduction's coordinates: Σ |ψᵀMφᵢ| ωᵢ² |e_i| over the pinned modes.
 #[test]
 fn error_of_the_suspension_is_weighed_in_pinned_modes() {
     for (name, parameters, n_modes) in heads() {
@@ -331,7 +331,7 @@ fn natural_modes_make_all_three_matrices_diagonal() {
     }
 }
 
-/// A matrix that is not finite, or an answer that is not, is told.
+/// A matrix or a solution that is not finite is reported.
 #[test]
 fn what_is_not_finite_is_refused() {
     let (_, mechanics) = built(&suspension(), 4);

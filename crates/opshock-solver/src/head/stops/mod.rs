@@ -1,4 +1,4 @@
-//! Limiters of the gimbal and lift tab: contacts that hold back what opens.
+//! Limiters of the gimbal and lift tab: one-sided contacts that limit the opening of dimple and suspension.
 //!
 //! ```text
 //! o = r·p,    N = max(0, k (o − g) + c ȯ),    force at the ports −r N,    c = 2 ζ √(k m)
@@ -17,16 +17,16 @@
 //! the plane that it has at the dimple. The lift tab's o is the rise of the tab's end over the base, to which
 //! its stop is fixed.
 //!
-//! The law is the dimple's without its preload: continuous, pushing only. With V = k max(0, o − g)²/2 the
-//! power (N − V') ȯ is never negative, so no contact gives energy that it did not take. From N = 0 to N = 0
-//! two bodies of reduced mass μ part at exp(−π ζ'/√(1 − ζ'²)) of the velocity at which they met, ζ' = c/(2 √(k μ)).
+//! The law is the dimple's without its preload: continuous, pushing only. With V = k max(0, o − g)²/2 the power (N −
+//! V') ȯ is never negative, so no contact releases more energy than it stored. From N = 0 to N = 0 two bodies of
+//! reduced mass μ separate at exp(−π ζ'/√(1 − ζ'²)) of the velocity at which they met, ζ' = c/(2 √(k μ)).
 
 #[cfg(test)]
 mod tests;
 
 use super::ports::{AtPorts, PORTS, add_along, add_square, along};
 
-/// Most stops beside the dimple that [`Closed`] has room for.
+/// Most stops beside the dimple that [`Closed`] can hold.
 const MOST: usize = 7;
 
 /// One contact.

@@ -1,4 +1,4 @@
-//! Stops of a suspension whose slider stands on a spring in place of a film.
+//! Limiters and lift tab of a suspension whose slider stands on a spring in place of a film.
 
 use super::super::mechanics::{Mechanics, StageState};
 use super::super::sample::{law, limiter, slider, suspension};
@@ -216,7 +216,7 @@ fn a_lasting_load_presses_on_the_limiters_by_stiffness_times_excess() {
     assert_eq!((tab, head.mechanics.dimple_force(x, v)), (0.0, 0.0));
 }
 
-/// A limiter aside of the middle turns the slider: the springs hold k e y about roll, k e x about pitch.
+/// A limiter off the middle turns the slider: the springs take k e y about roll, k e x about pitch.
 #[test]
 fn a_limiter_aside_turns_the_slider_towards_itself() {
     let (g, k) = (1e-6, 1e5);
@@ -245,11 +245,11 @@ struct Hit {
     peak_n: f64,
 }
 
-/// Slider and load beam of one coordinate fly apart at 0.3 m/s until the limiters turn them.
+/// Slider and load beam, with one coordinate each, move apart at 0.3 m/s until the limiters reverse them.
 fn hit(damping_ratio: f64, dt_s: f64) -> (Hit, f64) {
     let g = 1e-6;
     let mut parameters = suspension();
-    // Nothing but inertia and the limiters: the rest is too soft to matter within the hit.
+    // Only inertia and limiters matter: everything else is too soft within the impact.
     parameters.gram_load_n = 0.0;
     parameters.damping_ratio = 0.0;
     parameters.youngs_modulus_pa *= 1e-9;
@@ -261,7 +261,7 @@ fn hit(damping_ratio: f64, dt_s: f64) -> (Hit, f64) {
     let m = Inertia::of(&slider()).mass_kg;
     let beam = head.reduced.bending.mass[(0, 0)];
     let mut y = vec![0.0; 2 * n];
-    // Half the gap from the limiters, so that the hit is over long before the dimple is met again.
+    // Half the gap from the limiters, so that the impact is over long before the dimple closes again.
     head.move_dimple(&mut y[..n], 0.5 * g);
     y[n] = -0.2;
     head.move_dimple(&mut y[n..], 0.1);
@@ -281,8 +281,8 @@ fn hit(damping_ratio: f64, dt_s: f64) -> (Hit, f64) {
     (hit, reduced)
 }
 
-/// Momentum passes from one to the other, nothing is lost of it; without damping they part as fast as
-/// they met, with damping at exp(−π ζ'/√(1 − ζ'²)) of that, and the largest force is v √(k μ).
+/// Momentum is conserved. Without damping the bodies separate as fast as they met, with damping at exp(−π ζ'/√(1 −
+/// ζ'²)) of that velocity, and the largest force is v √(k μ).
 #[test]
 fn a_hit_on_the_limiters_passes_momentum_on_and_gives_no_energy() {
     for damping_ratio in [0.0, 0.05, 0.3] {
@@ -312,7 +312,7 @@ fn a_hit_on_the_limiters_passes_momentum_on_and_gives_no_energy() {
     }
 }
 
-/// Without a load the energy of slider, suspension and contacts only falls, whatever opens and closes.
+/// Without a load the energy of slider, suspension and contacts never rises, with any contact opening or closing.
 #[test]
 fn no_contact_gives_energy() {
     let mut parameters = suspension();
@@ -345,8 +345,8 @@ fn no_contact_gives_energy() {
     assert!(rises.iter().all(|rise| *rise < 1e-12), "{rises:?}");
 }
 
-/// A tab pressed against its stop yields by the finite elements' compliance: with its attachment mode as few
-/// modes as none give the force that all of them give without it.
+/// A tab pressed against its stop yields by the finite elements' compliance: with its attachment mode, few modes or
+/// none give the same force as all modes without it.
 #[test]
 fn a_lift_tab_is_as_stiff_as_the_finite_elements() {
     let mut parameters = suspension();

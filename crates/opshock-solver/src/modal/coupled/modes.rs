@@ -1,4 +1,4 @@
-//! Damped modes of coupled oscillators: found by the eigenvectors of the state (q, q̇), read, entered, propagated.
+//! Computes the damped modes of coupled oscillators from the eigenvectors of the state (q, q̇), and advances them.
 
 use super::state::{CoupledFlow, CoupledState, PointReadout};
 use super::system::{Coordinates, CoupledSystem};
@@ -13,7 +13,7 @@ use nalgebra::Complex;
 #[derive(Clone, Debug)]
 pub struct CoupledModes {
     system: CoupledSystem,
-    /// s of the modes carried, 1/s.
+    /// s of the modes kept, 1/s.
     rates_per_s: Vec<Complex<f64>>,
     /// P and V by coordinate and mode, weights of 2 included.
     position: Vec<Vec<Complex<f64>>>,
@@ -29,7 +29,7 @@ pub struct CoupledModes {
 }
 
 impl CoupledModes {
-    /// Takes `system` apart.
+    /// Decomposes `system` into its modes.
     ///
     /// # Errors
     /// A mass matrix that is not positive definite; modes that coincide ([`general_eigen`]).
@@ -37,7 +37,7 @@ impl CoupledModes {
         Self::below(system, f64::INFINITY)
     }
 
-    /// Takes `system` apart and leaves out modes faster than `fastest_per_s`.
+    /// Decomposes `system` and leaves out modes faster than `fastest_per_s`.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -66,7 +66,7 @@ impl CoupledModes {
                 rows[n + k][n + l] = -form(&system.damping, &system.gyroscopic, k, l);
             }
         }
-        // With √k y beside the velocities an element is skew but for what it takes.
+        // With √k y beside the velocities an element's block is skew but for its loss.
         for (e, element) in system.elements.iter().enumerate() {
             for k in 0..n {
                 let held = Complex::from(element.stiffness.sqrt() * phi[k][element.coordinate]);
@@ -153,10 +153,10 @@ impl CoupledModes {
         }
     }
 
-    /// Adds a mode that holds u = ∫ f dt and with it the load `b` u: η̇ = s η + w u has the answer
-    /// η = η' − (w/s) u with η' driven by f alone. Returns what puts f into the modes.
+    /// Adds a mode that holds u = ∫ f dt and with it the load `b` u: η̇ = s η + w u has the solution η = η' − (w/s) u
+    /// with η' driven by f alone. Returns the entrance of f into the modes, and the new mode's index.
     ///
-    /// No mode of the system may rest, s = 0.
+    /// No mode of the system may have s = 0.
     pub fn add_running_load(&mut self, b: &[Complex<f64>]) -> (CoupledState, usize) {
         let w = self.entrance(b);
         let ratios: Vec<Complex<f64>> = self
@@ -175,7 +175,7 @@ impl CoupledModes {
             let at = held(row);
             row.push(at);
         }
-        // What a steady load holds does not move, and its Maxwell elements have relaxed.
+        // A steady load gives no velocity, and its Maxwell elements have relaxed.
         for row in self.velocity.iter_mut().chain(&mut self.extension) {
             row.push(Complex::from(0.0));
         }
@@ -197,7 +197,7 @@ impl CoupledModes {
         &self.system
     }
 
-    /// s of the modes carried, 1/s.
+    /// s of the modes kept, 1/s.
     pub fn rates_per_s(&self) -> &[Complex<f64>] {
         &self.rates_per_s
     }
@@ -225,7 +225,7 @@ impl CoupledModes {
         }
     }
 
-    /// What reads Re Σ weights·q.
+    /// Row that reads Re Σ weights·q.
     pub fn readout(&self, weights: &[Complex<f64>]) -> PointReadout {
         PointReadout {
             position: self.columns(&self.position, weights),
@@ -296,7 +296,7 @@ impl CoupledModes {
         let mut flow = CoupledFlow::default();
         let (mut unit, mut after) = (self.at_rest(), self.at_rest());
         let fastest = self.rates_per_s.iter().map(|s| s.norm());
-        // Modes beyond some panels a step are driven by nothing that this step resolves.
+        // Nothing that this step resolves drives modes beyond some panels per step.
         let n_panels = (fastest.fold(0.0, f64::max) * h_s).ceil().clamp(1.0, 16.0) as usize;
         let panel = h_s / n_panels as f64;
         let mut columns = vec![self.coordinates(); 2 * m];

@@ -1,4 +1,4 @@
-//! Amplitudes of all modes side by side, their flow over a time, and what reads a point from them.
+//! Amplitudes of the damped modes of coupled oscillators, their flow over a time, and rows that read a point from them.
 
 use crate::linalg::SquareMatrix;
 use crate::modal::bank::{Readout, dot};
@@ -19,7 +19,7 @@ pub struct CoupledFlow {
     pub(super) im: Vec<f64>,
 }
 
-/// What reads displacement and velocity of a point.
+/// Rows that read displacement and velocity of a point.
 #[derive(Clone, Debug, Default)]
 pub struct PointReadout {
     /// Displacement.
@@ -74,7 +74,7 @@ impl CoupledFlow {
         }
     }
 
-    /// Adds to `after` what an impulse on `entrance` at the start of the flow leads to.
+    /// Adds to `after` the effect of an impulse on `entrance` at the start of the flow.
     pub fn add_kick(&self, entrance: &CoupledState, impulse: f64, after: &mut CoupledState) {
         for k in 0..self.re.len() {
             let (x, y) = (impulse * entrance.re[k], impulse * entrance.im[k]);
@@ -88,7 +88,7 @@ impl CoupledFlow {
         let mut sum = 0.0;
         for k in 0..self.re.len() {
             let (x, y) = (entrance.re[k], entrance.im[k]);
-            // What the impulse leaves in displacement at once is zero but for rounding.
+            // The displacement right after the impulse is zero but for rounding.
             sum += to.position.re[k] * (self.re[k] * x - self.im[k] * y)
                 + to.position.im[k] * (self.re[k] * y + self.im[k] * x);
         }

@@ -121,13 +121,13 @@ fn flow_and_loss_of_damped_whirling_modes_agree_with_direct_integration() {
             for (y, wanted) in at.y.iter().zip(&wanted.y) {
                 assert!((y - wanted).norm() < 1e-12, "{h_s}");
             }
-            let booked = state.form(&modes.loss_form(h_s));
-            assert!((booked - lost).abs() < 1e-12, "{h_s}: {booked} {lost}");
+            let balanced = state.form(&modes.loss_form(h_s));
+            assert!((balanced - lost).abs() < 1e-12, "{h_s}: {balanced} {lost}");
             let h = |x: &Coordinates| {
                 let (kinetic, elastic) = system.energies(x);
                 kinetic + elastic
             };
-            assert!((h(&start) - h(&at) - booked).abs() < 1e-12);
+            assert!((h(&start) - h(&at) - balanced).abs() < 1e-12);
         }
     }
 }

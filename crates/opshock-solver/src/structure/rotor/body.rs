@@ -1,20 +1,20 @@
-//! Momentum of the hub, or of base and all that stands on it, against the impulses on it.
+//! Momentum of the hub, or of the base with all that stands on it, compared with the impulses on it.
 
 use crate::modal::oscillator::phi1;
 use crate::modal::{CoupledModes, PointReadout, Readout};
 use nalgebra::Complex;
 
-/// A body along one axis of coordinates, a sum of them by weights.
+/// A body along one axis: a weighted sum of coordinates.
 pub(in crate::structure) struct Body {
-    /// Momentum along the axis: of the velocity.
+    /// Momentum along the axis: reads the velocity.
     pub momentum: PointReadout,
-    /// Force of what holds it, springs and dampers.
+    /// Force of its supports, springs and dampers.
     pub support: Readout,
-    /// Its impulse over a whole step of free motion.
+    /// Impulse of the supports over a whole step of free motion.
     pub support_step: Readout,
     /// Inertia load per unit a(t), kg.
     pub load_kg: f64,
-    /// Impulse per impulse of the ramp on the disk; the ramp's mount takes the same back.
+    /// Impulse per impulse of the ramp on the disk; the ramp's mount takes the opposite.
     pub contact_share: f64,
 }
 
@@ -53,7 +53,7 @@ impl Body {
     }
 }
 
-/// What reads the integral over a step of free motion of what `row` reads.
+/// Row that reads the integral over a step of free motion of what `row` reads.
 fn over_step(row: &Readout, rates_per_s: &[Complex<f64>], step_s: f64) -> Readout {
     let mut integral = row.clone();
     for (k, s) in rates_per_s.iter().enumerate() {

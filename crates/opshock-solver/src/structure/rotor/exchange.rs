@@ -1,4 +1,4 @@
-//! Energies of the rotor, and what shock, damping and supports exchange with it.
+//! Energies of the rotor (harmonics coupled with hub or base), and the work, losses and support impulses on it.
 
 use super::part::Part;
 use super::state::{RotorScratch, RotorState};
@@ -10,7 +10,7 @@ use crate::structure::sample::Exchange;
 use nalgebra::Complex;
 
 impl Rotor {
-    /// Energy lost by the mean of two states over `h_s`, and work of a constant load per unit a(t).
+    /// Energy lost at the mean of two states over `h_s`, and work of a constant load per unit a(t).
     pub fn midpoint_exchange(
         &self,
         before: &RotorState,
@@ -80,7 +80,7 @@ impl Rotor {
         }
     }
 
-    /// The same over a whole step inside a stretch of the pulse.
+    /// The same over a whole step within a stretch of the pulse.
     pub fn step_exchange(
         &self,
         state: &RotorState,
@@ -106,8 +106,7 @@ impl Rotor {
         total
     }
 
-    /// The same over `h_s` of one closed form for the state in `scratch.walk`, which moves along.
-    /// Nothing is tabulated.
+    /// The same over `h_s` of one closed form for the state in `scratch.walk`, which is advanced. Nothing is tabulated.
     pub fn piece_exchange(
         &self,
         h_s: f64,

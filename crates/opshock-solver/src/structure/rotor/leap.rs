@@ -1,4 +1,4 @@
-//! Flow of the rotor over a time, and impulses in it.
+//! Advances the rotor (harmonics coupled with hub or base) over a time, and applies impulses to it.
 
 use super::state::{Leap, RotorScratch, RotorState};
 use super::whole::Rotor;
@@ -6,8 +6,8 @@ use crate::modal::{CoupledFlow, CoupledState, FirstOrderResponse, Phase, PointRe
 use nalgebra::Complex;
 
 impl Rotor {
-    /// Tables of `h_s`, with responses to a wave when its rate is given; does not allocate in tables
-    /// that were set before.
+    /// Sets the tables of `h_s`, with responses to a wave when its rate is given. Does not allocate in tables that were
+    /// set before.
     pub fn set_leap(&self, h_s: f64, sigma_per_s: Option<Complex<f64>>, leap: &mut Leap) {
         leap.h_s = h_s;
         leap.flows.resize(self.parts.len(), CoupledFlow::default());
@@ -25,7 +25,7 @@ impl Rotor {
         }
     }
 
-    /// `to` := `from` after the leap, under `amplitude` times a forcing that starts at `phase`, if any.
+    /// `to` := `from` after the time, under `amplitude` times a forcing that starts at `phase`, if any.
     pub(super) fn carry(
         &self,
         leap: &Leap,
@@ -44,18 +44,18 @@ impl Rotor {
         }
     }
 
-    /// `ahead` := `now` after free motion over the partial leap, or over a whole step.
+    /// `ahead` := `now` after free motion over the partial step, or over a whole step.
     pub fn flow(&self, now: &RotorState, partial: Option<&Leap>, ahead: &mut RotorState) {
         self.carry(partial.unwrap_or(&self.step), None, now, ahead);
     }
 
-    /// Carries `state` over a whole step inside a stretch of the pulse, or after it.
+    /// Advances `state` over a whole step within a stretch of the pulse, or after it.
     pub fn step(&self, phase: Option<&Phase>, state: &mut RotorState, scratch: &mut RotorScratch) {
         scratch.start.copy_from(state);
         self.carry(&self.step, phase.map(|p| (p, 1.0)), &scratch.start, state);
     }
 
-    /// Carries `state` over `h_s` under `amplitude` times a forcing of one closed form.
+    /// Advances `state` over `h_s` under `amplitude` times a forcing of one closed form.
     pub fn advance(
         &self,
         h_s: f64,
@@ -98,7 +98,7 @@ impl Rotor {
         sum
     }
 
-    /// Loss of energy per squared impulse in the ripple of equal impulses, one a step.
+    /// Loss of energy per squared impulse in the ripple of equal impulses, one per step.
     pub fn ripple_loss(&self) -> [[f64; 2]; 2] {
         let mut sum = [[0.0; 2]; 2];
         let parts = self.parts.iter();

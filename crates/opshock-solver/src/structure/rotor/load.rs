@@ -1,4 +1,4 @@
-//! What the unit pulse drives in a part: along the axis, and the tilts of an oblique shock.
+//! Loads of the unit pulse on the rotor (harmonics coupled with hub or base): axial, and the tilts of an oblique shock.
 
 use super::places::Places;
 use crate::disk::HubParameters;
@@ -13,16 +13,16 @@ pub(in crate::structure) struct Drive {
     pub entrance: CoupledState,
     /// Velocity along the load: power per load.
     pub power: PointReadout,
-    /// Gyroscopic load of a base that has begun to turn.
+    /// Gyroscopic load of a base that has started to turn.
     pub running: Option<Running>,
 }
 
-/// A load in proportion to u = ∫ a dt.
+/// A load proportional to u = ∫ a dt.
 pub(in crate::structure) struct Running {
-    /// Mode that holds u.
+    /// Index of the mode that holds u.
     pub at: usize,
     pub power: PointReadout,
-    /// What reads the change of the displacement along the load over a whole step of free motion.
+    /// Row that reads the change of the displacement along the load over a whole step of free motion.
     pub step: Readout,
 }
 
@@ -48,12 +48,12 @@ impl Drive {
 pub(super) struct TiltLoad {
     direct: Vec<Complex<f64>>,
     running: Vec<Complex<f64>>,
-    /// What puts the running load into the modes, and the mode that holds the integral.
+    /// Entrance of the running load into the modes, and the index of the mode that holds the integral.
     held: Option<(CoupledState, usize)>,
 }
 
 impl TiltLoad {
-    /// Loads of `shock`; a turning base adds the mode of its angular velocity to `modes`.
+    /// Adds the loads of `shock`; a turning base adds the mode of its angular velocity to `modes`.
     ///
     /// With the base's tilt β, felt as B a(t) = −β̈, the rotor's inertia loads the coordinates by
     /// M e B a + i Ω (2 M_d + I_p) e B ∫ a dt, e its rigid tilt; in-plane loads d act on its mass at
@@ -77,7 +77,7 @@ impl TiltLoad {
         let of_row = |row: &[f64]| -> Vec<Complex<f64>> { row.iter().map(|m| felt * *m).collect() };
         let mut direct = of_row(system.mass.row(0));
         direct[0] += turn * Complex::new(-x, y) * (mass * hub.centre_height_m);
-        // The gyroscopic matrix but for what is the bearing's.
+        // The gyroscopic matrix without the part of the bearing.
         let sense = if disk.spin_rad_per_s < 0.0 { -1.0 } else { 1.0 };
         let mut running: Vec<Complex<f64>> = of_row(system.gyroscopic.row(0))
             .iter()
@@ -94,7 +94,7 @@ impl TiltLoad {
     }
 
     pub fn drive(&self, modes: &CoupledModes, step_s: f64) -> Drive {
-        // A load b does the power Re(bᴴ q̇).
+        // A load b has the power Re(bᴴ q̇).
         let dual = |b: &[Complex<f64>]| -> PointReadout {
             let weights: Vec<Complex<f64>> = b.iter().map(|z| z.conj()).collect();
             modes.readout(&weights)

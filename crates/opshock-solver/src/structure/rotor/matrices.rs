@@ -1,4 +1,4 @@
-//! Matrices of one harmonic with what it stands on; see the [module](super).
+//! Assembles the matrices of one harmonic of the disk with hub, base and arms (equations: [module](super)).
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,7 +19,7 @@ pub(in crate::structure) struct RidingMode {
     pub shape_per_sqrt_kg: [f64; 2],
 }
 
-/// What a harmonic of the disk is put together with. n = 1 knows neither base nor arms.
+/// What a harmonic of the disk is coupled with. For n = 1 there is neither base nor arms.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Stand<'a> {
     pub hub: Option<&'a HubParameters>,
@@ -53,7 +53,7 @@ impl Layout {
     }
 }
 
-/// One harmonic with what it stands on.
+/// One harmonic with its supports.
 pub(super) struct Matrices {
     pub layout: Layout,
     /// M_d, at the disk's coordinates alone.
@@ -140,7 +140,7 @@ impl Matrices {
         system.cross_stiffness.add(at, at, own.stiffness_across);
     }
 
-    /// Base, arms, and loads: what stands on the base pulls at it by the inertia of its own motion.
+    /// Adds base, arms, and loads: what stands on the base loads it by the inertia of its own motion.
     fn add_base(&mut self, stand: &Stand<'_>, modes: &[&DiskMode]) {
         let Layout {
             n_base,
@@ -162,7 +162,7 @@ impl Matrices {
             self.system.mass.add(at, at, 1.0);
             let damping = 2.0 * mode.half_damping_per_s;
             self.system.damping.add(at, at, damping);
-            // What relaxes hangs on Maxwell elements, so that 1 − Σ g of the stiffness stays.
+            // The relaxing share of the stiffness belongs to Maxwell elements, so 1 − Σ g of it stays here.
             let mut lasting = 1.0;
             for term in stand.relaxation {
                 lasting -= term.share;
@@ -193,7 +193,7 @@ impl Matrices {
     }
 }
 
-/// Mass or transverse inertia of the free part of the disk, moved rigidly.
+/// Mass or transverse inertia of the free part of the disk in rigid motion.
 fn rigid_disk(n: usize, disk: &DiskParameters) -> f64 {
     let (a2, b2) = (disk.inner_radius_m.powi(2), disk.outer_radius_m.powi(2));
     let areal = disk.density_kg_per_m3 * disk.thickness_m;

@@ -1,4 +1,4 @@
-//! Harmonics of the disk with what they stand on: a hub that moves ([`crate::disk::hub`]), a base that
+//! Couples harmonics of the disk with what they stand on: a hub that moves ([`crate::disk::hub`]), or a base that
 //! vibrates ([`crate::shock::BaseMode`]) with the ramp's arms on it.
 //!
 //! Coordinates are the motion of hub and base and the modes of the disk clamped to them (Craig and Bampton):
@@ -11,10 +11,10 @@
 //! K = k_bearing + ω² − n² Ω² + i 2 γ n Ω of the disk's modes
 //! ```
 //!
-//! A rigid motion of the disk meets no stiffness but that of the bearing: the membrane's stress and the
-//! turning cancel, since the clamp's pull on the disk turns with the hub. Material damping is that of
-//! the clamped modes, on the motion relative to the hub. A stiff bearing gives the clamped disk, with
-//! the same modes. Static corrections and harmonics n ≥ 2 do not move a hub and stay oscillators.
+//! A rigid motion of the disk meets no stiffness but that of the bearing: the membrane stress and the rotation cancel,
+//! since the clamp's pull on the disk rotates with the hub. Material damping is that of the clamped modes, on the
+//! motion relative to the hub. A stiff bearing gives the clamped disk, with the same modes. Static corrections and
+//! harmonics n ≥ 2 do not move a hub and stay oscillators.
 //!
 //! Modes of the base are coordinates of n = 0, and so are the modes of arms that the base shakes: with ℓ the load
 //! of a coordinate per inertia load (m of the hub's, L of the disk's modes, √m p of the arms') and φ of its mount,
@@ -23,11 +23,10 @@
 //! M = [1, φ ℓᵀ; ℓ φᵀ, M of what it carries],   f = (p, ℓ) a(t),   w = Σ φ_spindle q + ...,   x = Σ φ_ramp q + ...
 //! ```
 //!
-//! so that shock and contact find base, hub, disk and arms as one body, each moving the others. Tilts of the base
-//! are left out.
+//! so that base, hub, disk and arms respond to shock and contact as one coupled body. Tilts of the base are left out.
 //!
-//! Arms whose stiffness relaxes ([`crate::ramp::Relaxation`]) hang on Maxwell elements beside it. On a rigid base each
-//! of their modes is a part of its own.
+//! Arms whose stiffness relaxes ([`crate::ramp::Relaxation`]) have Maxwell elements in parallel with it. On a rigid
+//! base each of their modes is a part of its own.
 
 mod body;
 mod exchange;

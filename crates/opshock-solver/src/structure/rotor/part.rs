@@ -1,4 +1,4 @@
-//! One harmonic with what it stands on, taken apart, and what reads and drives its modes.
+//! Finds the damped modes of one harmonic with its supports, and the rows that read and drive them.
 
 use super::body::Body;
 use super::load::{Drive, TiltLoad};
@@ -12,18 +12,18 @@ use crate::structure::energy::Energies;
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
-/// Largest |s| Δt of a mode: faster ones are a bearing or base too stiff for the step to see, which then is
-/// a clamp. Left in, an impact would find the hub's mass where its stiffness belongs.
+/// Largest |s| Δt of a mode. A faster one belongs to a bearing or base too stiff for the step, which then acts as a
+/// clamp. If it were kept, an impact would act on the hub's mass instead of its stiffness.
 const FASTEST_ANGLE: f64 = PI;
-/// Largest ω Δt of a mode of the base that is coupled with the others at all: rounding beside faster ones
-/// would show in the slow ones.
+/// Largest ω Δt of a mode of the base that is coupled with the others at all: rounding errors of faster ones would show
+/// in the slow ones.
 const FASTEST_COUPLED: f64 = 1e3 * PI;
 
-/// One harmonic.
+/// One harmonic with its supports, as damped modes.
 pub(in crate::structure) struct Part {
     pub nodal_diameters: usize,
     pub modes: CoupledModes,
-    /// M_d, and Ω of the disk: what the material's energy adds.
+    /// M_d, and Ω of the disk, for the energy of the material.
     disk_mass: SquareMatrix,
     spin_rad_per_s: f64,
     pub n_arm_modes: usize,
@@ -31,7 +31,7 @@ pub(in crate::structure) struct Part {
     pub contact: PointReadout,
     /// w_θ there.
     pub contact_turn: Readout,
-    /// What an impulse there puts into the modes.
+    /// Entrance into the modes of an impulse there.
     pub contact_entrance: CoupledState,
     /// The arms' contact points, on a base that vibrates.
     pub arms: Option<ArmPoints>,
@@ -40,14 +40,13 @@ pub(in crate::structure) struct Part {
     pub slider: [PointReadout; 3],
     /// Hub: displacement, or tilt about two axes.
     pub hub: Option<[PointReadout; 2]>,
-    /// Hub and base, with their books.
+    /// Hub and base, with their balances.
     pub bodies: [Option<Body>; 2],
-    /// What the unit pulse puts into the modes, when it drives this part.
+    /// Entrance into the modes of the unit pulse, when it drives this part.
     pub drive: Option<Drive>,
     pub loss: SquareMatrix,
-    /// Loss of energy per squared impulse in the ripple of equal impulses, one a step, at the contacts: that
-    /// of the disk's modes, clamped, and of the arms'. Hub and base are too heavy and too slow for a ripple
-    /// of their own.
+    /// Loss of energy per squared impulse in the ripple of equal impulses, one per step, at the contacts: that of the
+    /// disk's clamped modes and of the arms'. Hub and base are too heavy and too slow to ripple.
     pub ripple_loss: [[f64; 2]; 2],
 }
 
@@ -55,7 +54,7 @@ pub(in crate::structure) struct Part {
 pub(in crate::structure) struct ArmPoints {
     /// Contact points of the top and the bottom arm.
     pub contact: [PointReadout; 2],
-    /// What an impulse there puts into the modes.
+    /// Entrance into the modes of an impulse there.
     pub entrance: [CoupledState; 2],
     /// The actuator's pivot.
     pub pivot: PointReadout,
@@ -65,7 +64,7 @@ pub(in crate::structure) struct ArmPoints {
     pub ramp: PointReadout,
 }
 
-/// Modes of the base that the step lets take part.
+/// Modes of the base that are slow enough for the step.
 pub(super) fn slow_modes(base: &[BaseMode], step_s: f64) -> Vec<BaseMode> {
     let is_slow = |mode: &&BaseMode| TAU * mode.frequency_hz * step_s < FASTEST_COUPLED;
     base.iter().filter(is_slow).copied().collect()
@@ -138,7 +137,7 @@ impl Part {
             (layout.hub).map(|at| Body::new(&coupled, &[(at, 1.0)], load[at], 1.0, step_s)),
             (layout.n_base > 0).then(|| base_body(&coupled, stand.base, step_s)),
         ];
-        // Modes of arms stay here where every mode of the base is too stiff to take part.
+        // Modes of arms belong to this part also where every mode of the base is too stiff for the step.
         let has_arms = layout.n_base > 0 || !stand.arms.is_empty();
         let drive = match tilting {
             Some(load) => Some(load.drive(&coupled, step_s)),
@@ -184,7 +183,7 @@ impl Part {
         let entrances = [&self.contact_entrance, &arms.entrance[0], &arms.entrance[1]];
         let c = |to: usize, from: usize| response(entrances[from], points[to]);
         let (w, top, bottom) = (0, 1, 2);
-        // Base and disk are reciprocal: both orders are one number but for rounding.
+        // Base and disk are reciprocal: both orders give the same number but for rounding.
         let both = |a: usize, b: usize| 0.5 * (c(a, b) + c(b, a));
         let across = both(top, w) + both(bottom, w) - disk - both(top, bottom);
         [
@@ -193,8 +192,8 @@ impl Part {
         ]
     }
 
-    /// Puts the impulses of both contacts into `state`: on the disk `impulse[1] − impulse[0]`, on the arms
-    /// against it.
+    /// Applies the impulses of both contacts to `state`: `impulse[1] − impulse[0]` on the disk, the opposite on the
+    /// arms.
     pub fn for_impulses(&self, impulse: [f64; 2], mut put: impl FnMut(&CoupledState, f64)) {
         put(&self.contact_entrance, impulse[1] - impulse[0]);
         if let Some(arms) = &self.arms {
@@ -261,7 +260,7 @@ impl ArmPoints {
     }
 }
 
-/// Momentum of all that the base carries along its participations: that of a drive on soft mounts.
+/// Momentum of all that the base carries, weighted by its participations: that of a drive on soft mounts.
 fn base_body(modes: &CoupledModes, base: &[BaseMode], step_s: f64) -> Body {
     let axis: Vec<(usize, f64)> = base
         .iter()

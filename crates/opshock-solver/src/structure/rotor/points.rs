@@ -1,4 +1,4 @@
-//! What is read off the rotor: contact points, slider, rim, hub, mounts.
+//! Reads points off the rotor (harmonics coupled with hub or base): contact points, slider, rim, hub, mounts.
 
 use super::part::Part;
 use super::state::RotorState;
@@ -27,7 +27,7 @@ impl Rotor {
         sum
     }
 
-    /// Displacement of an arm's contact point by the base and the modes on it, and its rate.
+    /// Displacement of an arm's contact point by the base and the modes carried on it, and its rate.
     pub fn arm(&self, side: usize, state: &RotorState) -> Gap {
         let mut sum = Gap::default();
         for (part, state) in self.pairs(state) {

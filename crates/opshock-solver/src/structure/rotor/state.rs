@@ -1,4 +1,4 @@
-//! Amplitudes of the modes of every part, and what carries them over a time.
+//! Amplitudes of the rotor's modes, part by part, and their flow over a time.
 
 use crate::modal::{Coordinates, CoupledFlow, CoupledState, FirstOrderResponse};
 
@@ -26,14 +26,14 @@ impl RotorState {
     }
 }
 
-/// Room for what is computed on the way.
+/// Scratch.
 #[derive(Clone, Debug, Default)]
 pub(in crate::structure) struct RotorScratch {
     pub(super) leap: Leap,
     pub(super) coordinates: Vec<Coordinates>,
     pub(super) start: RotorState,
     pub(super) point: RotorState,
-    /// State of which work and loss are asked for.
+    /// State whose work and loss are computed.
     pub walk: RotorState,
 }
 

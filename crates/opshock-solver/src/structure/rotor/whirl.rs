@@ -1,4 +1,4 @@
-//! Whirl of disk and hub, for people.
+//! Lists the whirl modes of disk and hub for printed tables.
 
 use super::matrices::{Matrices, Stand, is_carried};
 use crate::disk::{DiskBasis, DiskError, DiskMode, DiskParameters};
@@ -12,9 +12,9 @@ pub struct HubModeRow {
     /// `"axial"`, or for tilts `"forward"` and `"backward"`: the sense of the whirl in the space-fixed
     /// frame against the spin.
     pub motion: &'static str,
-    /// Damped frequency in the space-fixed frame, Hz; 0 when it does not swing.
+    /// Damped frequency in the space-fixed frame, Hz; 0 when overdamped.
     pub frequency_hz: f64,
-    /// Damping ratio; negative when it grows.
+    /// Damping ratio; negative when the mode grows.
     pub damping_ratio: f64,
 }
 
@@ -40,7 +40,7 @@ pub(in crate::structure) fn hub_modes(
             source,
         })?;
         rows.extend(coupled.rates_per_s().iter().map(|s| {
-            // e^{iθ + st} goes forward where Im s is negative, for a spin towards growing θ.
+            // e^{iθ + st} travels forward where Im s is negative, for a spin towards growing θ.
             let against = s.im * disk.spin_rad_per_s > 0.0;
             HubModeRow {
                 motion: match (n, against) {

@@ -1,4 +1,4 @@
-//! All that moves with hub or base: both harmonics, put together and asked as a whole.
+//! Holds all that moves with hub or base: the harmonics n = 0 and n = 1 as one system.
 
 use super::matrices::{RidingMode, Stand};
 use super::part::{self, Part};
@@ -20,16 +20,16 @@ pub(in crate::structure) struct Rotor {
     pub(super) has_base: bool,
     /// A whole step.
     pub step: Leap,
-    /// Gauss' rule within a whole step.
+    /// Flows to the points of Gauss' rule within a whole step.
     pub(super) quadrature: Vec<Leap>,
 }
 
 impl Rotor {
-    /// What `modes` of the disk, those of [`super::is_carried`], move with; `None` on a rigid base without a hub.
-    /// Shapes are those at contact, slider and rim.
+    /// Builds what `modes` of the disk, those of [`super::is_carried`], move with; `None` on a rigid base without a
+    /// hub. Shapes are those at contact, slider and rim.
     ///
     /// # Errors
-    /// Modes that cannot be taken apart, as those of a base lighter than what it carries.
+    /// Modes that cannot be separated, as those of a base lighter than what it carries.
     pub fn build(
         modes: &[DiskMode],
         arms: &[RidingMode],
@@ -57,7 +57,7 @@ impl Rotor {
             modes.iter().filter(own).collect()
         };
         let relaxation = &ramp.model.relaxation[..];
-        // Nothing couples what a rigid base carries; equal arms as one system would have equal eigenvalues.
+        // A rigid base couples nothing, and equal arms in one system would have equal eigenvalues.
         let is_rigid = parameters.base.is_empty() || (base.is_empty() && ramp.model.relaxes());
         let (carried, alone) = arms.split_at(if is_rigid { 0 } else { arms.len() });
         let upright = Stand {
@@ -130,7 +130,7 @@ impl Rotor {
         lengths.eq(state.parts.iter().map(|s| s.re.len()))
     }
 
-    /// Adds the rotor to a reference system of Moreau-Jean steps, with rows of the gaps of both arms.
+    /// Adds the rotor to a reference system of Moreau-Jean steps, with rows for the gaps of both arms.
     pub fn add_to(&self, system: &mut MoreauJean) {
         for part in &self.parts {
             // Top g = g₀ + x − w, bottom g = g₀ − x + w.
@@ -188,7 +188,7 @@ impl Rotor {
         }
     }
 
-    /// Modes carried, each pair once.
+    /// Number of modes, each conjugate pair once.
     pub fn n_modes(&self) -> usize {
         self.parts.iter().map(Part::order).sum()
     }

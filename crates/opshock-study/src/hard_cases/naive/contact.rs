@@ -1,7 +1,7 @@
-//! Contact: impacts, resting, restraints on two sides.
+//! Naive methods for contact: impacts, resting, restraints on two sides.
 
-/// Largest error of 100 impact times when a step that ends behind the stop is turned round there;
-/// oscillator of period 1 on a stop at its rest position, `step` long steps.
+/// Largest error of 100 impact times when the velocity is reversed in a step that ends behind the stop; oscillator of
+/// period 1 on a stop at its rest position, `step` long steps.
 pub fn impacts_at_step_ends(step: f64) -> f64 {
     let omega = std::f64::consts::TAU;
     let (sine, cosine) = (omega * step).sin_cos();
@@ -39,9 +39,9 @@ pub fn penalty_energy_gain(step: f64) -> f64 {
     most / (0.5 * mass)
 }
 
-/// Largest energy over start energy of a bar thrown at a wall under Newmark's rule (1/4, 1/2) with
-/// the constraint on displacements; `ratio` is the step in element transit times. E 900, ρ 1, L 10,
-/// 100 linear elements with consistent mass, gap 5, speed 10.
+/// Largest energy over start energy of an elastic bar moving against a wall under Newmark's rule (1/4, 1/2) with the
+/// constraint on displacements; `ratio` is the step in element transit times. E 900, ρ 1, L 10, 100 linear elements
+/// with consistent mass, gap 5, speed 10.
 pub fn newmark_bar_energy(ratio: f64) -> f64 {
     let (n, l) = (101, 0.1);
     let step = ratio * l / 30.0;
@@ -105,8 +105,8 @@ fn thomas(n: usize, diagonal: impl Fn(usize) -> f64, off: f64, rhs: &[f64]) -> V
     x
 }
 
-/// Depth after `steps` of a unit mass pushed onto a stop with acceleration `a`, when a contact is
-/// bounced with restitution `e` at every node: it sinks for e < 1/2.
+/// Depth after `steps` of a unit mass pushed onto a stop with acceleration `a`, when the velocity is reversed with
+/// restitution `e` at every time step: it sinks for e < 1/2.
 pub fn bounced_at_nodes(a: f64, e: f64, step: f64, steps: usize) -> f64 {
     let (mut x, mut v) = (0.0_f64, 0.0_f64);
     for _ in 0..steps {
@@ -119,20 +119,20 @@ pub fn bounced_at_nodes(a: f64, e: f64, step: f64, steps: usize) -> f64 {
     (-x).max(0.0)
 }
 
-/// Depth after `steps` of resting contact when the velocity is set to zero at every node.
+/// Depth after `steps` of resting contact when the velocity is set to zero at every time step.
 pub fn stopped_at_nodes(a: f64, step: f64, steps: usize) -> f64 {
     0.5 * a * step * step * steps as f64
 }
 
-/// Time that event-driven bounces of a ball from 1 m reach with `impacts` impacts, s.
+/// Time reached by an event-driven simulation of a ball dropped from 1 m after `impacts` impacts, s.
 pub fn event_driven_time(e: f64, impacts: i32) -> f64 {
     let first = (2.0 / 9.81_f64).sqrt();
-    // Flights of 2 e^k first.
+    // Times between impacts of 2 e^k first.
     (1..=impacts).fold(first, |t, k| t + 2.0 * first * e.powi(k))
 }
 
-/// Largest pull, N s in a step of `step` s, of a stop that holds a mode of 1 kg at 1 kHz on itself
-/// by an equation, whichever way a force of 1 N at 100 Hz points: what holds it is minus the force.
+/// Largest pull, N s in a step of `step` s, of a stop that an equation keeps a mode of 1 kg at 1 kHz on, whichever way
+/// a force of 1 N at 100 Hz points: the constraint force is minus that force.
 pub fn held_by_an_equation(step: f64) -> f64 {
     let force = |t: f64| (std::f64::consts::TAU * 100.0 * t).sin();
     (0..10_000)
@@ -153,7 +153,7 @@ pub fn leaning_under_newmark() -> f64 {
         let push = 800.0 * (std::f64::consts::PI * f64::from(k) / 20_000.0).sin();
         let guess = u + h * v + beta * a;
         let mut next = (push - omega * omega * guess) / inertia;
-        // What keeps the end of the step in front of the stop.
+        // The force that keeps the end of the step in front of the stop.
         let force = ((guess + beta * next - gap) * inertia / beta).max(0.0);
         next -= force / inertia;
         (u, v, a) = (guess + beta * next, v + 0.5 * h * (a + next), next);
@@ -177,7 +177,7 @@ pub fn held_from_both_sides(disk: f64, closing: f64) -> [f64; 2] {
 /// Impulses of both arms by one sweep, top before bottom: mobilities of disk and arms, closing speeds.
 pub fn one_after_the_other(disk: f64, arm: f64, closing: [f64; 2]) -> [f64; 2] {
     let top = (closing[0] / (disk + arm)).max(0.0);
-    // What the top arm gives the disk drives it into the bottom one.
+    // The impulse of the top arm drives the disk into the bottom one.
     let bottom = ((closing[1] + disk * top) / (disk + arm)).max(0.0);
     [top, bottom]
 }

@@ -1,4 +1,4 @@
-//! Films: schemes and fits that the air bearing leaves out.
+//! Naive schemes and fits for films, which the air bearing does not use.
 
 /// Load and peak errors of the exact slider H = 2 − x, Kn = 0 on `n` equal cells by central
 /// differences in P, Newton's method from P = 1.
@@ -85,7 +85,7 @@ pub fn kinks_of_the_fit() -> f64 {
     })
 }
 
-/// Flow of a free-molecular gas at a gap, −ln D/√π, without asking for the gap's sign.
+/// Flow of a free-molecular gas at a gap, −ln D/√π, without a check of the gap's sign.
 pub fn free_molecular_flow(d: f64) -> f64 {
     -d.ln() / std::f64::consts::PI.sqrt()
 }

@@ -1,5 +1,5 @@
-//! Methods that were left for better ones, as short as they can be written: what they do to the
-//! hard cases is measured with them.
+//! Naive methods that were replaced by better ones, as short as possible: their effect on the hard cases is measured
+//! with them.
 
 pub mod contact;
 pub mod film;

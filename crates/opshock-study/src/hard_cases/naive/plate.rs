@@ -1,4 +1,4 @@
-//! Disks: loads by quadrature, powers of the radius, static solves at speed.
+//! Naive methods for disks: loads by quadrature, powers of the radius, static solves at speed.
 
 /// Harmonics 1 to `n` that a uniform load drives when it is summed over 360 sectors.
 pub fn harmonics_of_a_uniform_load(n: usize) -> usize {

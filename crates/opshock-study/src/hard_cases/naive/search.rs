@@ -1,4 +1,4 @@
-//! Iterations, verdicts and searches.
+//! Naive iterations, verdicts and searches.
 
 /// Aitken's factor ω r₀ / (r₀ − r₁) as printed, for two equal residuals and for residuals of zero.
 pub fn aitken_as_printed() -> [f64; 2] {
@@ -32,7 +32,7 @@ pub fn is_relatively_small(residual: f64, state: f64) -> bool {
     residual / state <= 1e-6
 }
 
-/// Ends of the bracket after `halvings` of an interval taken to hold the answer.
+/// Ends of the bracket after `halvings` of an interval assumed to contain the answer.
 pub fn bracketed(
     (mut low, mut high): (f64, f64),
     halvings: usize,
@@ -49,8 +49,8 @@ pub fn bracketed(
     (low, high)
 }
 
-/// Sum of numbers in the order in which `workers` workers, each with every so manyth, deliver them
-/// one worker after the other.
+/// Sum of numbers in the order in which `workers` workers, each with every n-th number, deliver them one worker after
+/// the other.
 pub fn summed_by_workers(numbers: &[f64], workers: usize) -> f64 {
     (0..workers).fold(0.0, |sum, worker| {
         numbers

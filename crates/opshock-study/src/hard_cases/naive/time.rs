@@ -1,4 +1,4 @@
-//! Stepping in time: pulses, modes, running sums.
+//! Naive time stepping: pulses, modes, running sums.
 
 /// ω² x(t) under a unit half-sine by the closed form, which divides by 1 − r².
 pub fn closed_form(omega: f64, width_s: f64, t_s: f64) -> f64 {
@@ -44,8 +44,8 @@ pub fn implicit_euler_growth(growth_per_s: f64, omega: f64, step_s: f64) -> f64 
     left.ln() / (f64::from(steps) * step_s)
 }
 
-/// Largest energy over start energy of an oscillator thrown from rest, ω Δt = `angle`, under
-/// explicit central differences in `steps` steps.
+/// Largest energy over start energy of an oscillator with initial velocity from its rest position, ω Δt = `angle`,
+/// under explicit central differences in `steps` steps.
 pub fn central_differences_gain(angle: f64, steps: usize) -> f64 {
     let (mut x, mut v) = (0.0_f64, 1.0_f64);
     let mut most = 0.0_f64;
@@ -57,8 +57,8 @@ pub fn central_differences_gain(angle: f64, steps: usize) -> f64 {
     most
 }
 
-/// Of `steps` nodes of a free mode at 1150 Hz, those whose displacement has other bits when every
-/// step of 0.5 μs is made as two halves.
+/// Number of the `steps` points in time at which a free mode at 1150 Hz has other bits when every step of 0.5 μs is
+/// made as two halves.
 pub fn nodes_moved_by_half_steps(steps: usize) -> usize {
     let turn = |h: f64| (std::f64::consts::TAU * 1150.0 * h).sin_cos();
     let step = |(x, v): (f64, f64), (s, c): (f64, f64)| (c * x + s * v, c * v - s * x);

@@ -1,4 +1,4 @@
-//! A whole drive, small enough for milliseconds.
+//! A whole drive, simulated within milliseconds.
 
 use crate::study::{SetArg, Study};
 use opshock_solver::scene::Scene;
@@ -13,9 +13,9 @@ pub fn small_scene() -> Scene {
         "pulse.widths_ms=[0.5]",
         "pulse.signs=[\"+\"]",
         "pulse.window_ms=0.8",
-        "solver.film_cells=150",
-        "solver.disk_cut_khz=10",
-        "solver.head_tolerance=0.1",
+        "resolution.film_cells=150",
+        "resolution.disk_cut_khz=10",
+        "resolution.head_tolerance=0.1",
         "ramp.clearance_um=40",
     ]
     .iter()

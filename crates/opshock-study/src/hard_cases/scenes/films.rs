@@ -1,6 +1,6 @@
-//! Films of plane sliders in the numbers the lubrication literature uses.
+//! Films of plane sliders in the dimensionless numbers of the lubrication literature.
 
-use opshock_solver::air_bearing::steady::{HeldFilm, fixed_attitude};
+use opshock_solver::air_bearing::steady::{QuasiStaticFilm, fixed_attitude};
 use opshock_solver::air_bearing::{Attitude, Film, FlowModel};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
@@ -47,7 +47,7 @@ impl PlaneSlider {
         }
     }
 
-    /// So wide that its sides do not matter: what leaves there is 1e-12 of what passes.
+    /// So wide that its sides do not matter: the flow across them is 1e-12 of that along it.
     pub fn wide(model: FlowModel, ratio: f64, bearing_number: f64, knudsen: f64) -> Self {
         Self {
             width: 5e6,
@@ -154,7 +154,7 @@ impl PlaneSlider {
         let area = self.width * LENGTH_M * LENGTH_M;
         let mut pressure = vec![0.0; film.n_cells()];
         film.pressure(&held.psi, &attitude, &mut pressure);
-        let HeldFilm { force, psi, .. } = held;
+        let QuasiStaticFilm { force, psi, .. } = held;
         Held {
             load: force[0] / (AMBIENT_PA * area),
             centre: 0.5 - force[1] / (force[0] * LENGTH_M),

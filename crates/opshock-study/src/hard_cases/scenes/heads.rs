@@ -1,5 +1,4 @@
-//! Heads for tests that need no structure solver: default slider, film and flight, and disks that
-//! move by a formula.
+//! Heads for tests without structure solver: default slider, film and flight, and disks that move by a formula.
 
 use std::sync::Arc;
 
@@ -36,8 +35,8 @@ pub fn default_film(cells: usize) -> (Arc<Film>, Arc<Flight>) {
         rad_per_s_from_rpm(5400.0),
         &FilmResolution {
             cells,
-            floor_m: 0.3e-9,
-            reference_cells: 0,
+            min_height_m: 0.3e-9,
+            correction_cells: 0,
         },
     )
     .expect("film builds");
@@ -63,7 +62,7 @@ pub fn default_head(cells: usize, resolution: &HeadResolution) -> HeadModel {
     head_on(&film, &flight, resolution)
 }
 
-/// Default head on a film that is there already.
+/// Default head on an existing film.
 pub fn head_on(film: &Arc<Film>, flight: &Arc<Flight>, resolution: &HeadResolution) -> HeadModel {
     HeadModel::build(
         &default_suspension(),
@@ -115,8 +114,8 @@ impl DiskMotion for SuddenDisk {
     }
 }
 
-/// One mode of the disk under a half-sine: w'' + 2 ζ ω w' + ω² w = Γ A sin(π t/T), and slopes in
-/// proportion, dw/dy = k_r w. The surrogate with which the reference head was tried.
+/// One mode of the disk under a half-sine: w'' + 2 ζ ω w' + ω² w = Γ A sin(π t/T), and slopes in proportion, dw/dy =
+/// k_r w. The substitute for a disk with which the reference head was tested.
 pub struct SingleModeDisk {
     omega: f64,
     zeta: f64,

@@ -1,4 +1,4 @@
-//! Named scenes, small enough for milliseconds, that the hard cases are run on.
+//! Named scenes of the hard cases, each simulated within milliseconds.
 
 pub mod bodies;
 pub mod drive;

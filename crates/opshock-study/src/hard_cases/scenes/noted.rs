@@ -1,5 +1,4 @@
-//! The structures that a case runs, noted while it runs, so that whoever runs them another way has
-//! every one of them.
+//! Notes the structures that a case runs, so that a caller can run all of them in another way.
 
 use super::structures::Structure;
 use std::cell::RefCell;
@@ -15,7 +14,7 @@ pub fn structures_of(f: impl FnOnce()) -> Vec<(Structure, f64)> {
     NOTED.take().unwrap_or_default()
 }
 
-/// Notes a structure about to be run, when somebody asks.
+/// Notes a structure about to be run, if a caller listens.
 pub(in crate::hard_cases) fn note(structure: &Structure, amplitude_m_per_s2: f64) {
     NOTED.with_borrow_mut(|noted| {
         if let Some(noted) = noted {

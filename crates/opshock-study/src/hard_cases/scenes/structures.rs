@@ -10,7 +10,7 @@ use opshock_solver::structure::{
     ContactMethod, SliderPlace, StructureModel, StructureParameters, StructureResolution, Window,
 };
 
-/// A structure with everything a model is built from, to be varied by tests.
+/// A structure with all data of its model, to be varied by tests.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// Disk.
@@ -23,7 +23,7 @@ pub struct Structure {
     pub slider: SliderPlace,
     /// Pulse.
     pub pulse: Pulse,
-    /// What else shakes the base.
+    /// Other motion of the base.
     pub oblique: Option<ObliqueShock>,
     /// Modes of the base.
     pub base: Vec<BaseMode>,
@@ -206,7 +206,7 @@ pub fn s1(width_s: f64, model: impl Into<RampBody>) -> Structure {
     }
 }
 
-/// The paper's set at the resolution a user gets.
+/// The paper's set at the study's default resolution.
 pub fn paper(width_s: f64, model: impl Into<RampBody>) -> Structure {
     let base = s1(width_s, model);
     Structure {

@@ -1,4 +1,4 @@
-//! The two suspensions that results are quoted for.
+//! The two suspensions for which results are quoted.
 
 use opshock_solver::quantity::GRAM_FORCE_N;
 use opshock_solver::scene::Scene;

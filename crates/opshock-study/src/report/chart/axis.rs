@@ -1,4 +1,4 @@
-//! Axes: range, ticks, tick labels.
+//! Decides range, ticks and tick labels of an axis.
 
 /// Spacing of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,7 +211,7 @@ fn log_ticks(low: f64, high: f64) -> (Vec<f64>, Vec<f64>) {
     (ticks, minor)
 }
 
-/// Digits after the point that tell all ticks apart.
+/// Digits after the point that distinguish all ticks.
 fn decimals(ticks: &[f64]) -> usize {
     (0..6)
         .find(|&digits| {

@@ -1,4 +1,4 @@
-//! A canvas in SVG pixels, y down: texts, lines and marks on it.
+//! Draws texts, lines and marks on a canvas in SVG pixels, y down.
 
 use super::colour::Rgb;
 use super::figure::{Dash, Fill, Marker, Series};

@@ -1,4 +1,4 @@
-//! Colours that stay apart for colour-blind readers and in grey print (Okabe & Ito 2008).
+//! Colours that colour-blind readers and grey print distinguish (Okabe & Ito 2008).
 
 /// sRGB.
 pub type Rgb = (u8, u8, u8);
@@ -16,7 +16,7 @@ pub const PURPLE: Rgb = (0xcc, 0x79, 0xa7);
 pub const SKY: Rgb = (0x56, 0xb4, 0xe9);
 /// Orange.
 pub const ORANGE: Rgb = (0xe6, 0x9f, 0x00);
-/// Grey for what stands back.
+/// Grey, for what is in the background.
 pub const GREY: Rgb = (0x8c, 0x8c, 0x8c);
 /// Order in which series take their colours.
 pub const CYCLE: [Rgb; 7] = [BLACK, BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE];

@@ -1,4 +1,4 @@
-//! Layout of a figure and its primitives.
+//! Lays a figure out and draws it.
 
 use super::axis::ResolvedAxis;
 use super::axis::Scale;

@@ -1,4 +1,4 @@
-//! What a picture is made of: panels, series, marks.
+//! Describes a figure before it is drawn: panels, series, marks.
 
 use super::axis::Axis;
 use super::colour::Rgb;
@@ -43,13 +43,13 @@ pub enum Fill {
 /// What is known of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
-    /// Known, with the bounds of its error bar.
+    /// Known, with the bounds of its uncertainty interval.
     Known {
         /// Value.
         y: f64,
-        /// Lower end of the error bar.
+        /// Lower end of the uncertainty interval.
         low: f64,
-        /// Upper end of the error bar.
+        /// Upper end of the uncertainty interval.
         high: f64,
     },
     /// Only known to lie above: an open arrow upwards.
@@ -65,7 +65,7 @@ pub struct Sample {
     pub x: f64,
     /// Value.
     pub value: Value,
-    /// Drawn open although the series' markers are full: an answer with a reservation.
+    /// Drawn open although the series' markers are full: an answer with a reservation (its status or a flag).
     pub open: bool,
     /// Text shown when the pointer rests on it (SVG in a browser).
     pub note: String,

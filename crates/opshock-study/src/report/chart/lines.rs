@@ -1,4 +1,4 @@
-//! Polylines: thinning, clipping, dashing. All in pixels.
+//! Thins, clips and dashes polylines. All in pixels.
 
 use super::figure::Dash;
 

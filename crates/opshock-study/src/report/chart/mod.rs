@@ -1,8 +1,8 @@
-//! Drawing: a figure is a grid of panels with axes, series and one legend; SVG and PNG come from
-//! the same scene, so they show the same.
+//! Draws figures: grids of panels with axes, series and one legend. SVG and PNG come from the same
+//! drawing, so they show the same.
 //!
 //! kuva draws the primitives (with an embedded font, so no machine needs one installed). Axes,
-//! legend and marks are laid out here, because half-open error bars, arrows for values that are
+//! legend and marks are laid out here, because half-open uncertainty intervals, arrows for values that are
 //! only bounded, and panels that share a legend are what the products need.
 
 mod axis;

@@ -1,4 +1,4 @@
-//! The plotting area of a panel: its axes and where a value lies.
+//! The plotting area of a panel, with its axes: gives the pixel of a value.
 
 use super::axis::ResolvedAxis;
 use super::figure::{Panel, Rule, Value};

@@ -1,4 +1,4 @@
-//! Differences of tables that are known.
+//! Tests: tables with known differences.
 
 use super::*;
 use crate::search::Sign;
@@ -14,37 +14,43 @@ fn row(a_crit_g: f64, a_fail_g: f64, err_g: Option<f64>, axes: Vec<AxisValue>) -
         a_fail_g: Some(a_fail_g),
         err_low_g: err_g,
         err_high_g: err_g,
-        err_parts: vec![],
+        contributions: vec![],
         levels: String::new(),
         onset_g: None,
         runs: 9,
         status: Status::Ok,
         flags: vec![],
         brackets_g: vec![],
-        certified_from_g: None,
+        scanned_from_g: None,
         largest_gap_pct: None,
     }
 }
 
 #[test]
-fn significance_asks_brackets_first_and_bars_then() {
+fn significance_asks_brackets_first_and_uncertainty_then() {
     let at = |crit, fail, err| row(crit, fail, err, vec![]);
     let a = at(100.0, 101.0, Some(4.0));
     let of = |b: &PointSummary| (Significance::of(&a, b), Significance::of(b, &a));
     for (b, expected) in [
         (at(100.5, 101.5, Some(1.0)), Significance::WithinBrackets),
         (at(101.0, 102.0, Some(1.0)), Significance::WithinBrackets),
-        (at(105.0, 106.0, Some(2.0)), Significance::WithinBars),
-        (at(107.0, 108.0, Some(2.0)), Significance::BeyondBars),
+        (
+            at(105.0, 106.0, Some(2.0)),
+            Significance::WithinUncertainties,
+        ),
+        (
+            at(107.0, 108.0, Some(2.0)),
+            Significance::BeyondUncertainties,
+        ),
         (at(107.0, 108.0, None), Significance::BeyondBrackets),
     ] {
         assert_eq!(of(&b), (expected, expected), "{b:?}");
     }
-    // "> 90 G" says nothing against 100 G, "> 103 G" does but for the bar, "> 200 G" always.
+    // "> 90 G" says nothing against 100 G, "> 103 G" does but for the interval, "> 200 G" always.
     for (bound, expected) in [
         (90.0, Significance::WithinBrackets),
-        (103.0, Significance::WithinBars),
-        (200.0, Significance::BeyondBars),
+        (103.0, Significance::WithinUncertainties),
+        (200.0, Significance::BeyondUncertainties),
     ] {
         let mut above = at(bound, 0.0, None);
         (above.status, above.a_fail_g) = (Status::AboveRange, None);

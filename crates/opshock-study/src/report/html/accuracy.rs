@@ -1,26 +1,26 @@
-//! Accuracy on the page: what the error bars are made of, and what each digit costs.
+//! The page's section on accuracy: contributions to the uncertainty intervals, and error against cost.
 
 use super::text::{escaped, figure};
-use crate::accuracy::{Accuracy, PointLadders};
+use crate::accuracy::{Accuracy, PointStudies};
 use crate::report::accuracy_files;
 use crate::report::table;
 use crate::store::summary::Summary;
 use std::fmt::Write as _;
 
-/// The section; `None` where there are neither bars nor ladders.
+/// The section; `None` where there are neither intervals nor refinement studies.
 pub(super) fn section(summary: &Summary, accuracy: Option<&Accuracy>) -> Option<String> {
-    let parts = table::parts(summary);
-    if parts.is_none() && accuracy.is_none() {
+    let contributions = table::contributions(summary);
+    if contributions.is_none() && accuracy.is_none() {
         return None;
     }
     let mut text = String::new();
-    if let Some((header, rows)) = parts {
-        let cost =
-            table::bars_cost(summary).map_or(String::new(), |cost| format!(" Cost: {cost}."));
+    if let Some((header, rows)) = contributions {
+        let cost = table::uncertainty_cost(summary)
+            .map_or(String::new(), |cost| format!(" Cost: {cost}."));
         let _ = writeln!(
             text,
-            "<p>What the error bars are made of, in per cent of A<sub>crit</sub>. {}{}</p>",
-            escaped(table::PARTS_NOTE),
+            "<p>What the uncertainty intervals are made of, in per cent of A<sub>crit</sub>. {}{}</p>",
+            escaped(table::CONTRIBUTIONS_NOTE),
             escaped(&cost)
         );
         text.push_str(&plain_table(&header, &rows, 3 + summary.axes.len()));
@@ -30,9 +30,9 @@ pub(super) fn section(summary: &Summary, accuracy: Option<&Accuracy>) -> Option<
     };
     let _ = write!(
         text,
-        "<p>What accuracy costs, measured knob by knob on single shocks of {}: error against a \
+        "<p>What accuracy costs, measured for each discretisation parameter on single shocks of {}: error against a \
          reference ten times finer, over the time of one shock. The tables give the settings of all \
-         knobs together; those in bold are the cheapest of their accuracy.</p>\n\
+         discretisation parameters together; those in bold are the cheapest of their accuracy.</p>\n\
          <p class=\"quiet\">{}, study {}</p>\n",
         escaped(&accuracy.study),
         escaped(&accuracy.program),
@@ -47,10 +47,10 @@ pub(super) fn section(summary: &Summary, accuracy: Option<&Accuracy>) -> Option<
     Some(text)
 }
 
-/// Time against error of the settings of all knobs together.
-fn joint_table(point: &PointLadders) -> String {
+/// Time against error of the settings of all discretisation parameters together.
+fn joint_table(point: &PointStudies) -> String {
     let header = [
-        "all knobs",
+        "all discretisation parameters",
         "critical shock (G)",
         "its error (%)",
         "clearance (%)",
@@ -59,40 +59,42 @@ fn joint_table(point: &PointLadders) -> String {
     ]
     .map(String::from);
     let rows: Vec<Vec<String>> = point
-        .rungs
+        .settings
         .iter()
-        .filter(|rung| rung.ladder == "joint")
-        .map(|rung| {
+        .filter(|setting| setting.parameter == "joint")
+        .map(|setting| {
             let per_cent = |column: usize| {
-                rung.errors[column].map_or(String::new(), |error| format!("{:.2}", 100.0 * error))
+                setting.errors[column]
+                    .map_or(String::new(), |error| format!("{:.2}", 100.0 * error))
             };
             vec![
-                match rung.is_reference {
-                    true => format!("{} (reference)", rung.value),
-                    false => rung.value.clone(),
+                match setting.is_reference {
+                    true => format!("{} (reference)", setting.value),
+                    false => setting.value.clone(),
                 },
-                match (&rung.measured.failure, rung.measured.critical_g) {
+                match (&setting.measured.failure, setting.measured.critical_g) {
                     (Some(reason), _) => reason.clone(),
                     (None, Some(critical_g)) => format!("{critical_g:.1}"),
                     (None, None) => String::new(),
                 },
                 per_cent(0),
                 per_cent(1),
-                rung.wall_s
+                setting
+                    .wall_s
                     .map_or(String::new(), |[_, median, _]| format!("{median:.3}")),
-                format!("{:.2e}", rung.measured.work as f64),
+                format!("{:.2e}", setting.measured.work as f64),
             ]
         })
         .collect();
     let table = plain_table(&header, &rows, 1);
-    // The front in bold.
+    // The Pareto front of time and error in bold.
     point
-        .rungs
+        .settings
         .iter()
-        .filter(|rung| rung.is_on_front)
-        .fold(table, |table, rung| {
-            let cell = format!("<td>{}</td>", escaped(&rung.value));
-            let bold = format!("<td><strong>{}</strong></td>", escaped(&rung.value));
+        .filter(|setting| setting.is_on_front)
+        .fold(table, |table, setting| {
+            let cell = format!("<td>{}</td>", escaped(&setting.value));
+            let bold = format!("<td><strong>{}</strong></td>", escaped(&setting.value));
             table.replace(&cell, &bold)
         })
 }

@@ -1,4 +1,4 @@
-//! What the page's script draws from, as a JSON block that no script runs.
+//! The data that the page's script draws, as a JSON block of the page.
 
 use super::points;
 use super::shock_film::ShockFilm;

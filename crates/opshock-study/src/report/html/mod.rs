@@ -1,5 +1,5 @@
-//! The report as one HTML file that needs nothing else: no network, no other file. It keeps its
-//! own content security policy (`default-src 'none'`, inline style and script).
+//! Writes the report as one HTML file that needs no network and no other file. It has its own
+//! content security policy (`default-src 'none'`, inline style and script).
 //!
 //! Without JavaScript it has its tables, its static figures and, by their addresses, the pages of
 //! its points. The script (`report.js`) draws zoomable plots in place of the static ones.
@@ -179,7 +179,7 @@ fn sections(source: &ReportSource<'_>) -> Vec<Section> {
     sections
 }
 
-/// What was simulated for each ramp, and which rules left things out.
+/// Effects simulated for each ramp, those left out, and the rules that apply.
 fn effects(source: &ReportSource<'_>) -> String {
     let mut text = String::new();
     let plan: serde_json::Value = serde_json::from_str(source.plan).unwrap_or_default();
@@ -188,8 +188,8 @@ fn effects(source: &ReportSource<'_>) -> String {
             "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">ramp</th><th scope=\"col\">simulated</th>\
              <th scope=\"col\">left out</th><th scope=\"col\">rules below touch</th><th scope=\"col\">rules above touch</th></tr></thead><tbody>\n",
         );
-        for (ramp, told) in ramps {
-            let effects = told["effects"].as_object();
+        for (ramp, reported) in ramps {
+            let effects = reported["effects"].as_object();
             let list = |wanted: bool| -> String {
                 let all = effects.into_iter().flatten();
                 let kept = all.filter(|(_, state)| (state.as_str() != Some("off")) == wanted);
@@ -202,7 +202,7 @@ fn effects(source: &ReportSource<'_>) -> String {
                 words.join(", ")
             };
             let rules = |key: &str| -> String {
-                let rules = told[key].as_array().into_iter().flatten();
+                let rules = reported[key].as_array().into_iter().flatten();
                 rules
                     .filter_map(|rule| rule.as_str())
                     .collect::<Vec<_>>()
@@ -246,7 +246,7 @@ fn main_table(summary: &Summary) -> String {
     let numeric = |column: usize| column == 1 || (words..words + 5).contains(&column);
     let mut text = String::from(
         "<p>A<sub>crit</sub>: highest surviving amplitude below the lowest failing one, \
-         A<sub>fail</sub>. Error: bar of A<sub>crit</sub>. First touch: amplitude at which the disk \
+         A<sub>fail</sub>. Error: uncertainty of A<sub>crit</sub>. First touch: amplitude at which the disk \
          first reaches the ramp. Shaded rows carry a reservation. A click on a heading sorts.</p>\n\
          <p><button type=\"button\" id=\"copy\">copy as CSV</button> <span id=\"copied\" role=\"status\"></span></p>\n\
          <div class=\"scroll\"><table class=\"sortable\">\n<thead><tr>",
@@ -326,12 +326,12 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("study", &summary.study);
     entry("digest", &summary.digest);
     if let Some(values) = source.not_refined() {
-        entry("error bars", &values);
+        entry("uncertainty intervals", &values);
     }
     if let Some(audit) = source.audit {
-        let mut told = vec![audit.sentence()];
-        told.extend(audit.differences.iter().map(ToString::to_string));
-        entry("audit", &told.join("; "));
+        let mut reported = vec![audit.sentence()];
+        reported.extend(audit.differences.iter().map(ToString::to_string));
+        entry("audit", &reported.join("; "));
     }
     let cost = &summary.totals.cost;
     entry(

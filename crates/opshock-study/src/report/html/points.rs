@@ -1,4 +1,4 @@
-//! A page for each point: answer, bar, every simulation.
+//! Writes a page for each point: answer, uncertainty interval, every simulation.
 
 use super::remarks::said_of;
 use super::text::escaped;
@@ -36,7 +36,7 @@ pub(super) fn pages(summary: &Summary, runs: &[RunDot]) -> String {
             escaped(&name(summary, point))
         );
         text.push_str(&facts(point));
-        text.push_str(&parts(point));
+        text.push_str(&contributions(point));
         text.push_str(&runs_table(row, runs));
         text.push_str("</article>\n");
     }
@@ -52,7 +52,10 @@ fn facts(point: &PointSummary) -> String {
     entry("critical shock", grams(point.a_crit_g));
     entry("lowest failure", grams(point.a_fail_g));
     if let (Some(low), Some(high)) = (point.err_low_g, point.err_high_g) {
-        entry("error bar", format!("\u{2212}{low:.1} +{high:.1} G"));
+        entry(
+            "uncertainty interval",
+            format!("\u{2212}{low:.1} +{high:.1} G"),
+        );
     }
     if let Some(onset) = point.onset_g {
         entry("first touch of the ramp", format!("{onset:.1} G"));
@@ -74,23 +77,23 @@ fn facts(point: &PointSummary) -> String {
     text
 }
 
-fn parts(point: &PointSummary) -> String {
-    if point.err_parts.is_empty() {
+fn contributions(point: &PointSummary) -> String {
+    if point.contributions.is_empty() {
         return String::new();
     }
     let mut text = String::from(
-        "<div class=\"scroll\"><table><caption>What its error bar is made of</caption>\
-         <thead><tr><th scope=\"col\">part</th><th scope=\"col\" class=\"n\">below (G)</th>\
+        "<div class=\"scroll\"><table><caption>What its uncertainty interval is made of</caption>\
+         <thead><tr><th scope=\"col\">contribution</th><th scope=\"col\" class=\"n\">below (G)</th>\
          <th scope=\"col\" class=\"n\">above (G)</th><th scope=\"col\" class=\"n\">factor</th></tr></thead><tbody>\n",
     );
-    for (name, part) in &point.err_parts {
+    for (name, contribution) in &point.contributions {
         let _ = writeln!(
             text,
             "<tr><td>{}</td><td class=\"n\">{:.2}</td><td class=\"n\">{:.2}</td><td class=\"n\">{}</td></tr>",
             escaped(name),
-            part.low_g,
-            part.high_g,
-            part.factor
+            contribution.low_g,
+            contribution.high_g,
+            contribution.factor
         );
     }
     text.push_str("</tbody></table></div>\n");

@@ -1,4 +1,4 @@
-//! What a reader must know of a point.
+//! Sentences for the status and the flags of a point.
 
 use crate::store::summary::{Flag, PointSummary, Status};
 
@@ -29,7 +29,7 @@ fn sentence(flag: Flag) -> &'static str {
         Flag::Window => "the highest survivor fails in a window twice as long",
         Flag::WindowUndecided => "the window twice as long has no verdict",
         Flag::Retry => "a verdict needed smaller steps or another method",
-        Flag::UndecidedNode => "an amplitude without verdict widens the bracket",
+        Flag::UndecidedAmplitude => "an amplitude without verdict widens the bracket",
         Flag::NotConverged => "a run did not converge",
         Flag::StepLimit => "a run reached its step limit",
         Flag::NotFinite => "a run met a number that is not finite",
@@ -37,12 +37,12 @@ fn sentence(flag: Flag) -> &'static str {
         Flag::NotBuilt => "a scene could not be built",
         Flag::NoTouch => "the disk does not reach the ramp",
         Flag::OnsetUnknown => "the amplitude of first touch is not known",
-        Flag::BarWide => {
-            "a part of the error bar shows no formal order and carries the wide factor"
+        Flag::SafetyFactor3 => {
+            "a contribution shows no formal order: its safety factor is 3 instead of 1.25"
         }
-        Flag::BarPartial => "a part of the error bar could not be estimated",
-        Flag::BarExceeds => "half the error bar is more than the accuracy asked for",
-        Flag::BarFloor => "and no finer rung was allowed",
-        Flag::Climbed => "answered on finer knobs than the study's",
+        Flag::ContributionMissing => "a contribution to the uncertainty could not be estimated",
+        Flag::TargetNotMet => "the half-width of the interval is more than the target uncertainty",
+        Flag::RefinementLimit => "and it is at maximum refinement",
+        Flag::Refined => "answered with refined discretisation parameters",
     }
 }

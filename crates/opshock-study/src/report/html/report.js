@@ -1,5 +1,5 @@
 "use strict";
-// Without this script the page has its table, its static figures and its point pages (by address).
+// Draws zoomable plots. Without this script the page has its table, static figures and point pages (by address).
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   document.documentElement.classList.add("js");
@@ -304,13 +304,13 @@
       };
       row("critical shock (G)", p => p.crit);
       row("lowest failure (G)", p => p.fail);
-      row("error bar below (G)", p => p.low);
-      row("error bar above (G)", p => p.high);
+      row("interval below (G)", p => p.low);
+      row("interval above (G)", p => p.high);
       row("first touch (G)", p => p.touch);
-      const bars = [a, b].every(p => p.crit !== null && p.low !== null && p.high !== null);
-      if (bars) {
+      const both = [a, b].every(p => p.crit !== null && p.low !== null && p.high !== null);
+      if (both) {
         const apart = a.crit + a.high < b.crit - b.low || b.crit + b.high < a.crit - a.low;
-        html("p", {}, into, apart ? "The error bars do not overlap: the difference is beyond them." : "The error bars overlap: the difference is not beyond them.");
+        html("p", {}, into, apart ? "The uncertainty intervals do not overlap: the difference is beyond them." : "The uncertainty intervals overlap: the difference is not beyond them.");
       }
     };
     picks.forEach((pick, k) => {

@@ -32,8 +32,8 @@ pub struct ShockFilm {
 }
 
 impl ShockFilm {
-    /// A film of a kept history of a study written out in full; `None` when a column or a key is
-    /// missing, as in a history without the disk.
+    /// The animation of a kept history, of a study with every default written out; `None` when a column
+    /// or a key is missing, as in a history without the disk.
     pub fn of(history: &StoredHistory, resolved_study: &str) -> Option<ShockFilm> {
         let study: toml::Table = resolved_study.parse().ok()?;
         let number = |table: &str, key: &str| {

@@ -1,4 +1,4 @@
-//! What a report is made from.
+//! The input of a report: critical shocks, simulations, study, audit, accuracy.
 
 use super::shock_film::ShockFilm;
 use crate::accuracy::Accuracy;

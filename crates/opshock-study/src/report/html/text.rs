@@ -1,4 +1,4 @@
-//! Text and figures of a page.
+//! Escapes text and labels figures for a page.
 
 /// A figure with its label for those who do not see it.
 pub(super) fn figure(svg: &str, label: &str) -> String {

@@ -1,4 +1,4 @@
-//! Drawings of the modes along one line of each body, with the numbers drawn.
+//! Draws the modes along one line of each body, with a table of the numbers drawn.
 
 use super::grids::numbered;
 use super::shapes::{DiskShapes, HeadShapes, ModeShapes, RampShapes};

@@ -1,4 +1,4 @@
-//! Grids of the bodies with their modes.
+//! Makes VTK grids of the bodies with their modes.
 
 use super::shapes::{DiskShapes, HeadShapes, ModeShapes, RampShapes};
 use crate::report::vtk_files::arm_boxes;

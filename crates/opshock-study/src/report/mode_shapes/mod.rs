@@ -1,4 +1,4 @@
-//! Natural modes as shapes: grids for ParaView, and drawings with their tables.
+//! Writes the shapes of natural modes: grids for ParaView, and drawings with their tables.
 //!
 //! | file | grid | data, a vector for each mode |
 //! |---|---|---|
@@ -8,7 +8,7 @@
 //! | `head_modes.vtu` | the slider's face, in slider coordinates | `mode_1_real_per_sqrt_kg`, `mode_1_imaginary_per_sqrt_kg` |
 //!
 //! Every mode has unit modal mass, so that modes of one body are orthonormal in its mass: Σ m φᵢ φⱼ = δᵢⱼ.
-//! A disk's mode with nodal diameters is one of a pair; the other is the same, turned by 90°/n. The
+//! A disk's mode with nodal diameters is one of a pair; the other is the same, rotated by 90°/n. The
 //! slider's modes on its film are complex: they move as Re(φ e^{st}). Frequencies, Hz, are in the grid's field
 //! `frequency_hz` in the order of the modes. Coordinates are metres, as in the series of a run.
 

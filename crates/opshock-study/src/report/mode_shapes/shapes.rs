@@ -1,4 +1,4 @@
-//! Modes of every body, as they are drawn.
+//! The modes of disk, ramp, suspension and slider as they are drawn.
 
 use nalgebra::Complex;
 use opshock_solid::ramp::{RampMesh, RampShape};
@@ -37,7 +37,7 @@ pub struct ArmShape {
     pub contact_per_sqrt_kg: [f64; 2],
 }
 
-/// What of the ramp is known to move.
+/// The part of the ramp whose motion is known.
 #[derive(Clone, Debug)]
 pub enum RampShapes {
     /// The contact points.

@@ -1,4 +1,4 @@
-//! Searches of all points of a study together.
+//! Tests of the searches of all points of a study together.
 
 use super::{fails, settings};
 use crate::search::campaign::{Campaign, Touch};
@@ -7,7 +7,7 @@ use crate::search::outcome::{Flag, Status};
 use crate::search::point::Asked;
 use crate::search::probe::{Probe, Purpose, Sign, Verdict};
 
-/// Runs a campaign, always serving the point that `choose` picks among those that ask.
+/// Runs a campaign, always serving the point that `choose` picks among those with a request.
 fn campaign(
     points: &[Coordinates],
     touch: impl Fn(&Coordinates) -> Touch,
@@ -26,7 +26,7 @@ fn campaign(
         assert!(!asking.is_empty(), "nobody asks and nothing is final");
         let point = asking[choose(asking.len())];
         let probe = campaign.ask(point).expect("asks").probe;
-        let amplitude_g = settings.lattice.amplitude_g(probe.index);
+        let amplitude_g = settings.grid.amplitude_g(probe.index);
         campaign.tell(point, &law(&points[point], probe, amplitude_g));
     }
     campaign
@@ -58,7 +58,7 @@ const RAMPS: [(RampClass, &str); 3] = [
 ];
 const WIDTHS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 
-/// A study shaped like the paper's: windows of failure for the deformable ramp at short widths.
+/// A study shaped like the paper's: non-monotone intervals for the deformable ramp at short widths.
 fn law(at: &Coordinates, amplitude_g: f64) -> Verdict {
     let sign = if at.sign == Sign::Plus { 1.0 } else { 0.8 };
     let none = 500.0 * sign * at.pulse_ms.powf(-0.2);
@@ -118,8 +118,8 @@ fn any_order_of_answers_gives_the_same_probes_and_rows() {
 
 #[test]
 fn a_window_found_at_one_width_is_followed_to_the_next() {
-    // The narrow window at 0.5 ms, searched first, falls between the scanned nodes there; at 0.6 ms
-    // it is wide.
+    // The narrow non-monotone interval at 0.5 ms, searched first, falls between the scanned grid points there; at 0.6
+    // ms it is wide.
     let points = study(
         &[(RampClass::None, "none"), (RampClass::Deformable, "d")],
         &[0.5, 0.6],
@@ -140,17 +140,17 @@ fn a_window_found_at_one_width_is_followed_to_the_next() {
         }
     };
     let done = campaign(&points, touch, law, |_| 0);
-    let lattice = done.settings().lattice;
+    let grid = done.settings().grid;
     for (point, at) in points.iter().enumerate() {
         if at.ramp_class == RampClass::Deformable && at.sign == Sign::Plus {
             let findings = done.findings(point);
             assert_eq!(
                 findings.failure,
-                Some(lattice.at_or_above(window(at).start)),
+                Some(grid.at_or_above(window(at).start)),
                 "{at:?}"
             );
             let log = done.search(point).expect("searched").log();
-            let met = |asked: &Asked| law(at, asked.probe, lattice.amplitude_g(asked.probe.index));
+            let met = |asked: &Asked| law(at, asked.probe, grid.amplitude_g(asked.probe.index));
             let survivor_above = log.iter().any(|asked| {
                 met(asked) == Verdict::Survives && Some(asked.probe.index) > findings.failure
             });

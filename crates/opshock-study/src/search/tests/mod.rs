@@ -1,13 +1,14 @@
-//! Searches against answers that are known.
+//! Tests of the searches against laws of failure whose answers are known.
 
 mod campaigns;
 mod points;
 
 use super::probe::Verdict;
-use super::settings::{Certify, SearchSettings};
+use super::settings::{MonotonicityScan, SearchSettings};
 
 fn settings() -> SearchSettings {
-    SearchSettings::new((20.0, 2000.0), 0.01, Certify::Staggered, 0.10, true).expect("settings")
+    SearchSettings::new((20.0, 2000.0), 0.01, MonotonicityScan::Sampled, 0.10, true)
+        .expect("settings")
 }
 
 fn fails() -> Verdict {

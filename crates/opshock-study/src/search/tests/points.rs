@@ -1,10 +1,10 @@
-//! The search of one point.
+//! Tests of the search of one point.
 
 use super::{fails, settings};
 use crate::search::outcome::{Flag, Status};
 use crate::search::point::{PointSearch, Start};
 use crate::search::probe::{Probe, Purpose, Retry, UndecidedCause, Verdict};
-use crate::search::settings::{Certify, SearchSettings};
+use crate::search::settings::{MonotonicityScan, SearchSettings};
 
 fn undecided() -> Verdict {
     Verdict::Undecided {
@@ -13,20 +13,20 @@ fn undecided() -> Verdict {
     }
 }
 
-fn from(hint_g: Option<f64>, onset_node: Option<i32>) -> Start {
+fn from(hint_g: Option<f64>, onset_amplitude: Option<i32>) -> Start {
     Start {
         hint_g,
-        onset_node,
+        onset_amplitude,
         width_rank: 0,
     }
 }
 
 /// Runs a search against a law of (probe, amplitude in G).
 fn run(mut search: PointSearch, law: impl Fn(Probe, f64) -> Verdict) -> PointSearch {
-    let lattice = settings().lattice;
+    let grid = settings().grid;
     while let Some(asked) = search.ask() {
         assert!(search.log().len() < 2000, "endless search");
-        search.tell(&law(asked.probe, lattice.amplitude_g(asked.probe.index)));
+        search.tell(&law(asked.probe, grid.amplitude_g(asked.probe.index)));
     }
     search
 }
@@ -44,7 +44,7 @@ fn threshold(critical_g: f64) -> impl Fn(Probe, f64) -> Verdict {
 #[test]
 fn every_threshold_is_bracketed_by_neighbouring_nodes() {
     let settings = settings();
-    let lattice = settings.lattice;
+    let grid = settings.grid;
     for step in 0..400 {
         let critical_g = 21.0 * 1.0114_f64.powi(step);
         for hint_g in [None, Some(critical_g * 0.93), Some(critical_g * 1.3)] {
@@ -59,8 +59,8 @@ fn every_threshold_is_bracketed_by_neighbouring_nodes() {
                 findings.failure.expect("failure"),
             );
             assert_eq!(high - low, 1);
-            assert!(lattice.amplitude_g(low) < critical_g);
-            assert!(lattice.amplitude_g(high) >= critical_g);
+            assert!(grid.amplitude_g(low) < critical_g);
+            assert!(grid.amplitude_g(high) >= critical_g);
             assert!(findings.flags.is_empty());
             assert!(findings.largest_gap.expect("scanned") > 0);
         }
@@ -70,7 +70,7 @@ fn every_threshold_is_bracketed_by_neighbouring_nodes() {
 #[test]
 fn probes_stay_few_with_a_hint_and_a_scan_of_one_octave() {
     let settings = settings();
-    let onset = settings.lattice.at_or_above(100.0);
+    let onset = settings.grid.at_or_above(100.0);
     let mut most = 0;
     for step in 0..200 {
         let critical_g = 110.0 + f64::from(step) * 0.5;
@@ -89,7 +89,7 @@ fn probes_stay_few_with_a_hint_and_a_scan_of_one_octave() {
 #[test]
 fn below_first_touch_nothing_is_run() {
     let settings = settings();
-    let onset = settings.lattice.at_or_above(100.0);
+    let onset = settings.grid.at_or_above(100.0);
     let search = run(
         PointSearch::new(settings, from(Some(103.0), Some(onset))),
         threshold(100.0),
@@ -125,8 +125,8 @@ fn nothing_to_find_is_an_answer() {
 #[test]
 fn a_window_of_failure_below_the_bracket_becomes_the_answer() {
     let settings = settings();
-    let lattice = settings.lattice;
-    let onset = lattice.at_or_above(100.0);
+    let grid = settings.grid;
+    let onset = grid.at_or_above(100.0);
     let law = |_: Probe, a: f64| {
         if (130.0..146.0).contains(&a) || a >= 200.0 {
             fails()
@@ -140,32 +140,32 @@ fn a_window_of_failure_below_the_bracket_becomes_the_answer() {
     );
     let findings = search.findings();
     assert_eq!(findings.status, Status::Ok);
-    assert_eq!(findings.failure, Some(lattice.at_or_above(130.0)));
-    assert_eq!(findings.survivor, Some(lattice.at_or_above(130.0) - 1));
+    assert_eq!(findings.failure, Some(grid.at_or_above(130.0)));
+    assert_eq!(findings.survivor, Some(grid.at_or_above(130.0) - 1));
     assert!(findings.flags.contains(&Flag::NonMonotone));
     assert_eq!(findings.brackets.len(), 2);
     assert_eq!(
         findings.brackets[1],
-        (lattice.at_or_above(200.0) - 1, lattice.at_or_above(200.0))
+        (grid.at_or_above(200.0) - 1, grid.at_or_above(200.0))
     );
     // The naive answer is 54 % too high.
     let naive = SearchSettings {
-        certify: Certify::Off,
+        monotonicity_scan: MonotonicityScan::Off,
         ..settings
     };
     let search = run(PointSearch::new(naive, from(Some(205.0), Some(onset))), law);
-    assert_eq!(search.findings().failure, Some(lattice.at_or_above(200.0)));
+    assert_eq!(search.findings().failure, Some(grid.at_or_above(200.0)));
 }
 
 #[test]
 fn a_full_scan_finds_a_window_of_one_node() {
     let settings = SearchSettings {
-        certify: Certify::Full,
+        monotonicity_scan: MonotonicityScan::Full,
         ..settings()
     };
-    let lattice = settings.lattice;
-    let onset = lattice.at_or_above(100.0);
-    let lone = lattice.at_or_above(121.0);
+    let grid = settings.grid;
+    let onset = grid.at_or_above(100.0);
+    let lone = grid.at_or_above(121.0);
     let search = run(
         PointSearch::new(settings, from(Some(205.0), Some(onset))),
         |probe, a| {
@@ -181,9 +181,9 @@ fn a_full_scan_finds_a_window_of_one_node() {
 }
 
 #[test]
-fn the_ladder_is_climbed_in_order_and_marked() {
+fn the_ladder_is_refined_in_order_and_marked() {
     let settings = settings();
-    let sick = settings.lattice.nearest(240.0);
+    let sick = settings.grid.nearest(240.0);
     let search = run(
         PointSearch::new(settings, from(Some(230.0), None)),
         |probe, a| {
@@ -196,10 +196,10 @@ fn the_ladder_is_climbed_in_order_and_marked() {
     );
     let findings = search.findings();
     assert_eq!(findings.status, Status::Ok);
-    assert_eq!(findings.failure, Some(settings.lattice.at_or_above(240.0)));
+    assert_eq!(findings.failure, Some(settings.grid.at_or_above(240.0)));
     assert!(findings.flags.contains(&Flag::Retry));
     assert!(findings.flags.contains(&Flag::NotConverged));
-    assert!(!findings.flags.contains(&Flag::UndecidedNode));
+    assert!(!findings.flags.contains(&Flag::UndecidedAmplitude));
     let retries: Vec<u8> = search.log().iter().map(|a| a.probe.retry.level()).collect();
     for pair in retries.windows(2) {
         assert!(pair[1] == pair[0] + 1 || pair[1] == 0, "{retries:?}");
@@ -209,8 +209,8 @@ fn the_ladder_is_climbed_in_order_and_marked() {
 #[test]
 fn undecided_nodes_widen_the_bracket_and_never_move_it() {
     let settings = settings();
-    let lattice = settings.lattice;
-    let (first, last) = (lattice.nearest(240.0) - 1, lattice.nearest(240.0) + 1);
+    let grid = settings.grid;
+    let (first, last) = (grid.nearest(240.0) - 1, grid.nearest(240.0) + 1);
     let search = run(
         PointSearch::new(settings, from(Some(230.0), None)),
         |probe, a| {
@@ -225,7 +225,7 @@ fn undecided_nodes_widen_the_bracket_and_never_move_it() {
     assert_eq!(findings.status, Status::Ok);
     assert_eq!(findings.survivor, Some(first - 1));
     assert_eq!(findings.failure, Some(last + 1));
-    assert!(findings.flags.contains(&Flag::UndecidedNode));
+    assert!(findings.flags.contains(&Flag::UndecidedAmplitude));
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn a_late_failure_is_flagged_and_does_not_change_the_answer() {
         },
     );
     let findings = search.findings();
-    assert_eq!(findings.failure, Some(settings.lattice.at_or_above(150.0)));
+    assert_eq!(findings.failure, Some(settings.grid.at_or_above(150.0)));
     assert!(findings.flags.contains(&Flag::Window));
 }
 
@@ -274,7 +274,7 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
 #[test]
 fn any_landscape_ends_with_a_consistent_answer_and_wide_windows_are_found() {
     let settings = settings();
-    let lattice = settings.lattice;
+    let grid = settings.grid;
     for seed in 1..2000 {
         let mut random = random(seed);
         let onset_g = 60.0 + 200.0 * random();
@@ -282,10 +282,10 @@ fn any_landscape_ends_with_a_consistent_answer_and_wide_windows_are_found() {
         let start_g = onset_g + (critical_g - onset_g) * random();
         let share = 0.3 * random();
         let window = start_g..(start_g * (1.0 + share)).min(critical_g);
-        let sick = lattice.nearest(onset_g * (1.0 + random()));
+        let sick = grid.nearest(onset_g * (1.0 + random()));
         let has_sick = random() < 0.3;
         let hint_g = (random() < 0.8).then(|| critical_g * (0.5 + random()));
-        let onset = (random() < 0.8).then(|| lattice.at_or_above(onset_g));
+        let onset = (random() < 0.8).then(|| grid.at_or_above(onset_g));
         let law = |probe: Probe, a: f64| {
             if has_sick && probe.index == sick && probe.retry < Retry::OtherContact {
                 undecided()
@@ -304,15 +304,15 @@ fn any_landscape_ends_with_a_consistent_answer_and_wide_windows_are_found() {
         );
         assert_eq!(failure - survivor, 1, "seed {seed}");
         assert!(matches!(
-            law(Probe::at(failure), lattice.amplitude_g(failure)),
+            law(Probe::at(failure), grid.amplitude_g(failure)),
             Verdict::Fails { .. } | Verdict::Undecided { .. }
         ));
         assert!(findings.runs <= 45, "seed {seed}: {} runs", findings.runs);
-        let n_window = lattice.at_or_above(window.end) - lattice.at_or_above(window.start);
+        let n_window = grid.at_or_above(window.end) - grid.at_or_above(window.start);
         // Where the whole range is the point's own, the scan coarsens below 0.71 of the bracket.
         let is_fine = onset.is_some() || window.start > 0.75 * critical_g;
         if n_window >= settings.scan_gap && is_fine {
-            let start = lattice.at_or_above(window.start);
+            let start = grid.at_or_above(window.start);
             assert_eq!(failure, start, "seed {seed}: {:?}", search.log());
         }
         if onset.is_some() {

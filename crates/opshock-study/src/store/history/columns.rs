@@ -1,11 +1,11 @@
-//! What a history file holds: its header and its columns.
+//! Header and columns of a history file.
 
 use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
 
 /// Number of the history file format; raised when a reader of the older one would go wrong.
 pub const HISTORY_FORMAT: u32 = 1;
 
-/// What a history file says about itself, beside the columns.
+/// Header of a history file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryHeader {
     /// Name of the study.
@@ -39,7 +39,7 @@ pub struct Column {
     pub name: &'static str,
     /// Unit as written to the `units` attribute.
     pub units: &'static str,
-    /// One sentence.
+    /// Description in a sentence.
     pub description: &'static str,
     /// Values on the column's time.
     pub values: Vec<f64>,

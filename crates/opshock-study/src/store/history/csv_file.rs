@@ -1,4 +1,4 @@
-//! History as one CSV table.
+//! Writes a history as one CSV table.
 
 use super::columns::root_columns;
 use crate::store::aside;

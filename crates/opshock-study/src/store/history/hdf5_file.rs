@@ -1,4 +1,4 @@
-//! History as HDF5.
+//! Writes a history as HDF5.
 
 use super::columns::{
     Column, FIELD_COLUMNS, HISTORY_FORMAT, HistoryHeader, head_columns, root_columns,
@@ -11,10 +11,10 @@ use hdf5::{Group, Location};
 use opshock_solver::simulation::{History, PressureFields};
 use std::path::Path;
 
-/// Writes a history in the layout of the [module](super). Root attributes: `format`
-/// (`opshock history`), `format_version`, `program_version`, `commit`, `physics_structure`,
-/// `physics_head`, `study`, `study_digest`, `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none), `effects`, and one
-/// attribute `point_KEY` per coordinate of the simulated point. Every dataset has `units`,
+/// Writes a history in the layout of the [module](super). Root attributes: `format` (`opshock history`),
+/// `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`,
+/// `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none),
+/// `effects`, and one attribute `point_KEY` per coordinate of the simulated point. Every dataset has `units`,
 /// `description` and `time`, the path of the dataset it is given on.
 ///
 /// # Errors

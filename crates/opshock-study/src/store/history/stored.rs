@@ -1,4 +1,4 @@
-//! A kept history read back, for what is drawn from it.
+//! Reads a kept history back, for drawings.
 
 use std::collections::BTreeMap;
 use std::path::Path;

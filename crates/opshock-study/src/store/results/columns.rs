@@ -8,9 +8,9 @@ use hdf5::{Group, H5Type, Location};
 pub(super) enum Values {
     /// Numbers; NaN where there is none.
     Numbers(Vec<f64>),
-    /// Counts.
+    /// Whole numbers.
     Counts(Vec<u64>),
-    /// Nodes of the lattice.
+    /// Points of the amplitude grid.
     Nodes(Vec<i32>),
     /// Words.
     Texts(Vec<String>),
@@ -42,7 +42,7 @@ pub(super) fn numbers<'a, T: 'a>(
     }
 }
 
-/// Column of counts.
+/// Column of whole numbers.
 pub(super) fn counts<'a, T: 'a>(
     name: &str,
     rows: impl IntoIterator<Item = &'a T>,

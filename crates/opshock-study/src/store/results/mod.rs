@@ -1,11 +1,11 @@
-//! `results.h5`: what a person opens, and enough to resume from.
+//! Results file `results.h5` of a store: the table and all runs, and enough to resume from.
 //!
 //! | where | what |
 //! |-------|------|
-//! | `/` attributes | `format` (`opshock results`), `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`, `axes`, `nodes_per_octave`, `reference_g`, `start_s`, `plan` (JSON: outputs, effects and rules of each ramp's scenes), `content_blake3` |
+//! | `/` attributes | `format` (`opshock results`), `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`, `axes`, `steps_per_octave`, `reference_g`, `start_s`, `plan` (JSON: outputs, effects and rules of each ramp's scenes), `content_blake3` |
 //! | `/points/*` | a row per point in the study's order: the columns of the table, the further axes under `/points/axes/NAME`, `point_digest`, `onset`, `onset_m_per_s2` |
-//! | `/runs/*` | every simulation of the canonical sequences, by point and then by sequence: `point`, `sequence`, `purpose`, `index` (on a lattice sixteen times as fine for `error_bar`), `levels` (knobs turned from the study's resolution), `amplitude_g`, `amplitude_m_per_s2` (signed), `window_factor`, `retry`, `verdict`, `cause`, `message`, `t_fail_s`, `x_m`, `y_m`, `h_min_m`, `t_min_s`, and the work; `t_fail_after_onset_s` and `t_min_after_onset_s` are the same times to the last bit |
-//! | `/machine` | host, threads, times; `/machine/runs` wall time of each run; `/machine/outside` simulations that no sequence asked for (computed ahead, or of an earlier form of the study) |
+//! | `/runs/*` | every simulation of the canonical sequences, by point and then by sequence: `point`, `sequence`, `purpose`, `index` (on an amplitude grid sixteen times as fine for `uncertainty`), `levels` (refinement levels relative to the study's resolution), `amplitude_g`, `amplitude_m_per_s2` (signed), `window_factor`, `retry`, `verdict`, `cause`, `message`, `t_fail_s`, `x_m`, `y_m`, `h_min_m`, `t_min_s`, and the work; `t_fail_after_onset_s` and `t_min_after_onset_s` are the same times to the last bit |
+//! | `/machine` | host, threads, times; `/machine/runs` wall time of each run; `/machine/outside` simulations that no sequence requested (computed ahead, or of an earlier form of the study) |
 //!
 //! Every dataset has `units`. Missing numbers are NaN. Times are on the study's axis, where the
 //! pulse starts at `start_s`, unless their name says otherwise.

@@ -1,10 +1,10 @@
-//! Reading `results.h5`.
+//! Reads `results.h5`.
 
 use std::path::Path;
 
 use hdf5::{File, Group};
 
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 
 use super::columns::{get, get_number, get_text, get_texts};
 use super::rows::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
@@ -16,7 +16,9 @@ use crate::store::record::{
     COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
 };
 use crate::store::seal::{self, Sealed};
-use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary, Totals};
+use crate::store::summary::{
+    AxisValue, CONTRIBUTIONS, Contribution, PointSummary, Summary, Totals,
+};
 
 /// Reads results; `None` when the file is missing.
 ///
@@ -51,29 +53,20 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Results, StoreError> {
         .map_err(|error| damaged(format!("not HDF5, or cut short ({error})")))?;
     let found =
         format(&file).map_err(|error| damaged(format!("not results of opshock ({error})")))?;
-    if found > RESULTS_FORMAT {
-        return Err(StoreError::Newer {
+    if found != RESULTS_FORMAT {
+        return Err(StoreError::OtherFormat {
             path: path.to_owned(),
             found,
             known: RESULTS_FORMAT,
         });
     }
-    let (mut results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
-    // Files of 0.1.0 before November 2026 have none.
+    let (results, digest) = content(&file).map_err(|error| damaged(error.to_string()))?;
     let outside = outside_digest(&file).map_err(|error| damaged(error.to_string()))?;
-    if outside.is_some_and(|digest| digest != results.outside_digest()) {
+    if outside != results.outside_digest() {
         return Err(damaged("/machine/outside does not match its digest".into()));
     }
-    // Digests of the first format cover a table without the parts of the error bars.
-    if found > 1 && results.content_digest() != digest {
+    if results.content_digest() != digest {
         return Err(damaged("its content does not match its digest".into()));
-    }
-    // Older files give the bracket alone as an error.
-    for row in &mut results.summary.points {
-        if matches!(&row.err_parts[..], [(name, _)] if name == "search") {
-            (row.err_low_g, row.err_high_g) = (None, None);
-            row.err_parts.clear();
-        }
     }
     Ok(results)
 }
@@ -119,7 +112,7 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
         .map(|(&place, &levels)| {
             let point = points.get(place as usize);
             point
-                .map(|point| point.digest.turned(levels))
+                .map(|point| point.digest.changed(levels))
                 .ok_or_else(|| unknown("point", &place.to_string()))
         })
         .collect::<hdf5::Result<_>>()?;
@@ -139,9 +132,9 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
             points: rows,
             totals,
         },
-        nodes_per_octave: get_number(&root, "nodes_per_octave")?,
+        steps_per_octave: get_number(&root, "steps_per_octave")?,
         start_s: get_number(&root, "start_s")?,
-        plan: get_text(&root, "plan").unwrap_or_default(),
+        plan: get_text(&root, "plan")?,
         points,
         runs,
         outside,
@@ -151,13 +144,9 @@ fn content(file: &File) -> hdf5::Result<(Results, String)> {
     Ok((results, get_text(&root, "content_blake3")?))
 }
 
-fn outside_digest(file: &File) -> hdf5::Result<Option<String>> {
-    let group = file.group("machine/outside")?;
-    let names = group.attr_names()?;
-    let is_there = names.iter().any(|name| name == "outside_blake3");
-    is_there
-        .then(|| get_text(&group, "outside_blake3"))
-        .transpose()
+fn outside_digest(file: &File) -> hdf5::Result<String> {
+    let outside = file.group("machine/outside")?;
+    get_text(&outside, "outside_blake3")
 }
 
 fn digests(group: &Group) -> hdf5::Result<Vec<PointDigest>> {
@@ -205,20 +194,20 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         "err_low_g",
         "err_high_g",
         "onset_g",
-        "certified_from_g",
+        "scanned_from_g",
         "largest_gap_pct",
     ];
     let numbers: Vec<Vec<f64>> = names
         .iter()
         .map(|name| get(group, name))
         .collect::<hdf5::Result<_>>()?;
-    let parts = error_parts(group)?;
+    let contributions = error_parts(group)?;
     let columns = axes
         .iter()
         .map(|name| axis(&group.group("axes")?, name))
         .collect::<hdf5::Result<Vec<_>>>()?;
     let n = ramp.len();
-    // Files from before points climbed have no such column.
+    // Files from before adaptive refinement have no such column.
     let levels = match group.link_exists("levels") {
         true => get_texts(group, "levels")?,
         false => vec![String::new(); n],
@@ -236,7 +225,7 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .chain(numbers.iter().map(Vec::len))
         .chain(columns.iter().map(Vec::len))
         .chain(
-            parts
+            contributions
                 .iter()
                 .flat_map(|(_, columns)| columns.iter().map(Vec::len)),
         )
@@ -246,24 +235,24 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
     (0..n)
         .map(|i| {
             let number = |column: usize| Some(numbers[column][i]).filter(|value| !value.is_nan());
-            let part = |(name, [low, high, factor]): &PartColumns| {
-                let part = ErrorPart {
+            let contribution = |(name, [low, high, factor]): &PartColumns| {
+                let contribution = Contribution {
                     low_g: low[i],
                     high_g: high[i],
                     factor: factor[i],
                 };
-                (!part.low_g.is_nan()).then(|| ((*name).to_owned(), part))
+                (!contribution.low_g.is_nan()).then(|| ((*name).to_owned(), contribution))
             };
             Ok(PointSummary {
                 ramp: ramp[i].clone(),
                 pulse_ms: numbers[0][i],
-                sign: Sign::parse(&sign[i]).ok_or_else(|| unknown("sign", &sign[i]))?,
+                sign: Sign::from_word(&sign[i]).ok_or_else(|| unknown("sign", &sign[i]))?,
                 axes: columns.iter().map(|column| column[i].clone()).collect(),
                 a_crit_g: number(1),
                 a_fail_g: number(2),
                 err_low_g: number(3),
                 err_high_g: number(4),
-                err_parts: parts.iter().filter_map(part).collect(),
+                contributions: contributions.iter().filter_map(contribution).collect(),
                 levels: levels[i].clone(),
                 onset_g: number(5),
                 runs: runs[i],
@@ -273,19 +262,19 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                     .map(|word| Flag::parse(word).ok_or_else(|| unknown("flag", word)))
                     .collect::<hdf5::Result<_>>()?,
                 brackets_g: exact_pairs(&brackets[i])?,
-                certified_from_g: number(6),
+                scanned_from_g: number(6),
                 largest_gap_pct: number(7),
             })
         })
         .collect()
 }
 
-/// Name of a part of the error bars; its low, high and factor, row by row.
+/// Name of a contribution of the uncertainty intervals; its low, high and factor, row by row.
 type PartColumns = (&'static str, [Vec<f64>; 3]);
 
-/// Low, high and factor of every part of the error bars; older files have none.
+/// Low, high and factor of every contribution of the uncertainty intervals; older files have none.
 fn error_parts(group: &Group) -> hdf5::Result<Vec<PartColumns>> {
-    ERROR_PARTS
+    CONTRIBUTIONS
         .into_iter()
         .filter(|name| group.link_exists(&format!("err_{name}_low_g")))
         .map(|name| {
@@ -397,7 +386,7 @@ fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result
     points.iter().enumerate().map(record).collect()
 }
 
-/// Knobs turned, row by row; files older than the error bars have turned none.
+/// Refinement levels, row by row; files older than the uncertainty intervals have none.
 fn levels(group: &Group) -> hdf5::Result<Vec<Levels>> {
     if !group.link_exists("levels") {
         let rows: Vec<u64> = get(group, "point")?;

@@ -1,6 +1,6 @@
-//! What `results.h5` holds of a study: its runs, points and sessions.
+//! Content of `results.h5` for a study: its runs, points and sessions.
 
-use opshock_solver::scene::knob::Levels;
+use opshock_solver::scene::discretisation::Levels;
 
 use crate::provenance;
 use crate::search::{ProbeResult, Purpose};
@@ -9,7 +9,7 @@ use crate::store::record::{PointDigest, Record, RunMachine, RunRecord, StoredTou
 use crate::store::summary::Summary;
 
 /// Number of the format of `results.h5`; raised when an older reader would go wrong.
-pub const RESULTS_FORMAT: u32 = 2;
+pub const RESULTS_FORMAT: u32 = 3;
 
 /// A simulation of the canonical sequence of a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,11 +18,11 @@ pub struct RunRow {
     pub point: usize,
     /// Place in the point's sequence.
     pub sequence: usize,
-    /// Why it was asked.
+    /// Purpose.
     pub purpose: Purpose,
-    /// Node of the lattice, of that of the error bars for theirs.
+    /// Point of the amplitude grid, of the uncertainty intervals' grid for their runs.
     pub index: i32,
-    /// Knobs turned.
+    /// Refinement levels relative to the study.
     pub levels: Levels,
     /// Amplitude without sign, G.
     pub amplitude_g: f64,
@@ -36,13 +36,13 @@ impl RunRow {
         &self.run.result
     }
 
-    /// What totals count.
+    /// The entries of the totals.
     pub fn counted(&self) -> (Purpose, &ProbeResult) {
         (self.purpose, &self.run.result)
     }
 }
 
-/// What `/points` holds beside the table.
+/// Columns of `/points` beside the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointKeep {
     /// Content of the point.
@@ -51,7 +51,7 @@ pub struct PointKeep {
     pub touch: Option<StoredTouch>,
 }
 
-/// Who wrote a file, where and when.
+/// Program, host and start of a process that wrote a file.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Session {
     /// Version of the program.
@@ -85,8 +85,8 @@ impl Session {
 pub struct Results {
     /// The table.
     pub summary: Summary,
-    /// Nodes per doubling of the lattice.
-    pub nodes_per_octave: i32,
+    /// Grid points per doubling of the amplitude.
+    pub steps_per_octave: i32,
     /// Onset of the pulse on the study's time axis, s.
     pub start_s: f64,
     /// Effects and rules of each ramp's scenes, as JSON; empty in files that have none.
@@ -95,7 +95,7 @@ pub struct Results {
     pub points: Vec<PointKeep>,
     /// Simulations of the canonical sequences.
     pub runs: Vec<RunRow>,
-    /// Finished simulations that no sequence asked for.
+    /// Finished simulations that no sequence requested.
     pub outside: Vec<RunRecord>,
     /// Who wrote it.
     pub session: Session,
@@ -116,7 +116,7 @@ impl Results {
         touches.chain(runs.cloned().map(Record::Run)).collect()
     }
 
-    /// Runs on the study's own knobs: their histories may be kept.
+    /// Runs at the study's own resolution: their histories may be kept.
     pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
         let rows = self.runs.iter().filter(|row| row.levels.is_none());
         rows.map(|row| {
@@ -133,7 +133,7 @@ impl Results {
         })
     }
 
-    /// Digest of the table and of the canonical simulations, machine facts left out.
+    /// Digest of the table and of the canonical simulations, without the machine's data.
     pub fn content_digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         let table = serde_json::to_vec(&self.summary).expect("a table serialises");
@@ -157,8 +157,8 @@ impl Results {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Digest of the simulations outside the canonical sequences, machine facts left out: they lie
-    /// with the machine's facts, for idle cores decide which there are.
+    /// Digest of the simulations outside the canonical sequences, without the machine's data: they are stored with
+    /// those data, for idle cores decide which there are.
     pub fn outside_digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for run in &self.outside {

@@ -1,4 +1,4 @@
-//! Writing `results.h5`.
+//! Writes `results.h5`.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use hdf5::Group;
 use super::columns::{self, Column, Values, counts, numbers, put_number, put_text, texts};
 use super::rows::{RESULTS_FORMAT, Results, RunRow};
 use crate::search::Verdict;
-use crate::search::lattice::REFERENCE_G;
+use crate::search::amplitude_grid::REFERENCE_G;
 use crate::store::error::StoreError;
 use crate::store::record::{COST_NAMES, RunRecord, StoredTouch, cost_counts};
-use crate::store::summary::{AxisValue, ERROR_PARTS, ErrorPart, PointSummary, Summary};
+use crate::store::summary::{AxisValue, CONTRIBUTIONS, Contribution, PointSummary, Summary};
 use crate::store::{aside, hdf5_file, seal};
 
 /// Replaces `path` by these results: made and sealed in memory, written aside, synced, renamed.
@@ -46,7 +46,7 @@ fn fill(root: &Group, results: &Results) -> hdf5::Result<()> {
     put_text(root, "study", &summary.study)?;
     put_text(root, "study_digest", &summary.digest)?;
     put_text(root, "axes", &summary.axes.join(" "))?;
-    put_number(root, "nodes_per_octave", results.nodes_per_octave)?;
+    put_number(root, "steps_per_octave", results.steps_per_octave)?;
     put_number(root, "reference_g", REFERENCE_G)?;
     put_number(root, "start_s", results.start_s)?;
     put_text(root, "plan", &results.plan)?;
@@ -105,14 +105,14 @@ fn point_columns(summary: &Summary) -> Vec<Column> {
         texts("brackets_g", rows, |row| {
             serde_json::to_string(&row.brackets_g).expect("numbers serialise")
         }),
-        numbers("certified_from_g", "G", rows, |row| row.certified_from_g),
+        numbers("scanned_from_g", "G", rows, |row| row.scanned_from_g),
         numbers("largest_gap_pct", "%", rows, |row| row.largest_gap_pct),
     ];
-    for name in ERROR_PARTS {
-        let part = |bound: fn(&ErrorPart) -> f64| {
+    for name in CONTRIBUTIONS {
+        let contribution = |bound: fn(&Contribution) -> f64| {
             move |row: &PointSummary| {
-                let part = row.err_parts.iter().find(|(known, _)| known == name)?;
-                Some(bound(&part.1))
+                let contribution = row.contributions.iter().find(|(known, _)| known == name)?;
+                Some(bound(&contribution.1))
             }
         };
         columns.extend([
@@ -120,19 +120,19 @@ fn point_columns(summary: &Summary) -> Vec<Column> {
                 &format!("err_{name}_low_g"),
                 "G",
                 rows,
-                part(|part| part.low_g),
+                contribution(|contribution| contribution.low_g),
             ),
             numbers(
                 &format!("err_{name}_high_g"),
                 "G",
                 rows,
-                part(|part| part.high_g),
+                contribution(|contribution| contribution.high_g),
             ),
             numbers(
                 &format!("err_{name}_factor"),
                 "1",
                 rows,
-                part(|part| part.factor),
+                contribution(|contribution| contribution.factor),
             ),
         ]);
     }

@@ -1,4 +1,4 @@
-//! Axes: lists of values, and `{ from, to, count, spacing }`.
+//! Reads the values of an axis: a list, or `{ from, to, count, spacing }`.
 
 use super::limit::{MAX_POINTS, too_many_points};
 use super::reader::{Reader, join};

@@ -1,4 +1,4 @@
-//! How large a study may be.
+//! Limits the number of values on an axis and of points in a study.
 
 use crate::study::fault::StudyError;
 use crate::study::source::Place;

@@ -1,4 +1,4 @@
-//! Messages about values of the wrong kind or size.
+//! Writes the messages about values of the wrong kind or size.
 
 use super::reader::Reader;
 use crate::study::fault::StudyError;
@@ -75,7 +75,7 @@ pub(super) fn not_a_word(
         key.code
     };
     let message = match code {
-        "E157" => "not an accuracy opshock has a named rung for".to_string(),
+        "E157" => "no preset of this name".to_string(),
         "E158" => "unknown output".to_string(),
         _ => "not one of the words allowed here".to_string(),
     };
@@ -83,9 +83,7 @@ pub(super) fn not_a_word(
         .value(node.place.text())
         .allowed(key.kind.allowed());
     match (code, suggest::nearest(text, words)) {
-        ("E157", _) => {
-            fault.hint("the finest rung reaches 0.1%; single resolutions can be set finer")
-        }
+        ("E157", None) => fault.hint("5%, 1% and 0.1% of format 1 are coarse, standard and fine; search.target_uncertainty_pct is the uncertainty wanted"),
         (_, Some(near)) => fault.hint(format!("did you mean {near:?}?")),
         _ => fault,
     }
@@ -93,12 +91,12 @@ pub(super) fn not_a_word(
 
 pub(super) fn memory_hint(path: &str, count: f64) -> String {
     let bytes = match path {
-        _ if path == fields::SOLVER_FILM_CELLS.path() => film_bytes(count),
-        _ if path == fields::SOLVER_FILM_REFERENCE_CELLS.path() => reference_bytes(count),
+        _ if path == fields::RESOLUTION_FILM_CELLS.path() => film_bytes(count),
+        _ if path == fields::RESOLUTION_FILM_CORRECTION_CELLS.path() => reference_bytes(count),
         // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
-        _ if path == fields::SOLVER_DISK_HARMONICS.path() => count * 2.0 * 82.0 * 82.0 * 8.0,
-        _ if path == fields::SOLVER_DISK_ELEMENTS.path() => 8.0 * (2.0 * count + 2.0).powi(2),
-        _ if path == fields::SOLVER_SUSPENSION_MODES.path() => 8.0 * count * count,
+        _ if path == fields::RESOLUTION_DISK_HARMONICS.path() => count * 2.0 * 82.0 * 82.0 * 8.0,
+        _ if path == fields::RESOLUTION_DISK_ELEMENTS.path() => 8.0 * (2.0 * count + 2.0).powi(2),
+        _ if path == fields::RESOLUTION_SUSPENSION_MODES.path() => 8.0 * count * count,
         _ => return "take a smaller number".to_string(),
     };
     format!(

@@ -1,4 +1,4 @@
-//! From a tree of TOML values to checked settings, by the table of keys.
+//! Turns a tree of TOML values into checked settings, by the table of keys.
 //!
 //! Every value is checked alone here: known key, kind, range, usual range. What depends on
 //! several keys is checked in `validity`.

@@ -1,4 +1,4 @@
-//! The reader: a table's members, each by its line of the table of keys.
+//! Reads the members of a TOML table, each by its line of the table of keys, and collects faults.
 
 use super::limit::{MAX_POINTS, too_many_points};
 use crate::study::datum::Datum;

@@ -1,4 +1,4 @@
-//! Single values: numbers with range and unit, whole numbers, words, corners.
+//! Reads single values: numbers with range and unit, whole numbers, words, corners.
 
 use super::message::{memory_hint, not_a_word};
 use super::reader::Reader;
@@ -254,8 +254,10 @@ impl Reader {
             return Some(Datum::Integer(value as i64));
         }
         self.errors.push(if key.path == "study_format" {
-            fault("E134", "this program reads format 1".to_string())
-                .hint("a newer opshock may read this file")
+            fault("E134", "this program reads format 2".to_string()).hint(match value {
+                1 => "write study_format = 2; keys that have another name since are listed with it",
+                _ => "a newer opshock may read this file",
+            })
         } else if value < 0 {
             fault("E134", "must not be negative".to_string())
                 .hint(format!("for example {}", key.example()))

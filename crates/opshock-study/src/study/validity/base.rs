@@ -1,11 +1,11 @@
-//! A base that vibrates.
+//! Rules for a base that vibrates.
 
 use super::check::Check;
 use crate::study::field::Field;
 use crate::study::fields;
 use crate::study::imported_base::{MODES, MOST};
 
-/// What a vibrating base is not combined with: its modes know no load but that along the axis.
+/// What a vibrating base is not combined with: its modes are loaded along the axis only.
 const APART: [&str; 4] = [
     fields::PULSE_IN_PLANE_X.path(),
     fields::PULSE_IN_PLANE_Y.path(),
@@ -14,8 +14,7 @@ const APART: [&str; 4] = [
 ];
 
 impl Check<'_, '_> {
-    /// A vibrating base takes a straight shock, is heavier than disk and hub, and has no more modes than there is
-    /// room for.
+    /// A vibrating base takes a straight shock, is heavier than disk and hub, and has no more than the allowed modes.
     pub(super) fn base(&mut self) {
         let n = self.view.get(&fields::BASE_MODES);
         if n == 0 || !self.sound(&[MODES]) {
@@ -42,21 +41,24 @@ impl Check<'_, '_> {
             let shape = |k| self.view.entry(k, &fields::BASE_MODES_SPINDLE_PER_SQRT_KG);
             let share: f64 = (0..n).map(|k| shape(k).powi(2) * mass_kg).sum();
             if share >= 1.0 {
+                let carried = if hub_kg > 0.0 {
+                    "disk and hub"
+                } else {
+                    "the disk"
+                };
                 let message = format!(
-                    "modes of the base with {:.3} of the mass of {}",
-                    1.0 / share,
-                    if hub_kg > 0.0 {
-                        "disk and hub"
-                    } else {
-                        "the disk"
-                    }
+                    "at the spindle the modes have an effective mass of {:.3} g, less than {carried}, {:.3} g, which it holds",
+                    1e3 * mass_kg / share,
+                    1e3 * mass_kg
                 );
                 let fault = self.fault("E189", &[MODES], message);
                 fault.allowed = format!(
-                    "sum of spindle_per_sqrt_kg squared below {:.1} 1/kg",
-                    1.0 / mass_kg
+                    "sum of spindle_per_sqrt_kg squared below {:.1} 1/kg, now {:.1}",
+                    1.0 / mass_kg,
+                    share / mass_kg
                 );
-                fault.hint = "are they of unit modal mass, in kg?".to_string();
+                fault.hint =
+                    "give displacements of modes of unit modal mass, with mass in kg".to_string();
             }
         }
         let given: Vec<&str> = APART

@@ -1,4 +1,4 @@
-//! What every rule has: the view it looks at, and where its faults go.
+//! What every rule works on: the settings of one point, and the list that its faults go to.
 
 use crate::study::fault::StudyError;
 use crate::study::settings::View;

@@ -1,4 +1,4 @@
-//! Geometry of disk, ramp, slider and suspension.
+//! Rules for disk, hub, ramp, slider, suspension and gas: geometry that fits, values that a solver can use.
 
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
@@ -178,11 +178,13 @@ impl Check<'_, '_> {
             let harmonic = f64::from(self.view.entry(entry, &fields::DISK_WAVES_HARMONIC));
             if harmonic > most {
                 let message = format!(
-                    "waves of {} mm under a slider of {length_mm} mm, which would see them bend",
-                    trim(round_mm / harmonic)
+                    "waves {:.3} mm long under a slider of {length_mm} mm: too short to be plane along it",
+                    round_mm / harmonic
                 );
                 let fault = self.fault("E126", &[path, PATHS[0], PATHS[1]], message);
-                fault.allowed = format!("at most {most}: {LENGTHS_A_WAVE} slider lengths a wave");
+                fault.allowed = format!(
+                    "at most {most} waves a revolution, each {LENGTHS_A_WAVE} slider lengths long or longer"
+                );
             }
         }
     }
@@ -360,10 +362,10 @@ impl Check<'_, '_> {
                         fields::RAMP_RADIUS_MM.path(),
                         fields::RAMP_ANGLE_DEG.path(),
                     ],
-                    "the slider flies over the ramp's contact point",
+                    "the ramp's contact point lies under the slider, where no ramp can be",
                 );
-                fault.allowed = "another angle or radius".to_string();
-                fault.hint = "check the angles".to_string();
+                fault.allowed = "a contact point outside the slider's outline".to_string();
+                fault.hint = "move the slider or the ramp: angle_deg, radius_mm".to_string();
             }
         }
     }

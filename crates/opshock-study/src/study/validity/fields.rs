@@ -1,4 +1,4 @@
-//! Times of pressure fields: asked for with the output that needs them, inside the simulation.
+//! Rules for the times of pressure fields: given with the output that needs them, within the simulated time.
 
 use super::check::{Check, trim};
 use crate::study::fields;

@@ -1,4 +1,4 @@
-//! The gap at the ramp that a disk leaves which runs out.
+//! Rules for the gap that the run-out of a disk leaves at the ramp.
 
 use super::check::{Check, trim};
 use crate::study::field::Field;
@@ -9,7 +9,7 @@ use crate::study::words::RunOut;
 const RUN_OUT: &str = fields::RAMP_RUN_OUT.path();
 
 impl Check<'_, '_> {
-    /// A disk that runs out leaves a gap, and one that is taken off the gap runs out.
+    /// The run-out is smaller than the gaps, and `ramp.run_out` is set only for a disk that has one.
     pub(super) fn gap_left(&mut self) {
         let looked_at = [
             fields::DISK_WAVES.path(),

@@ -1,4 +1,4 @@
-//! Several heads.
+//! Rules for a drive of several heads.
 
 use super::check::Check;
 use crate::study::fault::StudyError;
@@ -8,7 +8,7 @@ use crate::study::imported_suspension;
 const HEADS: &str = "heads";
 /// Gap that stands for those of both sides.
 const CLEARANCE: &str = fields::RAMP_CLEARANCE_UM.path();
-/// Gap of each side, which counts where it is given.
+/// Gap of each side, which is used where it is given.
 const CLEARANCES: [&str; 2] = [
     fields::RAMP_CLEARANCE_TOP_UM.path(),
     fields::RAMP_CLEARANCE_BOTTOM_UM.path(),
@@ -68,7 +68,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// What a head has of its own counts, and so does an axis of the study: nothing stands before them.
+    /// Refuses a head's clearance beside the study's of one side, and geometry beside modes: they would have no effect.
     fn without_effect_on(&mut self, head: &str) {
         let settings = self.view.settings;
         let own = |path: &str| settings.get(&format!("{head}{path}"));

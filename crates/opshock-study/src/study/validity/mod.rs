@@ -1,4 +1,4 @@
-//! What depends on several keys: geometry, pulse against step, search range, outputs.
+//! Checks what depends on several keys: geometry, pulse against step, search range, outputs.
 //!
 //! Each rule names the keys it looks at and is skipped while one of them has no usable value, so
 //! that one mistake makes one message.
@@ -32,7 +32,7 @@ impl Check<'_, '_> {
     }
 }
 
-/// A rule about a point, told the widths of the study in ms.
+/// A rule about a point, given the widths of the study in ms.
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.

@@ -1,4 +1,4 @@
-//! Pulse against step and window; sampled pulses.
+//! Rules for the pulse: its width against time step and window, and the samples of a sampled one.
 
 use super::check::{Check, trim};
 use crate::study::datum::Datum;
@@ -33,8 +33,8 @@ impl Check<'_, '_> {
         // A step that is exactly an eighth must pass whatever its decimal rounding.
         let shortest_s = STEPS_PER_PULSE * step_s * (1.0 - 1e-12);
         if self.sound(&[
-            fields::SOLVER_STRUCTURE_STEP_US.path(),
-            fields::SOLVER_ACCURACY.path(),
+            fields::RESOLUTION_STRUCTURE_STEP_US.path(),
+            fields::RESOLUTION_PRESET.path(),
         ]) && width_s < shortest_s
         {
             let message = format!(
@@ -49,7 +49,7 @@ impl Check<'_, '_> {
             });
             fault.value = format!("{width}");
             fault.allowed = format!(
-                "widths from {} ms, or solver.structure_step_us <= {}",
+                "widths from {} ms, or resolution.structure_step_us <= {}",
                 trim(STEPS_PER_PULSE * step_s * 1e3),
                 trim(width_s / STEPS_PER_PULSE * 1e6)
             );

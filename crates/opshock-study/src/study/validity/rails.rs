@@ -1,4 +1,4 @@
-//! Rails of the slider's surface.
+//! Rules for the rails of the slider's surface.
 
 use opshock_solver::quantity;
 
@@ -129,7 +129,11 @@ impl Check<'_, '_> {
             return;
         }
         if polygon::signed_area(&corners) < 0.0 {
-            let fault = self.fault("N144", &[path], "the corners run clockwise and are turned");
+            let fault = self.fault(
+                "N144",
+                &[path],
+                "the corners run clockwise; they are read in reverse order",
+            );
             fault.allowed = "counter-clockwise corners".to_string();
         }
     }

@@ -1,4 +1,4 @@
-//! Which combinations of axis values a rule has looked at.
+//! Records which combinations of axis values a rule has looked at, so that none is checked twice.
 //!
 //! A rule reads some keys only, and a study of many axes holds the same values of those keys over
 //! and over. What a rule says is a function of the values it reads, so a combination that agrees with

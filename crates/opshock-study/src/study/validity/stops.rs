@@ -1,4 +1,4 @@
-//! Limiters and lift tab of the suspension.
+//! Rules for limiters and lift tab of the suspension.
 
 use super::check::Check;
 use crate::study::fields;

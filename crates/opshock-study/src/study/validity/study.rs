@@ -97,8 +97,8 @@ impl Check<'_, '_> {
             })
         };
         let refines = [
-            fields::SEARCH_REFINE_TOLERANCE_PCT.path(),
-            fields::SEARCH_REFINE_CROSSING_PCT.path(),
+            fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path(),
+            fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path(),
         ];
         let refines = refines.iter().any(|path| self.view.settings.has(path));
         let rules: [(bool, &str, &[&str]); 9] = [
@@ -106,22 +106,22 @@ impl Check<'_, '_> {
                 refines,
                 "neither tolerance_pct nor crossing_pct is given",
                 &[
-                    fields::SEARCH_REFINE_CLOSEST_PCT.path(),
-                    fields::SEARCH_REFINE_MOST_POINTS.path(),
+                    fields::SEARCH_ADDED_POINTS_CLOSEST_PCT.path(),
+                    fields::SEARCH_ADDED_POINTS_MAX_POINTS.path(),
                 ],
             ),
             (
                 self.view.get(&fields::PULSE_WIDTHS_MS).len() != 1,
                 "pulse.widths_ms has one width, and widths are added between two",
                 &[
-                    fields::SEARCH_REFINE_TOLERANCE_PCT.path(),
-                    fields::SEARCH_REFINE_CROSSING_PCT.path(),
+                    fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path(),
+                    fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path(),
                 ],
             ),
             (
                 self.view.get(&fields::RAMP_MODELS).len() != 1,
                 "ramp.models has one model",
-                &[fields::SEARCH_REFINE_CROSSING_PCT.path()],
+                &[fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path()],
             ),
             (
                 any(fields::PULSE_SHAPE.path(), "trapezoid"),
@@ -249,9 +249,9 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Lines cannot be told better than brackets.
+    /// Interpolation between answers cannot be better than their brackets.
     fn refine(&mut self) {
-        let tolerance = fields::SEARCH_REFINE_TOLERANCE_PCT.path();
+        let tolerance = fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path();
         if self.sound(&[tolerance, fields::SEARCH_TOLERANCE_PCT.path()])
             && let Some(lines) = self.view.maybe_number(tolerance)
             && lines < self.view.number(fields::SEARCH_TOLERANCE_PCT.path())

@@ -20,7 +20,7 @@ struct State {
     whole: ProgressBar,
     points: Vec<PointLabel>,
     rows: BTreeMap<usize, (ProgressBar, u64)>,
-    /// Counts changes, to find the row that changed longest ago.
+    /// Number of changes, to find the row that changed longest ago.
     clock: u64,
     answered: usize,
 }

@@ -1,11 +1,11 @@
-//! What a sweep tells, and who receives it.
+//! Events that a sweep reports, and the trait of their receiver.
 
 use std::path::PathBuf;
 
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Totals};
 
-/// Name of a point for people.
+/// Name of a point, as messages show it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLabel {
     /// Name of the ramp model.
@@ -61,7 +61,7 @@ pub enum Event {
         /// Simulations found in the store.
         stored_runs: u64,
     },
-    /// A point asks for its first probe.
+    /// A point requests its first probe.
     PointStarted {
         /// Place in the study.
         point: usize,
@@ -74,7 +74,7 @@ pub enum Event {
         amplitude_g: f64,
         /// `survives`, `fails`, `undecided`.
         verdict: &'static str,
-        /// `hunt`, `bisect`, `scan`, `follow_up`, `window`.
+        /// `bracketing`, `bisect`, `scan`, `follow_up`, `window`.
         purpose: &'static str,
         /// Label of the retry, empty for a plain run.
         retry: &'static str,
@@ -108,7 +108,7 @@ pub enum Event {
         /// Canonical simulations in it.
         runs: u64,
     },
-    /// Something a person should know.
+    /// A message for the user.
     Warning {
         /// Stable word, such as `lucky`.
         code: &'static str,
@@ -117,7 +117,7 @@ pub enum Event {
     },
     /// The sweep ended.
     Finished {
-        /// Counts.
+        /// Totals.
         totals: Totals,
         /// Measured time, s.
         wall_s: f64,

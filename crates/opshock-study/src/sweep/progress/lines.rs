@@ -17,7 +17,7 @@ struct State<W> {
     output: W,
     points: Vec<PointLabel>,
     answered: usize,
-    told_at: Instant,
+    reported_at: Instant,
 }
 
 impl<W: Write> Lines<W> {
@@ -27,14 +27,14 @@ impl<W: Write> Lines<W> {
             output,
             points: Vec::new(),
             answered: 0,
-            told_at: Instant::now(),
+            reported_at: Instant::now(),
         }));
         lines.with(|state| state.say(&format!("sweep of {study}")));
         lines
     }
 
     fn with(&self, act: impl FnOnce(&mut State<W>)) {
-        // Only a panic while writing poisons it, and a line is then lost at worst.
+        // Only a panic while writing poisons it; at worst a line is lost.
         act(&mut self
             .0
             .lock()
@@ -43,7 +43,7 @@ impl<W: Write> Lines<W> {
 }
 
 impl<W: Write> State<W> {
-    /// A reader that went away must not end a sweep.
+    /// A closed pipe must not end a sweep.
     fn say(&mut self, line: &str) {
         let _ = writeln!(self.output, "{line}");
         let _ = self.output.flush();
@@ -79,8 +79,8 @@ impl<W: Write + Send> Progress for Lines<W> {
                 );
                 state.say(line.trim_end());
             }
-            Event::Estimated(estimate) if state.told_at.elapsed() >= EVERY => {
-                state.told_at = Instant::now();
+            Event::Estimated(estimate) if state.reported_at.elapsed() >= EVERY => {
+                state.reported_at = Instant::now();
                 state.say(&left(estimate));
             }
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
@@ -105,7 +105,7 @@ mod tests {
     use crate::store::summary::Totals;
 
     #[test]
-    fn the_first_line_is_there_before_any_event_and_warnings_are_told() {
+    fn the_first_line_is_there_before_any_event_and_warnings_are_reported() {
         let mut text = Vec::new();
         {
             let lines = Lines::start(&mut text, "Fig. 13");

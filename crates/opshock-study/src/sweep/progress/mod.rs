@@ -1,4 +1,4 @@
-//! What a sweep tells while it runs. Everything reported as done is on the disk already.
+//! Progress reports of a running sweep. Everything reported as done is on the disk already.
 
 mod bars;
 mod event;
@@ -11,7 +11,7 @@ pub use bars::Bars;
 pub use event::{Estimate, Event, PointLabel, Progress};
 pub use lines::Lines;
 
-/// Says nothing.
+/// Reports nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
@@ -19,20 +19,20 @@ impl Progress for Silent {
     fn event(&self, _event: &Event) {}
 }
 
-/// Tells warnings on standard error, nothing else.
+/// Prints warnings on standard error, nothing else.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WarningsAlone;
 
 impl Progress for WarningsAlone {
     fn event(&self, event: &Event) {
         if let Event::Warning { code, message } = event {
-            // Nobody to tell is no reason to stop.
+            // A closed standard error is no reason to stop.
             let _ = writeln!(std::io::stderr(), "warning {code}: {message}");
         }
     }
 }
 
-/// How a sweep tells of its progress on standard error.
+/// How a sweep reports its progress on standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ProgressKind {
     /// A live table on a terminal, else lines.
@@ -49,7 +49,7 @@ pub enum ProgressKind {
 }
 
 impl ProgressKind {
-    /// The progress of this kind; says at once what begins, before anything is read or computed.
+    /// The progress of this kind; prints at once what begins, before anything is read or computed.
     pub fn start(self, study: &str) -> Box<dyn Progress> {
         match self {
             ProgressKind::None => Box::new(Silent),

@@ -1,4 +1,4 @@
-//! Events in words.
+//! Texts of progress events, for tables and lines.
 
 use super::event::Estimate;
 use crate::store::summary::{PointSummary, Totals};
@@ -17,7 +17,7 @@ pub(super) fn bracket(a_crit_g: Option<f64>, a_fail_g: Option<f64>) -> String {
     }
 }
 
-/// Four figures.
+/// Four significant digits.
 fn short(value: f64) -> String {
     let digits = 3 - value.abs().max(1.0).log10().floor() as i32;
     format!("{value:.*}", digits.max(0) as usize)

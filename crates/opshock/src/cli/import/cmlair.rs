@@ -1,4 +1,4 @@
-//! `opshock import cmlair`: an air-bearing surface, how it is flown, and the drive and shock of a dynamic run.
+//! `opshock import cmlair`: turns files of CMLAir into a study: air-bearing surface, flying conditions, drive, shock.
 
 use super::dynamic::{self, Beside};
 use super::matrices::refuse_unaccepted;

@@ -1,4 +1,4 @@
-//! What lies beside a `DynLULS.def`: the matrices of its suspension, which go into the study's folder.
+//! Reads the suspension's matrices beside a CMLAir `DynLULS.def` (a dynamic run) for the study's folder.
 
 use opshock_import::cml::dynamic::DynamicFile;
 use opshock_import::matrix::check::{self, Found};
@@ -26,7 +26,7 @@ pub struct Beside {
 ///
 /// # Errors
 /// E160 where some are there and others are not, what is wrong with the matrices, E161 for another number of
-/// rows than the file tells, E169 where it tells no freedom of the slider.
+/// rows than the file gives, E169 where it names no freedom of the slider.
 pub fn beside(path: &Path, dynamic: &DynamicFile) -> Result<Option<Beside>, Faults> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let paths = FILES.map(|name| folder.join(name));
@@ -63,11 +63,11 @@ pub fn beside(path: &Path, dynamic: &DynamicFile) -> Result<Option<Beside>, Faul
 /// Node of the slider's first freedom.
 fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64, Faults> {
     let leave = "--without-matrices takes the suspension of the default drive";
-    let Some(told) = dynamic.matrices else {
+    let Some(reported) = dynamic.matrices else {
         let fault = Fault::of(
             "E169",
             file,
-            "the section of the matrices tells no freedom of the slider",
+            "the section of the matrices names no freedom of the slider",
         );
         return Err(fault
             .what("matrices of the suspension")
@@ -75,7 +75,7 @@ fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64,
             .hint(leave)
             .into());
     };
-    if told.n_rows != freedoms.len() {
+    if reported.n_rows != freedoms.len() {
         let fault = Fault::of(
             "E161",
             file,
@@ -83,12 +83,12 @@ fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64,
         );
         return Err(fault
             .what("size")
-            .value(told.n_rows.to_string())
+            .value(reported.n_rows.to_string())
             .allowed(freedoms.len().to_string())
             .hint(leave)
             .into());
     }
     // Rows are counted from 1, and are at most those of the file.
-    let freedom = freedoms.get(told.slider_row - 1);
+    let freedom = freedoms.get(reported.slider_row - 1);
     Ok(freedom.map_or(0, |freedom| freedom.node))
 }

@@ -1,4 +1,4 @@
-//! `opshock import matrices`: mass and stiffness matrices, checked, in SI units.
+//! `opshock import matrices`: checks mass and stiffness matrices and writes them in SI units.
 
 use super::written::{refused, shown, write_new};
 use crate::cli::console::Console;
@@ -154,7 +154,7 @@ fn text(system: &System, found: &check::Found, paths: &[PathBuf]) -> String {
 /// Reads and checks everything that is named.
 fn read(arguments: &MatricesArgs) -> Result<(System, check::Found), Faults> {
     let freedoms = freedoms(arguments.dof.as_deref(), arguments.places.as_deref())?;
-    // Faults of both matrices are told at once.
+    // Faults of both matrices are reported at once.
     let mut faults = Faults::default();
     let mut one = |path: &PathBuf| match matrix(path, freedoms.as_ref(), true) {
         Ok(matrix) => Some(matrix),

@@ -1,4 +1,4 @@
-//! `opshock import`: other programs' files as files of opshock.
+//! `opshock import`: turns other programs' files into files of opshock.
 
 mod cmlair;
 mod dynamic;

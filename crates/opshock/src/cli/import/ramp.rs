@@ -1,7 +1,7 @@
-//! `opshock import ramp`: arms of a ramp from mass and stiffness matrices.
+//! `opshock import ramp`: reduces mass and stiffness matrices to the arms of a deformable ramp.
 //!
 //! The solid crate reduces the matrices to the contact point: all modes below the cut with the point
-//! held still, its constraint mode, and what the modes above the cut answer statically. Each mode
+//! fixed, its constraint mode, and the static response of the modes above the cut. Each mode
 //! q'' + ω² q = φ λ + p a of the reduced arm is an oscillator of a study's arm in x = φ q: its mass is
 //! 1/φ², its participation φ p.
 //!
@@ -158,8 +158,8 @@ fn one_body(arguments: &RampArgs, system: &System, console: &Console) -> Result<
         let modes: Vec<_> = modes.collect();
         console.result_json(&json!({"coupled_modes": modes, "files": shown(&paths)}))?;
     } else {
-        let told = format!("{} modes: {}\n", modes.len(), shown(&paths).join(", "));
-        console.result(&told)?;
+        let reported = format!("{} modes: {}\n", modes.len(), shown(&paths).join(", "));
+        console.result(&reported)?;
     }
     Ok(Exit::Complete)
 }

@@ -1,4 +1,4 @@
-//! What an import writes, and how it refuses.
+//! Writes the files of an import, and turns faults of its input into errors.
 
 use crate::cli::failure::{Failure, Fault};
 use opshock_import::Faults;
@@ -6,7 +6,7 @@ use opshock_study::store::aside;
 use opshock_study::study::{StudyError, StudyErrors};
 use std::path::{Path, PathBuf};
 
-/// Faults of files as faults of a study: one place tells them all.
+/// Faults of files as faults of a study, so that one place prints both.
 pub(super) fn refused(faults: Faults) -> Failure {
     let errors = faults.listed.into_iter().map(StudyError::from);
     let mut errors = StudyErrors::new(errors.collect());

@@ -1,0 +1,85 @@
+//! Updates the records of a run after each step: contacts, histories, pressure fields.
+
+use super::running::Run;
+use crate::air_bearing::Attitude;
+use crate::head::fields::StepEnds;
+
+impl Run<'_> {
+    /// Records the state reached `dt_s` after the last: dimple and stops up to the touch, pressure, columns.
+    pub(super) fn balance(&mut self, dt_s: f64, attitude: &Attitude) {
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let (x, v) = w.y[n_cells..].split_at(n);
+        let [moved, rate] = self.motion.pivot(self.time_s);
+        let [seen, seen_rate] = &mut w.seen;
+        model.mechanics.over_pivot(moved, x, seen);
+        model.mechanics.over_pivot(rate, v, seen_rate);
+        let (x, v) = (&*seen, &*seen_rate);
+        let before = self.dimple_force_n;
+        self.dimple_force_n = model.mechanics.dimple_force(x, v);
+        if self.failed.is_none() {
+            self.dimple.min_force_n = self.dimple.min_force_n.min(self.dimple_force_n);
+            let open_ends = [before, self.dimple_force_n]
+                .iter()
+                .filter(|&&f| f == 0.0)
+                .count();
+            self.dimple.open_s += 0.5 * open_ends as f64 * dt_s;
+        }
+        if model.mechanics.n_stops() > 0 {
+            let forces = model.mechanics.stop_forces(x, v);
+            for (stop, force) in self.stops.iter_mut().zip(forces) {
+                if let Some((record, latest)) = stop {
+                    if self.failed.is_none() {
+                        record.balance([*latest, force], dt_s, self.time_s);
+                    }
+                    *latest = force;
+                }
+            }
+        }
+        let psi = &w.y[..n_cells];
+        let lowest = model.film.lowest_pressure_pa(psi, attitude);
+        self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
+        self.record(attitude);
+    }
+
+    pub(super) fn record(&mut self, attitude: &Attitude) {
+        let Some(columns) = &mut self.columns else {
+            return;
+        };
+        let n_cells = self.model.film.n_cells();
+        let x = &self.w.y[n_cells..];
+        let steady = &self.model.flight.attitude;
+        columns.time_s.push(self.time_s);
+        // Relative to the rigidly moving base, as the disk's motion is given.
+        let carried_m = self.load.carried_m(self.time_s);
+        columns.slider_z_m.push(x[0] + carried_m);
+        columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
+        columns.slider_roll_rad.push(steady.roll_rad + x[2]);
+        columns.min_clearance_m.push(self.clearance.value_m);
+        let scratch = &mut self.w.scratch.film;
+        let force = self
+            .model
+            .film
+            .air_force(&self.w.y[..n_cells], attitude, scratch);
+        columns.bearing_force_n.push(force[0]);
+        columns.dimple_force_n.push(self.dimple_force_n);
+        let [limiters, lift_tab] = &self.stops;
+        columns.limiter_force_n.extend(limiters.map(|(_, f)| f));
+        columns.lift_tab_force_n.extend(lift_tab.map(|(_, f)| f));
+    }
+
+    /// Keeps the requested pressure fields of the trial step, from the present state up to `until_s`.
+    pub(super) fn keep_fields(&mut self, dt_s: f64, until_s: f64) {
+        let Some(fields) = &mut self.fields else {
+            return;
+        };
+        let w = &*self.w;
+        let step = StepEnds {
+            start_s: self.time_s,
+            dt_s,
+            y: [&w.y, w.stepper.value()],
+            rate: [&w.rate, w.stepper.rate()],
+        };
+        fields.keep_step(self.model, self.motion, &step, until_s);
+    }
+}

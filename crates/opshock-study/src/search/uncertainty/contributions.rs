@@ -1,0 +1,63 @@
+//! The uncertainty interval of a critical shock and its contributions: what each source of error adds below and above.
+
+use std::collections::BTreeSet;
+
+use super::judge::{self, Estimate};
+use crate::search::outcome::Flag;
+
+/// One contribution of an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// `search`, or the name of a discretisation parameter or of a group of them.
+    pub name: &'static str,
+    /// Below the reported value, as a share of it.
+    pub low: f64,
+    /// Above the reported value, as a share of it.
+    pub high: f64,
+    /// Safety factor in it: 1 for a certain bound.
+    pub factor: f64,
+}
+
+/// An uncertainty interval.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Uncertainty {
+    /// Its contributions.
+    pub contributions: Vec<Contribution>,
+    /// What a reader of it must know.
+    pub flags: BTreeSet<Flag>,
+}
+
+impl Uncertainty {
+    /// Adds a contribution; an estimate that is missing sets a flag.
+    pub(super) fn add(&mut self, name: &'static str, estimate: Option<Estimate>, target: f64) {
+        let Some(estimate) = estimate else {
+            self.flags.insert(Flag::ContributionMissing);
+            return;
+        };
+        let [below, above] = estimate.errors();
+        self.contributions.push(Contribution {
+            name,
+            // The ratio 1 + e, downwards.
+            low: below / (1.0 + below),
+            high: above,
+            factor: estimate.factor,
+        });
+        if estimate.factor == judge::WIDE && !estimate.is_negligible(target) {
+            self.flags.insert(Flag::SafetyFactor3);
+        }
+    }
+
+    pub(super) fn extend(&mut self, other: &Uncertainty) {
+        self.contributions.extend(&other.contributions);
+        self.flags.extend(&other.flags);
+    }
+
+    /// Half-width of the interval over the reported value: what is compared with the target uncertainty.
+    pub fn half_length(&self) -> f64 {
+        0.5 * self
+            .contributions
+            .iter()
+            .map(|contribution| contribution.low + contribution.high)
+            .sum::<f64>()
+    }
+}

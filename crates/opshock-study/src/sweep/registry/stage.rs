@@ -1,0 +1,53 @@
+//! State of a point's uncertainty interval, and its runs as probes.
+
+use crate::search::evidence::AmplitudeVerdict;
+use crate::search::{Asked, Probe, ProbeResult, Purpose, Verdict, uncertainty};
+
+/// Uncertainty interval of a point as far as it has got.
+pub(super) enum UncertaintyStage {
+    /// The point's search is not final.
+    Waiting,
+    /// None is wanted, or there is no bracket.
+    Without,
+    /// The answer, and with it the interval, is that of the same point without ramp.
+    Taken {
+        /// That point.
+        companion: usize,
+    },
+    /// Begun.
+    Begun {
+        input: Box<uncertainty::UncertaintyInput>,
+        log: Vec<uncertainty::Ask>,
+        progress: uncertainty::Progress<uncertainty::Answer>,
+    },
+}
+
+/// A run of an uncertainty interval as a probe.
+pub(super) fn uncertainty_probe(ask: uncertainty::Ask) -> Probe {
+    Probe {
+        is_fine: true,
+        levels: ask.levels,
+        retry: ask.retry,
+        ..Probe::at(ask.index)
+    }
+}
+
+pub(super) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
+    Asked {
+        probe: uncertainty_probe(ask),
+        purpose: Purpose::ErrorBar,
+    }
+}
+
+/// A run as an uncertainty interval sees it.
+pub(super) fn seen(result: &ProbeResult) -> uncertainty::Seen {
+    uncertainty::Seen {
+        verdict: match result.verdict {
+            Verdict::Survives => AmplitudeVerdict::Survives,
+            Verdict::Fails { .. } => AmplitudeVerdict::Fails,
+            Verdict::Undecided { .. } => AmplitudeVerdict::Undecided,
+        },
+        h_min_m: result.h_min_m,
+        t_min_s: result.t_min_s,
+    }
+}

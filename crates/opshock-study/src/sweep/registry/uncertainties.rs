@@ -1,0 +1,214 @@
+//! Uncertainty intervals of points whose search is final, advanced as far as the known runs allow.
+
+use super::jobs::Job;
+use super::searches::{Registry, Reported};
+use super::stage::{UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
+use crate::search::{Flag, Status, Verdict, uncertainty};
+use crate::store::RunKey;
+use opshock_solver::scene::discretisation::Levels;
+
+impl Registry<'_> {
+    /// Advances uncertainty intervals as far as the known runs allow: those that wait for the run `finished`, or all,
+    /// and those whose search has become final. Returns the runs used for the first time.
+    pub(super) fn draw_uncertainty(&mut self, finished: Option<RunKey>) -> Vec<Reported> {
+        let mut reported = Vec::new();
+        let n_final_chains = self.campaign.n_final_chains();
+        let places: Vec<usize> = if n_final_chains == self.n_final_chains {
+            self.drawing.values().copied().collect()
+        } else {
+            (0..self.input.points.len()).collect()
+        };
+        self.n_final_chains = n_final_chains;
+        for point in places {
+            match &self.uncertainties[point] {
+                UncertaintyStage::Waiting if self.campaign.is_final(point) => {
+                    self.uncertainties[point] = self.first_stage(point);
+                    self.n_changes += 1;
+                }
+                UncertaintyStage::Begun {
+                    progress: uncertainty::Progress::Wants(ask),
+                    ..
+                } => {
+                    let wanted = self.key(point, uncertainty_probe(*ask));
+                    if finished.is_some_and(|key| key != wanted) {
+                        continue;
+                    }
+                }
+                _ => continue,
+            }
+            let UncertaintyStage::Begun { input, log, .. } = &self.uncertainties[point] else {
+                continue;
+            };
+            let lookup = |ask: uncertainty::Ask| {
+                let record = self.runs.get(&self.key(point, uncertainty_probe(ask)))?;
+                Some(seen(&record.result))
+            };
+            let refinements = self.refinements(point);
+            let (now, progress) = uncertainty::answer(input, refinements, &lookup);
+            reported.extend(now[log.len()..].iter().map(|&ask| Reported {
+                point,
+                asked: uncertainty_asked(ask),
+                key: self.key(point, uncertainty_probe(ask)),
+            }));
+            if let UncertaintyStage::Begun {
+                log,
+                progress: before,
+                ..
+            } = &mut self.uncertainties[point]
+            {
+                if matches!(progress, uncertainty::Progress::Wants(_)) {
+                    self.drawing.insert(self.rank[point], point);
+                } else {
+                    self.drawing.remove(&self.rank[point]);
+                    self.n_changes += 1;
+                }
+                (*log, *before) = (now, progress);
+            }
+        }
+        reported
+    }
+
+    /// Changes whenever a point becomes final.
+    pub(in crate::sweep) fn n_changes(&self) -> u64 {
+        self.n_changes
+    }
+
+    /// Stage of an interval when the point's search has become final.
+    pub(super) fn first_stage(&self, point: usize) -> UncertaintyStage {
+        let companion = self.campaign.order().relations[point].companion;
+        let is_taken = self.campaign.findings(point).flags.contains(&Flag::NoTouch);
+        if let Some(companion) = companion.filter(|_| is_taken) {
+            return UncertaintyStage::Taken { companion };
+        }
+        match self.uncertainty_input(point) {
+            None => UncertaintyStage::Without,
+            Some(input) => {
+                // Its first evaluation: its requests are not known yet.
+                let (_, progress) = uncertainty::answer(&input, self.refinements(point), &|_| None);
+                UncertaintyStage::Begun {
+                    input: Box::new(input),
+                    log: Vec::new(),
+                    progress,
+                }
+            }
+        }
+    }
+
+    /// Largest number of adaptive refinements of a point.
+    pub(super) fn refinements(&self, point: usize) -> u8 {
+        let plan = self.input.points[point].uncertainty.as_ref();
+        plan.map_or(0, |plan| plan.refinements)
+    }
+
+    /// What the interval of a point with a final search starts from; `None` without a bracket of its
+    /// own.
+    pub(super) fn uncertainty_input(&self, point: usize) -> Option<uncertainty::UncertaintyInput> {
+        let plan = self.input.points[point].uncertainty.as_ref()?;
+        let findings = self.campaign.findings(point);
+        if findings.status != Status::Ok {
+            return None;
+        }
+        let (survivor, failure) = (findings.survivor?, findings.failure?);
+        let mut survivors = Vec::new();
+        let mut t_fail_s = None;
+        for asked in self.campaign.search(point)?.log() {
+            if asked.probe.window_factor != 1 {
+                continue;
+            }
+            let index = asked.probe.index * uncertainty::SUBDIVISIONS;
+            let result = &self.runs[&self.key(point, asked.probe)].result;
+            match &result.verdict {
+                Verdict::Fails {
+                    t_fail_s: time_s, ..
+                } if asked.probe.index == failure => {
+                    t_fail_s = Some(*time_s);
+                }
+                Verdict::Survives => {
+                    if let (Some(h_min_m), Some(t_min_s)) = (result.h_min_m, result.t_min_s) {
+                        survivors.push(uncertainty::Known {
+                            index,
+                            h_min_m,
+                            t_min_s,
+                        });
+                    }
+                }
+                Verdict::Fails { .. } | Verdict::Undecided { .. } => {}
+            }
+        }
+        Some(uncertainty::UncertaintyInput {
+            base: Levels::NONE,
+            grid: self.input.settings.grid.finer(uncertainty::SUBDIVISIONS),
+            survivor: survivor * uncertainty::SUBDIVISIONS,
+            failure: failure * uncertainty::SUBDIVISIONS,
+            t_fail_s,
+            survivors,
+            discretisations: plan.discretisations.clone(),
+            film_halvings: plan.film_halvings,
+            mesh_halvings: plan.mesh_halvings,
+            holds_films: plan.holds_films,
+            target: plan.target,
+        })
+    }
+
+    /// A point has its final answer and its uncertainty interval.
+    pub(in crate::sweep) fn is_final(&self, point: usize) -> bool {
+        match &self.uncertainties[point] {
+            UncertaintyStage::Waiting => false,
+            UncertaintyStage::Without => true,
+            UncertaintyStage::Taken { companion } => self.is_final(*companion),
+            UncertaintyStage::Begun { progress, .. } => {
+                matches!(progress, uncertainty::Progress::Done(_))
+            }
+        }
+    }
+
+    /// Runs that the uncertainty interval of a point has used, refinements included, and whether it is done; `None`
+    /// where it has not begun.
+    pub(in crate::sweep) fn uncertainty_runs(&self, point: usize) -> Option<(usize, bool)> {
+        match &self.uncertainties[point] {
+            UncertaintyStage::Begun { log, .. } => Some((log.len(), self.is_final(point))),
+            _ => None,
+        }
+    }
+
+    /// The interval of a point is wanted: its own, or that of a point which takes it over.
+    pub(super) fn wants_uncertainty(&self, point: usize) -> bool {
+        self.part.allowed[point] && (self.wants(point) || (0..self.uncertainties.len()).any(|other| {
+            self.wants(other)
+                && matches!(self.uncertainties[other], UncertaintyStage::Taken { companion } if companion == point)
+        }))
+    }
+
+    pub(super) fn uncertainty_job(&self) -> Option<Job> {
+        self.drawing.values().find_map(|&point| {
+            let UncertaintyStage::Begun {
+                progress: uncertainty::Progress::Wants(ask),
+                ..
+            } = self.uncertainties[point]
+            else {
+                return None;
+            };
+            let key = self.key(point, uncertainty_probe(ask));
+            (!self.in_flight.contains(&key) && self.wants_uncertainty(point)).then_some(Job::Run {
+                point,
+                asked: uncertainty_asked(ask),
+                key,
+            })
+        })
+    }
+
+    /// Answer of a point with its interval, once it is finished, and the runs it took.
+    pub(super) fn finished_uncertainty(&self, point: usize) -> Option<(&uncertainty::Answer, u64)> {
+        match &self.uncertainties[point] {
+            UncertaintyStage::Taken { companion } => {
+                Some((self.finished_uncertainty(*companion)?.0, 0))
+            }
+            UncertaintyStage::Begun {
+                log,
+                progress: uncertainty::Progress::Done(answer),
+                ..
+            } => Some((answer, log.len() as u64)),
+            _ => None,
+        }
+    }
+}
