@@ -10,6 +10,7 @@ mod contact_limits;
 mod contact_method;
 mod contact_stiffness;
 mod coupled_ramp;
+mod dimple;
 mod effects;
 mod effects_hard_cases;
 #[cfg(feature = "mutants")]

@@ -86,7 +86,7 @@ pub struct Flexure {
 impl SuspensionParameters {
     /// Contact force of the dimple in steady flight, N.
     pub fn steady_dimple_force_n(&self) -> f64 {
-        self.gram_load_n
+        self.gram_load_n + self.gimbal.dimple_preload_n
     }
 }
 
@@ -99,6 +99,8 @@ pub struct Gimbal {
     pub pitch_n_m_per_rad: f64,
     /// Roll, N m/rad.
     pub roll_n_m_per_rad: f64,
+    /// Force by which the bent gimbal presses slider and dimple together, N; nothing of it reaches the film.
+    pub dimple_preload_n: f64,
 }
 
 /// Dimple, limiter or lift tab in contact: a spring that only pushes.
