@@ -97,10 +97,10 @@ fn gaps_move_as_a_plane_and_pressures_are_positive() {
     }
 }
 
-/// Pressure and gap of a step give back the bearing force that the history has for it: the
+/// Pressure and gap of a step give back force and moments of the film in the history: the
 /// attitude from how the gap changed since steady flight, the film's state from p and h.
 #[test]
-fn fields_carry_the_bearing_force() {
+fn fields_carry_the_bearing_force_and_moments() {
     let scene = scene(400, 0.02);
     let plain = run(&scene, 100.0, &[], true);
     let head = &plain.history.as_ref().unwrap().head;
@@ -127,10 +127,26 @@ fn fields_carry_the_bearing_force() {
     for i in 0..n {
         psi[film.cell_index(i % nx, i / nx)] *= fields.pressure_pa[n + i] / film.ambient_pa();
     }
-    let force = film.force(&psi, &attitude, &mut film.scratch())[0];
-    let reported = head.bearing_force_n[row];
-    println!("{force:e} N of the field, {reported:e} N of the history");
-    assert!((force / reported - 1.0).abs() < 1e-6, "{force:e} {reported:e}");
+    let of_field = film.force(&psi, &attitude, &mut film.scratch());
+    let of_history = [
+        head.bearing_force_n[row],
+        head.bearing_pitch_n_m[row],
+        head.bearing_roll_n_m[row],
+    ];
+    println!("{of_field:?} of the field, {of_history:?} of the history");
+    let arm_m = [1.0, centre[0], centre[1]];
+    for k in 0..3 {
+        let apart = (of_field[k] - of_history[k]).abs() / (of_history[0] * arm_m[k]);
+        assert!(apart < 1e-6, "{k}: {of_field:?} {of_history:?}");
+    }
+    // A shock of 100 G turns the slider; in steady flight nothing does.
+    let moment = |row: usize| head.bearing_pitch_n_m[row].abs() / (of_history[0] * centre[0]);
+    assert!(
+        moment(0) < 1e-7 && moment(row) > 1e-4,
+        "{:e} {:e}",
+        moment(0),
+        moment(row)
+    );
 }
 
 /// Between steps: a run with steps ten times as accurate gives the same field.

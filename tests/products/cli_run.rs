@@ -87,6 +87,8 @@ fn a_history_agrees_with_the_json() {
         "slider_pitch_rad",
         "slider_roll_rad",
         "bearing_force_n",
+        "bearing_pitch_n_m",
+        "bearing_roll_n_m",
         "dimple_force_n",
     ] {
         assert_eq!(column(name).len(), time.len(), "{name}");

@@ -242,6 +242,8 @@ fn history(with_head: bool) -> History {
                 slider_roll_rad: scaled(3e-5)[..100].to_vec(),
                 min_clearance_m: scaled(9e-9)[..100].to_vec(),
                 bearing_force_n: scaled(0.02)[..100].to_vec(),
+                bearing_pitch_n_m: scaled(1e-9)[..100].to_vec(),
+                bearing_roll_n_m: scaled(1e-9)[..100].to_vec(),
                 dimple_force_n: scaled(0.02)[..100].to_vec(),
                 ..HeadColumns::default()
             }

@@ -434,7 +434,7 @@ pub fn compare(
     }
 }
 
-fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 9] {
+fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 11] {
     [
         &mut head.time_s,
         &mut head.slider_z_m,
@@ -442,6 +442,8 @@ fn columns(head: &mut HeadColumns) -> [&mut Vec<f64>; 9] {
         &mut head.slider_roll_rad,
         &mut head.min_clearance_m,
         &mut head.bearing_force_n,
+        &mut head.bearing_pitch_n_m,
+        &mut head.bearing_roll_n_m,
         &mut head.dimple_force_n,
         &mut head.limiter_force_n,
         &mut head.lift_tab_force_n,

@@ -131,6 +131,10 @@ pub struct HeadColumns {
     pub min_clearance_m: Vec<f64>,
     /// Vertical force of the film, N.
     pub bearing_force_n: Vec<f64>,
+    /// Moment of the film about the slider's centre against pitch, N m; 0 in steady flight.
+    pub bearing_pitch_n_m: Vec<f64>,
+    /// The same against roll, N m.
+    pub bearing_roll_n_m: Vec<f64>,
     /// Contact force of the dimple, N.
     pub dimple_force_n: Vec<f64>,
     /// Contact force of the limiters together, N; empty without limiters.

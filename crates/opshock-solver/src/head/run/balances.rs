@@ -62,6 +62,8 @@ impl Run<'_> {
             .film
             .air_force(&self.w.y[..n_cells], attitude, scratch);
         columns.bearing_force_n.push(force[0]);
+        columns.bearing_pitch_n_m.push(force[1]);
+        columns.bearing_roll_n_m.push(force[2]);
         columns.dimple_force_n.push(self.dimple_force_n);
         let [limiters, lift_tab] = &self.stops;
         columns.limiter_force_n.extend(limiters.map(|(_, f)| f));

@@ -251,6 +251,18 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
             &columns.bearing_force_n,
         ),
         column(
+            "bearing_pitch_n_m",
+            "N m",
+            "moment of the air film about the slider's centre in the sense of the pitch",
+            &columns.bearing_pitch_n_m,
+        ),
+        column(
+            "bearing_roll_n_m",
+            "N m",
+            "moment of the air film about the slider's centre in the sense of the roll",
+            &columns.bearing_roll_n_m,
+        ),
+        column(
             "dimple_force_n",
             "N",
             "contact force in the dimple; 0 while it is open",

@@ -30,6 +30,8 @@ fn history() -> History {
             slider_roll_rad: vec![0.0; 3],
             min_clearance_m: vec![9e-9, 4e-9, 0.0],
             bearing_force_n: vec![0.02; 3],
+            bearing_pitch_n_m: vec![1e-9; 3],
+            bearing_roll_n_m: vec![0.0; 3],
             dimple_force_n: vec![0.02, 0.01, 0.0],
             ..HeadColumns::default()
         },
