@@ -88,10 +88,13 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
+verify: verify-film verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
+
+verify-digests: bootstrap ## Fig. 13 swept anew gives the bits of the committed digests
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture digests_slow
 
 verify-effects: bootstrap ## every condition of every rule deleted; 2000 random scenes, reduced model against full model (OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --features mutants --test physics -- effects_mutant
@@ -117,7 +120,7 @@ verify-slurm: ## a job array with a killed task on a real Slurm on the loopback 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
 
-.PHONY: verify-flight
+.PHONY: verify-flight verify-digests
 verify-match: bootstrap ## planted truths that `opshock match` must keep (20 minutes; OPSHOCK_SEEDS=first..end for a part)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture match_slow
 

@@ -1,6 +1,7 @@
 //! Every hard case as a test: the checks that `opshock doctor --hard-cases` runs too.
 
 use opshock_study::hard_cases::{CASES, Case};
+use opshock_tests::digests::assert_digest;
 
 fn named(id: &str) -> &'static Case {
     CASES.iter().find(|case| case.id == id).expect("a case")
@@ -14,6 +15,8 @@ const PROPERTIES: [&str; 1] = ["C8"];
 fn assert_holds(id: &str) {
     let case = named(id);
     let checks = case.run();
+    let figures: Vec<f64> = checks.iter().map(|check| check.figure).collect();
+    assert_digest(&format!("hard case {id}"), &figures);
     assert!(
         checks.iter().any(|check| check.naive.is_some()) || PROPERTIES.contains(&id),
         "{id}: no fault is shown"

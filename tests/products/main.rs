@@ -13,6 +13,7 @@ mod cli_shards;
 mod cli_studies;
 mod cml_drives;
 mod compare;
+mod digests;
 mod frozen_store;
 mod hdf5_readers;
 mod heads;

@@ -1,6 +1,7 @@
 //! What the tests share: reference data, named scenes, the built program.
 
 pub mod coarse;
+pub mod digests;
 pub mod drives;
 pub mod hdf5_dump;
 pub mod mock_sweep;

@@ -9,16 +9,23 @@ use opshock_solver::gas::GasParameters;
 use opshock_solver::head::{Coupling, HeadModel, HeadResolution};
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::scene::Scene;
-use opshock_solver::slider::SliderParameters;
+use opshock_solver::slider::{RailOutline, SliderParameters};
 
 use super::suspensions::default_suspension;
 
-/// The slider of the default drive, at angle 0.
+/// The slider of the default drive, at angle 0. Coordinates of its rails are whole micrometres times 1e-6, to the bit of
+/// the committed digests.
 pub fn default_slider() -> SliderParameters {
-    SliderParameters {
-        angle_rad: 0.0,
-        ..Scene::default_drive().slider
+    let mut slider = Scene::default_drive().slider;
+    slider.angle_rad = 0.0;
+    for rail in &mut slider.surface.rails {
+        if let RailOutline::Rectangle { x_m, y_m } = &mut rail.outline {
+            for side in x_m.iter_mut().chain(y_m) {
+                *side = (*side * 1e6).round() * 1e-6;
+            }
+        }
     }
+    slider
 }
 
 /// Air at one atmosphere as the reference numbers use it.
