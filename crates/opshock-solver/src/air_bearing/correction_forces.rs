@@ -1,10 +1,10 @@
 //! Corrects force and moments of a film for the error of its grid, by films on a finer grid.
 //!
-//! Let q be the slider's attitude (height, pitch, roll). At rest at q a film of N cells carries force and moments F_N(q),
-//! and one without discretisation error F(q). Their difference P(q), the discretisation defect, is a smooth function of q.
-//! When a drive is built, P is sampled at 200 attitudes around the steady flight, on a defect-correction grid of some
-//! thousand cells and on the same with every cell divided into four; their forces F₁ and F₂ are continued to a grid
-//! without error, whose order is two (Roache 1994, J. Fluids Eng. 116, 405):
+//! Let q be the slider's attitude (height, pitch, roll). Held at q, over the turning disk, a film of N cells
+//! carries force and moments F_N(q), and one without discretisation error F(q). Their difference P(q), the discretisation defect, is a smooth function of q.
+//! When a model is built, P is sampled at 200 attitudes from near contact to far above the steady flight ([`Range`]), on a
+//! defect-correction grid of 1000 to 4000 cells and on the same with every cell divided into four. Their forces F₁ and F₂
+//! are extrapolated at second order (Roache 1994, J. Fluids Eng. 116, 405):
 //!
 //! ```text
 //! F ≈ F₂ + (F₂ − F₁)/3,      P = F − F_N at the samples, interpolated between them (`defect`)

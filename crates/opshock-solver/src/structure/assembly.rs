@@ -31,7 +31,7 @@ const FASTEST_DISK_ANGLE: f64 = 3.0;
 const MOST_BASE_MODES: usize = 16;
 impl StructureModel {
     /// Builds the modes of n = 0 and the unit response. The first run that touches builds what contact alone drives
-    /// (see [`Self::activate`]): the harmonics n >= 1 and the tables of one step. Without a ramp nothing ever drives
+    /// (see [`Self::build_contact_driven`]): the harmonics n >= 1 and the tables of one step. Without a ramp nothing ever drives
     /// them: [`Harmonics::Symmetric`] then gives the same motion.
     ///
     /// # Errors

@@ -1,18 +1,19 @@
 //! Scan for failures at amplitudes below the critical one.
 //!
-//! With a ramp, survival need not be monotone: when disk and ramp touch depends on the amplitude, so that a shock may
-//! fail at 350 G and survive at 400 G. After the search has bracketed the critical amplitude A between a survivor and
-//! a failure, this scan simulates some lower amplitudes too. Amplitudes are points of a logarithmic grid
-//! ([`super::amplitude_grid`]); the scan goes down from the highest survivor in steps of at most `gap` grid points.
+//! With a ramp, survival need not be monotone: the instants of contact move with the amplitude, so that a shock may fail
+//! at 350 G and survive at 400 G. After the search has bracketed the critical amplitude A between a survivor and a
+//! failure, this scan simulates some lower amplitudes too. A failure that it finds becomes the new upper end, and the
+//! search brackets anew below it. Amplitudes are points of a logarithmic grid ([`super::amplitude_grid`]).
 //!
 //! Below the amplitude at which the disk first touches the ramp the scene without a ramp has the same answer. Where
-//! that amplitude and that answer are known, the scan ends there. Where they are not, it goes to the lower end of the
-//! study's range: with steps of `gap` from A to A/√2, and below that with steps that double each time. Without a ramp,
+//! that amplitude and that answer are known, the scan ends there. Its steps are then `gap`
+//! points of the grid. Where they are not known, it goes on to the lower end of the study's range: with steps of `gap`
+//! from A to A/√2, and below that with steps that double each time. Without a ramp,
 //! where no such failures are expected, the first step is `gap` and each one below is four times the one before. The
 //! column `largest_gap_pct` of the results gives the largest step, in per cent of the amplitude.
 //!
-//! Two neighbouring pulse widths do not scan the same amplitudes: their grid points are shifted against each other by
-//! 0.618 of the gap. A range of failures that is found at several widths is thus sampled more finely than by one width.
+//! Two neighbouring pulse widths do not scan the same amplitudes: what one scans is shifted against the other by 0.618
+//! of the gap. A range of failures that is found at several widths is thus sampled more finely than by one width.
 //! Amplitudes that the search has simulated already are not simulated again.
 
 use super::evidence::{AmplitudeVerdict, Evidence};

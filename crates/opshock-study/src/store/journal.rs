@@ -6,10 +6,10 @@
 //! "OPJR"  length u32  crc32 u32  kind and content (`record`)
 //! ```
 //!
-//! Little-endian. The checksum covers the length and the content. A record is stored once `fdatasync` returned; after a
+//! Little-endian. The checksum covers the length, the kind and the content. A record is stored once `fdatasync` returned; after a
 //! failed write or sync the process writes nothing more.
 //!
-//! A kill or a power loss may leave the last record incomplete. The next process that writes copies the whole records to
+//! A kill or a power loss may leave the last record incomplete. The next process that writes copies the intact records to
 //! a new file, which takes the journal's name, and appends to that. Damage in the middle (a flipped bit) costs the record it hits: the reader finds the
 //! next record by its mark and its checksum, and reports the bytes skipped. Runs are found by content, so records do
 //! not depend on each other.

@@ -39,7 +39,13 @@ pub fn unknown(
     let siblings = keys::names_below(pattern);
     if let Some(today) = renamed::today(path) {
         let fault = StudyError::at("E110", place, path, "this key of format 1 has another name");
-        return plain(fault.value(node.place.text()).allowed(today));
+        let key = keys::KEYS.iter().find(|key| key.path == today);
+        let values = key.map_or(String::new(), |key| format!(" = {}", key.kind.allowed()));
+        return plain(
+            fault
+                .value(node.place.text())
+                .allowed(format!("{today}{values}")),
+        );
     }
     if is_section {
         let sections = keys::sections();

@@ -47,7 +47,7 @@ impl Check<'_, '_> {
                     "the disk"
                 };
                 let message = format!(
-                    "at the spindle the modes have an effective mass of {:.3} g, less than {carried}, {:.3} g, which it holds",
+                    "the effective mass of these modes at the spindle is {:.3} g, less than that of {carried} on it, {:.3} g",
                     1e3 * mass_kg / share,
                     1e3 * mass_kg
                 );
@@ -57,8 +57,9 @@ impl Check<'_, '_> {
                     1.0 / mass_kg,
                     share / mass_kg
                 );
-                fault.hint =
-                    "give displacements of modes of unit modal mass, with mass in kg".to_string();
+                fault.hint = format!(
+                    "give modes of the base with {carried} on it as a mass, of unit modal mass, in kg"
+                );
             }
         }
         let given: Vec<&str> = APART

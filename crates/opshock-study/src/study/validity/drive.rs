@@ -365,7 +365,7 @@ impl Check<'_, '_> {
                     "the ramp's contact point lies under the slider, where no ramp can be",
                 );
                 fault.allowed = "a contact point outside the slider's outline".to_string();
-                fault.hint = "move the slider or the ramp: angle_deg, radius_mm".to_string();
+                fault.hint = "slider.angle_deg and ramp.angle_deg are angles around the spindle; radii are slider.radius_mm and ramp.radius_mm".to_string();
             }
         }
     }
