@@ -4,6 +4,7 @@ use opshock_solver::disk::DiskMotion;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{NoRamp, RampBody, RigidRamp};
 use opshock_solver::structure::{Episode, StructureModel, StructureRun, Workspace};
+use opshock_tests::digests::assert_digest;
 use opshock_tests::structures::{Structure, paper, paper_arms, s1, s1_arms};
 use opshock_tests::{number, reference};
 
@@ -61,7 +62,14 @@ fn distance(run: &StructureRun, name: &str) -> (f64, f64) {
 #[test]
 fn set_s1_on_the_reference_s_own_modes() {
     for case in cases() {
-        let (slider, ramp) = distance(&run(&case.structure, case.amplitude), case.name);
+        let run = run(&case.structure, case.amplitude);
+        let columns = run.columns.as_ref().unwrap();
+        let all = [&columns.disk_slider_m[..], &columns.disk_ramp_m].concat();
+        assert_digest(
+            &format!("reference contact_trajectories {}", case.name),
+            &all,
+        );
+        let (slider, ramp) = distance(&run, case.name);
         assert!(
             slider < 1e-8 && ramp < 2e-8,
             "{}: {slider:e} {ramp:e}",

@@ -10,6 +10,7 @@ use opshock_solver::air_bearing::{Attitude, Film, FilmResolution, FlowModel};
 use opshock_solver::quantity::{GRAM_FORCE_N, rad_per_s_from_rpm};
 use opshock_solver::slider::body::Inertia;
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters};
+use opshock_tests::digests::assert_digest;
 use opshock_tests::drives::most_carried;
 use opshock_tests::heads::{default_slider, standard_gas};
 use opshock_tests::{number, reference};
@@ -101,6 +102,7 @@ fn default_slider_flies_at_its_converged_clearance() {
         let film = film(&default_slider(), cells);
         assert!((film.n_cells() as f64 / cells as f64 - 1.0).abs() < 0.1);
         let flight = fly(&film, [LOAD_N, 0.0, 0.0]).unwrap();
+        assert_digest(&format!("reference flight {cells} cells"), &flight.psi);
         let clearance_nm = flight.min_clearance_m * 1e9;
         assert!(
             (clearance_nm / 9.15 - 1.0).abs() < tolerance,
@@ -277,6 +279,10 @@ fn frequencies_hz() -> Vec<f64> {
 #[test]
 fn impedance_agrees_with_an_independent_scheme() {
     let found = impedance_in_flight(&film(&default_slider(), 8000), &frequencies_hz());
+    let parts = found
+        .iter()
+        .flat_map(|z| z.iter().flat_map(|z| [z.re, z.im]));
+    assert_digest("reference impedance", &parts.collect::<Vec<f64>>());
     let is_wave = |f: f64| f == 5e4 || f == 1e5;
     let others = impedance_error(&found, |f| !is_wave(f));
     assert!(others < 0.018, "{others}");

@@ -2,6 +2,7 @@
 //! 1e-10), closed limits, a square slider with its Richardson value, and exact symmetries.
 
 use opshock_solver::air_bearing::FlowModel;
+use opshock_tests::digests::assert_digest;
 use opshock_tests::films::{Held, PlaneSlider, crowded, crowded_twice, model, uniform};
 use opshock_tests::{number, reference};
 
@@ -18,6 +19,7 @@ fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
     let data = reference("plane_slider_1d.json");
     let cases = data["cases"].as_array().unwrap();
     assert_eq!(cases.len(), 18);
+    let mut all = Vec::new();
     for case in cases {
         let bearing_number = number(&case["Lambda"]);
         let slider = PlaneSlider::wide(
@@ -29,6 +31,7 @@ fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
         let crowding = if bearing_number > 5e3 { 8.0 } else { 4.0 };
         let [a, b, c] = [64, 128, 256].map(|n| slider.hold_row(&crowded(n, crowding)));
         let (load, centre) = (number(&case["W"]), number(&case["Xcp"]));
+        all.extend([&a, &b, &c].map(|row| row.load));
         let found = richardson(b.load, c.load);
         assert!((found / load - 1.0).abs() < 1e-5, "{case}: {found}");
         let found = richardson(b.centre, c.centre);
@@ -39,6 +42,7 @@ fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
             assert!((order - 2.0).abs() < 0.15, "{case}: order {order}");
         }
     }
+    assert_digest("reference plane_slider_1d", &all);
 }
 
 /// First-order slip, H = 2 − x: load and peak within 0.1 % at 64 cells crowding at the outlet.
@@ -92,6 +96,10 @@ fn hard_c2_limits_of_the_bearing_number_and_no_new_extrema() {
             .hold_row(&crowded(512, 4.0))
     };
     let slow = [hold(1e-4), hold(1e-2)];
+    assert_digest(
+        "reference film_limits_1d",
+        &slow.each_ref().map(|row| row.load),
+    );
     let expected = number(&limits["W_over_Lambda_zero"]);
     assert!(
         (slow[0].load / 1e-4 / expected - 1.0).abs() < 1e-3,
@@ -131,6 +139,7 @@ fn hard_c2_limits_of_the_bearing_number_and_no_new_extrema() {
 #[test]
 fn square_plane_slider_reaches_its_richardson_value() {
     let data = reference("plane_slider_square.json");
+    let mut all = Vec::new();
     for case in data["cases"].as_array().unwrap() {
         let bearing_number = number(&case["Lambda"]);
         let slider = PlaneSlider::square(
@@ -144,6 +153,7 @@ fn square_plane_slider_reaches_its_richardson_value() {
         let [coarse, fine] =
             [n / 2, n].map(|n| slider.hold(&crowded(n, crowding), &crowded_twice(n)));
         let load = number(&case["W_richardson"][0]);
+        all.extend([coarse.load, fine.load]);
         let found = richardson(coarse.load, fine.load);
         assert!(
             (found / load - 1.0).abs() < 1e-4,
@@ -157,6 +167,7 @@ fn square_plane_slider_reaches_its_richardson_value() {
             fine.centre
         );
     }
+    assert_digest("reference plane_slider_square", &all);
 }
 
 /// Parallel, with or without wind, with every model: ambient everywhere.

@@ -3,6 +3,7 @@
 
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::air_bearing::impedance::SmallMotion;
+use opshock_tests::digests::assert_digest;
 use opshock_tests::films::{
     AMBIENT_PA, LENGTH_M, PlaneSlider, TRAILING_M, VISCOSITY_PA_S, crowded_twice, uniform,
 };
@@ -30,6 +31,7 @@ fn squeeze(lines: &[f64], across: &[f64], width: f64, sigma: f64) -> [f64; 2] {
 #[test]
 fn square_plate_follows_the_series_solution() {
     let data = reference("squeeze_film.json");
+    let mut all = Vec::new();
     for case in data
         .as_array()
         .unwrap_or_else(|| data["cases"].as_array().unwrap())
@@ -43,12 +45,14 @@ fn square_plate_follows_the_series_solution() {
             let lines = crowded_twice(n);
             squeeze(&lines, &lines, 1.0, sigma)
         });
+        all.extend(coarse.into_iter().chain(fine));
         for part in 0..2 {
             let found = (4.0 * fine[part] - coarse[part]) / 3.0;
             let error = (found / expected[part] - 1.0).abs();
             assert!(error < 1e-3, "σ {sigma}, part {part}: {found}");
         }
     }
+    assert_digest("reference squeeze_film", &all);
 }
 
 /// −Re and −Im of W/h for a strip: (1 − tanh(s/2)/(s/2)), s = sqrt(i σ), to 1e-6 in both parts.

@@ -5,6 +5,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::ramp::{NoRamp, RampBody, RigidRamp};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::structure::{StructuralHistory, Window, Workspace};
+use opshock_tests::digests::assert_digest;
 use opshock_tests::structures::{Structure, half_sine, paper, s1, s1_arms};
 use opshock_tests::{number, reference};
 
@@ -39,7 +40,7 @@ fn extreme(history: &StructuralHistory, sign: f64) -> (f64, f64) {
 #[test]
 fn no_ramp_response_is_the_reference_to_1e_5() {
     let data = reference("no_ramp_response.json");
-    let mut workspace = Workspace::default();
+    let (mut workspace, mut all) = (Workspace::default(), Vec::new());
     for row in data["rows"].as_array().unwrap() {
         let width = number(&row["T"]);
         for (place, radius, column) in [
@@ -57,6 +58,7 @@ fn no_ramp_response_is_the_reference_to_1e_5() {
                 (-1.0, "min_m_per_G", "t_min"),
             ] {
                 let (t, w) = extreme(&run.history, sign);
+                all.extend([t, w]);
                 assert!(
                     (w - number(&row[place][value])).abs() < 1e-5 * peak,
                     "{place} {value} {w:e}"
@@ -80,6 +82,7 @@ fn no_ramp_response_is_the_reference_to_1e_5() {
             }
         }
     }
+    assert_digest("reference no_ramp_response", &all);
 }
 
 #[test]
