@@ -55,7 +55,7 @@ figures: build ## the paper's Fig. 1 to 13 in results/paper/ (SVG, PNG, CSV)
 claims: build ## the paper's statements judged, in results/paper/claims.md
 	$(OPSHOCK) claims studies/paper-cases/study.toml $(CRITICAL) --out results/paper --quiet -j $(JOBS) > /dev/null
 
-claims-sensitivity: build ## the same, and which parameters each depends on: tornado plot in results/paper/sensitivity.md (20 minutes, resumes)
+claims-sensitivity: build ## the same, and which parameters each depends on: tornado plot in results/paper/sensitivity.md (2 minutes, resumes)
 	$(OPSHOCK) claims studies/paper-cases/study.toml $(CRITICAL) --out results/paper --sensitivity results/paper/sensitivity -j $(JOBS) > /dev/null
 
 .PHONY: match-paper
@@ -88,10 +88,13 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
+
+verify-documents: bootstrap ## the sweep that docs/your-own-drive.md shows gives the table there
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture documents_slow
 
 verify-digests: bootstrap ## Fig. 13 swept anew gives the bits of the committed digests
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture digests_slow

@@ -1,7 +1,7 @@
 //! The film's kernels on the default grid, and its linear algebra against general sparse solvers: faer,
 //! and KLU where it is installed.
 //!
-//! The matrix is that of a stage: M/d + R_ψ at steady flight of the drive of `fig13`, d that of
+//! The matrix is that of a stage: M/d + R_ψ at steady flight of the drive of `fig13-stiffness`, d that of
 //! a step of 0.2 µs. All factor anew on a known pattern and solve once; KLU
 //! also with the pivots of before (`refactor`), which faer and the film's own do not need or do not offer.
 

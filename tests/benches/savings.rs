@@ -1,6 +1,6 @@
 //! What omitting effects saves: each question with the reduced model and with `effects = "full"`, in one run.
 //!
-//! The drive of Fig. 13 at the study's resolution, 0.5 ms, 5 ms window. A pair is timed in turn, three
+//! The drive of `fig13-stiffness` at the study's resolution, 0.5 ms, 5 ms window. A pair is timed in turn, three
 //! times, and the medians compared: once with building the model (one question asked), once
 //! without (each further shock on the same model). Both answers are compared too.
 //!

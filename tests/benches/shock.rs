@@ -1,6 +1,6 @@
 //! One shock and its parts: what each costs, as a time and as a ratio in the same run.
 //!
-//! The reference scene is the paper's drive with the deformable ramp, 190 g for 0.5 ms, 5 ms
+//! The reference scene is the drive of `fig13-stiffness` with the deformable ramp, 190 g for 0.5 ms, 5 ms
 //! window, at the study's resolution.
 
 use std::hint::black_box;
@@ -46,7 +46,7 @@ fn shock(c: &mut Criterion) {
     group.bench_function("full", |b| {
         b.iter(|| black_box(simulate(&full, &REQUEST, &mut workspace)));
     });
-    group.bench_function("full_5_percent", |b| {
+    group.bench_function("full_coarse", |b| {
         b.iter(|| black_box(simulate(&coarse, &REQUEST, &mut workspace)));
     });
     group.bench_function("structure", |b| {
@@ -67,10 +67,10 @@ fn shock(c: &mut Criterion) {
         alone.film_resolution.correction_cells = 0;
         b.iter(|| black_box(Bearing::build(&alone, None)));
     });
-    group.bench_function("steady_flight_and_reference", |b| {
+    group.bench_function("steady_flight_and_correction", |b| {
         b.iter(|| black_box(Bearing::build(&scene, None)));
     });
-    group.bench_function("steady_flight_known_reference", |b| {
+    group.bench_function("steady_flight_known_correction", |b| {
         let known = Bearing::build(&scene, None).expect("it flies");
         b.iter(|| black_box(Bearing::build(&scene, Some(&known))));
     });
@@ -81,7 +81,7 @@ fn shock(c: &mut Criterion) {
             black_box(model)
         });
     });
-    group.bench_function("build_asleep", |b| {
+    group.bench_function("build_inactive", |b| {
         b.iter(|| black_box(Model::build(&scene, Scope::Structure, None)));
     });
     group.finish();

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use opshock_solver::simulation::{Model, Request, Scope, Workspace, simulate};
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::sweep::{SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, Recorder, study};
 use opshock_tests::scenes;
@@ -74,7 +74,7 @@ fn points(_: &mut Criterion) {
     let (mut mocks, mut programs) = (Vec::new(), Vec::new());
     for n in POINTS {
         let folder = tempfile::tempdir().expect("a folder");
-        let input = study(&[RampClass::Rigid], &widths_ms(n));
+        let input = study(&[Ramp::Rigid], &widths_ms(n));
         let simulator = MockSimulator::new(&input);
         let start = Instant::now();
         sweep(

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::store::{Record, StoreError, history, journal, load, results};
 use opshock_study::sweep::{Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, study};
@@ -24,7 +24,7 @@ fn run(input: &SweepInput, folder: &Path) -> Result<SweepEnd, StoreError> {
 
 fn swept() -> (tempfile::TempDir, SweepInput, SweepEnd) {
     let folder = tempfile::tempdir().expect("folder");
-    let input = study(&[RampClass::None, RampClass::Rigid], &[0.5]);
+    let input = study(&[Ramp::None, Ramp::Rigid], &[0.5]);
     let end = run(&input, folder.path()).expect("sweeps");
     (folder, input, end)
 }

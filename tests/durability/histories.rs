@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::store::{folder::session, history};
 use opshock_study::sweep::{Event, MergeEnd, SweepInput, SweepOptions, merge, sweep};
 use opshock_tests::hdf5_dump::dump;
@@ -27,7 +27,7 @@ fn run(input: &SweepInput, folder: &Path) -> (u64, Vec<String>) {
 
 fn swept() -> (tempfile::TempDir, SweepInput, Vec<PathBuf>) {
     let folder = tempfile::tempdir().expect("folder");
-    let input = study(&[RampClass::None], &[0.5]);
+    let input = study(&[Ramp::None], &[0.5]);
     run(&input, folder.path());
     let files = kept(folder.path());
     assert_eq!(files.len(), 4);
@@ -86,7 +86,6 @@ fn a_name_alone_is_no_finished_history() {
 fn what_a_killed_process_left_aside_is_cleared() {
     let (folder, input, files) = swept();
     let left = [
-        "histories/.opshock-abcdef",
         "histories/.aside-abcdef",
         ".aside-abcdef",
         ".aside-journal",

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::store::journal::{self, JournalHeader, JournalWriter};
 use opshock_study::store::{Loaded, Record, RunKey, RunRecord, folder};
 use opshock_study::sweep::{Silent, SweepInput, SweepOptions, replay, sweep};
@@ -20,7 +20,7 @@ const JOURNAL: &str = "store/journal";
 
 /// An undisturbed sweep: its input, every record, and its table.
 fn undisturbed() -> (SweepInput, Vec<Record>, String) {
-    let input = study(&[RampClass::None, RampClass::Rigid], &[0.5]);
+    let input = study(&[Ramp::None, Ramp::Rigid], &[0.5]);
     let folder = tempfile::tempdir().expect("folder");
     let end = sweep(
         &input,

@@ -1,6 +1,6 @@
 //! Random drives either fly or cannot: on the corrected film of every simulation, with every gas model.
 
-use opshock_solver::air_bearing::steady::SteadyError;
+use opshock_solver::air_bearing::steady::{SteadyError, fly_from};
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Bearing, BuildError};
 use opshock_tests::drives::{GAS_MODELS, drive, most_carried, turned};
@@ -74,6 +74,14 @@ fn balances(scene: &Scene, bearing: &Bearing) {
     let left: f64 = residual.iter().map(|r| r.abs()).sum();
     assert!(left < 1e-7 * carried, "residual {left:e} of {carried:e}");
     assert!(flight.min_clearance_m > 0.0);
+    // Let go from above, it comes to no higher flight.
+    let mut above = flight.attitude;
+    above.centre_height_m *= 2.0;
+    let highest = fly_from(film, [load_n, 0.0, 0.0], &above).expect("flies");
+    assert!(
+        highest.min_clearance_m < (1.0 + 1e-4) * flight.min_clearance_m,
+        "{highest:?}"
+    );
     assert!(flight.psi.iter().all(|psi| *psi > 0.0));
 }
 

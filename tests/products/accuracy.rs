@@ -8,7 +8,7 @@ use super::cli::{Done, study};
 /// The refinement study of the structure's step on a shock that reaches the ramp: answers that no contact
 /// decides do not change with it, and the reference is the most certain of all.
 #[test]
-fn a_ladder_is_held_against_its_reference() {
+fn a_refinement_study_is_compared_with_its_reference() {
     let mut scene = scene(
         "fig13-stiffness",
         "rigid",

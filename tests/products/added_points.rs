@@ -223,7 +223,7 @@ fn a_small_study_is_refined_by_the_program() {
 
     let planned = Done::of(&whole, &words("plan", file, &[]));
     assert!(
-        planned.stdout.contains("adds 60 points at most"),
+        planned.stdout.contains("added points  60 at most"),
         "{}",
         planned.stdout
     );

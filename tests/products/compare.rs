@@ -1,7 +1,7 @@
 //! `opshock compare` on two swept stores.
 
 use super::cli::{Done, study as shipped};
-use opshock_study::search::{Probe, ProbeResult, RampClass, Sign};
+use opshock_study::search::{Probe, ProbeResult, Ramp, Sign};
 use opshock_study::sweep::{Onset, Silent, Simulator, SweepOptions, sweep};
 use opshock_tests::mock_sweep::{MockSimulator, study};
 use std::path::Path;
@@ -25,7 +25,7 @@ impl Simulator for Stronger<'_> {
 }
 
 fn swept(folder: &Path, widths_ms: &[f64], factor: f64, resolved: &str) {
-    let mut input = study(&[RampClass::None], widths_ms);
+    let mut input = study(&[Ramp::None], widths_ms);
     input.texts.resolved = resolved.into();
     let law = MockSimulator::new(&input);
     let options = SweepOptions::with_threads(2);

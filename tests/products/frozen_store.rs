@@ -26,7 +26,8 @@ fn a_store_of_an_older_format_is_refused_and_left_alone() {
         let done = Done::of(folder.path(), words);
         assert_eq!(done.code, 6, "{words:?}: {}", done.stderr);
         assert!(
-            done.stderr.contains("E181") && done.stderr.contains("sweep the study anew"),
+            done.stderr.contains("E181")
+                && done.stderr.contains("compute it anew, in another folder"),
             "{words:?}: {}",
             done.stderr
         );

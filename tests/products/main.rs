@@ -14,6 +14,7 @@ mod cli_studies;
 mod cml_drives;
 mod compare;
 mod digests;
+mod documents;
 mod frozen_store;
 mod hdf5_readers;
 mod heads;

@@ -76,7 +76,7 @@ fn search(
     .expect("settings");
     let start = Start {
         hint_g: None,
-        onset_amplitude: None,
+        onset_index: None,
         width_rank: 0,
     };
     let peak = peak_s2(width_ms * 1e-3);

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use opshock_study::search::{Campaign, SearchSettings};
 use opshock_study::search::{
-    Coordinates, Flag, MonotonicityScan, RampClass, Sign, Status, Touch, Verdict,
+    Coordinates, Flag, MonotonicityScan, Ramp, Sign, Status, Touch, Verdict,
 };
 use opshock_study::sweep::{
     Ending, MergeEnd, Silent, StopFlag, SweepInput, SweepOptions, SweepPoint, merge, shard, sweep,
@@ -95,7 +95,7 @@ fn ten_thousand_tables_with_windows_of_failure() {
             for (point, searched) in table.0.iter().zip(&found) {
                 let truth = point.lowest_failure(&settings);
                 let findings = &searched.findings;
-                if point.at.ramp_class != RampClass::None {
+                if point.at.ramp != Ramp::None {
                     misses.count(findings.failure, truth, findings.runs);
                 }
                 assert_eq!(findings.status, Status::Ok, "seed {seed}");
@@ -112,7 +112,7 @@ fn ten_thousand_tables_with_windows_of_failure() {
                 let is_flagged = findings.flags.contains(&Flag::NonMonotone);
                 assert_eq!(is_flagged, above, "seed {seed}: {findings:?}");
 
-                if point.at.ramp_class == RampClass::None {
+                if point.at.ramp == Ramp::None {
                     continue;
                 }
                 match monotonicity_scan {
@@ -172,7 +172,7 @@ fn search_slow_full_on_ten_thousand_tables() {
             for (point, searched) in table.0.iter().zip(&found) {
                 let truth = point.lowest_failure(&settings(MonotonicityScan::Full));
                 assert_eq!(searched.findings.failure, truth, "seed {seed}");
-                if point.at.ramp_class != RampClass::None {
+                if point.at.ramp != Ramp::None {
                     misses.count(searched.findings.failure, truth, searched.findings.runs);
                 }
             }
@@ -283,12 +283,7 @@ fn runs_per_point_on_figure_13() {
             let sign = Sign::from_word(cells[2]).expect("a sign");
             TablePoint {
                 at: Coordinates {
-                    ramp_class: match cells[0] {
-                        "none" => RampClass::None,
-                        "rigid" => RampClass::Rigid,
-                        _ => RampClass::Deformable,
-                    },
-                    ramp: cells[0].into(),
+                    ramp: Ramp::from_word(cells[0]).expect("a ramp"),
                     pulse_ms: number(1).expect("a width"),
                     sign,
                     axes: Vec::new(),

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::store::{Store, StoreError, folder::session, journal, results};
 use opshock_study::sweep::{Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{MockSimulator, Recorder, study};
 
 fn input() -> SweepInput {
-    study(&[RampClass::None, RampClass::Rigid], &[0.5, 2.0])
+    study(&[Ramp::None, Ramp::Rigid], &[0.5, 2.0])
 }
 
 fn run(input: &SweepInput, folder: &Path) -> Result<SweepEnd, StoreError> {

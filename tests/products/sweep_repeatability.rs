@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use opshock_study::search::RampClass;
+use opshock_study::search::Ramp;
 use opshock_study::store::results;
 use opshock_study::sweep::{Ending, Event, Silent, SweepEnd, SweepInput, SweepOptions, sweep};
 use opshock_tests::hdf5_dump::dump;
@@ -93,7 +93,7 @@ fn hard_f3_a_shuffled_study_has_the_same_rows() {
 
 #[test]
 fn hard_f2_stopping_and_going_on_ends_the_same() {
-    let input = study(&[RampClass::None, RampClass::Deformable], &[0.5, 1.0, 2.0]);
+    let input = study(&[Ramp::None, Ramp::Deformable], &[0.5, 1.0, 2.0]);
     let folder = tempfile::tempdir().expect("folder");
     let reference = run(&input, &folder.path().join("whole"), 2);
     let content = results_of(&folder.path().join("whole"));
@@ -133,7 +133,7 @@ fn hard_f2_stopping_and_going_on_ends_the_same() {
 
 #[test]
 fn points_of_equal_content_share_their_runs() {
-    let mut input = study(&[RampClass::None], &[0.5, 1.0]);
+    let mut input = study(&[Ramp::None], &[0.5, 1.0]);
     let mut twins = input.points.clone();
     for twin in &mut twins {
         twin.coordinates.axes = vec!["other".into()];
@@ -166,8 +166,8 @@ fn points_of_equal_content_share_their_runs() {
 #[test]
 fn a_changed_study_reuses_what_is_still_valid() {
     let folder = tempfile::tempdir().expect("folder");
-    let small = study(&[RampClass::None, RampClass::Rigid], &[0.5, 1.0, 2.0]);
-    let large = study(&[RampClass::None, RampClass::Rigid], &[0.5, 1.0, 1.5, 2.0]);
+    let small = study(&[Ramp::None, Ramp::Rigid], &[0.5, 1.0, 2.0]);
+    let large = study(&[Ramp::None, Ramp::Rigid], &[0.5, 1.0, 1.5, 2.0]);
     run(&small, &folder.path().join("grown"), 2);
     let grown = run(&large, &folder.path().join("grown"), 2);
     let fresh = run(&large, &folder.path().join("fresh"), 2);

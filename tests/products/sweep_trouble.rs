@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-use opshock_study::search::{Flag, RampClass, Status};
+use opshock_study::search::{Flag, Ramp, Status};
 use opshock_study::store::summary::PointSummary;
 use opshock_study::store::{Record, RunRecord, Store, folder::session, journal};
 use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
@@ -11,7 +11,7 @@ use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
 
 #[test]
 fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
-    let ramps = [RampClass::None, RampClass::Rigid, RampClass::Deformable];
+    let ramps = [Ramp::None, Ramp::Rigid, Ramp::Deformable];
     let input = study(&ramps, &[0.5, 1.0, 2.0]);
     let folder = tempfile::tempdir().expect("folder");
     let options = SweepOptions::with_threads(2);
@@ -120,7 +120,7 @@ impl Progress for Auditor {
 
 #[test]
 fn what_is_reported_is_on_the_disk() {
-    let input = study(&[RampClass::None, RampClass::Rigid], &[1.0]);
+    let input = study(&[Ramp::None, Ramp::Rigid], &[1.0]);
     let folder = tempfile::tempdir().expect("folder");
     let auditor = Auditor {
         journal: folder.path().join("journal"),
@@ -140,7 +140,7 @@ fn what_is_reported_is_on_the_disk() {
 
 #[test]
 fn a_failure_found_outside_the_search_is_reported_and_not_used() {
-    let input = study(&[RampClass::None], &[1.0]);
+    let input = study(&[Ramp::None], &[1.0]);
     let folder = tempfile::tempdir().expect("folder");
     let options = SweepOptions::with_threads(1);
     let simulator = MockSimulator::new(&input);
@@ -166,7 +166,7 @@ fn a_failure_found_outside_the_search_is_reported_and_not_used() {
 
 #[test]
 fn the_histories_of_the_bracket_are_kept_once() {
-    let input = study(&[RampClass::None, RampClass::Rigid], &[0.5, 2.0]);
+    let input = study(&[Ramp::None, Ramp::Rigid], &[0.5, 2.0]);
     let folder = tempfile::tempdir().expect("folder");
     let mut simulator = MockSimulator::new(&input);
     simulator.records = true;

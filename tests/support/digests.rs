@@ -1,7 +1,7 @@
 //! Digests of computed numbers, committed in `tests/reference/digests.json`: a change of structure moves none of them.
 //!
-//! A change of the physics moves some on purpose: `OPSHOCK_WRITE_DIGESTS=1 cargo test digest` writes today's, and the
-//! commit says why.
+//! A change of the physics moves some on purpose: `OPSHOCK_WRITE_DIGESTS=1 cargo test --workspace`, without a filter,
+//! writes today's, and the commit says why. On which machines bits agree: `docs/verification.md`.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -8,7 +8,7 @@ use std::time::Duration;
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::simulation::{self, History, Outcome, StructureColumns};
 use opshock_study::search::{
-    Coordinates, MonotonicityScan, Probe, ProbeResult, RampClass, RunCost, SearchSettings, Sign,
+    Coordinates, MonotonicityScan, Probe, ProbeResult, Ramp, RunCost, SearchSettings, Sign,
     UndecidedCause, Verdict,
 };
 use opshock_study::store::{PointDigest, StudyTexts};
@@ -19,20 +19,14 @@ use opshock_study::sweep::{Event, Onset, Progress, Simulator, SweepInput, SweepP
 pub const WIDTHS_MS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 
 /// A study over these ramps and widths, both signs, 20 to 2000 G at 1 %.
-pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
+pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
     let mut points = Vec::new();
-    for &ramp_class in ramps {
+    for &ramp in ramps {
         for &pulse_ms in widths_ms {
             for sign in [Sign::Plus, Sign::Minus] {
-                let ramp = match ramp_class {
-                    RampClass::None => "none",
-                    RampClass::Rigid => "rigid",
-                    RampClass::Deformable => "deformable",
-                };
                 points.push(SweepPoint {
                     coordinates: Coordinates {
-                        ramp_class,
-                        ramp: ramp.into(),
+                        ramp,
                         pulse_ms,
                         sign,
                         axes: Vec::new(),
@@ -65,10 +59,7 @@ pub fn study(ramps: &[RampClass], widths_ms: &[f64]) -> SweepInput {
 
 /// The 36 points of the paper's figure.
 pub fn fig13() -> SweepInput {
-    study(
-        &[RampClass::None, RampClass::Rigid, RampClass::Deformable],
-        &WIDTHS_MS,
-    )
+    study(&[Ramp::None, Ramp::Rigid, Ramp::Deformable], &WIDTHS_MS)
 }
 
 /// 20 to 2000 G, 1 %, gaps of at most 10 %, window check on.
@@ -147,14 +138,14 @@ impl<'a> MockSimulator<'a> {
 /// short positive pulses and a late failure for the rigid ramp at 2 ms.
 pub fn fails(at: &Coordinates, amplitude_g: f64, window_factor: u8) -> bool {
     let none = if at.sign == Sign::Plus { 500.0 } else { 380.0 } * at.pulse_ms.powf(-0.2);
-    match at.ramp_class {
-        RampClass::None => amplitude_g >= none,
-        RampClass::Rigid => {
+    match at.ramp {
+        Ramp::None => amplitude_g >= none,
+        Ramp::Rigid => {
             let late = at.pulse_ms == 2.0 && window_factor == 2;
             let critical = 260.0 * at.pulse_ms.powf(-0.35) * if late { 0.97 } else { 1.0 };
             amplitude_g >= critical.min(none)
         }
-        RampClass::Deformable => {
+        Ramp::Deformable => {
             let window = at.pulse_ms < 0.9
                 && at.sign == Sign::Plus
                 && (150.0..150.0 + 24.0 * at.pulse_ms).contains(&amplitude_g);
@@ -165,10 +156,10 @@ pub fn fails(at: &Coordinates, amplitude_g: f64, window_factor: u8) -> bool {
 
 /// Amplitude of first touch, G.
 pub fn onset_g(at: &Coordinates) -> Option<f64> {
-    match at.ramp_class {
-        RampClass::None => None,
-        RampClass::Rigid => Some(190.0 * at.pulse_ms.powf(-0.35)),
-        RampClass::Deformable => Some(120.0 * at.pulse_ms.powf(-0.1)),
+    match at.ramp {
+        Ramp::None => None,
+        Ramp::Rigid => Some(190.0 * at.pulse_ms.powf(-0.35)),
+        Ramp::Deformable => Some(120.0 * at.pulse_ms.powf(-0.1)),
     }
 }
 

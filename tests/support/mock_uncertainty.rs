@@ -2,7 +2,7 @@
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
-use opshock_study::search::{MonotonicityScan, Probe, ProbeResult, RampClass, RunCost, Verdict};
+use opshock_study::search::{MonotonicityScan, Probe, ProbeResult, Ramp, RunCost, Verdict};
 use opshock_study::sweep::{Onset, Simulator, SweepInput, UncertaintyPlan};
 
 use super::mock_sweep::{settings, study};
@@ -128,7 +128,7 @@ impl UncertaintyLaw {
 /// A study of one law a point, with uncertainty intervals.
 pub fn laws_study(n: usize) -> SweepInput {
     let widths: Vec<f64> = (0..n.div_ceil(2)).map(|i| 0.5 + 0.01 * i as f64).collect();
-    let mut input = study(&[RampClass::None], &widths);
+    let mut input = study(&[Ramp::None], &widths);
     input.points.truncate(n);
     input.settings = settings(MonotonicityScan::Off);
     for point in &mut input.points {

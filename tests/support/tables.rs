@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_study::search::{
-    Campaign, Coordinates, Findings, MonotonicityScan, Probe, ProbeResult, RampClass, RunCost,
+    Campaign, Coordinates, Findings, MonotonicityScan, Probe, ProbeResult, Ramp, RunCost,
     SearchSettings, Sign, Touch, Verdict,
 };
 use opshock_study::sweep::{Onset, Simulator};
@@ -85,10 +85,10 @@ impl Table {
             .collect();
         let has_margin = seeded.once_in(2);
         let mut points = Vec::new();
-        for ramp_class in [RampClass::None, RampClass::Deformable] {
+        for ramp in [Ramp::None, Ramp::Deformable] {
             for pulse_ms in WIDTHS_MS {
                 let bare_g = none_g * pulse_ms.powf(none_slope);
-                let is_bare = ramp_class == RampClass::None;
+                let is_bare = ramp == Ramp::None;
                 let share = deformable * pulse_ms.powf(slope);
                 let critical_g = if is_bare {
                     bare_g
@@ -107,8 +107,7 @@ impl Table {
                     .collect();
                 points.push(TablePoint {
                     at: Coordinates {
-                        ramp_class,
-                        ramp: if is_bare { "none" } else { "deformable" }.into(),
+                        ramp,
                         pulse_ms,
                         sign: Sign::Plus,
                         axes: Vec::new(),

@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let [survives_g, fails_g] = [found.survives_m_per_s2, found.fails_m_per_s2]
                 .map(|amplitude| amplitude / STANDARD_GRAVITY_M_PER_S2);
             println!(
-                "{name}: survives {survives_g:.1} g, fails at {fails_g:.1} g ({} shocks)",
+                "{name}: survives {survives_g:.1} G, fails at {fails_g:.1} G ({} shocks)",
                 found.n_runs
             );
         }

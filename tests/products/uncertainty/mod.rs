@@ -97,7 +97,7 @@ fn runs_of_uncertainty_are_labelled_and_switched_off_by_the_plan() {
         .expect("reads")
         .expect("is there");
     for row in &stored.runs {
-        let is_uncertainty = row.purpose == Purpose::ErrorBar;
+        let is_uncertainty = row.purpose == Purpose::Uncertainty;
         // A interval may narrow the bracket of the scene itself; nothing else changes discretisation parameters.
         assert!(is_uncertainty || row.levels.is_none(), "{row:?}");
     }
@@ -163,9 +163,17 @@ fn an_error_that_was_not_computed_is_absent_in_every_product() {
     assert_eq!(stored.expect("is there").summary, without);
 
     let figure = critical_shock_figure(&without, "");
-    assert!(figure.subtitle.ends_with("no interval: error not known"));
+    assert!(
+        figure
+            .subtitle
+            .ends_with("no interval: uncertainty not known")
+    );
     let sample = &figure.panels[0].series[0].samples[0];
-    assert!(sample.note.contains("error not known"), "{}", sample.note);
+    assert!(
+        sample.note.contains("uncertainty not known"),
+        "{}",
+        sample.note
+    );
 
     // Two grid points apart: beyond the brackets, which decides nothing about errors.
     let mut other = row.clone();
@@ -214,7 +222,7 @@ fn what_is_left_counts_the_runs_of_uncertainty_and_climbs() {
 }
 
 #[test]
-fn a_retry_of_a_turned_scene_keeps_its_discretisations_and_takes_finer_steps() {
+fn a_retry_of_a_refined_scene_keeps_its_discretisations_and_takes_finer_steps() {
     let sets = [
         ("ramp.models", "[\"none\"]"),
         ("pulse.signs", "[\"+\"]"),
@@ -245,7 +253,7 @@ fn a_retry_of_a_turned_scene_keeps_its_discretisations_and_takes_finer_steps() {
 
 /// A coarser mesh of the ramp is the study with elements of twice the size: the same motion, bit by bit.
 #[test]
-fn a_ramp_turned_coarser_is_the_study_with_larger_elements() {
+fn a_coarsened_ramp_is_the_study_with_larger_elements() {
     let simulated = |size_mm: &str, mesh: i8| {
         let sets = [
             ("ramp.models", "[\"deformable\"]"),

@@ -130,7 +130,7 @@ fn row(
             let moved = spread(found, finer);
             if !moved.turns.is_empty() {
                 depends_on.push(format!(
-                    "resolution: changes with {}",
+                    "resolution: changes with {} refined",
                     moved.turns.join(", ")
                 ));
             }
@@ -303,7 +303,10 @@ mod tests {
         let all = moved(true, [true, true]);
         let changed = row(claim("rigid_touch"), own(), &finer, Some(&all));
         assert_eq!(changed.answer, Answer::Holds);
-        assert_eq!(changed.depends_on, ["resolution: changes with disk_modes"]);
+        assert_eq!(
+            changed.depends_on,
+            ["resolution: changes with disk_modes refined"]
+        );
         rows.push(row(claim("rigid_touch"), own(), &[], None));
 
         rows.push(row(claim("rises_none"), None, &[], None));

@@ -30,7 +30,7 @@ impl From<Vec<Place>> for Parts {
 /// From this width on a pulse is long, ms: the paper's section 4.2 calls 0.5 ms small.
 const LONG_FROM_MS: f64 = 1.0;
 
-/// A reported value with its interval, G.
+/// A predictions value with its interval, G.
 #[derive(Clone, Copy)]
 struct WithUncertainty {
     value: f64,
@@ -107,7 +107,7 @@ const PAPER_WIDTHS_MS: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 3.0];
 /// Ayre, Transient response to step and pulse functions, in Harris, Shock and Vibration Handbook, ch. 8.
 fn rises(summary: &Summary, ramp: &str) -> Parts {
     let mut parts = Parts::default();
-    let mut reported = Vec::new();
+    let mut predictions = Vec::new();
     for sign in SIGNS {
         let (judged, predicted): (Vec<_>, Vec<_>) = curve(summary, ramp, sign)
             .into_iter()
@@ -126,7 +126,7 @@ fn rises(summary: &Summary, ramp: &str) -> Parts {
             };
             let least = low.1.value.min(high.1.value);
             let change = 100.0 * (barred.value / least - 1.0);
-            reported.push(format!(
+            predictions.push(format!(
                 "{width} ms, {}: {:.1} G, {}",
                 sign.as_str(),
                 barred.value,
@@ -137,8 +137,8 @@ fn rises(summary: &Summary, ramp: &str) -> Parts {
             ));
         }
     }
-    if !reported.is_empty() {
-        parts.note = format!("prediction, not judged: {}", reported.join("; "));
+    if !predictions.is_empty() {
+        parts.note = format!("prediction, not judged: {}", predictions.join("; "));
     }
     parts
 }

@@ -31,7 +31,7 @@ impl ClaimTable {
     pub fn markdown(&self) -> String {
         let mut text = format!(
             "# The paper's statements\n\n{}\n\n\
-             | where | the paper says | here | holds with | answer | turns with |\n\
+             | where | the paper says | here | holds with | answer | changes with |\n\
              | --- | --- | --- | --- | --- | --- |\n",
             tally(&self.claims, self.has_sensitivity)
         );

@@ -165,19 +165,19 @@ fn tornado(all: &Sensitivity) -> Figure {
 }
 
 /// Number of a statement at one end of a parameter's range.
-struct UncertaintyEnd {
+struct LineEnd {
     value: f64,
     holds: bool,
     is_upper: bool,
 }
 
 /// Lines in a panel.
-const BARS: usize = 7;
+const MOST_LINES: usize = 7;
 
 fn tornado_panel(row: &Row) -> Option<Panel> {
     let claim = row.claim()?;
     let base = row.base?.value?;
-    let mut uncertainties: Vec<(&str, Vec<UncertaintyEnd>)> = Vec::new();
+    let mut lines: Vec<(&str, Vec<LineEnd>)> = Vec::new();
     for side in &row.sides {
         let Some((value, holds)) = side
             .found
@@ -185,35 +185,32 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
         else {
             continue;
         };
-        let end = UncertaintyEnd {
+        let end = LineEnd {
             value,
             holds,
             is_upper: side.value > side.base,
         };
-        match uncertainties
-            .iter_mut()
-            .find(|(name, _)| *name == side.parameter)
-        {
+        match lines.iter_mut().find(|(name, _)| *name == side.parameter) {
             Some((_, ends)) => ends.push(end),
-            None => uncertainties.push((&side.parameter, vec![end])),
+            None => lines.push((&side.parameter, vec![end])),
         }
     }
-    let reach = |ends: &[UncertaintyEnd]| {
+    let reach = |ends: &[LineEnd]| {
         ends.iter()
             .map(|end| (end.value - base).abs())
             .fold(0.0, f64::max)
     };
-    uncertainties.retain(|(_, ends)| reach(ends) > 1e-9 * base.abs().max(1e-9));
+    lines.retain(|(_, ends)| reach(ends) > 1e-9 * base.abs().max(1e-9));
     // Stable: equal lines stay in the order of the parameters.
-    uncertainties.sort_by(|a, b| reach(&b.1).total_cmp(&reach(&a.1)));
-    uncertainties.truncate(BARS);
-    if uncertainties.is_empty() {
+    lines.sort_by(|a, b| reach(&b.1).total_cmp(&reach(&a.1)));
+    lines.truncate(MOST_LINES);
+    if lines.is_empty() {
         return None;
     }
     let mut series = Vec::new();
-    for (place, (_, ends)) in uncertainties.iter().enumerate() {
-        let height = (uncertainties.len() - place) as f64;
-        for &UncertaintyEnd {
+    for (place, (_, ends)) in lines.iter().enumerate() {
+        let height = (lines.len() - place) as f64;
+        for &LineEnd {
             value,
             holds,
             is_upper,
@@ -277,12 +274,12 @@ fn tornado_panel(row: &Row) -> Option<Panel> {
     } else {
         format!(" ({})", claim.unit)
     };
-    let count = uncertainties.len();
+    let count = lines.len();
     Some(Panel {
         title: claim.words.chars().take(86).collect(),
         x: Axis::linear(&format!("{}{unit}", claim.number)),
         y: Axis::linear("").between(0.3, count as f64 + 1.3).named(
-            uncertainties
+            lines
                 .iter()
                 .enumerate()
                 .map(|(place, (name, _))| ((count - place) as f64, (*name).to_owned())),

@@ -21,7 +21,7 @@ use thiserror::Error;
 pub struct FilmResolution {
     /// Wanted number of cells; the grid fits the surface's edges and comes close to it.
     pub cells: usize,
-    /// Minimum film height h0, where the continuously differentiable height limit begins, m.
+    /// Minimum film height h0, m; from 2 h0 on the film sees the true height.
     pub min_height_m: f64,
     /// Wanted number of cells of the defect-correction grid, whose forces give the discretisation defect of the film's
     /// own grid ([`CorrectionForces`](super::CorrectionForces)); 0: no correction.

@@ -20,8 +20,19 @@ use nalgebra::Vector3;
 /// First and smallest step in the share that grows.
 const SHARE_STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 
-/// Shares of a load under which a first flight is sought.
-const LIGHT: [f64; 6] = [0.5, 0.25, 0.125, 1.0 / 32.0, 1.0 / 128.0, 1.0 / 512.0];
+/// Shares of a load under which a first flight is sought. The last ones are for films with stable flights under heavy
+/// loads alone: under light ones, such a slider pitches until it touches.
+const LIGHT: [f64; 9] = [
+    0.5,
+    0.25,
+    0.125,
+    1.0 / 32.0,
+    1.0 / 128.0,
+    1.0 / 512.0,
+    0.65,
+    0.8,
+    0.9,
+];
 
 /// Most branches that the overdamped motion leads to.
 const MOST_BRANCHES: usize = 4;
@@ -80,12 +91,13 @@ impl Path {
 pub(super) fn followed(
     film: &Film,
     load: [f64; 3],
-    start: &Attitude,
+    starts: &[Attitude],
 ) -> Option<Result<Flight, SteadyError>> {
     let load = Vector3::from(load);
+    let starts = starts_of_drift(film, starts);
     let (share, found) = LIGHT
         .into_iter()
-        .find_map(|share| Some((share, let_down(film, load * share, &starts(film, start))?)))?;
+        .find_map(|share| Some((share, let_down(film, load * share, &starts)?)))?;
     let at = |share: f64| (film.clone(), load * share);
     let mut path = Path::along(&at, (share, found), film.min_height_m());
     for _ in 1..MOST_BRANCHES {
@@ -109,12 +121,13 @@ pub(super) fn followed(
     }))
 }
 
-/// Attitudes from which a light slider is let go.
-fn starts(film: &Film, start: &Attitude) -> [Attitude; 3] {
+/// Attitudes from which a slider is let go: a usual one, a higher one, and the other `starts`.
+pub(super) fn starts_of_drift(film: &Film, starts: &[Attitude]) -> Vec<Attitude> {
     let usual = film.usual_attitude();
     let mut high = usual;
     high.centre_height_m += 1e-7;
-    [usual, high, *start]
+    let others = starts.iter().filter(|start| **start != usual);
+    [usual, high].into_iter().chain(others.copied()).collect()
 }
 
 /// Where a slider comes to rest above the minimum film height, let go at one of `starts` under `load`.

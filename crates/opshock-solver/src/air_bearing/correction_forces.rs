@@ -1,10 +1,11 @@
 //! Corrects force and moments of a film for the error of its grid, by films on a finer grid.
 //!
-//! Let q be the slider's attitude (height, pitch, roll). Held at q, over the turning disk, a film of N cells
-//! carries force and moments F_N(q), and one without discretisation error F(q). Their difference P(q), the discretisation defect, is a smooth function of q.
-//! When a model is built, P is sampled at 200 attitudes from near contact to far above the steady flight ([`Range`]), on a
-//! defect-correction grid of 1000 to 4000 cells and on the same with every cell divided into four. Their forces F₁ and F₂
-//! are extrapolated at second order (Roache 1994, J. Fluids Eng. 116, 405):
+//! Let q be the slider's attitude (height, pitch, roll). Held at q, over the turning disk, a film of N cells carries
+//! force and moments F_N(q), and one without discretisation error F(q). Their difference P(q), the discretisation
+//! defect, is a smooth function of q. When a model is built, P is sampled at 200 attitudes, at 5 to 150 % of the height
+//! of steady flight where the slider is closest to the disk ([`Range`]), on a defect-correction grid of 1000 to 4000
+//! cells and on the same with every cell divided into four. Their forces F₁ and F₂ are extrapolated at second order
+//! (Roache 1994, J. Fluids Eng. 116, 405):
 //!
 //! ```text
 //! F ≈ F₂ + (F₂ − F₁)/3,      P = F − F_N at the samples, interpolated between them (`defect`)
@@ -26,8 +27,11 @@ use super::newton::Newton;
 use super::search::Flight;
 use super::steady_error::SteadyError;
 
-/// Number of sampled attitudes.
+/// Number of sampled attitudes, and most of them that may be left out for want of a film. Without slip a film may have no
+/// steady state on a grid, for the reason given in [`super::relaxation`]: followed from a neighbouring attitude, it ends
+/// before. Of 14 such random drives one leaves out 21 attitudes, the others 1 to 12.
 const SAMPLES: usize = 200;
+const MOST_MISSING: usize = SAMPLES / 4;
 
 /// Forces of quasi-static films without discretisation error at the sampled attitudes. They give the discretisation
 /// defect of every grid of the same film.
@@ -49,20 +53,20 @@ impl CorrectionForces {
     ///
     /// # Errors
     ///
-    /// [`SteadyError`] when a quasi-static film does not converge.
+    /// [`SteadyError`] when more than a quarter of the quasi-static films do not converge.
     pub fn sample(film: &Film, finer: &Film, flight: &Flight) -> Result<Self, SteadyError> {
         let range = Range::around(film, flight);
         let shares = in_a_row((1..=SAMPLES).map(spread).collect());
         let attitudes: Vec<Attitude> = shares.iter().map(|at| range.attitude(*at)).collect();
         let (mut coarse, mut fine) = (Held::new(film), Held::new(finer));
-        let forces = attitudes.iter().map(|attitude| {
-            let rough = coarse.force(attitude, |_| film.ambient(attitude))?;
+        let forces = attitudes.into_iter().map(|attitude| {
+            let rough = coarse.force(&attitude, |_| film.ambient(&attitude))?;
             let psi = &coarse.psi;
-            let close = fine.force(attitude, |finer| carried(film, psi, finer, attitude))?;
+            let close = fine.force(&attitude, |finer| carried(film, psi, finer, &attitude))?;
             let whole = std::array::from_fn(|f| close[f] + (close[f] - rough[f]) / 3.0);
-            Ok((whole, rough))
+            Ok((attitude, (whole, rough)))
         });
-        let forces = forces.collect::<Result<Vec<_>, SteadyError>>()?;
+        let (attitudes, forces): (Vec<_>, Vec<_>) = found(forces)?.into_iter().unzip();
         let (forces, on_grid) = forces.into_iter().unzip();
         Ok(Self {
             range,
@@ -77,24 +81,21 @@ impl CorrectionForces {
     ///
     /// # Errors
     ///
-    /// [`SteadyError`] when a quasi-static film does not converge.
+    /// As [`CorrectionForces::sample`].
     pub(super) fn defect_of(&self, film: &Film) -> Result<Defect, SteadyError> {
-        let own = if film.lines_m() == self.lines_m.each_ref().map(Vec::as_slice) {
-            self.on_grid.clone()
-        } else {
-            let mut held = Held::new(film);
-            let attitudes = self.attitudes.iter();
-            let own = attitudes.map(|attitude| held.force(attitude, |film| film.ambient(attitude)));
-            own.collect::<Result<_, SteadyError>>()?
-        };
-        let missing: Vec<[f64; 3]> = self
-            .forces
-            .iter()
-            .zip(&own)
-            .map(|(whole, own)| std::array::from_fn(|f| whole[f] - own[f]))
-            .collect();
-        let variables = |attitude| self.range.variables(attitude).map(|x| x.0);
-        let places = self.attitudes.iter().map(variables).collect();
+        let is_sampled = film.lines_m() == self.lines_m.each_ref().map(Vec::as_slice);
+        let mut held = Held::new(film);
+        let samples = self.attitudes.iter().zip(&self.forces).zip(&self.on_grid);
+        let defects = samples.map(|((attitude, whole), on_grid)| {
+            let own = match is_sampled {
+                true => *on_grid,
+                false => held.force(attitude, |film| film.ambient(attitude))?,
+            };
+            let place = self.range.variables(attitude).map(|x| x.0);
+            let missing: [f64; 3] = std::array::from_fn(|f| whole[f] - own[f]);
+            Ok((place, missing))
+        });
+        let (places, missing): (_, Vec<_>) = found(defects)?.into_iter().unzip();
         Ok(Defect {
             range: self.range.clone(),
             missing: Interpolation::through(places, &missing),
@@ -108,7 +109,7 @@ impl Film {
     ///
     /// # Errors
     ///
-    /// [`SteadyError`] when a quasi-static film does not converge.
+    /// As [`CorrectionForces::sample`].
     pub fn corrected_by(mut self, reference: &CorrectionForces) -> Result<Self, SteadyError> {
         self.defect = None;
         self.defect = Some(reference.defect_of(&self)?);
@@ -118,6 +119,15 @@ impl Film {
     /// What [`Film::corrected_by`] adds to force and moments at an attitude; `None` without defect correction.
     pub fn correction(&self, attitude: &Attitude) -> Option<GapLoad> {
         Some(self.defect.as_ref()?.load(attitude))
+    }
+}
+
+/// Those of the `samples` whose film converged; the last error where too many did not.
+fn found<T>(samples: impl Iterator<Item = Result<T, SteadyError>>) -> Result<Vec<T>, SteadyError> {
+    let (found, missing): (Vec<_>, Vec<_>) = samples.partition(Result::is_ok);
+    match missing.into_iter().nth(MOST_MISSING) {
+        Some(missing) => Err(missing.err().expect("of the errors")),
+        None => found.into_iter().collect(),
     }
 }
 
@@ -147,24 +157,28 @@ impl<'a> Held<'a> {
         guess: impl Fn(&Film) -> Vec<f64>,
     ) -> Result<[f64; 3], SteadyError> {
         let film = self.newton.film;
-        if let Some(last) = self.last.replace(*attitude) {
+        if let Some(last) = self.last {
             let (before, now) = (film.ambient(&last), film.ambient(attitude));
             for (psi, (before, now)) in self.psi.iter_mut().zip(before.iter().zip(&now)) {
                 *psi *= now / before;
             }
             if let Ok(force) = self.newton.force_held(&mut self.psi, attitude) {
+                self.last = Some(*attitude);
                 return Ok(force);
             }
         }
         self.psi = guess(film);
         self.newton.forget();
         let held = self.newton.force_held(&mut self.psi, attitude);
-        held.or_else(|_| {
+        let held = held.or_else(|_| {
             let mut newton = Newton::<f64>::new(film);
             self.psi = film.ambient(attitude);
             newton.relax(&mut self.psi, attitude);
             newton.force_held(&mut self.psi, attitude)
-        })
+        });
+        // The next one does not start from a film that is none.
+        self.last = held.is_ok().then_some(*attitude);
+        held
     }
 }
 

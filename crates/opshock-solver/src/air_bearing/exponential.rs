@@ -114,7 +114,7 @@ mod tests {
             let exact = x / x.exp_m1();
             assert!((bernoulli(x)[0] - exact).abs() < 1e-15 * exact, "{x}");
         }
-        // Against such a wind the share that diffuses back underflows to zero.
+        // Against such a wind next to nothing diffuses back: the exponential is that at `STRONG`.
         assert!(bernoulli(800.0)[0] < 1e-127);
         let [b, slope] = bernoulli(-800.0);
         assert!((b - 800.0).abs() < 1e-12 && (slope + 1.0).abs() < 1e-15);

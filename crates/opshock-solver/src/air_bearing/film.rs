@@ -4,8 +4,8 @@
 //! M dψ/dt + R(ψ, attitude) = 0,   R = sum of outward face fluxes
 //! ```
 //!
-//! ψ = p h is the mass in a cell's column over R T. The balance is therefore conservative, and the quasi-static and
-//! dynamic compression of the film enters through dψ/dt alone. Fluxes are those of [two half cells](super::flux) at
+//! ψ = p h is the gas mass per area times R T. The balance is therefore conservative, and the squeeze of the film
+//! enters through dψ/dt alone. Fluxes are those of [two half cells](super::flux) at
 //! every face, with ambient pressure on the faces of the slider's edges. `balance` holds the balance itself,
 //! [`super::layout`] the choice of the grid.
 

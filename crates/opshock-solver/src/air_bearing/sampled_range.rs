@@ -9,7 +9,7 @@ use super::steady::fly_near;
 /// Loads that give θ_eq, relative to steady flight; the second set where the film does not carry the first.
 const LOADS: [[f64; 3]; 2] = [[0.6, 1.0, 2.5], [0.25, 0.5, 1.0]];
 
-/// Mean height of the two points, relative to steady flight.
+/// Lowest and highest mean height of the two points, relative to steady flight.
 const HEIGHTS: [f64; 2] = [0.05, 1.5];
 
 /// Pitch about θ_eq and largest roll, relative to the pitch of steady flight: 95 % of the survivors of the study of
@@ -17,7 +17,8 @@ const HEIGHTS: [f64; 2] = [0.05, 1.5];
 const PITCH: f64 = 0.18;
 const ROLL: f64 = 0.12;
 
-/// Equilibrium pitch at the ends of those heights, relative to steady flight; values outside are rejected.
+/// Accepted equilibrium pitch at the ends of [`HEIGHTS`], relative to steady flight; beyond it the parabola is used
+/// between its flights only, constant outside.
 const PITCHES: [f64; 2] = [0.3, 3.0];
 
 /// Least distance of the two points, relative to the slider's width.

@@ -14,7 +14,7 @@
 //! reaches the load, or it ends before and the slider cannot fly.
 
 use super::attitude::Attitude;
-use super::carrying::{Path, followed};
+use super::carrying::{Path, followed, starts_of_drift};
 use super::film::Film;
 use super::newton::{CONVERGED, MOST_ITERATIONS, Newton};
 use super::search::{Found, Search};
@@ -66,10 +66,23 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<QuasiStaticFil
 ///
 /// As [`fly_from`].
 pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
-    fly_from(film, load, &film.usual_attitude())
+    fly_among(film, load, &[film.usual_attitude()])
 }
 
-/// As [`fly`], from `start`, which may be far from the answer.
+/// As [`fly`], from `start`, which may be far from the answer, and then from a usual attitude.
+///
+/// # Errors
+///
+/// As [`fly_among`].
+pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
+    let usual = film.usual_attitude();
+    match *start == usual {
+        true => fly(film, load),
+        false => fly_among(film, load, &[*start, usual]),
+    }
+}
+
+/// As [`fly`], from each of the `starts`, at least one.
 ///
 /// Of several stable equilibria the one with the largest clearance is flown ([`lower_equilibria`] looks for those
 /// below). An equilibrium without clearance is no flight; with surface forces, neither is one within the range of the
@@ -79,20 +92,20 @@ pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
 ///
 /// [`SteadyError::CannotFly`] when the film does not carry the load; another [`SteadyError`], with the best attitude
 /// met, when a stable equilibrium is neither found nor ruled out.
-pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
+pub fn fly_among(film: &Film, load: [f64; 3], starts: &[Attitude]) -> Result<Flight, SteadyError> {
     if !film.is_drawn_in() {
-        let flown = seek(film, load, start, true);
+        let flown = seek(film, load, starts, true);
         return match flown {
             Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
-            other => followed(film, load, start).unwrap_or(other),
+            other => followed(film, load, starts).unwrap_or(other),
         };
     }
-    let flown = seek(film, load, start, false);
+    let flown = seek(film, load, starts, false);
     let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.min_height_m();
     if flown.as_ref().is_ok_and(is_flight) {
         return flown;
     }
-    let bare = seek(&film.with_share_of_attraction(0.0), load, start, true)?;
+    let bare = seek(&film.with_share_of_attraction(0.0), load, starts, true)?;
     match is_flight(&bare) {
         true => follow(film, load, &bare),
         false => flown,
@@ -129,24 +142,25 @@ fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyEr
     Search::new(film, load, path.last.attitude).reported(path.last)
 }
 
-/// The search for equilibria behind [`fly_from`]; by overdamped motion only on request.
+/// The search for equilibria behind [`fly_among`]; by overdamped motion only on request.
 fn seek(
     film: &Film,
     load: [f64; 3],
-    start: &Attitude,
+    starts: &[Attitude],
     may_drift: bool,
 ) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
-    let mut search = Search::new(film, load, *start);
+    let mut search = Search::new(film, load, starts[0]);
     let usual = film.usual_attitude();
-    if *start != usual {
-        search.attempt(start, film.ambient(start));
+    for start in starts {
+        let psi = match *start == usual {
+            true => film.usual_psi().to_vec(),
+            false => film.ambient(start),
+        };
+        search.attempt(start, psi);
     }
-    search.attempt(&usual, film.usual_psi().to_vec());
     if search.best().is_none() && may_drift {
-        let mut high = usual;
-        high.centre_height_m += 1e-7;
-        for from in [usual, high, *start] {
+        for from in starts_of_drift(film, starts) {
             search.attempt_by_drift(&from);
             if search.best().is_some() {
                 break;

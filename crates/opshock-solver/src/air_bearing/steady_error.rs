@@ -19,7 +19,7 @@ pub enum SteadyError {
         /// Last attitude reached.
         attitude: Attitude,
     },
-    /// Surface forces pull the slider onto the disk; only the film keeps it away.
+    /// The slider flies without surface forces; with all of them it is pulled onto the disk.
     #[error(
         "surface forces pull the slider onto the disk, {share:.3} of them is the most under which it \
          flies; without them it flies at {without_m:e} m"

@@ -253,8 +253,8 @@ fn aimed_impulse(system: &impl UnilateralSystem, closed: [bool; 2], refund: Refu
     if !(closed[0] && closed[1]) {
         return bounded;
     }
-    // Two contacts: each is bounded by itself; then both go from zero rates towards their aims as far as their common
-    // energy allows. Less than zero rates would let the contacts sink in.
+    // Two contacts: each is bounded by itself. Then both go from `stop`, which makes the rates zero, towards these
+    // bounds as far as their common energy allows. Impulses below `stop` would let the contacts penetrate.
     let beyond = [bounded[0] - stop[0], bounded[1] - stop[1]];
     let at = |share: f64| [stop[0] + share * beyond[0], stop[1] + share * beyond[1]];
     let energy = |p: [f64; 2]| {

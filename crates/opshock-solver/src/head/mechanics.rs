@@ -36,7 +36,7 @@ pub(super) struct Mechanics {
     gimbal: AtPorts,
     /// e = M⁻¹ f: acceleration of every coordinate per acceleration of the pivot.
     rigid: Vec<f64>,
-    preload_n: f64,
+    steady_dimple_force_n: f64,
     contact_n_per_m: f64,
     contact_n_s_per_m: f64,
     /// Force at the dimple per natural mode of bending, one row for every pinned mode.
@@ -98,7 +98,7 @@ impl Mechanics {
             ports: Ports::new(suspension),
             gimbal,
             rigid,
-            preload_n: parameters.steady_dimple_force_n(),
+            steady_dimple_force_n: parameters.steady_dimple_force_n(),
             contact_n_per_m: dimple.stiffness_n_per_m,
             contact_n_s_per_m: damper(dimple),
             suspension_weights: suspension_weights(suspension),
@@ -161,7 +161,9 @@ impl Mechanics {
 
     #[inline]
     fn signed_dimple_force(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
-        self.preload_n + self.contact_n_per_m * p[CLOSING] + self.contact_n_s_per_m * rate[CLOSING]
+        self.steady_dimple_force_n
+            + self.contact_n_per_m * p[CLOSING]
+            + self.contact_n_s_per_m * rate[CLOSING]
     }
 
     /// Forces at the ports by gimbal, contacts and the film's excess F − F₀, and which contacts are closed.
@@ -171,7 +173,7 @@ impl Mechanics {
             *out += film;
         }
         let signed = self.signed_dimple_force(p, rate);
-        out[CLOSING] += self.preload_n - signed.max(0.0);
+        out[CLOSING] += self.steady_dimple_force_n - signed.max(0.0);
         self.stops.add_force(p, rate, &mut out);
         let dimple = Closed::of_dimple(signed > 0.0);
         (out, self.stops.add_closed(p, rate, dimple))

@@ -29,6 +29,14 @@ pub enum HeadError {
         /// Its value.
         value: f64,
     },
+    /// A force that may be zero is below it or not finite.
+    #[error("{quantity} must not be negative and must be finite, found {value}")]
+    Negative {
+        /// Which one.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// The mass matrix of slider and suspension is singular.
     #[error("the mass matrix of slider and suspension is singular")]
     SingularMass,
@@ -86,12 +94,12 @@ impl ShockLoad<'_> {
         self.amplitude_m_per_s2 * unit
     }
 
-    /// Its limit from the right.
+    /// [`Self::value`] from the right.
     pub(super) fn just_after(&self, time_s: f64) -> f64 {
         self.amplitude_m_per_s2 * self.unit(time_s, right_of(time_s))
     }
 
-    /// Its jump.
+    /// Jump of [`Self::value`].
     pub(super) fn jump(&self, time_s: f64) -> f64 {
         let jump = self.unit(time_s, right_of(time_s)) - self.unit(time_s, time_s);
         jump * self.amplitude_m_per_s2
@@ -169,6 +177,11 @@ impl HeadModel {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(HeadError::NotPositive { quantity, value });
             }
+        }
+        let value = suspension.gimbal.dimple_preload_n;
+        if !(value >= 0.0 && value.is_finite()) {
+            let quantity = "dimple preload";
+            return Err(HeadError::Negative { quantity, value });
         }
         let limiters = suspension.limiters.iter().map(|limiter| &limiter.contact);
         let tab = suspension.lift_tab.iter().map(|tab| &tab.contact);

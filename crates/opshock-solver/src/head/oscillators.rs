@@ -41,10 +41,9 @@ impl Oscillators {
             load: Vec::new(),
         };
         for set in [&suspension.bending, &suspension.torsion] {
-            for omega in set.natural_rad_per_s.iter() {
-                out.stiffness.push(omega * omega);
-                out.damping.push(2.0 * set.damping_ratio * omega);
-            }
+            out.stiffness
+                .extend(set.natural_rad_per_s.iter().map(|omega| omega * omega));
+            out.damping.extend(set.decay_per_s.iter());
             out.load
                 .extend(set.in_natural_modes(&set.inertia_load).iter());
         }

@@ -105,7 +105,7 @@ pub struct StopRecord {
 
 impl StopRecord {
     /// Adds a step of `dt_s` that ends at `time_s`, with the forces at its ends.
-    pub(super) fn balance(&mut self, force_n: [f64; 2], dt_s: f64, time_s: f64) {
+    pub(super) fn add_step(&mut self, force_n: [f64; 2], dt_s: f64, time_s: f64) {
         let [before, after] = force_n;
         self.max_force_n = self.max_force_n.max(after);
         if after > 0.0 {
@@ -129,11 +129,12 @@ pub struct HeadColumns {
     pub slider_roll_rad: Vec<f64>,
     /// Smallest clearance, m.
     pub min_clearance_m: Vec<f64>,
-    /// Vertical force of the film, N.
+    /// Force of the air above ambient pressure on the slider, N; positive: away from the disk. Other forces in the gap
+    /// are not part of it, nor of the moments.
     pub bearing_force_n: Vec<f64>,
-    /// Moment of the film about the slider's centre against pitch, N m; 0 in steady flight.
+    /// Moment of the air about the slider's centre, N m; positive: raises the leading edge.
     pub bearing_pitch_n_m: Vec<f64>,
-    /// The same against roll, N m.
+    /// The same; positive: raises the outer side.
     pub bearing_roll_n_m: Vec<f64>,
     /// Contact force of the dimple, N.
     pub dimple_force_n: Vec<f64>,

@@ -49,11 +49,12 @@ pub fn suspension() -> SuspensionParameters {
         shear_modulus_pa: 74e9,
         density_kg_per_m3: 7900.0,
         damping_ratio: 0.02,
+        rayleigh: None,
         gimbal: Gimbal {
             vertical_n_per_m: 15.0,
             pitch_n_m_per_rad: 1e-30,
             roll_n_m_per_rad: 1e-30,
-            ..Gimbal::default()
+            dimple_preload_n: 0.0,
         },
         dimple: law(5e5, 0.05),
         limiters: Vec::new(),

@@ -5,7 +5,6 @@
 //! ```
 //!
 //! Rows are eliminated without exchanges, so the pattern of L + U is the band itself and a
-//! factorisation allocates nothing. That is safe for the matrices it is meant for: the flux
 //! factorisation allocates nothing. That is safe for the matrices it is meant for: the flux Jacobian of a conservative,
 //! monotone scheme is diagonally dominant by columns (what leaves one cell enters its neighbours), and for such a
 //! matrix no multiplier exceeds one (Golub and Van Loan, *Matrix Computations*, 4th ed., theorem 4.1.2). Where a

@@ -23,6 +23,8 @@ pub struct GeneralEigen {
 /// with both vectors, which keeps the digits of the small ones beside a large one. Of a real matrix
 /// real eigenvalues are real to the last bit.
 ///
+/// # Errors
+///
 /// No convergence, or two eigenvectors so nearly parallel that decomposing a vector loses more than half of the digits.
 pub fn general_eigen(rows: &[Vec<Complex<f64>>]) -> Result<GeneralEigen, DenseError> {
     let n = rows.len();

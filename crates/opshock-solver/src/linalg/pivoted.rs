@@ -88,9 +88,9 @@ impl Kernel for Product<'_> {
 }
 
 /// Inverse of a small square matrix, in storage allocated once.
+///
 /// The matrix is inverted in place (Gauss-Jordan) with exchanges. The coefficients of an unknown in all equations are
 /// first divided by the largest of them, since metres and radians occur in one matrix.
-/// divided by its largest entry before, since metres and radians meet in one matrix.
 #[derive(Clone, Debug)]
 pub struct PivotedInverse {
     /// Row by row.

@@ -172,11 +172,12 @@ fn suspension() -> SuspensionParameters {
         shear_modulus_pa: 74e9,
         density_kg_per_m3: 7900.0,
         damping_ratio: 0.02,
+        rayleigh: None,
         gimbal: Gimbal {
             vertical_n_per_m: 15.0,
             pitch_n_m_per_rad: 6e-5,
             roll_n_m_per_rad: 2.5e-5,
-            ..Gimbal::default()
+            dimple_preload_n: 0.0,
         },
         dimple: ContactLaw {
             stiffness_n_per_m: 5e5,

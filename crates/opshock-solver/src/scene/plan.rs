@@ -15,13 +15,13 @@
 //! | R4 | no ramp contact is run | closing of disk against the freely shaking ramp < clearance |
 //! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
 //! | R6 | the head ends at touch | a verdict is wanted |
-//! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without ramp only: a contact's sign costs little |
+//! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without a ramp only: with one, contact is run for each sign |
 //! | R8 | pressure fields only at requested times, in recorded runs | `pressure_field` requested, its times |
-//! | R9 | one steady flight for equal sliders, gases, speeds and preloads; one structural history for several sliders or altitudes | contents equal |
+//! | R9 | one steady flight for equal sliders, gases, speeds and gram loads; one structural history for several sliders at one place or several altitudes | contents equal |
 //! | R10 | nothing approximate without its name | always |
 //!
-//! [`Mode::Full`] applies R8 and R10 alone. Its head continues after a touch (R6), with the film at its minimum height;
-//! verdict, smallest clearance and forces are reported up to the touch in both modes.
+//! [`Mode::Full`] applies R8 and R10 alone. Without R6 its head continues after a touch, with the film at its minimum
+//! height where the slider touches; verdict, smallest clearance and forces are reported up to the touch in both modes.
 //!
 //! R1 holds because the film's force on the disk is neglected compared with the disk's inertia. An oblique shock on a
 //! hub drives n = 1 from the onset: R2 and R3 then apply to n ≥ 2.
@@ -93,7 +93,7 @@ pub struct Decision {
 pub enum State {
     /// Built and integrated.
     On,
-    /// Built, at rest until the first touch.
+    /// At rest until the first touch; built when a run first touches.
     Inactive,
     /// Not built.
     Off,
@@ -284,7 +284,7 @@ impl Plan {
 
     /// Rules that a run of `scene` applied, in order; `touched` says whether disk and ramp met.
     pub fn applied(&self, scene: &Scene, touched: bool) -> Vec<&'static str> {
-        // A touching amplitude below or above any amplitude expresses what the run found.
+        // A run that touched is above a touching amplitude of zero, one that did not has none.
         let touch = Touch {
             amplitude_m_per_s2: Some(1.0),
             threshold_m_per_s2: [touched.then_some(0.0); 2],

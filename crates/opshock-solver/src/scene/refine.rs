@@ -79,7 +79,8 @@ impl Scene {
             .collect()
     }
 
-    /// The same scene at other refinement levels, without its values of the model; see [`super::discretisation`].
+    /// The same scene at other refinement levels; parameters in `not_refined` keep their values. See
+    /// [`super::discretisation`].
     #[must_use]
     pub fn at_levels(&self, mut levels: Levels) -> Scene {
         let mut scene = self.clone();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::air_bearing::steady::{Flight, SteadyError, fly};
+use crate::air_bearing::steady::{Flight, SteadyError, fly, fly_among};
 use crate::air_bearing::{CorrectionForces, Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
@@ -73,11 +73,21 @@ impl Bearing {
             None => Some(Arc::new(correction_forces(scene)?)),
         };
         let plain = scene.film()?;
-        let film = match &reference {
-            Some(reference) => plain.corrected_by(reference)?,
-            None => plain,
+        let load = [scene.suspension.gram_load_n, 0.0, 0.0];
+        let (film, flight) = match &reference {
+            Some(reference) => {
+                // A corrected film may have further equilibria near the disk, where its correction is large.
+                let mut starts = vec![plain.usual_attitude()];
+                starts.extend(fly(&plain, load).ok().map(|flight| flight.attitude));
+                let film = plain.corrected_by(reference)?;
+                let flight = fly_among(&film, load, &starts)?;
+                (film, flight)
+            }
+            None => {
+                let flight = fly(&plain, load)?;
+                (plain, flight)
+            }
         };
-        let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
         Ok(Self {
             film: Arc::new(film),
             flight: Arc::new(flight),

@@ -40,8 +40,8 @@ pub struct QuasiStaticClearance {
     pub n_iterations: usize,
 }
 
-/// Smallest clearance at the fixed attitude `lowest` over the disk if the film `bearing` of `scene` had the grid
-/// `other`.
+/// Estimate of a shock's smallest clearance with the film of `scene` on the grid `other`; `lowest` is the attitude over
+/// the disk at which the shock has its smallest clearance with the film of `bearing`.
 ///
 /// # Errors
 ///

@@ -28,7 +28,7 @@ pub struct Workspace {
 /// Runs one shock through `model`.
 ///
 /// Never fails: what prevents an answer is [`Verdict::Undecided`] with its cause. A model without
-/// a head has neither clearance nor verdict.
+/// a head has no clearance, and no verdict unless its structure gives no answer.
 pub fn simulate(model: &Model, request: &Request, workspace: &mut Workspace) -> Outcome {
     let structure = run_structure(model, request, workspace);
     simulate_head(model, request, structure.as_ref(), workspace)

@@ -73,10 +73,10 @@ impl ContactSystem<'_> {
     /// Commits a whole step in one pass.
     pub(super) fn batched_step(&mut self) {
         let (driven, n) = (self.driven, self.run.n_moving);
-        self.balance_exchange();
+        self.add_exchange();
         let run = &mut self.run;
         let (loss, sight, contact_ahead) = driven.batched_step(n, &mut run.state.now);
-        run.registry.damping.add(loss);
+        run.exchanged.damping.add(loss);
         run.shared.free.step(&mut run.state.unit_now, run.k);
         run.is_totalled = false;
         run.seen = Some(sight);
@@ -90,12 +90,12 @@ impl ContactSystem<'_> {
     }
 
     /// Adds the work and loss of the forced modes from now to the instant ahead to the energy balance.
-    fn balance_exchange(&mut self) {
+    fn add_exchange(&mut self) {
         self.run.total_forced(self.driven);
         let (free, run) = (&self.run.shared.free, &mut self.run);
         let exchange = free.exchange(&mut run.state.total_forced, run.k, run.amplitude);
-        run.registry.work.add(exchange.work);
-        run.registry.damping.add(exchange.loss);
+        run.exchanged.work.add(exchange.work);
+        run.exchanged.damping.add(exchange.loss);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::contact_log::ContactLog;
 use super::driven::Driven;
-use super::energy::{Energies, Registry};
+use super::energy::{Energies, ExchangedEnergy};
 use super::error::StructureError;
 use super::history::StructuralHistory;
 use super::outcome::StructureRun;
@@ -25,7 +25,7 @@ pub(super) struct Closing<'a> {
     pub not_finite: Option<usize>,
     /// Energies at the last node, and the energy exchanged until then.
     pub energies: Energies,
-    pub registry: Registry,
+    pub exchanged: ExchangedEnergy,
     pub extremes: DiskExtremes,
     pub complementarity: Complementarity,
     /// Hub and base, if the model has them.
@@ -125,7 +125,7 @@ impl Closing<'_> {
     pub fn run(self) -> Result<StructureRun, StructureError> {
         let step_s = self.shared.free.step_s;
         let end_s = self.k as f64 * step_s;
-        let energy = balance(&self.energies, &self.registry);
+        let energy = balance(&self.energies, &self.exchanged);
         let numbers = [
             energy.h_end_j,
             energy.shock_work_j,
@@ -182,11 +182,11 @@ impl Closing<'_> {
 }
 
 /// H at the end compared with the energy supplied and taken.
-fn balance(energies: &Energies, registry: &Registry) -> EnergyBalance {
+fn balance(energies: &Energies, exchanged: &ExchangedEnergy) -> EnergyBalance {
     let h_end = energies.fixed_frame;
-    let peak = registry.peak_fixed_frame;
-    let (work, damping) = (registry.work.value(), registry.damping.value());
-    let exchanged = work - damping - registry.impact + registry.algorithmic;
+    let peak = exchanged.peak_fixed_frame;
+    let (work, damping) = (exchanged.work.value(), exchanged.damping.value());
+    let net = work - damping - exchanged.impact + exchanged.algorithmic;
     EnergyBalance {
         kinetic_j: energies.kinetic,
         elastic_j: energies.elastic,
@@ -194,11 +194,11 @@ fn balance(energies: &Energies, registry: &Registry) -> EnergyBalance {
         h_peak_j: peak,
         shock_work_j: work,
         damping_loss_j: damping,
-        impact_loss_j: registry.impact,
-        algorithmic_j: registry.algorithmic,
-        spindle_work_j: registry.spindle,
+        impact_loss_j: exchanged.impact,
+        algorithmic_j: exchanged.algorithmic,
+        spindle_work_j: exchanged.spindle,
         closure: if peak > 0.0 {
-            (h_end - exchanged).abs() / peak
+            (h_end - net).abs() / peak
         } else {
             0.0
         },

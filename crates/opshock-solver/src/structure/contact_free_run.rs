@@ -6,7 +6,7 @@ use super::driven::Driven;
 use super::outlook::Sight;
 use super::parameters::Window;
 use super::record::DiskExtremes;
-use super::run_balances::RunBalances;
+use super::run_in_progress::RunInProgress;
 use super::span::{INTERVAL_NODES, Range};
 use crate::complementarity::Gap;
 use crate::lanes::abreast;
@@ -171,7 +171,7 @@ impl ContactSystem<'_> {
         let (shared, k, n) = (self.run.shared, self.run.k, self.run.n_moving);
         let free = &shared.free;
         let run = &mut self.run;
-        run.registry
+        run.exchanged
             .damping
             .add(contact_free.loss.loss(n, &run.state.now));
         if k as f64 * free.step_s >= free.pulse_end_s {
@@ -179,7 +179,7 @@ impl ContactSystem<'_> {
             let total = &run.state.total_forced;
             let states = total.x.iter().zip(&total.v).zip(&contact_free.forced_loss);
             let loss = states.map(|((x, v), form)| form.loss((*x).into(), (*v).into()));
-            run.registry.damping.add(loss.sum());
+            run.exchanged.damping.add(loss.sum());
             free.state_at_node(k + INTERVAL_NODES, &mut run.state.unit_ahead);
         } else {
             let state = &mut *run.state;
@@ -189,7 +189,7 @@ impl ContactSystem<'_> {
             }
             state.unit_ahead.copy_from(&state.unit_now);
             let states = [forced, &mut state.unit_ahead, &mut state.total_forced];
-            free.exchange_contact_free(states, k, run.amplitude, &mut run.registry);
+            free.exchange_contact_free(states, k, run.amplitude, &mut run.exchanged);
             run.is_totalled = false;
         }
         (self.contact_ahead, run.seen) = (None, None);
@@ -202,7 +202,7 @@ impl ContactSystem<'_> {
     }
 }
 
-impl RunBalances<'_> {
+impl RunInProgress<'_> {
     /// Free motion over a whole interval before any contact, which may begin at node `end` or later, where nothing
     /// needs the nodes between. Returns whether it was taken.
     pub fn advance_inactive(&mut self, end: usize) -> bool {

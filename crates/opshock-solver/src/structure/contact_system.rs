@@ -1,15 +1,16 @@
-//! Motion of the disk and of the ramp's two arms while they may touch, from their first contact to the end of the run.
+//! Motion of the disk and of the ramp's two arms while they may touch, from their first contact (in the full model from
+//! the onset) to the end of the run.
 //!
 //! The motion is a sum of two: what the pulse alone gives, which is the amplitude times a response computed once, and
-//! what the contacts add. The second is marched here. Between contacts its modes are advanced in closed form; at a
-//! contact an impulse, found by Lagrange multipliers (`complementarity`), changes their velocities so that disk and arm
-//! do not penetrate.
+//! what the contacts add. The second is marched here. Between contacts its modes are advanced in closed form. At a
+//! contact an impulse changes their velocities (`complementarity`): it reverses or ends the approach at an impact, and
+//! is aimed at a gap of zero one step ahead in lasting contact.
 
 use super::contact_free::Points;
 use super::driven::Driven;
 use super::history::Break;
 use super::rotor::{self, RotorState};
-use super::run_balances::RunBalances;
+use super::run_in_progress::RunInProgress;
 use super::sample::Sample;
 use crate::complementarity::{Gap, ImpulseKind, Refund, StepReport, UnilateralSystem};
 use crate::disk::DiskPose;
@@ -26,7 +27,7 @@ const STILL_STEPS: usize = 64;
 const STILL_SHARE: f64 = 1e-26;
 
 pub(super) struct ContactSystem<'a> {
-    pub(super) run: RunBalances<'a>,
+    pub(super) run: RunInProgress<'a>,
     pub(super) driven: &'a Driven,
     /// Time since the node reached.
     pub(super) offset_s: f64,
@@ -45,7 +46,7 @@ pub(super) struct ContactSystem<'a> {
 
 impl<'a> ContactSystem<'a> {
     /// Activates the contact-driven modes at the node that `run` has reached.
-    pub fn activate(mut run: RunBalances<'a>, driven: &'a Driven) -> Self {
+    pub fn activate(mut run: RunInProgress<'a>, driven: &'a Driven) -> Self {
         run.activate(driven);
         let mut system = Self {
             run,
@@ -63,13 +64,13 @@ impl<'a> ContactSystem<'a> {
         system
     }
 
-    /// The balances so far.
-    pub fn balances(&mut self) -> &mut RunBalances<'a> {
+    /// The run so far.
+    pub fn run(&mut self) -> &mut RunInProgress<'a> {
         &mut self.run
     }
 
-    /// The balances of a run that ends here.
-    pub fn into_balances(self) -> RunBalances<'a> {
+    /// The run, which ends here.
+    pub fn into_run(self) -> RunInProgress<'a> {
         self.run
     }
 
@@ -187,7 +188,7 @@ impl<'a> ContactSystem<'a> {
     }
 
     /// Adds work and loss from now to the instant ahead to the energy balance.
-    fn balance_free_motion(&mut self) {
+    fn add_free_motion(&mut self) {
         let (shared, driven, reach) = (self.run.shared, self.driven, self.reach_s);
         self.run.total_forced(self.driven);
         let is_whole = self.is_whole_step();
@@ -196,18 +197,18 @@ impl<'a> ContactSystem<'a> {
         let free = &shared.free;
         let exchange = if is_whole {
             self.run
-                .registry
+                .exchanged
                 .damping
                 .add(driven.step_loss.loss(self.run.n_moving, &state.now));
             free.exchange(&mut state.total_forced, self.run.k, self.run.amplitude)
         } else {
             let (n, forced) = (self.run.n_moving, &driven.forced_index);
             let loss = driven.part_flows.loss(n, &state.now, reach, forced);
-            self.run.registry.damping.add(loss);
+            self.run.exchanged.damping.add(loss);
             free.exchange_within(&mut state.total_forced, now_s, reach, self.run.amplitude)
         };
-        self.run.registry.work.add(exchange.work);
-        self.run.registry.damping.add(exchange.loss);
+        self.run.exchanged.work.add(exchange.work);
+        self.run.exchanged.damping.add(exchange.loss);
         if let Some(balance) = &mut self.run.bodies {
             balance.add_supports(exchange.support_n_s);
         }
@@ -315,18 +316,18 @@ impl UnilateralSystem for ContactSystem<'_> {
         // Energy per impulse: half the sum of the gap velocities before and after.
         let change: f64 = (0..2).map(|i| p[i] * (rate[i] + 0.5 * jump[i])).sum();
         match kind {
-            ImpulseKind::Impact => self.run.registry.impact -= change,
+            ImpulseKind::Impact => self.run.exchanged.impact -= change,
             ImpulseKind::Sustained => {
                 // The ripple between impulses is numerical: its loss belongs to the impulses and not to the structure.
                 let back = driven.ripple_of(p).min(self.refund().of(p));
-                let algorithmic = self.run.registry.algorithmic + (change - back);
+                let algorithmic = self.run.exchanged.algorithmic + (change - back);
                 // What springs return beyond that is damping, too.
                 let beyond = match driven.has_springs() {
                     true => algorithmic.max(0.0),
                     false => 0.0,
                 };
-                self.run.registry.algorithmic = algorithmic - beyond;
-                self.run.registry.damping.add(-back - beyond);
+                self.run.exchanged.algorithmic = algorithmic - beyond;
+                self.run.exchanged.damping.add(-back - beyond);
             }
         }
         let on_disk = p[1] - p[0];
@@ -338,7 +339,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         if let Some(balance) = &mut self.run.bodies {
             balance.contact_n_s += on_disk;
         }
-        self.run.registry.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+        self.run.exchanged.spindle += on_disk * shared.spin_rad_per_s * w_theta;
 
         let record = &mut self.run.complementarity;
         for side in 0..2 {
@@ -353,7 +354,7 @@ impl UnilateralSystem for ContactSystem<'_> {
         let closed = |g: &Gap| g.value_m <= shared.law.gap_tolerance_m;
         self.run.both_arms |= singular && self.gaps.iter().all(closed);
 
-        self.balance_jump(p, kind);
+        self.record_jump(p, kind);
 
         (self.is_settled, self.run.is_totalled) = (false, false);
         (self.contact_ahead, self.run.seen, self.landed) = (None, None, None);
@@ -402,7 +403,7 @@ impl UnilateralSystem for ContactSystem<'_> {
             return;
         }
         (self.contact_ahead, self.run.seen) = (None, None);
-        self.balance_free_motion();
+        self.add_free_motion();
         let whole = self.is_whole_step();
         let state = &mut *self.run.state;
         std::mem::swap(&mut state.now, &mut state.ahead);
@@ -421,7 +422,7 @@ impl UnilateralSystem for ContactSystem<'_> {
 
 impl ContactSystem<'_> {
     /// Records the jumps of the rates of slider and pivot by impulses of both contacts now.
-    fn balance_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
+    fn record_jump(&mut self, impulse: [f64; 2], kind: ImpulseKind) {
         if !self.run.state.keeps_motion {
             return;
         }

@@ -222,9 +222,9 @@ impl LongSum {
     }
 }
 
-/// Energies exchanged along a run, J.
+/// Energies exchanged along a run, and the largest energies met, J.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Registry {
+pub(super) struct ExchangedEnergy {
     pub work: LongSum,
     pub damping: LongSum,
     pub impact: f64,

@@ -5,7 +5,7 @@
 //! flow, also in steps in which the pulse has a kink. Every run, whatever its ramp, sign and amplitude, scales the same
 //! columns. On a hub or a vibrating base the disk's modes are coupled with it and advanced as a `rotor`.
 
-use super::energy::{LongSum, Registry};
+use super::energy::{ExchangedEnergy, LongSum};
 use super::forced_columns::ForcedColumns;
 use super::forced_modes::{ForcedModes, ForcedShapes};
 use super::rotor::{Rotor, RotorScratch, RotorState};
@@ -310,14 +310,14 @@ impl FreeMotion {
         total
     }
 
-    /// Adds work and loss over a contact-free interval from node `k` to `registry`, step by step while the pulse lasts.
+    /// Adds work and loss over a contact-free interval from node `k`, step by step while the pulse lasts.
     /// `unit` is the unit response there and is advanced, `contact` is the contact-driven part, `total` is scratch.
     pub fn exchange_contact_free(
         &self,
         [contact, unit, total]: [&mut ForcedState; 3],
         k: usize,
         amplitude: f64,
-        registry: &mut Registry,
+        exchanged: &mut ExchangedEnergy,
     ) {
         for k in k..k + INTERVAL_NODES {
             for (total, from) in [
@@ -330,8 +330,8 @@ impl FreeMotion {
                 }
             }
             let exchange = self.exchange(total, k, amplitude);
-            registry.work.add(exchange.work);
-            registry.damping.add(exchange.loss);
+            exchanged.work.add(exchange.work);
+            exchanged.damping.add(exchange.loss);
             self.step(unit, k);
             self.columns.carry(&mut contact.x, &mut contact.v);
         }

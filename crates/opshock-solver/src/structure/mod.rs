@@ -26,7 +26,7 @@ mod parameters;
 mod record;
 mod response;
 mod rotor;
-mod run_balances;
+mod run_in_progress;
 mod sample;
 mod shared;
 mod span;

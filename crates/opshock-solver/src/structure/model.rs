@@ -5,7 +5,7 @@ use super::error::StructureError;
 use super::outcome::StructureRun;
 use super::parameters::{ContactMethod, Window};
 use super::rotor::Rotor;
-use super::run_balances::{RunBalances, RunState};
+use super::run_in_progress::{RunInProgress, RunState};
 use super::sample::unit_gap;
 use super::shared::Shared;
 use super::time_grid::count_steps;
@@ -82,7 +82,7 @@ impl StructureModel {
         self.activation
     }
 
-    /// Node of the grid at which a run over `window` ends at the latest; `None` for an invalid window.
+    /// Latest end of a run over `window`, at a node of the grid, s; `None` for an invalid window.
     pub fn end_of(&self, window: Window) -> Option<f64> {
         let step_s = self.shared.free.step_s;
         let n_steps = count_steps(window, step_s).ok()?;
@@ -138,40 +138,40 @@ impl StructureModel {
             true => amplitude_m_per_s2.abs(),
             false => amplitude_m_per_s2,
         };
-        let mut balances = RunBalances::new(shared, amplitude_m_per_s2, state);
+        let mut run = RunInProgress::new(shared, amplitude_m_per_s2, state);
         let mut memory = ContactMemory::default();
-        balances.record_node();
+        run.record_node();
         let first_active = match self.activation {
             Activation::AtTouch if mutant::is_on("R3 first touch") => shared.n_steps,
             Activation::AtTouch => shared.first_touching_step(amplitude_m_per_s2),
             Activation::AtOnset => 0,
         };
-        while balances.k < first_active {
-            if !balances.advance_inactive(first_active) {
-                balances.inactive_step();
+        while run.k < first_active {
+            if !run.advance_inactive(first_active) {
+                run.inactive_step();
             }
-            balances.record_node();
-            if balances.decayed() {
-                return balances.finish();
+            run.record_node();
+            if run.decayed() {
+                return run.finish();
             }
         }
         if first_active == shared.n_steps {
-            return balances.finish();
+            return run.finish();
         }
-        let mut system = ContactSystem::activate(balances, shared.driven()?);
-        while system.balances().k < shared.n_steps {
+        let mut system = ContactSystem::activate(run, shared.driven()?);
+        while system.run().k < shared.n_steps {
             if !system.advance_contact_free() {
                 let step_s = shared.free.step_s;
                 let report =
                     complementarity::advance(&mut system, step_s, &shared.law, &mut memory);
                 system.end_step(report);
             }
-            system.balances().record_node();
-            if system.balances().decayed() {
+            system.run().record_node();
+            if system.run().decayed() {
                 break;
             }
         }
-        system.into_balances().finish()
+        system.into_run().finish()
     }
 
     /// Smallest |amplitude| of the given sign at which the disk touches this ramp within the window, by linearity from

@@ -15,7 +15,7 @@ use super::closing::{BodyBalance, Closing};
 use super::contact_log::ContactLog;
 use super::contact_system::EVENT_SPACING_S;
 use super::driven::Driven;
-use super::energy::Registry;
+use super::energy::ExchangedEnergy;
 use super::error::StructureError;
 use super::history::StructuralHistory;
 use super::model::StructureModel;
@@ -46,7 +46,7 @@ struct March<'a> {
     extremes: DiskExtremes,
     logs: [ContactLog; 2],
     complementarity: Complementarity,
-    registry: Registry,
+    exchanged: ExchangedEnergy,
     rotor_now: RotorState,
     rotor_before: RotorState,
     scratch: RotorScratch,
@@ -95,7 +95,7 @@ impl<'a> March<'a> {
             extremes: DiskExtremes::default(),
             logs: Default::default(),
             complementarity: Complementarity::default(),
-            registry: Registry::default(),
+            exchanged: ExchangedEnergy::default(),
             rotor_now: at_rest(),
             rotor_before: at_rest(),
             scratch: rotor.map_or_else(RotorScratch::default, |rotor| rotor.scratch()),
@@ -128,11 +128,11 @@ impl<'a> March<'a> {
             (self.now.q_re[j], self.now.q_im[j]) = (q.re, q.im);
             (self.now.r_re[j], self.now.r_im[j]) = (r.re, r.im);
         }
-        self.balance_step(k, impulse);
+        self.add_step(k, impulse);
     }
 
     /// Adds the energies exchanged in the step just taken from node `k`, and its impulses, to the balances.
-    fn balance_step(&mut self, k: usize, impulse: [f64; 2]) {
+    fn add_step(&mut self, k: usize, impulse: [f64; 2]) {
         let (shared, driven) = (self.shared, self.driven);
         let h = shared.free.step_s;
         let (a, b) = (&self.before, &self.now);
@@ -141,19 +141,19 @@ impl<'a> March<'a> {
             let (q_re, q_im) = (mean(&a.q_re, &b.q_re), mean(&a.q_im, &b.q_im));
             let (r_re, r_im) = (mean(&a.r_re, &b.r_re), mean(&a.r_im, &b.r_im));
             let mode = linear(o);
-            self.registry
+            self.exchanged
                 .work
                 .add(self.force[j] * (b.q_re[j] - a.q_re[j]));
             let power = mode.damping_per_s.re * (r_re * r_re + r_im * r_im)
                 + mode.stiffness_per_s2.im * (r_im * q_re - r_re * q_im);
-            self.registry.damping.add(h * power);
+            self.exchanged.damping.add(h * power);
         }
         if let Some(rotor) = &shared.free.rotor {
             let force = self.amplitude * shared.pulse.value((k as f64 + 0.5) * h);
             let (before, now) = (&self.rotor_before, &self.rotor_now);
             let exchange = rotor.midpoint_exchange(before, now, h, force, &mut self.scratch);
-            self.registry.work.add(exchange.work);
-            self.registry.damping.add(exchange.loss);
+            self.exchanged.work.add(exchange.work);
+            self.exchanged.damping.add(exchange.loss);
             if let Some(balance) = &mut self.bodies {
                 balance.add_supports(exchange.support_n_s);
                 balance.contact_n_s += impulse[1] - impulse[0];
@@ -170,7 +170,7 @@ impl<'a> March<'a> {
             let (before, now) = (&self.rotor_before, &self.rotor_now);
             w_theta += 0.5 * (rotor.contact_turn(before) + rotor.contact_turn(now));
         }
-        self.registry.spindle += on_disk * shared.spin_rad_per_s * w_theta;
+        self.exchanged.spindle += on_disk * shared.spin_rad_per_s * w_theta;
         for (side, &p) in impulse.iter().enumerate() {
             let record = &mut self.complementarity;
             record.min_multiplier_n_s = record.min_multiplier_n_s.min(p);
@@ -186,7 +186,7 @@ impl<'a> March<'a> {
                 let opening = arm[0] + arm[1] - (before + now);
                 rates += if side == 0 { opening } else { -opening };
             }
-            self.registry.impact -= 0.5 * p * rates;
+            self.exchanged.impact -= 0.5 * p * rates;
             let product = (p * self.system.gap_m(side)).abs();
             record.max_product_n_s_m = record.max_product_n_s_m.max(product);
             self.logs[side].push(start_s + 0.5 * h, p);
@@ -252,9 +252,9 @@ impl<'a> March<'a> {
             let largest = &mut self.complementarity.max_penetration_m;
             *largest = largest.max(-self.system.gap_m(side));
         }
-        let registry = &mut self.registry;
-        registry.peak_fixed_frame = registry.peak_fixed_frame.max(node.energies.fixed_frame);
-        registry.peak_material = registry.peak_material.max(node.energies.material());
+        let exchanged = &mut self.exchanged;
+        exchanged.peak_fixed_frame = exchanged.peak_fixed_frame.max(node.energies.fixed_frame);
+        exchanged.peak_material = exchanged.peak_material.max(node.energies.material());
         if let Some(columns) = &mut self.columns {
             columns.push(&node);
             if let (Some(balance), Some(rotor)) = (&self.bodies, &shared.free.rotor) {
@@ -269,7 +269,7 @@ impl<'a> March<'a> {
             Window::Fixed { .. } => false,
             Window::UntilDecayed { share, .. } => {
                 self.last.time_s >= self.shared.free.pulse_end_s
-                    && self.last.energies.material() <= share * self.registry.peak_material
+                    && self.last.energies.material() <= share * self.exchanged.peak_material
             }
         }
     }
@@ -283,7 +283,7 @@ impl<'a> March<'a> {
             k,
             not_finite: None,
             energies: self.last.energies,
-            registry: self.registry,
+            exchanged: self.exchanged,
             extremes: self.extremes,
             complementarity: self.complementarity,
             bodies: self.bodies,

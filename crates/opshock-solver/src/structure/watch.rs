@@ -1,14 +1,14 @@
 //! Evaluates the nodes within a contact-free interval: the motion that the head reads, extremes, recorded columns.
 
 use super::driven::Driven;
-use super::run_balances::RunBalances;
+use super::run_in_progress::RunInProgress;
 use super::span::INTERVAL_NODES;
 use crate::disk::DiskPose;
 use crate::lanes::{self, Simd, WithSimd};
 use crate::modal::ModalState;
 use crate::modal::bank::{ChunkFlow, LANES, chunks};
 
-impl RunBalances<'_> {
+impl RunInProgress<'_> {
     /// Evaluates the nodes within a contact-free interval that begins now.
     pub fn watch(&mut self, driven: &Driven) {
         let first = self.k;

@@ -11,7 +11,8 @@
 //!
 //! with a(t) the inertia load per mass in the base frame, F and T the force and the roll moment
 //! that the slider exerts at the dimple. All displacements are increments from the loaded state;
-//! the gram load itself enters as the steady dimple force.
+//! gram load and preload of the gimbal enter as the steady dimple force. The gimbal's pitch moment acts on u through
+//! the slope at the dimple, a lift tab's force through the rise of the tab's end.
 //!
 //! A suspension from another program is given by its modes on the base (`modes`) and reduced in the same way.
 //!
@@ -30,7 +31,8 @@ pub use beam::{BeamMatrices, RootedBeam};
 pub use error::SuspensionError;
 pub use modes::SuspensionMode;
 pub use parameters::{
-    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, SuspensionParameters,
+    ContactLaw, Flange, Flexure, Gimbal, Hinge, LiftTab, Limiter, LoadBeam, RayleighDamping,
+    SuspensionParameters,
 };
 pub use reduction::{ReducedSuspension, Reduction};
 pub use section::{FLANGED_TORSION_FACTOR, FLEXURE_ROLL_RADIUS_M, HINGE_TORSION_FACTOR, Section};

@@ -23,7 +23,10 @@ pub struct SuspensionParameters {
     pub density_kg_per_m3: f64,
     /// Damping ratio of every mode.
     pub damping_ratio: f64,
-    /// Gimbal stiffnesses between the dimple point and the slider.
+    /// Damping in place of that ratio.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rayleigh: Option<RayleighDamping>,
+    /// Gimbal between the dimple point and the slider.
     pub gimbal: Gimbal,
     /// Unilateral dimple contact.
     pub dimple: ContactLaw,
@@ -33,6 +36,15 @@ pub struct SuspensionParameters {
     pub lift_tab: Option<LiftTab>,
     /// Modes that replace geometry and material; none: the geometry is used.
     pub modes: Vec<SuspensionMode>,
+}
+
+/// Rayleigh damping, C = α M + β K.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct RayleighDamping {
+    /// α, 1/s.
+    pub alpha_per_s: f64,
+    /// β, s.
+    pub beta_s: f64,
 }
 
 /// Hinge strip.
@@ -84,14 +96,22 @@ pub struct Flexure {
 }
 
 impl SuspensionParameters {
+    /// 2 ζ ω of a natural mode, 1/s, with its circular frequency ω, rad/s: α + β ω² of Rayleigh damping.
+    pub fn decay_per_s(&self, omega: f64) -> f64 {
+        match self.rayleigh {
+            Some(rayleigh) => rayleigh.alpha_per_s + rayleigh.beta_s * omega * omega,
+            None => 2.0 * self.damping_ratio * omega,
+        }
+    }
+
     /// Contact force of the dimple in steady flight, N.
     pub fn steady_dimple_force_n(&self) -> f64 {
         self.gram_load_n + self.gimbal.dimple_preload_n
     }
 }
 
-/// Gimbal stiffnesses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+/// Gimbal stiffnesses and preload.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Gimbal {
     /// Vertical, N/m.
     pub vertical_n_per_m: f64,

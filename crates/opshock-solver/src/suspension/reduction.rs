@@ -12,7 +12,7 @@
 //!
 //! Damping is the same ratio ζ for every natural mode Φ of the reduced beam with the dimple free: in the
 //! coordinates η of those modes, u = Φ η, mass, damping and stiffness are 1, diag(2 ζ ω) and diag(ω²), or
-//! C = M Φ diag(2 ζ ω) Φᵀ M in u.
+//! C = M Φ diag(2 ζ ω) Φᵀ M in u. With Rayleigh damping C = α M + β K, 2 ζ ω is α + β ω².
 //!
 //! With a lift tab one more shape is kept: the static shape of a force at the tab's end with the dimple fixed, less its
 //! part in the kept modes. It is orthogonal to them in M and K, so it enters like one of them, at the frequency of its
@@ -37,8 +37,8 @@ pub struct Reduction {
     pub mass: DMatrix<f64>,
     /// Stiffness, diagonal, n.
     pub stiffness: DVector<f64>,
-    /// Damping ratio of the natural modes.
-    pub damping_ratio: f64,
+    /// 2 ζ ω of the natural modes, n, 1/s.
+    pub decay_per_s: DVector<f64>,
     /// Natural modes Φ with the dimple free, mass-normalised columns by rising frequency, n × n.
     pub natural_modes: DMatrix<f64>,
     /// Their circular frequencies ω, n, rad/s.
@@ -97,7 +97,6 @@ impl ReducedSuspension {
         bending_modes: usize,
     ) -> Result<Self, SuspensionError> {
         let ([mut bending, torsion], mass_kg) = clamped(parameters)?;
-        let zeta = parameters.damping_ratio;
         if parameters.lift_tab.is_none() {
             bending.tab = None;
         } else if bending.tab.is_none() {
@@ -111,8 +110,12 @@ impl ReducedSuspension {
         let all_torsion = torsion.mass.nrows() - 1;
         Ok(Self {
             mass_kg,
-            bending: reduce(&bending, bending_modes, zeta)?,
-            torsion: reduce(&torsion, bending_modes.div_ceil(2).min(all_torsion), zeta)?,
+            bending: reduce(&bending, bending_modes, parameters)?,
+            torsion: reduce(
+                &torsion,
+                bending_modes.div_ceil(2).min(all_torsion),
+                parameters,
+            )?,
         })
     }
 
@@ -157,7 +160,7 @@ fn clamped(parameters: &SuspensionParameters) -> Result<([Clamped; 2], f64), Sus
 fn reduce(
     body: &Clamped,
     n_modes: usize,
-    damping_ratio: f64,
+    parameters: &SuspensionParameters,
 ) -> Result<Reduction, SuspensionError> {
     let Clamped {
         stiffness,
@@ -231,7 +234,7 @@ fn reduce(
     Ok(Reduction {
         mass: reduced_mass,
         stiffness: reduced_stiffness,
-        damping_ratio,
+        decay_per_s: DVector::from_iterator(size, omega.iter().map(|w| parameters.decay_per_s(*w))),
         natural_modes,
         natural_rad_per_s: DVector::from_vec(omega),
         inertia_load: basis.transpose() * load,

@@ -134,7 +134,10 @@ impl Bench {
             match self.probe(at).verdict {
                 Some(Verdict::Survives) => low = Some(at),
                 Some(Verdict::Fails { .. }) => high = Some(at),
-                undecided => return Err(format!("undecided at {at:.2} G: {undecided:?}")),
+                Some(Verdict::Undecided { cause }) => {
+                    return Err(format!("undecided at {at:.2} G: {cause}"));
+                }
+                None => return Err("no head is simulated".to_owned()),
             }
             match (low, high) {
                 (Some(low), Some(high)) if high / low - 1.0 <= bracket => {

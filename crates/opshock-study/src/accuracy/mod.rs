@@ -12,5 +12,5 @@ mod outcome;
 mod refinement;
 
 pub use measure::{Bench, Measured};
-pub use outcome::{Accuracy, PointStudies, QUANTITIES, SettingRow, StudyOrder};
+pub use outcome::{Accuracy, ObservedOrder, PointStudies, QUANTITIES, SettingRow};
 pub use refinement::{BRACKET, Setting, formal_order, order_quantity, refinement_settings};

@@ -19,7 +19,7 @@ pub const QUANTITIES: [&str; 7] = [
 /// A setting with its errors and cost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SettingRow {
-    /// Refinement study.
+    /// Discretisation parameter varied, or `joint`.
     pub parameter: String,
     /// Value of the discretisation parameter.
     pub value: String,
@@ -39,15 +39,14 @@ pub struct SettingRow {
 
 /// Observed order of a refinement study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StudyOrder {
-    /// Refinement study.
+pub struct ObservedOrder {
+    /// Discretisation parameter varied, or `joint`.
     pub parameter: String,
     /// Quantity it is read on.
     pub quantity: String,
-    /// Order in the refinement study's fineness, as the errors fall; `None` where they show none.
+    /// Order with which errors fall as the parameter is refined; `None` where they show none.
     pub observed: Option<f64>,
     /// Three or more errors are known, but scatter too much about any order.
-    #[serde(default)]
     pub is_disordered: bool,
     /// Formal order.
     pub formal: Option<f64>,
@@ -63,7 +62,7 @@ pub struct PointStudies {
     /// Settings.
     pub settings: Vec<SettingRow>,
     /// Orders.
-    pub orders: Vec<StudyOrder>,
+    pub orders: Vec<ObservedOrder>,
 }
 
 /// All data of a report.
@@ -192,7 +191,7 @@ fn mark_front(settings: &mut [SettingRow]) {
 }
 
 /// Order over the settings whose error exceeds both the reference's and rounding.
-fn order(parameter: &str, settings: &[SettingRow]) -> StudyOrder {
+fn order(parameter: &str, settings: &[SettingRow]) -> ObservedOrder {
     let quantity = order_quantity(parameter);
     let column = QUANTITIES
         .iter()
@@ -216,7 +215,7 @@ fn order(parameter: &str, settings: &[SettingRow]) -> StudyOrder {
         .collect();
     let fit = slope(&known);
     let is_disordered = fit.is_some_and(|slope| scatter(&known, slope) > SCATTER.ln());
-    StudyOrder {
+    ObservedOrder {
         parameter: parameter.to_owned(),
         quantity: quantity.to_owned(),
         observed: fit.filter(|_| !is_disordered).map(|slope| -slope),

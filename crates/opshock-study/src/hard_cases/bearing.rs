@@ -131,7 +131,7 @@ pub(super) fn c4() -> Vec<Check> {
     ] {
         let value = |n: usize| {
             let lines = crowded_twice(n);
-            // The side regions of the strip change with its width slightly.
+            // What the two ends of the strip contribute cancels in the difference of two widths.
             let three = squeeze(&lines, &uniform(3, 3e6), 3e6, sigma);
             let four = squeeze(&lines, &uniform(4, 4e6), 4e6, sigma);
             [0, 1].map(|part| 4.0 * four[part] - 3.0 * three[part])

@@ -106,7 +106,7 @@ pub(super) fn f2() -> Vec<Check> {
     use crate::search::{PointSearch, Start};
     let start = Start {
         hint_g: Some(300.0),
-        onset_amplitude: None,
+        onset_index: None,
         width_rank: 1,
     };
     let settings = settings();

@@ -65,7 +65,7 @@ pub(super) fn a1() -> Vec<Check> {
         )
         .against("closed form with 1/(1 - r^2), which is NaN at 0.5", naive),
         Check::new(
-            "200 g, 0.5 ms, 1 kHz against 78.0388411 um",
+            "200 G, 0.5 ms, 1 kHz against 78.0388411 um",
             (travel_um / 78.038_841_1 - 1.0).abs(),
             1e-9,
         ),

@@ -223,7 +223,7 @@ pub(super) fn search(
 ) -> (Findings, usize) {
     let start = Start {
         hint_g: None,
-        onset_amplitude: None,
+        onset_index: None,
         width_rank: 0,
     };
     let mut search = PointSearch::new(settings, start);
@@ -291,8 +291,8 @@ pub(super) fn e5() -> Vec<Check> {
     }
     vec![
         Check::new("critical shock against the table", closed, 2e-7),
-        Check::none("widths whose interval does not contain it", outside),
-        Check::new("widest interval", wide, 0.01).against("seven halvings of the range", loose),
+        Check::none("widths whose bracket does not contain it", outside),
+        Check::new("widest bracket", wide, 0.01).against("seven halvings of the range", loose),
     ]
 }
 
@@ -381,7 +381,7 @@ pub(super) fn e8() -> Vec<Check> {
     vec![
         Check::none("answers moved by more than the flutter", outside),
         Check::new(
-            "interval narrower than a step of the amplitude grid by",
+            "bracket narrower than a step of the amplitude grid by",
             settings.grid.step() - narrow,
             1e-12,
         )

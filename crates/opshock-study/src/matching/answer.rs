@@ -136,7 +136,7 @@ pub struct MatchAnswer {
 impl MatchAnswer {
     /// From the results of a search.
     pub fn of(problem: &MatchProblem, found: &Searched) -> Self {
-        let reported = Reported { problem, found };
+        let results = Results { problem, found };
         let seen = &problem.observations[..];
         // A set found by several parts of the search is listed once.
         let mut met = HashSet::new();
@@ -170,39 +170,39 @@ impl MatchAnswer {
             name: problem.name.clone(),
             is_complete: found.ended == Ended::Complete,
             observations: (0..problem.observations.len())
-                .map(|k| reported.observation(k, best))
+                .map(|k| results.observation(k, best))
                 .collect(),
             all: Share::of(all as u64, asked.len() as u64),
             not_ruled_out: Share::of(left as u64, asked.len() as u64),
-            parameters: reported.parameters(&whole),
-            matching: gallery.into_iter().map(|one| reported.set(one)).collect(),
+            parameters: results.parameters(&whole),
+            matching: gallery.into_iter().map(|one| results.set(one)).collect(),
             n_matching: holding.len() as u64,
             nearest: match holding.is_empty() {
-                true => nearest.map(|one| reported.set(one)),
+                true => nearest.map(|one| results.set(one)),
                 false => None,
             },
             best_of_each: problem
                 .effort
                 .each
-                .map(|place| reported.best_of_each(place, &whole)),
+                .map(|place| results.best_of_each(place, &whole)),
             conflicts: groups(problem, found)
                 .into_iter()
                 .map(|(_, one)| one)
                 .take(MOST_GROUPS)
                 .collect(),
-            next: reported.next(&whole),
+            next: results.next(&whole),
             tried: found.waves.iter().map(|wave| wave.tried).sum(),
             waves: found.waves.clone(),
         }
     }
 }
 
-struct Reported<'a> {
+struct Results<'a> {
     problem: &'a MatchProblem,
     found: &'a Searched,
 }
 
-impl Reported<'_> {
+impl Results<'_> {
     fn observation(&self, place: usize, best: Option<&Sample>) -> ObservationRow {
         let one = &self.problem.observations[place];
         let draws = || self.found.samples[..self.found.draws].iter();

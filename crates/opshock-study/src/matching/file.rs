@@ -86,7 +86,7 @@ const TOP: &[&str] = &[
 /// Draws of the prior by stage unless the file says otherwise.
 const DRAWS: [u64; 3] = [2000, 300, 30];
 const REFINEMENT: &[&str] = &["evaluations", "starts", "each", "weights"];
-/// The least effort.
+/// Largest number that a match file may give for a seed, draws or evaluations.
 const MOST: u64 = 100_000_000;
 
 impl MatchProblem {

@@ -234,7 +234,7 @@ impl Observation {
         }
     }
 
-    /// Shortfall of a number from its margin `u`, from 1 to 2 times the weight, and 0 where it reaches it; `None` where
+    /// Shortfall of a number's margin from its numerical uncertainty `u`, from 1 to 2 times the weight, and 0 where it reaches it; `None` where
     /// it is not known or bounds nothing. `scale` is the distance that is half a step.
     pub(super) fn missing(&self, number: Known, u: f64, scale: f64) -> Option<f64> {
         if self.margin(number, u)? >= SAFE {

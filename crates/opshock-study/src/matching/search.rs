@@ -96,7 +96,7 @@ impl Run<'_, '_> {
         self.contradict()
     }
 
-    /// Measures the numerical uncertainty: the largest change of a number when every parameter is refined once.
+    /// Measures the numerical uncertainty: the largest change of a number when every discretisation parameter is refined once.
     fn numerics(&mut self) -> Result<(), Interrupted> {
         let problem = self.problem;
         let is_measured = |stage: Stage| {

@@ -10,8 +10,8 @@ pub struct Share {
     pub with: u64,
     /// Independent draws of the prior.
     pub of: u64,
-    /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); without any draw,
-    /// the upper end is one-sided, about 3/n.
+    /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); where no
+    /// draw has the property, or all have it, it is one-sided, about 3/n wide.
     pub interval: [f64; 2],
 }
 

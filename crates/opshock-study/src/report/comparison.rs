@@ -303,7 +303,7 @@ impl Comparison {
         }
         for letter in ["A", "B"] {
             header.push(format!("{letter}: bracket (G)"));
-            header.push("error (G)".to_owned());
+            header.push("uncertainty (G)".to_owned());
         }
         header.extend(words(&["change (%)", "A_crit", "differs"]));
         let rows: Vec<Vec<String>> = self

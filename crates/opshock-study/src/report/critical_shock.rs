@@ -64,7 +64,7 @@ pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
     let lacks_uncertainty =
         |point: &PointSummary| point.status == Status::Ok && !has_uncertainty(point);
     if summary.points.iter().any(lacks_uncertainty) {
-        subtitle.push_str("; no interval: error not known");
+        subtitle.push_str("; no interval: uncertainty not known");
     }
     if bounded {
         subtitle.push_str("; open arrow: no bracket within the searched range");
@@ -159,12 +159,12 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
         _ => return None,
     };
     let g = |v: Option<f64>| v.map_or("-".to_owned(), |v| format!("{v:.1}"));
-    let error = match (point.err_low_g, point.err_high_g) {
-        (Some(low), Some(high)) => format!("error -{low:.1} +{high:.1} G"),
-        _ => "error not known".to_owned(),
+    let uncertainty = match (point.err_low_g, point.err_high_g) {
+        (Some(low), Some(high)) => format!("uncertainty -{low:.1} +{high:.1} G"),
+        _ => "uncertainty not known".to_owned(),
     };
     let mut note = format!(
-        "{name}, {} ms, {}: survives {} G, fails {} G, {error}, {}",
+        "{name}, {} ms, {}: survives {} G, fails {} G, {uncertainty}, {}",
         point.pulse_ms,
         point.sign.as_str(),
         g(point.a_crit_g),

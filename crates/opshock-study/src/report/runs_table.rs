@@ -81,7 +81,7 @@ fn row(results: &Results, run: &RunRow) -> Option<Vec<Value>> {
         Verdict::Fails { t_fail_s, x_m, y_m } => (Some(*t_fail_s), Some(*x_m), Some(*y_m), None),
         Verdict::Undecided { cause, .. } => (None, None, None, Some(cause.as_str())),
     };
-    let retry = crate::search::Retry::from_level(run.run.key.retry).map(|retry| retry.label());
+    let retry = crate::search::Retry::from_place(run.run.key.retry).map(|retry| retry.label());
     let mut row = vec![
         json!(point.ramp),
         json!(point.pulse_ms),

@@ -89,8 +89,8 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
         text.push_str(&line(row.iter().map(escape).collect()));
     }
     text.push_str(
-        "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; error: \
-         uncertainty of `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
+        "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; uncertainty: \
+         ends of the uncertainty interval below and above `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
          `> A`: no failure up to A; `< A`: failure already at A.\n",
     );
     text.push_str(&parts_table(summary));
@@ -105,8 +105,15 @@ pub fn terminal(summary: &Summary) -> String {
     let (header, rows) = readable(summary);
     let mut text = format!("{}\n{}", summary.study, aligned(&header, &rows));
     let totals = &summary.totals;
+    let lacks_uncertainty = |row: &&PointSummary| {
+        row.status == Status::Open && row.a_crit_g.and(row.a_fail_g).is_some()
+    };
+    let open = match summary.points.iter().filter(lacks_uncertainty).count() {
+        0 => String::new(),
+        bracketed => format!(" ({bracketed} of them with a bracket)"),
+    };
     text.push_str(&format!(
-        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open; {} runs\n",
+        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open{open}; {} runs\n",
         totals.points,
         totals.ok,
         totals.above_range,
@@ -169,7 +176,7 @@ pub(super) fn uncertainty_cost(summary: &Summary) -> Option<String> {
 /// What a reader of the contributions must know.
 pub(super) const CONTRIBUTIONS_NOTE: &str = "Half of each contribution, in per cent of `A_crit`; they add up to the half-width of the interval. \
     The bracket of the search, and what a refined scene has shown, lie on one side of `A_crit`, the others on both. \
-    `x3`: safety factor 3, since the errors did not fall at the formal order; 1.25 elsewhere. \
+    `x3`: safety factor 3, since the errors did not fall at the formal order; otherwise 1.25, and 1 for the bracket. \
     `structure`, `head`: all discretisation parameters of disk and ramp, or of the head, changed together.";
 
 /// Half the contributions of every uncertainty interval as per cent of `A_crit`, header and rows; `x3` marks the safety
@@ -262,7 +269,7 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
         [
             "A_crit (G)",
             "A_fail (G)",
-            "error (G)",
+            "uncertainty (G)",
             "first touch (G)",
             "runs",
             "status",

@@ -23,7 +23,7 @@
 
 use std::cmp::Ordering;
 
-use super::order::{Coordinates, RampClass};
+use super::order::{Coordinates, Ramp};
 
 /// Limits by which widths are added.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,18 +215,16 @@ fn curves(answered: &[Answered]) -> Vec<Curve<'_>> {
         a.axes
             .cmp(&b.axes)
             .then(a.sign.cmp(&b.sign))
-            .then(a.ramp_class.cmp(&b.ramp_class))
-            .then_with(|| a.ramp.cmp(&b.ramp))
+            .then(a.ramp.cmp(&b.ramp))
     });
     curves
 }
 
 /// The curve without ramp beside a curve with one.
 fn bare(curves: &[Curve<'_>], curve: usize) -> Option<usize> {
-    let is_bare = |other: &Curve<'_>| {
-        other.at.ramp_class == RampClass::None && other.is_beside(&curves[curve])
-    };
-    (curves[curve].at.ramp_class != RampClass::None)
+    let is_bare =
+        |other: &Curve<'_>| other.at.ramp == Ramp::None && other.is_beside(&curves[curve]);
+    (curves[curve].at.ramp != Ramp::None)
         .then(|| curves.iter().position(is_bare))
         .flatten()
 }

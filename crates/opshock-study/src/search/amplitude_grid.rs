@@ -92,7 +92,7 @@ impl AmplitudeGrid {
     }
 
     /// Largest number of grid steps whose span stays within `share` (0.1 = 10 %), at least 1.
-    pub fn nodes_within(&self, share: f64) -> i32 {
+    pub fn steps_within(&self, share: f64) -> i32 {
         let nodes = f64::from(self.steps_per_octave) * (1.0 + share).log2() + ROUNDING;
         (nodes.floor() as i32).max(1)
     }
@@ -139,11 +139,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_per_cent_has_seventy_nodes_per_doubling() {
+    fn one_per_cent_has_seventy_steps_per_doubling() {
         let grid = AmplitudeGrid::for_tolerance(0.01).expect("amplitude grid");
         assert_eq!(grid.steps_per_octave, 70);
         assert!(grid.step() <= 0.01);
-        assert_eq!(grid.nodes_within(0.10), 9);
+        assert_eq!(grid.steps_within(0.10), 9);
         assert_eq!(
             AmplitudeGrid::for_tolerance(1.0)
                 .expect("amplitude grid")

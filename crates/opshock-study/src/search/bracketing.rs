@@ -51,7 +51,7 @@ impl Bracketing {
     ) -> Bracketing {
         let octave = grid.steps_per_octave;
         let (start, first_step) = match hint_g {
-            Some(hint_g) => (grid.nearest(hint_g), grid.nodes_within(FIRST_STEP)),
+            Some(hint_g) => (grid.nearest(hint_g), grid.steps_within(FIRST_STEP)),
             None => (nodes.low + (nodes.high - nodes.low) / 2, octave),
         };
         Bracketing {
@@ -159,7 +159,7 @@ pub(super) fn bisect(evidence: &Evidence, survivor: i32, failure: i32) -> Option
     }
 }
 
-/// The verdict of the highest grid point of the range, if the range was exhausted upwards.
+/// Whether the highest grid point of the range survives.
 pub(super) fn survives_at_top(evidence: &Evidence, nodes: AmplitudeRange) -> bool {
     evidence.get(nodes.high) == Some(AmplitudeVerdict::Survives)
 }

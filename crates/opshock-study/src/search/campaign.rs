@@ -45,7 +45,7 @@ enum Trust {
 enum Stage {
     Waiting,
     Searching(Box<PointSearch>),
-    Copied { onset_amplitude: i32 },
+    Copied { onset_index: i32 },
 }
 
 #[derive(Clone, Debug)]
@@ -198,14 +198,14 @@ impl Campaign {
     pub fn findings(&self, point: usize) -> Findings {
         let state = &self.points[point];
         let companion = self.order.relations[point].companion;
-        let onset_amplitude = self.onset_amplitude(point);
-        let mut findings = match (&state.stage, companion, onset_amplitude) {
+        let onset_index = self.onset_index(point);
+        let mut findings = match (&state.stage, companion, onset_index) {
             (Stage::Searching(search), Some(companion), Some(node)) => search
                 .findings()
                 .lowered_by(&self.findings(companion), node),
             (Stage::Searching(search), _, _) => search.findings(),
-            (Stage::Copied { onset_amplitude }, Some(companion), _) => {
-                self.findings(companion).copied_below(*onset_amplitude)
+            (Stage::Copied { onset_index }, Some(companion), _) => {
+                self.findings(companion).copied_below(*onset_index)
             }
             (Stage::Copied { .. } | Stage::Waiting, _, _) => Findings {
                 status: Status::Open,
@@ -228,7 +228,7 @@ impl Campaign {
         findings
     }
 
-    /// Search that a waiting point would make if its companion's answer, still open, changed out to lie above first
+    /// Search that a waiting point would make if its companion's answer, still open, turned out to lie above first
     /// touch, and brackets that are still scanned below remained: what idle cores may compute ahead.
     pub fn likely_search(&self, point: usize) -> Option<PointSearch> {
         let state = &self.points[point];
@@ -238,21 +238,21 @@ impl Campaign {
         let touch = state.touch?;
         let relations = &self.order.relations[point];
         let hint_g = self.hint_g(point, touch, Trust::Likely)?;
-        let onset_amplitude = self.onset_amplitude(point)?;
-        if onset_amplitude > self.settings.range.high {
+        let onset_index = self.onset_index(point)?;
+        if onset_index > self.settings.range.high {
             return None;
         }
         Some(PointSearch::new(
             self.settings,
             Start {
                 hint_g,
-                onset_amplitude: relations.companion.map(|_| onset_amplitude),
+                onset_index: relations.companion.map(|_| onset_index),
                 width_rank: relations.width_rank,
             },
         ))
     }
 
-    fn onset_amplitude(&self, point: usize) -> Option<i32> {
+    fn onset_index(&self, point: usize) -> Option<i32> {
         match self.points[point].touch {
             Some(Touch::At { onset_g }) => Some(self.settings.grid.at_or_above(onset_g)),
             Some(Touch::NoRamp | Touch::Unknown) | None => None,
@@ -289,22 +289,22 @@ impl Campaign {
         let Some(hint_g) = self.hint_g(point, touch, Trust::Settled) else {
             return false;
         };
-        let inheritance = match (companion, self.onset_amplitude(point)) {
+        let inheritance = match (companion, self.onset_index(point)) {
             (Some(findings), Some(node)) => findings.bequeath(node, self.settings.range.high),
             _ => Inheritance::Nothing,
         };
-        let start = |onset_amplitude| Start {
+        let start = |onset_index| Start {
             hint_g,
-            onset_amplitude,
+            onset_index,
             width_rank: relations.width_rank,
         };
-        let (stage, base) = match (inheritance, companion, self.onset_amplitude(point)) {
-            (Inheritance::Whole, Some(findings), Some(onset_amplitude)) => (
-                Stage::Copied { onset_amplitude },
-                Some(findings.copied_below(onset_amplitude)),
+        let (stage, base) = match (inheritance, companion, self.onset_index(point)) {
+            (Inheritance::Whole, Some(findings), Some(onset_index)) => (
+                Stage::Copied { onset_index },
+                Some(findings.copied_below(onset_index)),
             ),
-            (Inheritance::Below { onset_amplitude }, _, _) => {
-                let search = PointSearch::new(self.settings, start(Some(onset_amplitude)));
+            (Inheritance::Below { onset_index }, _, _) => {
+                let search = PointSearch::new(self.settings, start(Some(onset_index)));
                 (Stage::Searching(Box::new(search)), None)
             }
             _ => {

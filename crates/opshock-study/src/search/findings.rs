@@ -35,25 +35,23 @@ pub enum Inheritance {
     /// Survival below the grid point of first touch.
     Below {
         /// First grid point that touches.
-        onset_amplitude: i32,
+        onset_index: i32,
     },
     /// Nothing.
     Nothing,
 }
 
 impl Findings {
-    /// What a point whose disk first touches at `onset_amplitude` takes from these no-ramp findings;
+    /// What a point whose disk first touches at `onset_index` takes from these no-ramp findings;
     /// `highest` is the highest grid point of the range.
-    pub fn bequeath(&self, onset_amplitude: i32, highest: i32) -> Inheritance {
+    pub fn bequeath(&self, onset_index: i32, highest: i32) -> Inheritance {
         match self.status {
             Status::Ok | Status::AboveRange | Status::BelowRange => {
-                let answered_below = self
-                    .failure
-                    .is_some_and(|failure| failure < onset_amplitude);
-                if answered_below || onset_amplitude > highest {
+                let answered_below = self.failure.is_some_and(|failure| failure < onset_index);
+                if answered_below || onset_index > highest {
                     Inheritance::Whole
                 } else {
-                    Inheritance::Below { onset_amplitude }
+                    Inheritance::Below { onset_index }
                 }
             }
             Status::Undecided | Status::Open => Inheritance::Nothing,
@@ -61,12 +59,11 @@ impl Findings {
     }
 
     /// Findings of a point that takes its whole answer from these no-ramp findings.
-    pub fn copied_below(&self, onset_amplitude: i32) -> Findings {
+    pub fn copied_below(&self, onset_index: i32) -> Findings {
         let mut copy = self.clone();
         copy.runs = 0;
         copy.undecided_runs = 0;
-        copy.brackets
-            .retain(|&(_, failure)| failure < onset_amplitude);
+        copy.brackets.retain(|&(_, failure)| failure < onset_index);
         if copy.brackets.len() < 2 {
             copy.flags.remove(&Flag::NonMonotone);
         }
@@ -75,11 +72,8 @@ impl Findings {
     }
 
     /// A point's own findings with a failure below first touch that its companion found later.
-    pub fn lowered_by(mut self, companion: &Findings, onset_amplitude: i32) -> Findings {
-        let Some(failure) = companion
-            .failure
-            .filter(|&failure| failure < onset_amplitude)
-        else {
+    pub fn lowered_by(mut self, companion: &Findings, onset_index: i32) -> Findings {
+        let Some(failure) = companion.failure.filter(|&failure| failure < onset_index) else {
             return self;
         };
         self.status = companion.status;
@@ -88,7 +82,7 @@ impl Findings {
         let below = companion
             .brackets
             .iter()
-            .filter(|&&(_, failure)| failure < onset_amplitude);
+            .filter(|&&(_, failure)| failure < onset_index);
         self.brackets = below.copied().chain(self.brackets).collect();
         self.scanned_from = companion.scanned_from;
         self.largest_gap = companion.largest_gap;

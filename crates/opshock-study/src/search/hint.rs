@@ -15,7 +15,7 @@ pub(super) struct Known {
     pub pulse_ms: f64,
     /// Amplitude of first touch, G.
     pub onset_g: Option<f64>,
-    /// Its answer, G, and that of its reference relative to the reference's own first touch.
+    /// Its answer, G.
     pub answer_g: Option<f64>,
     /// First touch and answer of its reference, G.
     pub reference: Option<(Option<f64>, f64)>,

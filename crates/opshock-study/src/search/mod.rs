@@ -30,7 +30,7 @@ pub use added_points::AddedPoints;
 pub use amplitude_grid::{AmplitudeGrid, AmplitudeGridError, AmplitudeRange};
 pub use campaign::{Campaign, Touch};
 pub use findings::Findings;
-pub use order::{Coordinates, Order, RampClass};
+pub use order::{Coordinates, Order, Ramp};
 pub use outcome::{Flag, Status};
 pub use point::{Asked, PointSearch, Start};
 pub use probe::{Probe, ProbeResult, Purpose, Retry, RunCost, Sign, UndecidedCause, Verdict};

@@ -2,19 +2,22 @@
 //!
 //! With a ramp, survival need not be monotone: the instants of contact move with the amplitude, so that a shock may fail
 //! at 350 G and survive at 400 G. After the search has bracketed the critical amplitude A between a survivor and a
-//! failure, this scan simulates some lower amplitudes too. A failure that it finds becomes the new upper end, and the
+//! failure, this scan simulates lower amplitudes too. A failure that it finds becomes the new upper end, and the
 //! search brackets anew below it. Amplitudes are points of a logarithmic grid ([`super::amplitude_grid`]).
 //!
-//! Below the amplitude at which the disk first touches the ramp the scene without a ramp has the same answer. Where
-//! that amplitude and that answer are known, the scan ends there. Its steps are then `gap`
-//! points of the grid. Where they are not known, it goes on to the lower end of the study's range: with steps of `gap`
-//! from A to A/√2, and below that with steps that double each time. Without a ramp,
-//! where no such failures are expected, the first step is `gap` and each one below is four times the one before. The
-//! column `largest_gap_pct` of the results gives the largest step, in per cent of the amplitude.
+//! With `search.monotonicity_scan = "full"` every point of the grid is simulated; with `"off"` none, unless no survivor is
+//! known below the lowest failure. The rest of this text is about `"sampled"`.
 //!
-//! Two neighbouring pulse widths do not scan the same amplitudes: what one scans is shifted against the other by 0.618
-//! of the gap. A range of failures that is found at several widths is thus sampled more finely than by one width.
-//! Amplitudes that the search has simulated already are not simulated again.
+//! Below the amplitude at which the disk first touches the ramp the scene without a ramp has the same answer. Where
+//! that amplitude and that answer are known, the scan ends there, and its steps are those of `search.scan_gap_pct`
+//! ([`Scan::gap`]). Elsewhere it goes on to the lower end of the study's range: with these steps from A to A/√2, and below
+//! that with steps that double each time. Without a ramp, where no such failures are expected, the first step is
+//! `gap` and each one below is four times the one before. The column `largest_gap_pct` of the results gives the largest
+//! step, in per cent of the amplitude.
+//!
+//! As long as the steps are those of the gap, neighbouring pulse widths do not scan the same amplitudes: one is shifted
+//! against the other by 0.618 of the gap. Failures in a range of amplitudes at several widths are thus met by finer steps
+//! than at one. Amplitudes that the search has simulated already are not simulated again.
 
 use super::evidence::{AmplitudeVerdict, Evidence};
 

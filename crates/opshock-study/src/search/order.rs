@@ -20,25 +20,50 @@
 //! first touch its answers are the companion's.
 
 use super::probe::Sign;
+use serde::Serialize;
 
-/// Class of a ramp model, in the order searched.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum RampClass {
+/// Which ramp stands at the rim. The order is the canonical one, and that of the search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ramp {
     /// No ramp.
     None,
-    /// Contact points fixed to the base.
+    /// Fixed contact points.
     Rigid,
-    /// Arms that deform.
+    /// Flexible arms.
     Deformable,
+}
+
+impl Ramp {
+    /// All, in canonical order.
+    pub const ALL: [Self; 3] = [Self::None, Self::Rigid, Self::Deformable];
+
+    /// The word in study files and tables.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Rigid => "rigid",
+            Self::Deformable => "deformable",
+        }
+    }
+
+    /// The ramp of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|ramp| ramp.as_str() == word)
+    }
+}
+
+impl std::fmt::Display for Ramp {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
+    }
 }
 
 /// Coordinates of a point in the study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinates {
-    /// Class of the ramp model.
-    pub ramp_class: RampClass,
-    /// Name of the ramp model.
-    pub ramp: String,
+    /// Ramp model.
+    pub ramp: Ramp,
     /// Pulse width, ms.
     pub pulse_ms: f64,
     /// Sign.
@@ -127,8 +152,7 @@ impl Order {
             a.round
                 .cmp(&b.round)
                 .then_with(|| a.axes.cmp(&b.axes))
-                .then(a.ramp_class.cmp(&b.ramp_class))
-                .then_with(|| a.ramp.cmp(&b.ramp))
+                .then(a.ramp.cmp(&b.ramp))
                 .then(a.sign.cmp(&b.sign))
                 .then(a.pulse_ms.total_cmp(&b.pulse_ms))
         });
@@ -140,11 +164,7 @@ impl Order {
                 .and_then(|chain| chain.first())
                 .is_some_and(|&first| {
                     let (a, b) = (&points[first], &points[place]);
-                    a.round == b.round
-                        && a.axes == b.axes
-                        && a.ramp_class == b.ramp_class
-                        && a.ramp == b.ramp
-                        && a.sign == b.sign
+                    a.round == b.round && a.axes == b.axes && a.ramp == b.ramp && a.sign == b.sign
                 });
             match chains.last_mut() {
                 Some(chain) if same => chain.push(place),
@@ -170,7 +190,7 @@ impl Order {
                 if a.round != b.round || a.axes != b.axes {
                     group += 1;
                     ramp_rank = 0;
-                } else if a.ramp != b.ramp || a.ramp_class != b.ramp_class {
+                } else if a.ramp != b.ramp {
                     ramp_rank += 1;
                 }
             }
@@ -235,7 +255,7 @@ fn beside(points: &[Coordinates], known: &[usize], pulse_ms: f64) -> [Option<usi
 
 /// The reference of a point among the chains before its own.
 fn reference(points: &[Coordinates], earlier: &[Vec<usize>], at: &Coordinates) -> Option<usize> {
-    let is_touched = |point: &Coordinates| point.ramp_class != RampClass::None;
+    let is_touched = |point: &Coordinates| point.ramp != Ramp::None;
     let find = |wanted: &dyn Fn(&Coordinates) -> bool| {
         earlier
             .iter()
@@ -259,11 +279,11 @@ fn reference(points: &[Coordinates], earlier: &[Vec<usize>], at: &Coordinates) -
 }
 
 fn companion(points: &[Coordinates], at: &Coordinates) -> Option<usize> {
-    if at.ramp_class == RampClass::None {
+    if at.ramp == Ramp::None {
         return None;
     }
     points.iter().position(|other| {
-        other.ramp_class == RampClass::None
+        other.ramp == Ramp::None
             && other.axes == at.axes
             && other.sign == at.sign
             && other.pulse_ms == at.pulse_ms
@@ -276,16 +296,11 @@ mod tests {
 
     fn fig13() -> Vec<Coordinates> {
         let mut points = Vec::new();
-        for (class, ramp) in [
-            (RampClass::None, "none"),
-            (RampClass::Rigid, "rigid"),
-            (RampClass::Deformable, "deformable"),
-        ] {
+        for ramp in Ramp::ALL {
             for pulse_ms in [0.5, 0.75, 1.0, 1.5, 2.0, 3.0] {
                 for sign in [Sign::Plus, Sign::Minus] {
                     points.push(Coordinates {
-                        ramp_class: class,
-                        ramp: ramp.into(),
+                        ramp,
                         pulse_ms,
                         sign,
                         axes: vec![],

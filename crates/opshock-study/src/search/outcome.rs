@@ -81,7 +81,8 @@ pub enum Flag {
     ContributionMissing,
     /// The half-width of the uncertainty interval is more than the target uncertainty.
     TargetNotMet,
-    /// So it is at maximum refinement.
+    /// `TargetNotMet`, and no refinement is left: all parameters or `max_refinements` are exhausted, or the refined scene has
+    /// no verdict.
     RefinementLimit,
     /// The answer is that of parameters refined beyond the study's, named in `levels`.
     Refined,

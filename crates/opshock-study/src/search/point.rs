@@ -27,7 +27,7 @@ pub struct Start {
     pub hint_g: Option<f64>,
     /// Lowest grid point of this point's own; below it the no-ramp answer survives. `None`: the whole range is this
     /// point's own.
-    pub onset_amplitude: Option<i32>,
+    pub onset_index: Option<i32>,
     /// Place of the width among the widths of the same ramp, sign and axes: shifts the scan.
     pub width_rank: usize,
 }
@@ -64,7 +64,7 @@ impl PointSearch {
     /// Search from a start.
     pub fn new(settings: SearchSettings, start: Start) -> PointSearch {
         let SearchSettings { grid, range, .. } = settings;
-        let own = start.onset_amplitude.filter(|&node| node > range.low);
+        let own = start.onset_index.filter(|&node| node > range.low);
         let nodes = AmplitudeRange {
             low: own.unwrap_or(range.low).min(range.high),
             high: range.high,

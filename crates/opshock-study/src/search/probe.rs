@@ -67,7 +67,7 @@ pub enum Retry {
 
 impl Retry {
     /// All retries in the order tried.
-    pub const REFINEMENT_STUDY: [Retry; 5] = [
+    pub const ALL: [Retry; 5] = [
         Retry::None,
         Retry::HalfStep,
         Retry::QuarterStep,
@@ -76,24 +76,18 @@ impl Retry {
     ];
 
     /// Place in that order, 0 is the plain run.
-    pub fn level(self) -> u8 {
-        match self {
-            Retry::None => 0,
-            Retry::HalfStep => 1,
-            Retry::QuarterStep => 2,
-            Retry::OtherCoupling => 3,
-            Retry::OtherContact => 4,
-        }
+    pub fn place(self) -> u8 {
+        self as u8
     }
 
     /// The retry of a place, `None` beyond the last.
-    pub fn from_level(level: u8) -> Option<Retry> {
-        Self::REFINEMENT_STUDY.get(usize::from(level)).copied()
+    pub fn from_place(place: u8) -> Option<Retry> {
+        Self::ALL.get(usize::from(place)).copied()
     }
 
     /// The next thing to try.
     pub fn next(self) -> Option<Retry> {
-        Self::from_level(self.level() + 1)
+        Self::from_place(self.place() + 1)
     }
 
     /// Label in output files.
@@ -150,7 +144,7 @@ pub enum Purpose {
     /// The highest survivor in a doubled window.
     Window,
     /// What a discretisation parameter changes, for the uncertainty interval.
-    ErrorBar,
+    Uncertainty,
 }
 
 impl Purpose {
@@ -162,7 +156,7 @@ impl Purpose {
             Purpose::Scan => "scan",
             Purpose::FollowUp => "follow_up",
             Purpose::Window => "window",
-            Purpose::ErrorBar => "uncertainty",
+            Purpose::Uncertainty => "uncertainty",
         }
     }
 
@@ -174,7 +168,7 @@ impl Purpose {
             Purpose::Scan,
             Purpose::FollowUp,
             Purpose::Window,
-            Purpose::ErrorBar,
+            Purpose::Uncertainty,
         ]
         .into_iter()
         .find(|purpose| purpose.as_str() == text)

@@ -63,7 +63,7 @@ impl SearchSettings {
             grid,
             range: grid.range(min_g, max_g)?,
             monotonicity_scan,
-            scan_gap: grid.nodes_within(max_gap.max(0.0)),
+            scan_gap: grid.steps_within(max_gap.max(0.0)),
             window_check,
             max_undecided: MAX_UNDECIDED,
         })

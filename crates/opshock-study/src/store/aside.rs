@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use super::error::StoreError;
 use super::files::{list, sync_folder};
 
-/// Names that files aside may begin with, those of earlier versions included.
-const PREFIXES: [&str; 3] = [PREFIX, ".probe-", ".opshock-"];
+/// Names that files aside may begin with.
+const PREFIXES: [&str; 2] = [PREFIX, ".probe-"];
 const PREFIX: &str = ".aside-";
 
 /// Replaces `path` by `bytes`.

@@ -25,7 +25,7 @@ pub enum StoreError {
     /// Written by a newer or an older program.
     #[error(
         "{code}: {path} has format {found}, this program reads {known}; {}",
-        if found > known { "use a newer opshock" } else { "sweep the study anew, into another folder" },
+        if found > known { "use a newer opshock" } else { "compute it anew, in another folder" },
         code = self.code()
     )]
     OtherFormat {

@@ -70,7 +70,7 @@ impl Store {
     ///
     /// # Errors
     ///
-    /// E188 other study, E181 newer format, E182 damaged, E183 not writable, E184 in use.
+    /// E188 other study, E181 another format, E182 damaged, E183 not writable, E184 in use.
     pub fn open(
         folder: &Path,
         study: &StudyTexts,

@@ -6,13 +6,13 @@
 //! "OPJR"  length u32  crc32 u32  kind and content (`record`)
 //! ```
 //!
-//! Little-endian. The checksum covers the length, the kind and the content. A record is stored once `fdatasync` returned; after a
-//! failed write or sync the process writes nothing more.
+//! Little-endian. The header's checksum covers format, length and header; that of a record its length, kind and content.
+//! A record is stored once `fdatasync` returned; after a failed write or sync the process writes nothing more.
 //!
-//! A kill or a power loss may leave the last record incomplete. The next process that writes copies the intact records to
-//! a new file, which takes the journal's name, and appends to that. Damage in the middle (a flipped bit) costs the record it hits: the reader finds the
-//! next record by its mark and its checksum, and reports the bytes skipped. Runs are found by content, so records do
-//! not depend on each other.
+//! A kill or a power loss may leave the last records incomplete. Every process that opens the store for writing copies
+//! the intact records to a new file, which takes the journal's name, and appends to that. Damage in the middle (a flipped
+//! bit) costs the record it hits: the reader finds the next record by its mark and its checksum, and reports the bytes
+//! skipped. A run is found by a digest of what was simulated, so that records do not depend on each other.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use super::error::StoreError;
 use super::files::{self, Files, OpenFile, RealFiles};
 use super::record::Record;
 
-/// Number of the journal's format; raised when an older reader would go wrong.
+/// Number of the journal's format; a journal of any other is refused.
 pub const JOURNAL_FORMAT: u32 = 2;
 
 const MAGIC: &[u8; 8] = b"OPSHOCKJ";
@@ -74,7 +74,7 @@ pub struct JournalContent {
 ///
 /// # Errors
 ///
-/// The file cannot be read, or is newer.
+/// The file cannot be read, or is of another format.
 pub fn read(path: &Path) -> Result<Option<JournalContent>, StoreError> {
     read_in(&RealFiles, path)
 }
@@ -237,6 +237,7 @@ impl JournalWriter {
 
 impl<F: OpenFile> JournalWriter<F> {
     /// Makes a journal with these records aside, syncs it, and renames it over `path`.
+    ///
     /// A journal is opened again by this alone, with the records read from it. Appending to the old file would be
     /// unsafe: after a failed sync its bytes may be readable and yet on no disk, and no later sync writes them.
     ///

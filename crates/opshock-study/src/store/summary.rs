@@ -153,7 +153,7 @@ impl Totals {
         for (purpose, run) in runs {
             let work = run.cost.film_solves * run.cost.film_unknowns;
             totals.film_work += work;
-            if purpose == Purpose::ErrorBar {
+            if purpose == Purpose::Uncertainty {
                 totals.uncertainty_runs += 1;
                 totals.uncertainty_cost.add(&run.cost);
                 totals.uncertainty_film_work += work;

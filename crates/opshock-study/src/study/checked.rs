@@ -9,9 +9,9 @@ use super::set_arg::SetArg;
 use super::settings::{Settings, View};
 use super::source::{self, Origin, Source};
 use super::text_file;
-use super::words::{Effects, KeepHistories, LeftOut, Ramp};
+use super::words::{Effects, KeepHistories, LeftOut};
 use super::{complete, example, fields, resolved, scene, tree};
-use crate::search::{MonotonicityScan, Sign};
+use crate::search::{MonotonicityScan, Ramp, Sign};
 use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use std::path::{Path, PathBuf};
@@ -310,14 +310,15 @@ impl Study {
 
 /// How widths are added, if they are.
 fn added_points(view: &View<'_>) -> Option<AddedPointsSettings> {
-    let max_points = view.get(&fields::SEARCH_ADDED_POINTS_MAX_POINTS);
+    let closest = fields::SEARCH_ADDED_POINTS_CLOSEST_PCT;
+    let most = fields::SEARCH_ADDED_POINTS_MAX_POINTS;
     let added = AddedPointsSettings {
         tolerance_pct: view.maybe_number(fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path()),
         crossing_pct: view.maybe_number(fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path()),
         closest_pct: view
-            .maybe_number(fields::SEARCH_ADDED_POINTS_CLOSEST_PCT.path())
-            .unwrap_or(2.0),
-        max_points: max_points.unwrap_or(60),
+            .maybe_number(closest.path())
+            .unwrap_or_else(|| closest.key.absent()),
+        max_points: view.get(&most).unwrap_or_else(|| most.key.absent()),
     };
     (added.tolerance_pct.is_some() || added.crossing_pct.is_some()).then_some(added)
 }

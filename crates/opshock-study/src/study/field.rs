@@ -257,7 +257,7 @@ named! {
     Coupling: super::words::COUPLINGS;
     Preset: super::words::PRESETS;
     Units: Units::WORDS;
-    super::words::Ramp: super::words::RAMPS;
+    crate::search::Ramp: super::words::RAMPS;
     crate::search::Sign: super::words::SIGNS;
     super::words::LeftOut: super::words::LEAVE_OUT;
     Output: super::words::OUTPUTS;

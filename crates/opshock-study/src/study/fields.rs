@@ -20,9 +20,9 @@ use super::field::{Corners, Field, Many, Named, Numbers, Pair, Tables, Text, fie
 use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, open};
 use super::settings::View;
 use super::words::{
-    self, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, Ramp, RunOut, Shape,
+    self, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, RunOut, Shape,
 };
-use crate::search::{MonotonicityScan, Sign};
+use crate::search::{MonotonicityScan, Ramp, Sign};
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
 
 const RATIO: Kind = Number(FROM_ZERO);
@@ -181,9 +181,9 @@ fields! {
     SLIDER_SURFACE_PRESET: Text = Key::optional("slider.surface.preset", Kind::Word(words::SURFACES), "a file, rails given here, or femto-2.5in", "\"femto-2.5in\"", "A named air-bearing surface.");
     SLIDER_SURFACE_FILE: Text = Key::optional("slider.surface.file", Kind::Text, "no file", "\"surface.toml\"", "File of the air-bearing surface, beside the study.");
     SLIDER_SURFACE_BASE_RECESS_UM: f64 = Key::or("slider.surface.base_recess_um", Number(FROM_ZERO), "1.5", "Recess of everything no rail covers.").usual(0.1, 10.0).code("E145") => |scene| scene.slider.surface.base_recess_m;
-    SLIDER_SURFACE_CROWN_NM: f64 = Key::or("slider.surface.crown_nm", Number(ANY), "15.0", "Rise of the middle over the ends.").usual(-100.0, 100.0) => |scene| scene.slider.surface.crown_m;
-    SLIDER_SURFACE_CAMBER_NM: f64 = Key::or("slider.surface.camber_nm", Number(ANY), "2.0", "Rise of the middle over the sides.").usual(-100.0, 100.0) => |scene| scene.slider.surface.camber_m;
-    SLIDER_SURFACE_TWIST_NM: f64 = Key::or("slider.surface.twist_nm", Number(ANY), "0.0", "Twist.").usual(-100.0, 100.0) => |scene| scene.slider.surface.twist_m;
+    SLIDER_SURFACE_CROWN_NM: f64 = Key::or("slider.surface.crown_nm", Number(ANY), "15.0", "Rise of the middle over the ends.").usual(0.1, 100.0) => |scene| scene.slider.surface.crown_m;
+    SLIDER_SURFACE_CAMBER_NM: f64 = Key::or("slider.surface.camber_nm", Number(ANY), "2.0", "Rise of the middle over the sides.").usual(0.1, 100.0) => |scene| scene.slider.surface.camber_m;
+    SLIDER_SURFACE_TWIST_NM: f64 = Key::or("slider.surface.twist_nm", Number(ANY), "0.0", "Twist.").usual(0.1, 100.0) => |scene| scene.slider.surface.twist_m;
     SLIDER_SURFACE_TAPER_LENGTH_UM: f64 = Key::or("slider.surface.taper_length_um", Number(FROM_ZERO), "0.0", "Length of the taper at the leading edge; 0 for none.").usual(0.0, 1000.0).code("E145") => |scene| scene.slider.surface.taper_length_m;
     SLIDER_SURFACE_TAPER_ANGLE_DEG: f64 = Key::or("slider.surface.taper_angle_deg", Number(below(0.0, 45.0)), "0.0", "Angle of the taper at the leading edge.").usual(0.0, 5.0).code("E145") => |scene| scene.slider.surface.taper_angle_rad;
     SLIDER_SURFACE_RAIL: Tables = Key::optional("slider.surface.rail", Kind::Tables, "the rails of preset or file", "[{ kind = \"rect\", x_um = [20, 170], y_um = [30, 670], recess_um = 0.25 }]", "Rails; later ones overwrite earlier ones.").code("E135");
@@ -191,9 +191,9 @@ fields! {
     SLIDER_SURFACE_RAIL_X_UM: Pair = Key::optional("slider.surface.rail[].x_um", Kind::Pair(ANY), "a polygon", "[20, 170]", "Range along the length, from the leading edge.").code("E144");
     SLIDER_SURFACE_RAIL_Y_UM: Pair = Key::optional("slider.surface.rail[].y_um", Kind::Pair(ANY), "a polygon", "[30, 670]", "Range across, from the inner edge.").code("E144");
     SLIDER_SURFACE_RAIL_POINTS_UM: Corners = Key::optional("slider.surface.rail[].points_um", Kind::Points, "a rectangle", "[[20, 30], [170, 30], [170, 670]]", "Corners of a polygon.").code("E144");
-    SLIDER_SURFACE_RAIL_RECESS_UM: f64 = Key::required("slider.surface.rail[].recess_um", Number(FROM_ZERO), "0.25", "Recess of the rail from the reference plane.").usual(0.0, 10.0).code("E145");
+    SLIDER_SURFACE_RAIL_RECESS_UM: f64 = Key::required("slider.surface.rail[].recess_um", Number(FROM_ZERO), "0.25", "Recess of the rail from the reference plane.").usual(0.005, 10.0).code("E145");
     // suspension
-    SUSPENSION_GRAM_LOAD_GF: f64 = Key::or("suspension.gram_load_gf", LENGTH, "2.2", "Load at the slider's centre.").usual(0.1, 20.0) => |scene| scene.suspension.gram_load_n;
+    SUSPENSION_GRAM_LOAD_GF: f64 = Key::or("suspension.gram_load_gf", LENGTH, "2.2", "Load at the slider's centre.").usual(0.1, 8.0) => |scene| scene.suspension.gram_load_n;
     SUSPENSION_HINGE_LENGTH_MM: f64 = Key::or("suspension.hinge.length_mm", LENGTH, "1.3", "Length of the hinge.").usual(0.1, 10.0) => |scene| scene.suspension.hinge.length_m;
     SUSPENSION_HINGE_WIDTH_MM: f64 = Key::or("suspension.hinge.width_mm", LENGTH, "1.8", "Width of the hinge.").usual(0.1, 20.0) => |scene| scene.suspension.hinge.width_m;
     SUSPENSION_HINGE_THICKNESS_UM: f64 = Key::or("suspension.hinge.thickness_um", LENGTH, "40.0", "Thickness of the hinge.").usual(5.0, 200.0) => |scene| scene.suspension.hinge.thickness_m;
@@ -212,6 +212,8 @@ fields! {
     SUSPENSION_MATERIAL_SHEAR_MODULUS_GPA: f64 = Key::or("suspension.material.shear_modulus_gpa", LENGTH, "74.0", "Shear modulus.").usual(5.0, 300.0) => |scene| scene.suspension.shear_modulus_pa;
     SUSPENSION_MATERIAL_DENSITY_KG_PER_M3: f64 = Key::or("suspension.material.density_kg_per_m3", LENGTH, "7900.0", "Density.").usual(1000.0, 12000.0) => |scene| scene.suspension.density_kg_per_m3;
     SUSPENSION_DAMPING_RATIO: f64 = Key::or("suspension.damping_ratio", RATIO, "0.02", "Damping ratio of every mode of the suspension.").code("E132") => |scene| scene.suspension.damping_ratio;
+    SUSPENSION_RAYLEIGH_ALPHA_PER_S: Option<f64> = Key::optional("suspension.rayleigh.alpha_per_s", Number(FROM_ZERO), "damping_ratio", "25.0", "Rayleigh damping in place of damping_ratio: share of the mass matrix.").usual(0.0, 1000.0).code("E132");
+    SUSPENSION_RAYLEIGH_BETA_S: Option<f64> = Key::optional("suspension.rayleigh.beta_s", Number(FROM_ZERO), "0", "1.0e-7", "Its share of the stiffness matrix.").usual(0.0, 1e-4).code("E132");
     SUSPENSION_GIMBAL_VERTICAL_N_PER_M: f64 = Key::or("suspension.gimbal.vertical_n_per_m", LENGTH, "15.0", "Stiffness of the gimbal, vertical.").usual(0.1, 1e5) => |scene| scene.suspension.gimbal.vertical_n_per_m;
     SUSPENSION_GIMBAL_PITCH_N_M_PER_RAD: f64 = Key::or("suspension.gimbal.pitch_n_m_per_rad", LENGTH, "6.0e-5", "Stiffness of the gimbal, pitch.").usual(1e-7, 1e-2) => |scene| scene.suspension.gimbal.pitch_n_m_per_rad;
     SUSPENSION_GIMBAL_ROLL_N_M_PER_RAD: f64 = Key::or("suspension.gimbal.roll_n_m_per_rad", LENGTH, "2.5e-5", "Stiffness of the gimbal, roll.").usual(1e-7, 1e-2) => |scene| scene.suspension.gimbal.roll_n_m_per_rad;
@@ -259,7 +261,7 @@ fields! {
     SEARCH_MONOTONICITY_SCAN: MonotonicityScan = Key::or("search.monotonicity_scan", MonotonicityScan::KIND, "\"sampled\"", "Which amplitudes below the lowest failure are simulated, to see that none of them fails: all (full), some (sampled), none (off).");
     SEARCH_SCAN_GAP_PCT: f64 = Key::or("search.scan_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest gap between the amplitudes that a sampled scan simulates.").code("E156");
     SEARCH_UNCERTAINTY: bool = Key::or("search.uncertainty", Flag, "true", "Gives each critical shock its uncertainty interval.");
-    SEARCH_TARGET_UNCERTAINTY_PCT: Option<f64> = Key::optional("search.target_uncertainty_pct", Number(above(0.0, 100.0)), "that of the preset: 5, 1, 0.1", "1.0", "Uncertainty wanted of each critical shock: a point that misses it is refined.").usual(0.05, 20.0).code("E156");
+    SEARCH_TARGET_UNCERTAINTY_PCT: Option<f64> = Key::optional("search.target_uncertainty_pct", Number(above(0.0, 100.0)), "that of the preset: 5, 1, 0.1", "1.0", "Uncertainty wanted of each critical shock: half-width of its uncertainty interval over the value. A point that misses it is refined.").usual(0.05, 20.0).code("E156");
     SEARCH_MAX_REFINEMENTS: u8 = Key::or("search.max_refinements", Integer(0, 100), "3", "Times that a point which misses the target uncertainty is refined and answered anew.");
     SEARCH_ADDED_POINTS_TOLERANCE_PCT: Option<f64> = Key::optional("search.added_points.tolerance_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until straight lines between the answers of a ramp model are this good.").usual(1.0, 50.0).code("E156");
     SEARCH_ADDED_POINTS_CROSSING_PCT: Option<f64> = Key::optional("search.added_points.crossing_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until those between which two ramp models change places are this close.").usual(1.0, 50.0).code("E156");
@@ -268,10 +270,10 @@ fields! {
     // solver
     SOLVER_EFFECTS: Effects = Key::or("solver.effects", Effects::KIND, "\"auto\"", "auto simulates only what the outputs need.").fixed();
     SOLVER_LEAVE_OUT: Many<LeftOut> = Key::or("solver.leave_out", LeftOut::KIND_OF_MANY, "[]", "Effects left out by hand; refused when an output needs them.");
-    SOLVER_COUPLING: Option<Coupling> = Key::by_preset("solver.coupling", Coupling::KIND, "\"monolithic\"", "How film and slider are solved together.") => |scene| scene.head_resolution.coupling;
-    SOLVER_MAX_STEPS: Option<u64> = Key::by_preset("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided.") => |scene| scene.head_resolution.max_steps;
+    SOLVER_COUPLING: Coupling = Key::or("solver.coupling", Coupling::KIND, "\"monolithic\"", "How film and slider are solved together.") => |scene| scene.head_resolution.coupling;
+    SOLVER_MAX_STEPS: u64 = Key::or("solver.max_steps", Integer(1, 1_000_000_000_000), "2000000", "Deterministic limit of steps; reaching it leaves the run undecided.") => |scene| scene.head_resolution.max_steps;
     // resolution
-    RESOLUTION_PRESET: Preset = Key::or("resolution.preset", Preset::KIND, "\"standard\"", "Named set of discretisation parameters: gives those that are not set here.").code("E157");
+    RESOLUTION_PRESET: Preset = Key::or("resolution.preset", Preset::KIND, "\"standard\"", "Named set of discretisation parameters: gives those that are not set here, and search.target_uncertainty_pct where that is not set.").code("E157");
     RESOLUTION_DISK_CUT_KHZ: Option<f64> = Key::by_preset("resolution.disk_cut_khz", LENGTH, "240.0", "Modes of the disk above this frequency are left out.").usual(1.0, 1000.0) => |scene| scene.disk_resolution.cut_hz;
     RESOLUTION_NOT_REFINED: Many<Discretisation> = Key::optional("resolution.not_refined", Discretisation::KIND_OF_MANY, "all are refined", "[\"disk_modes\"]", "Discretisation parameters whose values belong to the model, as the modes of another program's mesh: they contribute to no uncertainty interval, and no refinement changes them.");
     RESOLUTION_DISK_HARMONICS: Option<usize> = Key::by_preset("resolution.disk_harmonics", Integer(1, 2000), "112", "Largest number of nodal diameters.") => |scene| scene.disk_resolution.n_harmonics;

@@ -185,11 +185,7 @@ impl Kind {
     /// Kind and range together: what a value of another kind should have been.
     pub fn wanted(self) -> String {
         match self {
-            Self::Number(_)
-            | Self::Axis(_)
-            | Self::Numbers(_)
-            | Self::Pair(_)
-            | Self::Integer(..) => {
+            Self::Number(_) | Self::Axis(_) | Self::Numbers(_) | Self::Pair(_) => {
                 format!("{}, {}", self.expected(), self.allowed())
             }
             _ => self.allowed(),
@@ -360,6 +356,18 @@ impl Key {
             }
             _ => self.example,
         }
+    }
+
+    /// The number that an absent value stands for.
+    ///
+    /// # Panics
+    /// When the table of keys names no such number; a programming error.
+    pub fn absent<T: std::str::FromStr>(&self) -> T {
+        match self.presence {
+            Presence::Optional(absent) => absent.parse().ok(),
+            _ => None,
+        }
+        .unwrap_or_else(|| panic!("no number for an absent {}", self.path))
     }
 
     /// First name of the path: the section, or the key itself at the root.

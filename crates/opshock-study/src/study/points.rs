@@ -14,9 +14,9 @@ use super::scene;
 use super::settings::{Settings, View};
 use super::unit;
 use super::validity::{Check, PointRules};
-use super::words::{Faces, Ramp};
+use super::words::Faces;
 use crate::identity::CellId;
-use crate::search::Sign;
+use crate::search::{Ramp, Sign};
 
 /// A value on an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -357,10 +357,7 @@ pub fn point(view: &View<'_>, axes: &[Axis], ramp: Ramp, pulse_ms: f64, sign: Si
         gap_taken_m: scene::gap_taken_m(view),
         target_uncertainty: view
             .get(&fields::SEARCH_TARGET_UNCERTAINTY_PCT)
-            .map_or_else(
-                || scene::preset(view).target_uncertainty(),
-                |pct| 1e-2 * pct,
-            ),
+            .unwrap_or_else(|| scene::preset(view).target_uncertainty()),
         axes: axes
             .iter()
             .filter_map(|axis| {

@@ -1,7 +1,7 @@
 //! Reduces a deformable ramp given by its geometry to oscillators: finite elements, then their modes.
 //!
-//! The oscillators are rounded to nine digits: those of two machines differ by the rounding of
-//! different vector instructions, and the same study must be the same study on both.
+//! The oscillators are rounded to nine digits: a study must be the same study where a C library or processor gives
+//! other last digits.
 
 use opshock_solid::material::{MATERIALS, Material};
 use opshock_solid::ramp::{

@@ -26,7 +26,8 @@ use super::read::Reader;
 use super::settings::View;
 use super::source::{Origin, Source};
 use super::tree;
-use super::words::{self, Ramp};
+use super::words;
+use crate::search::Ramp;
 
 /// Table of the mesh.
 pub const TABLE: &str = "ramp.deformable.mesh";

@@ -3,7 +3,8 @@
 use super::fields;
 use super::ramp_geometry;
 use super::settings::View;
-use super::words::{Faces, Ramp};
+use super::words::Faces;
+use crate::search::Ramp;
 use opshock_solid::ramp::SolidRamp;
 use opshock_solver::ramp::{ContactMode, OneBody, RampBody};
 

@@ -1,9 +1,12 @@
-//! Keys that format 2 of the study file names otherwise than format 1 did, for the message about an old file.
+//! Keys and words that format 2 of the study file names otherwise than format 1 did, for the messages about an old file.
 
 use super::fields::*;
+use super::words::preset_word;
+use crate::search::MonotonicityScan;
+use opshock_solver::scene::preset::Preset;
 
 /// Path in format 1, path in format 2.
-const RENAMED: [(&str, &str); 24] = [
+const KEYS: [(&str, &str); 20] = [
     ("solver.accuracy", RESOLUTION_PRESET.path()),
     ("solver.disk_cut_khz", RESOLUTION_DISK_CUT_KHZ.path()),
     ("solver.disk_harmonics", RESOLUTION_DISK_HARMONICS.path()),
@@ -38,27 +41,33 @@ const RENAMED: [(&str, &str); 24] = [
     ("search.error_bars", SEARCH_UNCERTAINTY.path()),
     ("search.certify", SEARCH_MONOTONICITY_SCAN.path()),
     ("search.max_gap_pct", SEARCH_SCAN_GAP_PCT.path()),
-    (
-        "search.refine.tolerance_pct",
-        SEARCH_ADDED_POINTS_TOLERANCE_PCT.path(),
-    ),
-    (
-        "search.refine.crossing_pct",
-        SEARCH_ADDED_POINTS_CROSSING_PCT.path(),
-    ),
-    (
-        "search.refine.closest_pct",
-        SEARCH_ADDED_POINTS_CLOSEST_PCT.path(),
-    ),
-    (
-        "search.refine.most_points",
-        SEARCH_ADDED_POINTS_MAX_POINTS.path(),
-    ),
     ("search.refine", "search.added_points"),
 ];
 
+/// Path in format 2, word in format 1, word in format 2.
+const WORDS: [(&str, &str, &str); 4] = [
+    (RESOLUTION_PRESET.path(), "5%", preset_word(Preset::Coarse)),
+    (
+        RESOLUTION_PRESET.path(),
+        "1%",
+        preset_word(Preset::Standard),
+    ),
+    (RESOLUTION_PRESET.path(), "0.1%", preset_word(Preset::Fine)),
+    (
+        SEARCH_MONOTONICITY_SCAN.path(),
+        "staggered",
+        MonotonicityScan::Sampled.as_str(),
+    ),
+];
+
 /// What format 2 calls the key of format 1 at `path`.
-pub(super) fn today(path: &str) -> Option<&'static str> {
-    let found = RENAMED.iter().find(|(old, _)| *old == path);
+pub(super) fn key_today(path: &str) -> Option<&'static str> {
+    let found = KEYS.iter().find(|(old, _)| *old == path);
     found.map(|(_, new)| *new)
+}
+
+/// What format 2 calls a word of format 1, at the path of format 2.
+pub(super) fn word_today(path: &str, word: &str) -> Option<&'static str> {
+    let is_it = |(key, old, _): &&(&str, &str, &str)| *key == path && *old == word;
+    WORDS.iter().find(is_it).map(|(_, _, new)| *new)
 }

@@ -12,7 +12,6 @@ use super::key::{Key, Kind, Presence};
 use super::keys::{self, KEYS};
 use super::scene;
 use super::settings::{Settings, View};
-use super::words;
 
 /// Keys that stand for what another key holds once the study is read.
 const REPLACED: [&str; 3] = [
@@ -186,14 +185,6 @@ fn preset_value(settings: &Settings, path: &str) -> Option<String> {
     let view = View::first(settings);
     let base = scene::resolutions(&view);
     let values = [
-        (
-            fields::SOLVER_COUPLING.path(),
-            text_literal(words::coupling_word(base.head.coupling)),
-        ),
-        (
-            fields::SOLVER_MAX_STEPS.path(),
-            base.head.max_steps.to_string(),
-        ),
         (
             fields::RESOLUTION_DISK_CUT_KHZ.path(),
             number(base.disk.cut_hz / 1e3),

@@ -10,14 +10,17 @@ use opshock_solver::scene::preset::{self, Preset, Resolutions, SKEWED_CORRECTION
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, Pulse, PulseShape};
 use opshock_solver::slider::{Rail, RailOutline};
-use opshock_solver::suspension::{ContactLaw, LiftTab, Limiter, SuspensionParameters};
+use opshock_solver::suspension::{
+    ContactLaw, LiftTab, Limiter, RayleighDamping, SuspensionParameters,
+};
 
 use super::field::{Field, Pair};
 use super::fields::{self, PLACES};
 use super::settings::View;
 use super::unit;
-use super::words::{Faces, RailKind, Ramp, RunOut, Shape};
+use super::words::{Faces, RailKind, RunOut, Shape};
 use super::{imported_suspension, ramp_geometry};
+use crate::search::Ramp;
 
 /// Builds the scene of one point as its head sees it, and the way this faces. `width_ms` is its pulse width.
 pub fn build(view: &View<'_>, ramp: Ramp, width_ms: f64) -> (Scene, Faces) {
@@ -387,6 +390,15 @@ fn complete_suspension(view: &View<'_>, suspension: &mut SuspensionParameters) {
         ),
     });
     suspension.modes = imported_suspension::listed(view);
+    let [alpha_per_s, beta_s] = [
+        view.get(&fields::SUSPENSION_RAYLEIGH_ALPHA_PER_S),
+        view.get(&fields::SUSPENSION_RAYLEIGH_BETA_S),
+    ];
+    let is_given = alpha_per_s.or(beta_s).is_some();
+    suspension.rayleigh = is_given.then(|| RayleighDamping {
+        alpha_per_s: alpha_per_s.unwrap_or(0.0),
+        beta_s: beta_s.unwrap_or(0.0),
+    });
 }
 
 /// The inner and the outer limiter, when a gap is given.

@@ -9,8 +9,7 @@ use super::points::{self, Point};
 use super::settings::View;
 use super::unit;
 use super::validity::Check;
-use super::words::Ramp;
-use crate::search::Sign;
+use crate::search::{Ramp, Sign};
 
 /// What the command line says about a single shock. Axes it does not name must have one value.
 #[derive(Clone, Debug, Default, PartialEq)]

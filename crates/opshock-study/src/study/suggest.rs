@@ -4,7 +4,7 @@ use super::fault::StudyError;
 use super::keys;
 use super::renamed;
 use super::source::Place;
-use super::tree::Node;
+use super::tree::{Node, Value};
 use super::unit::{self, Dimension, Unit};
 
 /// The nearest of some names, when one is near enough to be meant.
@@ -37,14 +37,25 @@ pub fn unknown(
 ) -> Unknown {
     let plain = |fault: StudyError| Unknown { fault, meant: None };
     let siblings = keys::names_below(pattern);
-    if let Some(today) = renamed::today(path) {
+    if let Some(today) = renamed::key_today(path) {
         let fault = StudyError::at("E110", place, path, "this key of format 1 has another name");
-        let key = keys::KEYS.iter().find(|key| key.path == today);
-        let values = key.map_or(String::new(), |key| format!(" = {}", key.kind.allowed()));
+        let allowed = match keys::find(today) {
+            Some(key) => key.kind.wanted(),
+            None => format!("keys {}", keys::names_below(today).join(", ")),
+        };
+        let value = match &node.value {
+            Value::List(_) | Value::Table(_) => String::new(),
+            Value::Text(word) => {
+                let word = renamed::word_today(today, word).unwrap_or(word);
+                format!(" = {word:?}")
+            }
+            _ => format!(" = {}", node.place.text()),
+        };
         return plain(
             fault
                 .value(node.place.text())
-                .allowed(format!("{today}{values}")),
+                .allowed(allowed)
+                .hint(format!("write {today}{value}")),
         );
     }
     if is_section {
@@ -78,10 +89,11 @@ pub fn unknown(
     let fault = StudyError::at("E110", place, path, format!("unknown key {table}"))
         .value(node.place.text())
         .allowed(siblings.join(", "));
-    // A name that is exact in another section beats a similar one here.
+    // A name that is exact in another section beats a similar one here; directly in a section it is the likelier one.
     let elsewhere = keys::KEYS
         .iter()
-        .find(|key| key.name() == name && !key.path.contains("[]"));
+        .filter(|key| key.name() == name && !key.path.contains("[]"))
+        .min_by_key(|key| key.path.matches('.').count());
     plain(
         match (
             elsewhere,

@@ -217,7 +217,7 @@ pub static UNITS: &[Unit] = &[
     foreign("rad_per_s", "rad/s", Dimension::RotationSpeed),
     foreign("kpa", "kPa", Dimension::Pressure),
     foreign("mpa", "MPa", Dimension::Pressure),
-    foreign("interval", "interval", Dimension::Pressure),
+    foreign("bar", "bar", Dimension::Pressure),
     foreign("n_per_mm", "N/mm", Dimension::Stiffness),
     foreign("rad", "rad", Dimension::Angle),
     foreign("mrad", "mrad", Dimension::Angle),

@@ -3,7 +3,7 @@
 //! Each list of words stands once, with the value of each: the table of keys takes the words from here ([`names`]),
 //! [`Field`](super::field::Field) the values. So every word has a value, and every value that is printed a word.
 
-use crate::search::{MonotonicityScan, Sign};
+use crate::search::{MonotonicityScan, Ramp, Sign};
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::scene::Coupling;
 use opshock_solver::scene::discretisation::Discretisation;
@@ -163,42 +163,6 @@ pub enum Shape {
     DampedSine,
     /// Through points.
     Table,
-}
-
-/// Which ramp stands at the rim. The order is the canonical one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Ramp {
-    /// No ramp.
-    None,
-    /// Fixed contact points.
-    Rigid,
-    /// Flexible arms.
-    Deformable,
-}
-
-impl Ramp {
-    /// All, in canonical order.
-    pub const ALL: [Self; 3] = [Self::None, Self::Rigid, Self::Deformable];
-
-    /// The word in study files and tables.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Rigid => "rigid",
-            Self::Deformable => "deformable",
-        }
-    }
-
-    /// The ramp of a word.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|ramp| ramp.as_str() == word)
-    }
-}
-
-impl std::fmt::Display for Ramp {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(self.as_str())
-    }
 }
 
 /// The way a head faces: down over its disk, up under it.

@@ -59,10 +59,10 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
     let key = row.run.key;
     let probe = Probe {
         index: row.index,
-        is_fine: row.purpose == Purpose::ErrorBar,
+        is_fine: row.purpose == Purpose::Uncertainty,
         levels: row.levels,
         window_factor: key.window_factor,
-        retry: Retry::from_level(key.retry).unwrap_or_default(),
+        retry: Retry::from_place(key.retry).unwrap_or_default(),
     };
     let amplitude = f64::from_bits(key.amplitude_bits);
     let full = guard::simulate(simulator, row.point, probe, amplitude);
@@ -73,9 +73,9 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
         point.pulse_ms,
         point.sign.as_str()
     );
-    reported(row.result())
+    quantities(row.result())
         .into_iter()
-        .zip(reported(&full))
+        .zip(quantities(&full))
         .filter(|(planned, full)| planned != full)
         .map(|((quantity, planned), (_, full))| Difference {
             point: label.clone(),
@@ -88,7 +88,7 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
 }
 
 /// Every number of an answer but the work, written so that different bits give different text.
-fn reported(result: &ProbeResult) -> [(&'static str, String); 6] {
+fn quantities(result: &ProbeResult) -> [(&'static str, String); 6] {
     let number = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{v:e}"));
     let (verdict, [t, x, y]) = match &result.verdict {
         Verdict::Survives => ("survives".to_owned(), [None; 3]),

@@ -1,8 +1,8 @@
 //! Runs a sweep: hands jobs to threads, reports verdicts to the searches, and sends results to the writer.
 //!
 //! One thread has the searches and hands the best job to each idle thread: first a request of a search, the point with
-//! the longest chain of successors first; else what a search will probably request. The order in which answers come
-//! back changes only when a probe is answered.
+//! the longest chain of successors first; else what a search will probably request. Answers may come back in any
+//! order: that affects when a probe is answered, and nothing else.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -19,7 +19,7 @@ use super::lucky::lucky;
 use super::neighbours::Neighbours;
 use super::options::{Ending, SweepEnd, SweepOptions};
 use super::progress::{Event, Progress};
-use super::registry::{Job, Registry, Reported};
+use super::registry::{AnsweredProbe, Job, Registry};
 use super::shard::Shard;
 use super::simulator::Simulator;
 use super::writer::{self, Message};
@@ -33,7 +33,7 @@ use crate::store::{
 const CHANNEL: usize = 1024;
 /// Time between two checks of stop, budget and checkpoint.
 const TICK: Duration = Duration::from_millis(50);
-/// The estimate of what is left is renewed when the known runs have grown by this part, or after this time.
+/// The estimate of what is left is renewed when the known runs have grown by 1 / `ESTIMATE_SHARE`, or after this time.
 const ESTIMATE_SHARE: usize = 256;
 const BETWEEN_ESTIMATES: Duration = Duration::from_secs(1);
 
@@ -195,14 +195,14 @@ impl<'a> Run<'a> {
         };
         self.registry.allow(allowed);
         for record in news {
-            let reported = match record {
+            let answered = match record {
                 Record::Run(run) if !self.registry.runs().contains_key(&run.key) => {
                     self.registry.finished(run)
                 }
                 Record::Touch(TouchRecord { point, touch }) => self.registry.touched(point, touch),
                 Record::Run(_) | Record::Session(_) | Record::Numbers { .. } => continue,
             };
-            self.report(&reported, None);
+            self.report(&answered, None);
         }
     }
 
@@ -210,8 +210,8 @@ impl<'a> Run<'a> {
         for (code, message) in std::mem::take(&mut self.notes) {
             self.tell(Event::Warning { code, message });
         }
-        let reported = self.registry.absorb_all();
-        self.report(&reported, None);
+        let answered = self.registry.absorb_all();
+        self.report(&answered, None);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.options.threads)
             .thread_name(|number| format!("sweep-{number}"))
@@ -303,11 +303,16 @@ impl<'a> Run<'a> {
         let threads = self.options.threads;
         let (to_here, answers) = crossbeam_channel::unbounded::<Done>();
         let mut in_flight = 0;
+        let mut is_told = false;
         let mut checkpoint_at = Instant::now();
         pool.in_place_scope(|scope| {
             loop {
                 self.ask_neighbours();
                 let stopped = self.stopped();
+                if stopped.is_some() && in_flight > 0 && !is_told {
+                    self.tell(Event::Stopping { in_flight });
+                    is_told = true;
+                }
                 while in_flight < threads && stopped.is_none() && !self.registry.is_done() {
                     let Some(job) = self.registry.next_job(self.options.speculate) else {
                         break;
@@ -384,8 +389,8 @@ impl<'a> Run<'a> {
                     point: digest,
                     touch,
                 })));
-                let reported = self.registry.touched(digest, touch);
-                self.report(&reported, None);
+                let answered = self.registry.touched(digest, touch);
+                self.report(&answered, None);
             }
             Answer::Run { key, result } => {
                 self.computed_runs += 1;
@@ -406,8 +411,8 @@ impl<'a> Run<'a> {
     fn keep(&mut self, record: RunRecord, wall_s: Option<f64>) {
         let key = record.key;
         self.send(Message::Keep(Record::Run(record.clone())));
-        let reported = self.registry.finished(record);
-        self.report(&reported, wall_s.map(|wall_s| (key, wall_s)));
+        let answered = self.registry.finished(record);
+        self.report(&answered, wall_s.map(|wall_s| (key, wall_s)));
     }
 
     /// Reports what is left. It visits every point and run, so not after each of many runs.
@@ -423,8 +428,8 @@ impl<'a> Run<'a> {
     }
 
     /// Reports which probes were answered.
-    fn report(&mut self, reported: &[Reported], computed: Option<(RunKey, f64)>) {
-        for &Reported { point, asked, key } in reported {
+    fn report(&mut self, answered: &[AnsweredProbe], computed: Option<(RunKey, f64)>) {
+        for &AnsweredProbe { point, asked, key } in answered {
             if self.registry.first_of(point, asked) {
                 self.tell(Event::PointStarted { point });
             }
@@ -440,7 +445,7 @@ impl<'a> Run<'a> {
                     .map(|(_, wall_s)| wall_s),
             });
         }
-        let mut points: Vec<usize> = reported.iter().map(|reported| reported.point).collect();
+        let mut points: Vec<usize> = answered.iter().map(|probe| probe.point).collect();
         points.sort_unstable();
         points.dedup();
         for point in points {
@@ -466,7 +471,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        if !reported.is_empty() {
+        if !answered.is_empty() {
             self.estimate();
         }
     }

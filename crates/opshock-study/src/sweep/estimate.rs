@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::input::SweepInput;
 use super::progress::Estimate;
 use super::registry::Registry;
-use crate::search::RampClass;
+use crate::search::Ramp;
 
 /// Probes of a point before any was finished: bracketing 3, halving 2, scan 3, window 1.
 const PRIOR_RUNS: f64 = 9.0;
@@ -18,17 +18,17 @@ const PRIOR_UNCERTAINTY_SPREAD: f64 = 8.0;
 
 /// Runs that something took at the points of a class of ramp where it is done.
 #[derive(Default)]
-struct Taken(HashMap<RampClass, (f64, f64)>);
+struct Taken(HashMap<Ramp, (f64, f64)>);
 
 impl Taken {
-    fn add(&mut self, class: RampClass, runs: usize) {
+    fn add(&mut self, class: Ramp, runs: usize) {
         let sum = self.0.entry(class).or_default();
         sum.0 += runs as f64;
         sum.1 += 1.0;
     }
 
     /// What is left of it where `done` runs are made: one at least.
-    fn left(&self, class: RampClass, prior: f64, done: usize) -> f64 {
+    fn left(&self, class: Ramp, prior: f64, done: usize) -> f64 {
         let expected = self.0.get(&class).map_or(prior, |&sum| mean(sum));
         (expected - done as f64).max(1.0)
     }
@@ -41,7 +41,7 @@ fn mean((sum, count): (f64, f64)) -> f64 {
 /// Estimate of a sweep's remainder: searches, and uncertainty intervals with their refinements.
 pub(super) fn estimate(input: &SweepInput, registry: &Registry<'_>, threads: usize) -> Estimate {
     let campaign = registry.campaign();
-    let class = |point: usize| input.points[point].coordinates.ramp_class;
+    let class = |point: usize| input.points[point].coordinates.ramp;
     let searched = |point: usize| {
         campaign
             .search(point)
@@ -60,7 +60,7 @@ pub(super) fn estimate(input: &SweepInput, registry: &Registry<'_>, threads: usi
             uncertainties.add(class(point), runs);
         }
     }
-    let mut wall_of: HashMap<RampClass, (f64, f64)> = HashMap::new();
+    let mut wall_of: HashMap<Ramp, (f64, f64)> = HashMap::new();
     let mut overall = (0.0, 0.0);
     for record in registry.runs().values() {
         let wall_s = record.machine.wall_s;

@@ -14,7 +14,7 @@ use super::guard;
 use super::input::SweepInput;
 use super::registry::Registry;
 use super::simulator::Simulator;
-use crate::search::{Campaign, Coordinates, Probe, RampClass, Sign, Touch, Verdict};
+use crate::search::{Campaign, Coordinates, Probe, Ramp, Sign, Touch, Verdict};
 use crate::store::{Loaded, StoredTouch};
 use crate::study::KeepHistories;
 
@@ -74,7 +74,7 @@ pub struct Forecast {
     /// All simulations.
     pub runs: Spread,
     /// Seconds of one simulation by ramp model.
-    pub seconds_per_run: BTreeMap<String, f64>,
+    pub seconds_per_run: BTreeMap<Ramp, f64>,
     /// Core-hours.
     pub core_h: Spread,
     /// Hours with these threads.
@@ -200,15 +200,16 @@ pub fn forecast(
         let ramp = &input.points[point].coordinates.ramp;
         seconds_per_run.get(ramp).copied().unwrap_or(0.0)
     };
-    let (searched, barred) = (0..open.len())
-        .filter(is_open)
-        .fold((0.0, 0.0), |sum, point| {
-            let s = pace_of(point);
-            (
-                sum.0 + s * at(0.5).1[point],
-                sum.1 + s * discretisations(point) as f64,
-            )
-        });
+    let (searched, weighted_parameters) =
+        (0..open.len())
+            .filter(is_open)
+            .fold((0.0, 0.0), |sum, point| {
+                let s = pace_of(point);
+                (
+                    sum.0 + s * at(0.5).1[point],
+                    sum.1 + s * discretisations(point) as f64,
+                )
+            });
     let per_likely = if search_runs.likely > 0.0 {
         searched / search_runs.likely
     } else {
@@ -216,7 +217,7 @@ pub fn forecast(
     };
     let seconds = search_runs
         .scaled(per_likely)
-        .plus(PER_DISCRETISATION.scaled(barred))
+        .plus(PER_DISCRETISATION.scaled(weighted_parameters))
         .times(PACE);
     let runs = search_runs.plus(uncertainty_runs);
     let histories = match input.keep_histories {
@@ -249,8 +250,8 @@ fn pace(
     simulator: &dyn Simulator,
     touches: &[Touch],
     loaded: &Loaded,
-) -> BTreeMap<String, f64> {
-    let mut pace: BTreeMap<String, f64> = BTreeMap::new();
+) -> BTreeMap<Ramp, f64> {
+    let mut pace: BTreeMap<Ramp, f64> = BTreeMap::new();
     for (place, point) in input.points.iter().enumerate() {
         let ramp = &point.coordinates.ramp;
         if pace.contains_key(ramp) {
@@ -273,7 +274,7 @@ fn pace(
         } else {
             measured(input, simulator, place, touches[place])
         };
-        pace.insert(ramp.clone(), seconds);
+        pace.insert(*ramp, seconds);
     }
     pace
 }
@@ -398,10 +399,10 @@ impl Law {
             self.minus
         };
         let none_g = self.none_g * sign * at.pulse_ms.powf(self.slope);
-        let (Touch::At { onset_g }, false) = (touch, at.ramp_class == RampClass::None) else {
+        let (Touch::At { onset_g }, false) = (touch, at.ramp == Ramp::None) else {
             return amplitude_g >= none_g;
         };
-        let place = self.place[usize::from(at.ramp_class == RampClass::Deformable)];
+        let place = self.place[usize::from(at.ramp == Ramp::Deformable)];
         let place = (place + self.drift * at.pulse_ms.ln()).clamp(0.02, 0.95);
         let critical_g = onset_g * (none_g / onset_g).max(1.0).powf(place);
         let is_in = |(low, high): (f64, f64)| {

@@ -11,9 +11,9 @@ use super::input::{SweepInput, SweepPoint, UncertaintyPlan};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::uncertainty::MOST_STEPS;
-use crate::search::{AmplitudeGridError, Coordinates, RampClass, SearchSettings, Sign};
+use crate::search::{AmplitudeGridError, Coordinates, SearchSettings, Sign};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
-use crate::study::{Faces, Point, Ramp, Study};
+use crate::study::{Faces, Point, Study};
 
 impl SweepInput {
     /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
@@ -67,30 +67,25 @@ fn plan_json(study: &Study) -> String {
             .iter()
             .map(|effect| (effect.name.to_owned(), json!(effect.state.as_str())))
             .collect::<serde_json::Map<_, _>>();
-        let reported = json!({
+        let of_ramp = json!({
             "effects": effects,
             "rules_below_touch": plan.applied(scene, false),
             "rules_above_touch": plan.applied(scene, true),
         });
-        scenes.entry(point.ramp.as_str()).or_insert(reported);
+        scenes.entry(point.ramp.as_str()).or_insert(of_ramp);
     }
     let outputs: Vec<&str> = plan.outputs.iter().map(|output| output.as_str()).collect();
-    let mut reported = json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes});
+    let mut whole = json!({"effects": plan.mode.as_str(), "outputs": outputs, "ramps": scenes});
     if !plan.field_times_s.is_empty() {
-        reported["field_times_s"] = json!(plan.field_times_s);
+        whole["field_times_s"] = json!(plan.field_times_s);
     }
-    reported.to_string()
+    whole.to_string()
 }
 
 fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {
     SweepPoint {
         coordinates: Coordinates {
-            ramp_class: match point.ramp {
-                Ramp::None => RampClass::None,
-                Ramp::Rigid => RampClass::Rigid,
-                Ramp::Deformable => RampClass::Deformable,
-            },
-            ramp: point.ramp.as_str().to_owned(),
+            ramp: point.ramp,
             pulse_ms: point.pulse_ms,
             sign: point.sign,
             axes: point
@@ -103,7 +98,7 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
         axes: point
             .axes
             .iter()
-            .map(|(_, value)| reported(value))
+            .map(|(_, value)| summarised(value))
             .collect(),
         digest: digest(point, point.sign),
         uncertainty: search
@@ -167,7 +162,7 @@ fn digest(point: &Point, sign: Sign) -> PointDigest {
     PointDigest(*hasher.finalize().as_bytes())
 }
 
-fn reported(value: &crate::study::AxisValue) -> AxisValue {
+fn summarised(value: &crate::study::AxisValue) -> AxisValue {
     match value {
         crate::study::AxisValue::Number(number) => AxisValue::Number(*number),
         crate::study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
@@ -222,7 +217,7 @@ mod tests {
             assert_eq!(point.coordinates.pulse_ms, study.points[place].pulse_ms);
         }
         // Without a ramp both clearances are the same point; with one they are not.
-        let digests = |ramp: &str| {
+        let digests = |ramp: crate::search::Ramp| {
             let mut all: Vec<_> = input
                 .points
                 .iter()
@@ -234,9 +229,9 @@ mod tests {
             all.dedup();
             (n, all.len())
         };
-        let (n, distinct) = digests("none");
+        let (n, distinct) = digests(crate::search::Ramp::None);
         assert_eq!(distinct * 2, n);
-        let (n, distinct) = digests("rigid");
+        let (n, distinct) = digests(crate::search::Ramp::Rigid);
         assert_eq!(distinct, n);
     }
 }

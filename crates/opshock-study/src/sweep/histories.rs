@@ -29,7 +29,7 @@ impl Wanted {
     fn run<'a>(&self, input: &'a SweepInput) -> KeptRun<'a> {
         let at = &input.points[self.point].coordinates;
         KeptRun {
-            ramp: &at.ramp,
+            ramp: at.ramp.as_str(),
             pulse_ms: at.pulse_ms,
             sign: at.sign,
             amplitude_g: self.amplitude_g,
@@ -87,17 +87,17 @@ fn probes(input: &SweepInput, registry: &Registry<'_>, point: usize) -> Vec<Prob
         return Vec::new();
     }
     let findings = registry.campaign().findings(point);
-    let reported = search.log().iter().map(|asked| asked.probe);
+    let probes = search.log().iter().map(|asked| asked.probe);
     match input.keep_histories {
         KeepHistories::None => Vec::new(),
-        KeepHistories::All => reported.collect(),
+        KeepHistories::All => probes.collect(),
         KeepHistories::Bracket => {
             let ends = [findings.survivor, findings.failure];
             let is_end =
                 |probe: &Probe| probe.window_factor == 1 && ends.contains(&Some(probe.index));
             // An amplitude decided by a retry keeps that run, which is its last.
             let mut kept: Vec<Probe> = Vec::new();
-            for probe in reported.filter(is_end) {
+            for probe in probes.filter(is_end) {
                 kept.retain(|other| other.index != probe.index);
                 kept.push(probe);
             }
@@ -140,7 +140,7 @@ pub(super) fn record(
     };
     let at = &input.points[*point];
     let mut coordinates = vec![
-        ("ramp".to_owned(), at.coordinates.ramp.clone()),
+        ("ramp".to_owned(), at.coordinates.ramp.to_string()),
         ("pulse_ms".to_owned(), at.coordinates.pulse_ms.to_string()),
         ("sign".to_owned(), at.coordinates.sign.as_str().to_owned()),
     ];

@@ -66,7 +66,7 @@ impl SweepInput {
         self.points
             .iter()
             .map(|point| PointLabel {
-                ramp: point.coordinates.ramp.clone(),
+                ramp: point.coordinates.ramp.to_string(),
                 pulse_ms: point.coordinates.pulse_ms,
                 sign: point.coordinates.sign,
                 axes: self

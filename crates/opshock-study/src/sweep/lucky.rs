@@ -28,7 +28,8 @@ pub(super) fn lucky(input: &SweepInput, registry: &Registry<'_>, results: &Resul
             if is_below_answer(row, registry.failure_g(place), amplitude_g) {
                 messages.push(format!(
                     "{} {} ms {}: a run outside the search fails at {amplitude_g:.4} G, below \
-                     the answer; a smaller max_gap_pct or monotonicity_scan = \"full\" would find it",
+                     the answer; a smaller search.scan_gap_pct or search.monotonicity_scan = \"full\" would find \
+                     it",
                     row.ramp,
                     row.pulse_ms,
                     row.sign.as_str()

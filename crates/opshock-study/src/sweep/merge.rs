@@ -17,8 +17,8 @@ pub struct Merged {
     pub results: Results,
     /// Simulations added, per store.
     pub taken: Vec<u64>,
-    /// Simulations whose numbers differ between two stores while their verdicts agree: machines with other
-    /// instructions. The first store's are kept.
+    /// Simulations whose numbers differ between two stores while their verdicts agree: a C library or processor gave
+    /// other last digits. The first store's are kept.
     pub rounding: u64,
     /// Histories that were not taken because they are damaged.
     pub left: Vec<StoreError>,

@@ -18,10 +18,10 @@ use opshock_solver::simulation::{
 };
 
 use super::latest::Latest;
-use super::model_cache::{Counts, ModelCache};
 use super::probed::{not_built, probe_result};
 use super::quasi_static::{Lowest, quasi_static};
 use super::simulator::{Onset, Simulator};
+use super::structure_run_cache::{Counts, StructureRunCache};
 use crate::identity;
 use crate::provenance::PHYSICS_STRUCTURE;
 use crate::search::{Probe, ProbeResult, Retry};
@@ -92,7 +92,7 @@ pub struct Physics {
     /// Models at other refinement levels, by place and levels.
     changed: Mutex<Latest<(usize, Levels), Arc<Model>>>,
     shared_models: Mutex<Vec<Arc<Model>>>,
-    cache: ModelCache,
+    cache: StructureRunCache,
     /// Structures that several scenes of the study have.
     shared_structures: HashSet<[u8; 16]>,
     /// Structures built so far.
@@ -164,7 +164,7 @@ impl Physics {
             plan,
             changed: Mutex::new(Latest::new(REFINED)),
             shared_models: Mutex::new(Vec::new()),
-            cache: ModelCache::default(),
+            cache: StructureRunCache::default(),
             shared_structures,
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),

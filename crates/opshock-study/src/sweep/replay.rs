@@ -17,7 +17,7 @@ pub fn replay(input: &SweepInput, loaded: Loaded, session: &Session) -> Results 
 ///
 /// # Errors
 ///
-/// [`StoreError`]: nothing is stored, the files are newer or damaged.
+/// [`StoreError`]: nothing is stored, the files are damaged or of another format.
 pub fn stored(input: &SweepInput, folder: &Path) -> Result<Results, StoreError> {
     let (loaded, results) = store::load(folder)?;
     let session = results.map_or_else(|| folder::session(0), |results| results.session);

@@ -56,7 +56,7 @@ pub enum RoundError {
 ///
 /// # Errors
 ///
-/// [`StoreError`]: a store is damaged or newer.
+/// [`StoreError`]: a store is damaged or of another format.
 pub fn finished(whole: &Path) -> Result<Loaded, StoreError> {
     let mut all = Loaded::default();
     let shards = stores(whole)?;

@@ -2,7 +2,7 @@
 
 use super::input::SweepPoint;
 use crate::search::uncertainty::{Answer, SUBDIVISIONS};
-use crate::search::{AmplitudeGrid, Coordinates, Findings, Flag, RampClass, Status, Uncertainty};
+use crate::search::{AmplitudeGrid, Coordinates, Findings, Flag, Ramp, Status, Uncertainty};
 use crate::store::summary::{Contribution, PointSummary};
 
 /// Row of a point.
@@ -61,7 +61,7 @@ pub(super) fn row(
         flags.insert(Flag::Refined);
     }
     PointSummary {
-        ramp: point.coordinates.ramp.clone(),
+        ramp: point.coordinates.ramp.to_string(),
         pulse_ms: point.coordinates.pulse_ms,
         sign: point.coordinates.sign,
         axes: point.axes.clone(),
@@ -91,12 +91,7 @@ pub(super) fn row(
 /// Coordinates of a row; its axes as they are shown.
 pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
     Coordinates {
-        ramp_class: match row.ramp.as_str() {
-            "none" => RampClass::None,
-            "rigid" => RampClass::Rigid,
-            _ => RampClass::Deformable,
-        },
-        ramp: row.ramp.clone(),
+        ramp: Ramp::from_word(&row.ramp).expect("a ramp model, as it was written and read"),
         pulse_ms: row.pulse_ms,
         sign: row.sign,
         axes: row.axes.iter().map(ToString::to_string).collect(),

@@ -28,7 +28,8 @@ pub fn run(arguments: &CheckArgs, global: &GlobalArgs, console: &Console) -> Res
     } else if arguments.resolved {
         console.result(&study.resolved_toml())?;
     } else {
-        console.result(&as_text(&study))?;
+        let doubts = study.unaccepted(&global.accept).len();
+        console.result(&as_text(&study, doubts))?;
     }
     Ok(Exit::Complete)
 }
@@ -58,9 +59,17 @@ fn as_json(study: &Study) -> Value {
     })
 }
 
-fn as_text(study: &Study) -> String {
+/// The study; of its `doubts`, warnings that are not accepted, it says that a sweep stops at them.
+fn as_text(study: &Study, doubts: usize) -> String {
     let list = |values: Vec<String>| values.join(", ");
-    let mut text = format!("{}: valid\n", study.name);
+    let mut text = match doubts {
+        0 => format!("{}: valid\n", study.name),
+        1 => format!("{}: valid, with a warning that stops a sweep\n", study.name),
+        _ => format!(
+            "{}: valid, with {doubts} warnings that stop a sweep\n",
+            study.name
+        ),
+    };
     let mut line = |name: &str, value: String| text.push_str(&format!("  {name:<10}{value}\n"));
     line("digest", study.digest_hex());
     line("points", study.points.len().to_string());

@@ -90,9 +90,9 @@ pub fn run(
     let swept = stored::read(&source, console).ok();
     let saved = swept.map_or(Vec::new(), |stored| stored.savings);
     if console.json {
-        let mut reported = as_json(&study, &plan, amplitude_g, &all);
-        reported["saved_in_sweep"] = json!(saved);
-        console.result_json(&reported)?;
+        let mut explained = as_json(&study, &plan, amplitude_g, &all);
+        explained["saved_in_sweep"] = json!(saved);
+        console.result_json(&explained)?;
     } else {
         let mut text = as_text(&study, &plan, amplitude_g, &all);
         if !saved.is_empty() {
@@ -312,12 +312,12 @@ fn as_text(study: &Study, plan: &Plan, amplitude_g: Option<f64>, all: &[Explaine
     }
     text.push_str("modes: moving before the first touch / after it\n");
     // Rules depend mostly on the ramp model; scenes with the same ramp model differ in numbers only.
-    let mut reported = Vec::new();
+    let mut listed = Vec::new();
     for scene in all {
-        if reported.contains(&scene.point.ramp) {
+        if listed.contains(&scene.point.ramp) {
             continue;
         }
-        reported.push(scene.point.ramp);
+        listed.push(scene.point.ramp);
         let _ = writeln!(text, "\nrules for {}", scene.point.label());
         for d in &scene.rules {
             let applied = if d.applied { "yes" } else { "no" };

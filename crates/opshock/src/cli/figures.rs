@@ -173,7 +173,7 @@ fn cases(study: &Study, shock: Shock, console: &Console) -> Result<Vec<PaperCase
             Some(Verdict::Fails { t_fail_s, .. }) => {
                 format!("fails at {:.3} ms", 1e3 * (t_fail_s + study.start_s))
             }
-            _ => "undecided".to_owned(),
+            Some(Verdict::Undecided { .. }) | None => "undecided".to_owned(),
         };
         let history = outcome
             .history

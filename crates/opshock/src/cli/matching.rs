@@ -62,10 +62,10 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
             .is_some_and(|budget| began.elapsed() >= budget)
     };
     let asked_to_stop = || stop.is_asked() || is_over();
-    let reported = Cell::new(began);
+    let last_line = Cell::new(began);
     let progress = |stage: Stage, done: usize, of: usize| {
-        if reported.get().elapsed() >= BETWEEN_LINES && !console.quiet {
-            reported.set(Instant::now());
+        if last_line.get().elapsed() >= BETWEEN_LINES && !console.quiet {
+            last_line.set(Instant::now());
             console.tell(&format!("{}: {done} of {of} parameter sets", stage.words()));
         }
     };

@@ -74,16 +74,16 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
         };
         console.result(&slurm::script(&job, global).context("cannot write the script")?)?;
     } else {
-        let reported = Reported {
+        let plan = Plan {
             changed: owner
                 .and_then(|owner| owner.changed(&input.texts.resolved))
                 .unwrap_or_default(),
             forecast,
         };
         if console.json {
-            console.result_json(&reported)?;
+            console.result_json(&plan)?;
         } else {
-            console.result(&as_text(&study.name, &reported))?;
+            console.result(&as_text(&study.name, &plan))?;
         }
     }
     Ok(Exit::Complete)
@@ -91,7 +91,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
 
 /// The forecast, and why simulations in the store no longer serve.
 #[derive(Serialize)]
-struct Reported {
+struct Plan {
     #[serde(flatten)]
     forecast: Forecast,
     changed: Vec<SettingDifference>,
@@ -110,8 +110,8 @@ fn history_nodes(study: &Study) -> f64 {
     study.points.iter().map(nodes).fold(0.0, f64::max)
 }
 
-fn as_text(name: &str, reported: &Reported) -> String {
-    let forecast = &reported.forecast;
+fn as_text(name: &str, plan: &Plan) -> String {
+    let forecast = &plan.forecast;
     let mut text = String::new();
     let mut line = |what: &str, value: String| {
         // Writing into a text cannot fail.
@@ -127,9 +127,9 @@ fn as_text(name: &str, reported: &Reported) -> String {
     );
     if forecast.added_points > 0 {
         line(
-            "refinement",
+            "added points",
             format!(
-                "adds {} points at most, in every number below that is a maximum",
+                "{} at most, in every number below that is a maximum",
                 forecast.added_points
             ),
         );
@@ -138,7 +138,7 @@ fn as_text(name: &str, reported: &Reported) -> String {
         "reuse",
         format!("{} finished simulations stay valid", forecast.reused_runs),
     );
-    for setting in &reported.changed {
+    for setting in &plan.changed {
         line("  changed", setting.to_string());
     }
     let runs = |spread: Spread| {
@@ -149,7 +149,7 @@ fn as_text(name: &str, reported: &Reported) -> String {
     };
     line("simulations", runs(forecast.runs));
     line("  search", runs(forecast.search_runs));
-    line("  uncertainty intervals", runs(forecast.uncertainty_runs));
+    line("  uncertainty", runs(forecast.uncertainty_runs));
     let paces: Vec<String> = forecast
         .seconds_per_run
         .iter()

@@ -167,15 +167,15 @@ pub fn run(
 
 /// What `opshock accuracy` wrote.
 fn measured(path: &Path) -> Result<Accuracy, Failure> {
-    let reported = |what: String| {
+    let failure = |what: String| {
         Failure::Usage(vec![Fault::new(
             "accuracy",
             format!("{}: {what}", path.display()),
         )])
     };
-    let text = std::fs::read_to_string(path).map_err(|error| reported(error.to_string()))?;
+    let text = std::fs::read_to_string(path).map_err(|error| failure(error.to_string()))?;
     serde_json::from_str(&text)
-        .map_err(|error| reported(format!("not an accuracy.json of this program: {error}")))
+        .map_err(|error| failure(format!("not an accuracy.json of this program: {error}")))
 }
 
 /// Complete, or complete but for open points.

@@ -127,9 +127,20 @@ fn tell(remarks: &[StudyError], console: &Console) {
     }
     let text = match stderr_width() {
         Some(width) => fault::to_terminal(remarks, width, stderr_colour()),
-        None => remarks.iter().map(|remark| format!("{remark}\n")).collect(),
+        None => remarks
+            .iter()
+            .map(|remark| format!("{}: {remark}\n", label(remark.code)))
+            .collect(),
     };
     console.tell(text.trim_end());
+}
+
+/// What a code stands for.
+fn label(code: &str) -> &'static str {
+    match code.starts_with('W') {
+        true => "warning",
+        false => "note",
+    }
 }
 
 impl From<ChoiceError> for Failure {

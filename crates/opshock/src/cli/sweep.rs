@@ -104,8 +104,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             break (input, end);
         }
         if options.shard.is_some() && study.search.added_points.is_some() {
-            console
-                .tell("this part is answered: what refinement adds waits for the shards at work");
+            console.tell("this part is answered: points to be added wait for the shards at work");
         }
         let now = Instant::now();
         match rounds::next(&study, &folder, &options, &end.summary, now).map_err(not_known)? {
@@ -117,8 +116,8 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             Next::Done => break (input, end),
             Next::Left { points } => {
                 console.tell(&format!(
-                    "{points} points of shards that are not at work are open, and with them what \
-                     refinement adds: run these shards, or `opshock merge` and `opshock sweep`"
+                    "{points} points of shards that are not at work are open, and with them the \
+                     points to be added: run these shards, or `opshock merge` and `opshock sweep`"
                 ));
                 break (input, end);
             }

@@ -123,10 +123,10 @@ impl Range {
             Varying(height.0 + self.min_height_m, height.1).ln()
         };
         let (first, second) = (above(1.0), above(-1.0));
-        let min_height_m = Varying(mean.0 + self.min_height_m, mean.1).ln();
-        let (pitch_rad, slope) = self.equilibrium.at(min_height_m.0);
+        let logarithm = Varying(mean.0 + self.min_height_m, mean.1).ln();
+        let (pitch_rad, slope) = self.equilibrium.at(logarithm.0);
         let up = Varying(attitude.pitch_rad, [0.0, 1.0, 0.0]);
-        let up = up.mixed(1.0, min_height_m.of(pitch_rad, slope), -1.0);
+        let up = up.mixed(1.0, logarithm.of(pitch_rad, slope), -1.0);
         let up = up.clamped(-self.pitch_rad, self.pitch_rad);
         let [low, high] = self.heights_m.map(|h| (h + self.min_height_m).ln());
         let half = 0.5 * (high - low);

@@ -6,7 +6,7 @@ use crate::head::fields::StepEnds;
 
 impl Run<'_> {
     /// Records the state reached `dt_s` after the last: dimple and stops up to the touch, pressure, columns.
-    pub(super) fn balance(&mut self, dt_s: f64, attitude: &Attitude) {
+    pub(super) fn record_step(&mut self, dt_s: f64, attitude: &Attitude) {
         let (model, w) = (self.model, &mut *self.w);
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (x, v) = w.y[n_cells..].split_at(n);
@@ -30,7 +30,7 @@ impl Run<'_> {
             for (stop, force) in self.stops.iter_mut().zip(forces) {
                 if let Some((record, latest)) = stop {
                     if self.failed.is_none() {
-                        record.balance([*latest, force], dt_s, self.time_s);
+                        record.add_step([*latest, force], dt_s, self.time_s);
                     }
                     *latest = force;
                 }

@@ -198,7 +198,7 @@ impl Run<'_> {
         self.cost.steps += 1;
         // A touch at the very end of the step has its row already.
         if self.time_s > before_s {
-            self.balance(dt_s, &step.attitude);
+            self.record_step(dt_s, &step.attitude);
         }
     }
 

@@ -100,7 +100,7 @@ impl Run<'_> {
         };
         // A slider that begins below the limit fails at once: that instant is already recorded.
         if self.time_s > before_s {
-            self.balance(self.time_s - before_s, &attitude);
+            self.record_step(self.time_s - before_s, &attitude);
         }
         let place = Place {
             x_m: touch.clearance.x_m,

@@ -8,14 +8,14 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// A contact in the reduction's coordinates u.
 pub struct Contact {
     pub row: DVector<f64>,
-    pub preload_n: f64,
+    pub steady_force_n: f64,
     pub n_per_m: f64,
     pub n_s_per_m: f64,
 }
 
 impl Contact {
     pub fn signed(&self, u: &DVector<f64>, w: &DVector<f64>) -> f64 {
-        self.preload_n + self.n_per_m * self.row.dot(u) + self.n_s_per_m * self.row.dot(w)
+        self.steady_force_n + self.n_per_m * self.row.dot(u) + self.n_s_per_m * self.row.dot(w)
     }
 }
 
@@ -34,14 +34,14 @@ pub struct Dense {
 }
 
 /// C = 2 ζ K^½ (K^-½ M K^-½)^½ K^½, the damping of which every mode has the ratio ζ, without its modes.
-pub fn even_damping(set: &Reduction) -> DMatrix<f64> {
+pub fn even_damping(set: &Reduction, ratio: f64) -> DMatrix<f64> {
     let roots = set.stiffness.map(f64::sqrt);
     let n = set.len();
     let standard = DMatrix::from_fn(n, n, |i, j| set.mass[(i, j)] / (roots[i] * roots[j]));
     let eigen = SymmetricEigen::new(standard);
     let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(f64::sqrt));
     let root = &eigen.eigenvectors * values * eigen.eigenvectors.transpose();
-    let factor = 2.0 * set.damping_ratio;
+    let factor = 2.0 * ratio;
     DMatrix::from_fn(n, n, |i, j| factor * roots[i] * root[(i, j)] * roots[j])
 }
 
@@ -67,7 +67,7 @@ impl Dense {
         for (at, set) in [(3, bending), (roll_at, torsion)] {
             let size = (set.len(), set.len());
             out.mass.view_mut((at, at), size).copy_from(&set.mass);
-            let damping = even_damping(set);
+            let damping = even_damping(set, parameters.damping_ratio);
             out.damping.view_mut((at, at), size).copy_from(&damping);
             let stiffness = DMatrix::from_diagonal(&set.stiffness);
             out.stiffness.view_mut((at, at), size).copy_from(&stiffness);
@@ -94,12 +94,12 @@ impl Dense {
         out.stiffness += gimbal.pitch_n_m_per_rad * &pitch * pitch.transpose();
         out.stiffness += gimbal.roll_n_m_per_rad * &roll * roll.transpose();
 
-        let mut contact = |row: DVector<f64>, preload_n: f64, law: &ContactLaw| {
+        let mut contact = |row: DVector<f64>, steady_force_n: f64, law: &ContactLaw| {
             let n_per_m = law.stiffness_n_per_m;
             let n_s_per_m = 2.0 * law.damping_ratio * (n_per_m * inertia.mass_kg).sqrt();
             out.contacts.push(Contact {
                 row,
-                preload_n,
+                steady_force_n,
                 n_per_m,
                 n_s_per_m,
             });
@@ -115,8 +115,8 @@ impl Dense {
             contact(row, -limiter.gap_m * law.stiffness_n_per_m, law);
         }
         if let (Some(tab), Some(row)) = (&parameters.lift_tab, &bending.tab_row) {
-            let preload_n = -tab.gap_m * tab.contact.stiffness_n_per_m;
-            contact(of_bending(row), preload_n, &tab.contact);
+            let steady_force_n = -tab.gap_m * tab.contact.stiffness_n_per_m;
+            contact(of_bending(row), steady_force_n, &tab.contact);
         }
         out
     }
@@ -136,13 +136,13 @@ impl Dense {
         [damping, stiffness]
     }
 
-    /// Force of the contacts less the dimple's preload, and the sum of their magnitudes.
+    /// Force of the contacts less the dimple's steady one, and the sum of their magnitudes.
     pub fn contact_force(&self, u: &DVector<f64>, w: &DVector<f64>) -> [DVector<f64>; 2] {
         let mut out = [DVector::zeros(self.len()), DVector::zeros(self.len())];
         for (k, contact) in self.contacts.iter().enumerate() {
-            let held = if k == 0 { contact.preload_n } else { 0.0 };
+            let held = if k == 0 { contact.steady_force_n } else { 0.0 };
             out[0] -= (contact.signed(u, w).max(0.0) - held) * &contact.row;
-            let size = contact.preload_n.abs()
+            let size = contact.steady_force_n.abs()
                 + contact.n_per_m * contact.row.abs().dot(&u.abs())
                 + contact.n_s_per_m * contact.row.abs().dot(&w.abs());
             out[1] += size * contact.row.abs();

@@ -5,7 +5,7 @@ use super::super::sample::{law, limiter, slider, suspension};
 use super::StageMatrix;
 use super::dense::{Dense, even_damping};
 use crate::suspension::{
-    LiftTab, Limiter, ReducedSuspension, SuspensionMode, SuspensionParameters,
+    LiftTab, Limiter, RayleighDamping, ReducedSuspension, SuspensionMode, SuspensionParameters,
 };
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -304,6 +304,29 @@ fn error_of_the_suspension_is_weighed_in_pinned_modes() {
     }
 }
 
+/// Rayleigh damping αM + βK is diagonal in the natural modes too, as the oscillators have it.
+#[test]
+fn natural_modes_make_rayleigh_damping_diagonal() {
+    let (alpha_per_s, beta_s) = (25.0, 1e-7);
+    for (name, mut parameters, n_modes) in heads() {
+        parameters.rayleigh = Some(RayleighDamping {
+            alpha_per_s,
+            beta_s,
+        });
+        let reduced = ReducedSuspension::build(&parameters, n_modes).expect("builds");
+        for set in [&reduced.bending, &reduced.torsion] {
+            let stiffness = DMatrix::from_diagonal(&set.stiffness);
+            let damping = &set.mass * alpha_per_s + stiffness * beta_s;
+            let found = set.natural_modes.transpose() * damping * &set.natural_modes;
+            let wanted = DMatrix::from_diagonal(&set.decay_per_s);
+            let error = (&found - &wanted).amax() / wanted.amax();
+            assert!(error < 1e-12, "{name}: {error:e}");
+            let lowest = (found[(0, 0)] / set.decay_per_s[0] - 1.0).abs();
+            assert!(lowest < 1e-9, "{name}: {lowest:e}");
+        }
+    }
+}
+
 /// Damping of one ratio for every natural mode, mass 1, stiffness ω².
 #[test]
 fn natural_modes_make_all_three_matrices_diagonal() {
@@ -314,7 +337,11 @@ fn natural_modes_make_all_three_matrices_diagonal() {
             let stiffness = DMatrix::from_diagonal(&set.stiffness);
             for (power, matrix, factor) in [
                 (0, &set.mass, 1.0),
-                (1, &even_damping(set), 2.0 * set.damping_ratio),
+                (
+                    1,
+                    &even_damping(set, parameters.damping_ratio),
+                    2.0 * parameters.damping_ratio,
+                ),
                 (2, &stiffness, 1.0),
             ] {
                 let found = t.transpose() * matrix * t;

@@ -1,4 +1,4 @@
-//! Places of ramp and slider on the disk, and the modes of the base, for one part of the rotor.
+//! Disk, places of ramp and slider on it, and the shock's direction, for one part of the rotor.
 
 use crate::disk::DiskParameters;
 use crate::shock::ObliqueShock;

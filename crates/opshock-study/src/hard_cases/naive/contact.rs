@@ -131,8 +131,8 @@ pub fn event_driven_time(e: f64, impacts: i32) -> f64 {
     (1..=impacts).fold(first, |t, k| t + 2.0 * first * e.powi(k))
 }
 
-/// Largest pull, N s in a step of `step` s, of a stop that an equation keeps a mode of 1 kg at 1 kHz on, whichever way
-/// a force of 1 N at 100 Hz points: the constraint force is minus that force.
+/// Largest pull, N s in a step of `step` s, of a stop to which an equation ties a mode of 1 kg at 1 kHz, under a force of
+/// 1 N at 100 Hz: the tie's force is the opposite of that force, of either sign.
 pub fn held_by_an_equation(step: f64) -> f64 {
     let force = |t: f64| (std::f64::consts::TAU * 100.0 * t).sin();
     (0..10_000)

@@ -188,8 +188,8 @@ fn effects(source: &ReportSource<'_>) -> String {
             "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">ramp</th><th scope=\"col\">simulated</th>\
              <th scope=\"col\">left out</th><th scope=\"col\">rules below touch</th><th scope=\"col\">rules above touch</th></tr></thead><tbody>\n",
         );
-        for (ramp, reported) in ramps {
-            let effects = reported["effects"].as_object();
+        for (ramp, plan) in ramps {
+            let effects = plan["effects"].as_object();
             let list = |wanted: bool| -> String {
                 let all = effects.into_iter().flatten();
                 let kept = all.filter(|(_, state)| (state.as_str() != Some("off")) == wanted);
@@ -202,7 +202,7 @@ fn effects(source: &ReportSource<'_>) -> String {
                 words.join(", ")
             };
             let rules = |key: &str| -> String {
-                let rules = reported[key].as_array().into_iter().flatten();
+                let rules = plan[key].as_array().into_iter().flatten();
                 rules
                     .filter_map(|rule| rule.as_str())
                     .collect::<Vec<_>>()
@@ -246,7 +246,7 @@ fn main_table(summary: &Summary) -> String {
     let numeric = |column: usize| column == 1 || (words..words + 5).contains(&column);
     let mut text = String::from(
         "<p>A<sub>crit</sub>: highest surviving amplitude below the lowest failing one, \
-         A<sub>fail</sub>. Error: uncertainty of A<sub>crit</sub>. First touch: amplitude at which the disk \
+         A<sub>fail</sub>. Uncertainty: ends of the uncertainty interval below and above A<sub>crit</sub>. First touch: amplitude at which the disk \
          first reaches the ramp. Shaded rows carry a reservation. A click on a heading sorts.</p>\n\
          <p><button type=\"button\" id=\"copy\">copy as CSV</button> <span id=\"copied\" role=\"status\"></span></p>\n\
          <div class=\"scroll\"><table class=\"sortable\">\n<thead><tr>",
@@ -326,12 +326,12 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry("study", &summary.study);
     entry("digest", &summary.digest);
     if let Some(values) = source.not_refined() {
-        entry("uncertainty intervals", &values);
+        entry("not refined", &values);
     }
     if let Some(audit) = source.audit {
-        let mut reported = vec![audit.sentence()];
-        reported.extend(audit.differences.iter().map(ToString::to_string));
-        entry("audit", &reported.join("; "));
+        let mut sentences = vec![audit.sentence()];
+        sentences.extend(audit.differences.iter().map(ToString::to_string));
+        entry("audit", &sentences.join("; "));
     }
     let cost = &summary.totals.cost;
     entry(

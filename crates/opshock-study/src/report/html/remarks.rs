@@ -14,7 +14,7 @@ pub(super) fn said_of(point: &PointSummary) -> Vec<&'static str> {
         Status::AboveRange => vec!["no failure up to the end of the searched range"],
         Status::BelowRange => vec!["fails at the start of the searched range already"],
         Status::Undecided => vec!["runs without verdict left no bracket"],
-        Status::Open => vec!["the search has not ended"],
+        Status::Open => vec!["the search, or that of its uncertainty, has not ended"],
     };
     let flags = point.flags.iter().filter(|flag| is_reservation(flag));
     said.extend(flags.map(|flag| sentence(*flag)));
@@ -42,7 +42,9 @@ fn sentence(flag: Flag) -> &'static str {
         }
         Flag::ContributionMissing => "a contribution to the uncertainty could not be estimated",
         Flag::TargetNotMet => "the half-width of the interval is more than the target uncertainty",
-        Flag::RefinementLimit => "and it is at maximum refinement",
+        Flag::RefinementLimit => {
+            "no refinement is left: max_refinements or every parameter is exhausted, or the refined scene has no verdict"
+        }
         Flag::Refined => "answered with refined discretisation parameters",
     }
 }

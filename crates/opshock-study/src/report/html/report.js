@@ -304,8 +304,8 @@
       };
       row("critical shock (G)", p => p.crit);
       row("lowest failure (G)", p => p.fail);
-      row("interval below (G)", p => p.low);
-      row("interval above (G)", p => p.high);
+      row("uncertainty below (G)", p => p.low);
+      row("uncertainty above (G)", p => p.high);
       row("first touch (G)", p => p.touch);
       const both = [a, b].every(p => p.crit !== null && p.low !== null && p.high !== null);
       if (both) {

@@ -10,10 +10,9 @@ const REFINE: AddedPoints = AddedPoints {
     most_points: 100,
 };
 
-fn at(class: RampClass, pulse_ms: f64) -> Coordinates {
+fn at(ramp: Ramp, pulse_ms: f64) -> Coordinates {
     Coordinates {
-        ramp_class: class,
-        ramp: format!("{class:?}"),
+        ramp,
         pulse_ms,
         sign: Sign::Plus,
         axes: Vec::new(),
@@ -21,9 +20,9 @@ fn at(class: RampClass, pulse_ms: f64) -> Coordinates {
     }
 }
 
-fn answers(class: RampClass, widths: &[f64], law: impl Fn(f64) -> f64) -> Vec<Answered> {
+fn answers(ramp: Ramp, widths: &[f64], law: impl Fn(f64) -> f64) -> Vec<Answered> {
     let point = |&pulse_ms: &f64| Answered {
-        at: at(class, pulse_ms),
+        at: at(ramp, pulse_ms),
         answer_g: Some(law(pulse_ms)),
     };
     widths.iter().map(point).collect()
@@ -57,7 +56,7 @@ fn refined(
 
 #[test]
 fn a_power_law_is_straight_and_needs_nothing() {
-    let points = answers(RampClass::None, &[0.5, 0.8, 3.0], |w| 300.0 * w.powf(-0.4));
+    let points = answers(Ramp::None, &[0.5, 0.8, 3.0], |w| 300.0 * w.powf(-0.4));
     assert!(wanted(&REFINE, &points).is_empty());
     // Two answers show no curvature: one more is requested.
     let wanted = wanted(&REFINE, &points[..2]);
@@ -72,7 +71,7 @@ fn straight_lines_between_the_answers_become_as_good_as_asked() {
     let kinked = |w: f64| 300.0 * (w / 1.3).powf(if w < 1.3 { -1.0 } else { 0.8 });
     let laws: [&dyn Fn(f64) -> f64; 2] = [&smooth, &kinked];
     for law in laws {
-        let start = answers(RampClass::None, &[0.5, 1.0, 2.0, 4.0], law);
+        let start = answers(Ramp::None, &[0.5, 1.0, 2.0, 4.0], law);
         let mut points = refined(&REFINE, start, |at| law(at.pulse_ms));
         points.sort_by(|a, b| a.at.pulse_ms.total_cmp(&b.at.pulse_ms));
         let mut worst = 0.0_f64;
@@ -95,7 +94,7 @@ fn straight_lines_between_the_answers_become_as_good_as_asked() {
 #[test]
 fn a_jump_is_closed_in_and_no_more() {
     let law = |w: f64| if w < 1.234 { 200.0 } else { 400.0 };
-    let start = answers(RampClass::None, &[0.5, 1.0, 2.0, 4.0], law);
+    let start = answers(Ramp::None, &[0.5, 1.0, 2.0, 4.0], law);
     let points = refined(&REFINE, start, |at| law(at.pulse_ms));
     let mut widths: Vec<f64> = points.iter().map(|point| point.at.pulse_ms).collect();
     widths.sort_by(f64::total_cmp);
@@ -108,7 +107,7 @@ fn a_jump_is_closed_in_and_no_more() {
 #[test]
 fn the_limit_of_points_holds_and_the_worst_comes_first() {
     let law = |w: f64| if w < 1.234 { 200.0 } else { 400.0 };
-    let start = answers(RampClass::None, &[0.5, 1.0, 2.0, 4.0], law);
+    let start = answers(Ramp::None, &[0.5, 1.0, 2.0, 4.0], law);
     let refine = AddedPoints {
         most_points: 3,
         ..REFINE
@@ -120,13 +119,13 @@ fn the_limit_of_points_holds_and_the_worst_comes_first() {
 #[test]
 fn a_crossing_is_closed_in_for_both_curves_and_the_one_without_ramp() {
     // 300 w^-0.5 and 200 w^0.3 meet at (3/2)^(1/0.8) = 1.6600 ms.
-    let law = |at: &Coordinates| match at.ramp_class {
-        RampClass::None => 900.0,
-        RampClass::Rigid => 300.0 * at.pulse_ms.powf(-0.5),
-        RampClass::Deformable => 200.0 * at.pulse_ms.powf(0.3),
+    let law = |at: &Coordinates| match at.ramp {
+        Ramp::None => 900.0,
+        Ramp::Rigid => 300.0 * at.pulse_ms.powf(-0.5),
+        Ramp::Deformable => 200.0 * at.pulse_ms.powf(0.3),
     };
     let mut start = Vec::new();
-    for class in [RampClass::None, RampClass::Rigid, RampClass::Deformable] {
+    for class in [Ramp::None, Ramp::Rigid, Ramp::Deformable] {
         start.extend(answers(class, &[0.5, 1.0, 3.0], |w| law(&at(class, w))));
     }
     let refine = AddedPoints {
@@ -151,7 +150,7 @@ fn a_crossing_is_closed_in_for_both_curves_and_the_one_without_ramp() {
     // Both are straight in logarithms.
     assert!((pulse_ms / truth - 1.0).abs() < 1e-9, "{pulse_ms}");
     assert!((answer_g / (300.0 * truth.powf(-0.5)) - 1.0).abs() < 1e-9);
-    assert_eq!(points[below.0].at.ramp_class, RampClass::Deformable);
+    assert_eq!(points[below.0].at.ramp, Ramp::Deformable);
     for width in points.iter().map(|point| point.at.pulse_ms) {
         let n = points.iter().filter(|p| p.at.pulse_ms == width).count();
         assert_eq!(n, 3, "{width} ms");
@@ -163,8 +162,8 @@ fn a_crossing_is_closed_in_for_both_curves_and_the_one_without_ramp() {
 #[test]
 fn no_width_is_added_beside_one_at_which_curves_are_equal() {
     let widths = [0.5, 0.705, 1.0];
-    let mut points = answers(RampClass::Rigid, &widths, |w| 300.0 + 100.0 * (w - 0.705));
-    points.extend(answers(RampClass::Deformable, &widths, |_| 300.0));
+    let mut points = answers(Ramp::Rigid, &widths, |w| 300.0 + 100.0 * (w - 0.705));
+    points.extend(answers(Ramp::Deformable, &widths, |_| 300.0));
     let refine = |closest| AddedPoints {
         tolerance: None,
         crossing: Some(0.05),
@@ -177,8 +176,8 @@ fn no_width_is_added_beside_one_at_which_curves_are_equal() {
 
 #[test]
 fn equal_answers_and_open_ends_order_nothing() {
-    let mut points = answers(RampClass::None, &[0.5, 1.0, 2.0], |_| 300.0);
-    points.extend(answers(RampClass::Rigid, &[0.5, 1.0, 2.0], |w| {
+    let mut points = answers(Ramp::None, &[0.5, 1.0, 2.0], |_| 300.0);
+    points.extend(answers(Ramp::Rigid, &[0.5, 1.0, 2.0], |w| {
         if w < 0.6 { 200.0 } else { 300.0 }
     }));
     assert!(crossings(&points).is_empty());

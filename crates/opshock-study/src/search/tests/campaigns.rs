@@ -2,7 +2,7 @@
 
 use super::{fails, settings};
 use crate::search::campaign::{Campaign, Touch};
-use crate::search::order::{Coordinates, RampClass};
+use crate::search::order::{Coordinates, Ramp};
 use crate::search::outcome::{Flag, Status};
 use crate::search::point::Asked;
 use crate::search::probe::{Probe, Purpose, Sign, Verdict};
@@ -32,14 +32,13 @@ fn campaign(
     campaign
 }
 
-fn study(ramps: &[(RampClass, &str)], widths: &[f64]) -> Vec<Coordinates> {
+fn study(ramps: &[Ramp], widths: &[f64]) -> Vec<Coordinates> {
     let mut points = Vec::new();
-    for &(ramp_class, ramp) in ramps {
+    for &ramp in ramps {
         for &pulse_ms in widths {
             for sign in [Sign::Plus, Sign::Minus] {
                 points.push(Coordinates {
-                    ramp_class,
-                    ramp: ramp.into(),
+                    ramp,
                     pulse_ms,
                     sign,
                     axes: Vec::new(),
@@ -51,21 +50,16 @@ fn study(ramps: &[(RampClass, &str)], widths: &[f64]) -> Vec<Coordinates> {
     points
 }
 
-const RAMPS: [(RampClass, &str); 3] = [
-    (RampClass::None, "none"),
-    (RampClass::Rigid, "rigid"),
-    (RampClass::Deformable, "deformable"),
-];
 const WIDTHS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 
 /// A study shaped like the paper's: non-monotone intervals for the deformable ramp at short widths.
 fn law(at: &Coordinates, amplitude_g: f64) -> Verdict {
     let sign = if at.sign == Sign::Plus { 1.0 } else { 0.8 };
     let none = 500.0 * sign * at.pulse_ms.powf(-0.2);
-    let fails_here = match at.ramp_class {
-        RampClass::None => amplitude_g >= none,
-        RampClass::Rigid => amplitude_g >= 210.0 * at.pulse_ms.powf(-0.3) || amplitude_g >= none,
-        RampClass::Deformable => {
+    let fails_here = match at.ramp {
+        Ramp::None => amplitude_g >= none,
+        Ramp::Rigid => amplitude_g >= 210.0 * at.pulse_ms.powf(-0.3) || amplitude_g >= none,
+        Ramp::Deformable => {
             let window = at.pulse_ms < 0.9
                 && at.sign == Sign::Plus
                 && (150.0..150.0 + 24.0 * at.pulse_ms).contains(&amplitude_g);
@@ -80,16 +74,16 @@ fn law(at: &Coordinates, amplitude_g: f64) -> Verdict {
 }
 
 fn touch(at: &Coordinates) -> Touch {
-    match at.ramp_class {
-        RampClass::None => Touch::NoRamp,
-        RampClass::Rigid => Touch::At { onset_g: 120.0 },
-        RampClass::Deformable => Touch::At { onset_g: 110.0 },
+    match at.ramp {
+        Ramp::None => Touch::NoRamp,
+        Ramp::Rigid => Touch::At { onset_g: 120.0 },
+        Ramp::Deformable => Touch::At { onset_g: 110.0 },
     }
 }
 
 #[test]
 fn any_order_of_answers_gives_the_same_probes_and_rows() {
-    let points = study(&RAMPS, &WIDTHS);
+    let points = study(&Ramp::ALL, &WIDTHS);
     let reference = campaign(&points, touch, |at, _, a| law(at, a), |_| 0);
     let mut state = 12345_u64;
     for _ in 0..20 {
@@ -120,10 +114,7 @@ fn any_order_of_answers_gives_the_same_probes_and_rows() {
 fn a_window_found_at_one_width_is_followed_to_the_next() {
     // The narrow non-monotone interval at 0.5 ms, searched first, falls between the scanned grid points there; at 0.6
     // ms it is wide.
-    let points = study(
-        &[(RampClass::None, "none"), (RampClass::Deformable, "d")],
-        &[0.5, 0.6],
-    );
+    let points = study(&[Ramp::None, Ramp::Deformable], &[0.5, 0.6]);
     let window = |at: &Coordinates| {
         if at.pulse_ms > 0.55 {
             150.0..175.0
@@ -132,7 +123,7 @@ fn a_window_found_at_one_width_is_followed_to_the_next() {
         }
     };
     let law = |at: &Coordinates, _: Probe, a: f64| {
-        let late = at.ramp_class == RampClass::Deformable && at.sign == Sign::Plus;
+        let late = at.ramp == Ramp::Deformable && at.sign == Sign::Plus;
         if a >= 400.0 || (late && (window(at).contains(&a) || a >= 300.0)) {
             fails()
         } else {
@@ -142,7 +133,7 @@ fn a_window_found_at_one_width_is_followed_to_the_next() {
     let done = campaign(&points, touch, law, |_| 0);
     let grid = done.settings().grid;
     for (point, at) in points.iter().enumerate() {
-        if at.ramp_class == RampClass::Deformable && at.sign == Sign::Plus {
+        if at.ramp == Ramp::Deformable && at.sign == Sign::Plus {
             let findings = done.findings(point);
             assert_eq!(
                 findings.failure,
@@ -167,15 +158,15 @@ fn a_window_found_at_one_width_is_followed_to_the_next() {
 
 #[test]
 fn a_ramp_out_of_reach_costs_nothing() {
-    let points = study(&RAMPS[..2], &WIDTHS);
-    let far = |at: &Coordinates| match at.ramp_class {
-        RampClass::None => Touch::NoRamp,
+    let points = study(&Ramp::ALL[..2], &WIDTHS);
+    let far = |at: &Coordinates| match at.ramp {
+        Ramp::None => Touch::NoRamp,
         _ => Touch::At { onset_g: 900.0 },
     };
     let done = campaign(&points, far, |at, _, a| law(at, a), |n| n - 1);
     let order = done.order();
     for (point, at) in points.iter().enumerate() {
-        if at.ramp_class == RampClass::Rigid {
+        if at.ramp == Ramp::Rigid {
             let findings = done.findings(point);
             let none = done.findings(order.relations[point].companion.expect("companion"));
             assert_eq!(findings.runs, 0);
@@ -189,7 +180,7 @@ fn a_ramp_out_of_reach_costs_nothing() {
 
 #[test]
 fn without_the_amplitude_of_first_touch_nothing_is_inherited() {
-    let points = study(&RAMPS[..2], &[1.0]);
+    let points = study(&Ramp::ALL[..2], &[1.0]);
     let done = campaign(&points, |_| Touch::Unknown, |at, _, a| law(at, a), |_| 0);
     for point in 0..points.len() {
         let findings = done.findings(point);

@@ -13,10 +13,10 @@ fn undecided() -> Verdict {
     }
 }
 
-fn from(hint_g: Option<f64>, onset_amplitude: Option<i32>) -> Start {
+fn from(hint_g: Option<f64>, onset_index: Option<i32>) -> Start {
     Start {
         hint_g,
-        onset_amplitude,
+        onset_index,
         width_rank: 0,
     }
 }
@@ -181,7 +181,7 @@ fn a_full_scan_finds_a_window_of_one_node() {
 }
 
 #[test]
-fn the_ladder_is_refined_in_order_and_marked() {
+fn retries_are_tried_in_order_and_marked() {
     let settings = settings();
     let sick = settings.grid.nearest(240.0);
     let search = run(
@@ -200,7 +200,7 @@ fn the_ladder_is_refined_in_order_and_marked() {
     assert!(findings.flags.contains(&Flag::Retry));
     assert!(findings.flags.contains(&Flag::NotConverged));
     assert!(!findings.flags.contains(&Flag::UndecidedAmplitude));
-    let retries: Vec<u8> = search.log().iter().map(|a| a.probe.retry.level()).collect();
+    let retries: Vec<u8> = search.log().iter().map(|a| a.probe.retry.place()).collect();
     for pair in retries.windows(2) {
         assert!(pair[1] == pair[0] + 1 || pair[1] == 0, "{retries:?}");
     }

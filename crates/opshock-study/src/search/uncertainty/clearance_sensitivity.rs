@@ -52,7 +52,7 @@ fn just_below(walk: &mut Walk<'_>, at: &Known) -> Result<Option<Known>, Ask> {
     if nearest.is_none_or(ends_abruptly) {
         return Ok(None);
     }
-    let index = at.index - input.grid.nodes_within(BELOW).max(SUBDIVISIONS);
+    let index = at.index - input.grid.steps_within(BELOW).max(SUBDIVISIONS);
     let seen = walk.see(Levels::NONE, index)?;
     Ok(clearance(seen, at.t_min_s)
         .filter(|&h_min_m| h_min_m > at.h_min_m)
@@ -99,7 +99,7 @@ impl Reference {
         {
             return Ok(None);
         }
-        let reach = input.grid.nodes_within(REACH);
+        let reach = input.grid.steps_within(REACH);
         let below = || {
             input.survivors.iter().filter(|known| {
                 known.index < at.index

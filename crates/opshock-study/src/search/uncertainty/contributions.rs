@@ -42,7 +42,7 @@ impl Uncertainty {
             high: above,
             factor: estimate.factor,
         });
-        if estimate.factor == judge::WIDE && !estimate.is_negligible(target) {
+        if estimate.factor == judge::FACTOR_NO_ORDER && !estimate.is_negligible(target) {
             self.flags.insert(Flag::SafetyFactor3);
         }
     }

@@ -9,9 +9,9 @@ use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use crate::search::amplitude_grid::AmplitudeGrid;
 
 /// Safety factor on an error whose order is the formal one.
-pub(super) const NARROW: f64 = 1.25;
+pub(super) const FACTOR_FORMAL_ORDER: f64 = 1.25;
 /// Factor on any other.
-pub(super) const WIDE: f64 = 3.0;
+pub(super) const FACTOR_NO_ORDER: f64 = 3.0;
 /// Share of the target below which a contribution is not evaluated more closely.
 pub(super) const NEGLIGIBLE: f64 = 0.25;
 /// An observed ratio is taken for the formal one within half an order of refinement by two.
@@ -55,7 +55,7 @@ impl Estimate {
     #[must_use]
     pub(super) fn unconfirmed(self) -> Estimate {
         Estimate {
-            factor: WIDE,
+            factor: FACTOR_NO_ORDER,
             ..self
         }
     }
@@ -118,7 +118,10 @@ fn slowest(discretisations: &[Discretisation]) -> f64 {
 /// Error of discretisation parameters changed together by one step, from the change of the answer. No order was
 /// observed; the slowest formal one is used.
 pub(super) fn one_step(discretisations: &[Discretisation], change: f64) -> Estimate {
-    Estimate::unseen(change.abs() / (slowest(discretisations) - 1.0), WIDE)
+    Estimate::unseen(
+        change.abs() / (slowest(discretisations) - 1.0),
+        FACTOR_NO_ORDER,
+    )
 }
 
 /// Error from two steps coarser: `near` is level -1 minus the scene, `far` level -2 minus level -1. Without an order,
@@ -127,11 +130,14 @@ pub(super) fn two_coarser(discretisations: &[Discretisation], near: f64, far: f6
     let formal = slowest(discretisations);
     let observed = far / near;
     if is_formal(observed, formal) {
-        return Estimate::unseen(near.abs() / (observed.min(formal) - 1.0), NARROW);
+        return Estimate::unseen(
+            near.abs() / (observed.min(formal) - 1.0),
+            FACTOR_FORMAL_ORDER,
+        );
     }
     let (one, two) = (near.abs(), (near + far).abs());
     let share = (one / (formal - 1.0)).max(two / (formal * formal - 1.0));
-    Estimate::unseen(share, WIDE)
+    Estimate::unseen(share, FACTOR_NO_ORDER)
 }
 
 /// Error from a step coarser and a step finer: `near` is level -1 minus the scene, `fine` the scene minus level +1. The
@@ -141,14 +147,20 @@ pub(super) fn with_finer(discretisations: &[Discretisation], near: f64, fine: f6
     let formal = slowest(discretisations);
     let observed = near / fine;
     let (share, factor) = if observed > formal / HALF_ORDER {
-        (fine.abs() / (observed.min(formal) - 1.0), NARROW)
+        (
+            fine.abs() / (observed.min(formal) - 1.0),
+            FACTOR_FORMAL_ORDER,
+        )
     } else {
         let left = fine.abs().max(near.abs() / formal) / (formal - 1.0);
         let slow = match observed > 1.0 {
             true => fine.abs() / (observed.max(SLOWEST) - 1.0),
             false => 0.0,
         };
-        (left.max(slow * NARROW / WIDE), WIDE)
+        (
+            left.max(slow * FACTOR_FORMAL_ORDER / FACTOR_NO_ORDER),
+            FACTOR_NO_ORDER,
+        )
     };
     Estimate {
         known: seen(fine),
@@ -158,13 +170,13 @@ pub(super) fn with_finer(discretisations: &[Discretisation], near: f64, fine: f6
 }
 
 /// Error from a quasi-static film: `fine` is the scene minus the film extrapolated to infinitely many cells, and
-/// `missed` the error of the quasi-static prediction for half the cells. Films with errors e and 2 e differ by e, so
-/// the error itself may be wrong by as much; by [`CONTINUED`] of it at least.
+/// `missed` the error of the quasi-static prediction for half or a quarter of the cells. Films with errors e and 2 e
+/// differ by e, so the error itself may be wrong by as much; [`CONTINUED`] of it is added.
 pub(super) fn held(fine: f64, missed: f64) -> Estimate {
     Estimate {
         known: seen(fine),
         share: missed.abs() + CONTINUED * fine.abs(),
-        factor: NARROW,
+        factor: FACTOR_FORMAL_ORDER,
     }
 }
 
@@ -173,19 +185,19 @@ pub(super) fn finer_alone(discretisations: &[Discretisation], fine: f64) -> Esti
     Estimate {
         known: seen(fine),
         share: fine.abs() / (slowest(discretisations) - 1.0),
-        factor: WIDE,
+        factor: FACTOR_NO_ORDER,
     }
 }
 
 /// Bound from verdicts that agree with the reference's at both ends of its bracket of `nodes` steps: the answer moved
-/// by less. The factor [`NARROW`] is for parameters whose changes of it cancel.
+/// by less. The factor [`FACTOR_FORMAL_ORDER`] covers parameters of a group whose effects on the answer cancel.
 pub(super) fn agreement(
     grid: &AmplitudeGrid,
     nodes: i32,
     discretisations: &[Discretisation],
 ) -> Estimate {
     Estimate {
-        factor: NARROW,
+        factor: FACTOR_FORMAL_ORDER,
         ..one_step(discretisations, f64::from(nodes) * grid.step())
     }
 }

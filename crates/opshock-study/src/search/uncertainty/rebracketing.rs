@@ -49,15 +49,15 @@ fn locate(
     from: Bracket,
     width: Width,
 ) -> Result<Option<Bracket>, Ask> {
-    let farthest = walk.input.grid.nodes_within(width.farthest);
+    let farthest = walk.input.grid.steps_within(width.farthest);
     let (mut low, mut high) = seen_about(walk, levels, from);
     let mut stride = (from.high - from.low).max(1);
     loop {
         let next = match (low, high) {
             (Some(low), Some(high)) => {
                 let distance = (low - from.low).abs().max((high - from.high).abs());
-                let contribution = distance.checked_div(width.distance_over).unwrap_or(0);
-                if high - low <= contribution.max(width.nodes) {
+                let fraction = distance.checked_div(width.distance_over).unwrap_or(0);
+                if high - low <= fraction.max(width.nodes) {
                     return Ok(Some(Bracket { low, high }));
                 }
                 low + (high - low) / 2
@@ -312,7 +312,7 @@ pub(super) fn film(walk: &mut Walk<'_>, limits: Limits) -> Result<Film, Ask> {
     let off = distance(walk, own, near.bracket);
     let coarse = Estimate::unseen(
         off / if has_two { rise - 1.0 } else { formal - 1.0 },
-        judge::WIDE,
+        judge::FACTOR_NO_ORDER,
     );
     if !has_two || off > NEAR {
         return Ok(Film::new(Some(coarse), near));
@@ -410,8 +410,8 @@ fn with_eighth(
     let resolved = (half(near.bracket) + half(far)) / (rise * (formal - 1.0));
     let share = walk.share_of(error.abs().max(resolved));
     let estimate = match is_formal {
-        true => Estimate::unseen(share, judge::NARROW),
-        false => Estimate::unseen(coarse.share.max(share), judge::WIDE),
+        true => Estimate::unseen(share, judge::FACTOR_FORMAL_ORDER),
+        false => Estimate::unseen(coarse.share.max(share), judge::FACTOR_NO_ORDER),
     };
     Ok((estimate, coarsest))
 }

@@ -24,8 +24,8 @@ pub const MOST_STEPS: i8 = 3;
 /// The same for the film's grid. Films compressed to small heights converge late: their error is known only where three
 /// grids, the coarsest of a quarter of the cells, agree.
 const MOST_FILM_STEPS: i8 = MOST_STEPS + 1;
-/// Contributions above this share of the target are refined: there are three sources.
-const COUNTS: f64 = 1.0 / 3.0;
+/// Contributions above this share of the target are refined: film, structure and head are three sources.
+const REFINE_ABOVE: f64 = 1.0 / 3.0;
 /// Width to which a refined answer is bracketed, grid steps: a quarter of the search's tolerance.
 const WIDTH: i32 = SUBDIVISIONS / 4;
 
@@ -90,7 +90,7 @@ fn refined(
         }
         let changed = match left {
             0 => Vec::new(),
-            _ => changed(&at, &uncertainty),
+            _ => to_refine(&at, &uncertainty),
         };
         let finer = changed
             .iter()
@@ -98,7 +98,7 @@ fn refined(
                 levels.changed(discretisation, steps)
             });
         if finer.is_none() {
-            return Ok(Answer::of(&at, limited(uncertainty)));
+            return Ok(Answer::of(&at, at_limit(uncertainty)));
         }
         let next = UncertaintyInput {
             base: at.base.plus(finer),
@@ -106,10 +106,10 @@ fn refined(
             ..at.clone()
         };
         let Some(next) = bracketed(next, lookup, log)? else {
-            return Ok(Answer::of(&at, limited(uncertainty)));
+            return Ok(Answer::of(&at, at_limit(uncertainty)));
         };
         at = next;
-        kept = still(&at, &pieces, &changed);
+        kept = contributions_to_keep(&at, &pieces, &changed);
     }
     unreachable!("the last round returns")
 }
@@ -125,8 +125,8 @@ impl Answer {
     }
 }
 
-/// This interval exceeds the target and no refinement is left.
-fn limited(mut uncertainty: Uncertainty) -> Uncertainty {
+/// An interval that exceeds the target where no refinement is left, or the refined scene has no verdict.
+fn at_limit(mut uncertainty: Uncertainty) -> Uncertainty {
     uncertainty.flags.insert(Flag::RefinementLimit);
     uncertainty
 }
@@ -141,11 +141,11 @@ fn limit(at: &UncertaintyInput, discretisation: Discretisation) -> i8 {
     }
 }
 
-/// Parameters to refine, with the steps that their contributions call for: those above the share [`COUNTS`], or the
+/// Parameters to refine, with the steps that their contributions call for: those above the share [`REFINE_ABOVE`], or the
 /// largest. A parameter at its maximum is not refined. Where none is left, the largest of the others without which the
 /// interval would meet the target; possibly none.
-fn changed(at: &UncertaintyInput, uncertainty: &Uncertainty) -> Vec<(Discretisation, i8)> {
-    let most = COUNTS * at.target;
+fn to_refine(at: &UncertaintyInput, uncertainty: &Uncertainty) -> Vec<(Discretisation, i8)> {
+    let most = REFINE_ABOVE * at.target;
     let is_last_mesh = at.base.of(Discretisation::RampMesh) >= limit(at, Discretisation::RampMesh);
     let stays = |contribution: &&Contribution| {
         contribution.name == Discretisation::RampMesh.as_str() && is_last_mesh
@@ -264,7 +264,7 @@ fn bracketed(
 }
 
 /// Contributions of unchanged parameters, except large ones at maximum refinement, which are evaluated more closely.
-fn still(
+fn contributions_to_keep(
     at: &UncertaintyInput,
     pieces: &Pieces,
     changed: &[(Discretisation, i8)],
@@ -285,7 +285,7 @@ fn still(
             0 => &[Discretisation::FilmGrid][..],
             _ => GROUPS[place - 1].discretisations,
         };
-        let counts = pieces[place].half_length() > COUNTS * at.target;
+        let counts = pieces[place].half_length() > REFINE_ABOVE * at.target;
         let again = is_changed(discretisations) || counts && is_at_limit(discretisations);
         (!again).then(|| pieces[place].clone())
     })

@@ -55,7 +55,7 @@ impl<'a> Walk<'a> {
 
     /// Whole grid steps in a share.
     pub(super) fn nodes(&self, share: f64) -> i32 {
-        self.input.grid.nodes_within(share)
+        self.input.grid.steps_within(share)
     }
 
     /// Ratio of amplitudes `nodes` grid steps apart, minus one.

@@ -38,7 +38,7 @@ impl KeptRun<'_> {
         if self.key.window_factor != 1 {
             labels += "_window";
         }
-        if let Some(retry) = Retry::from_level(self.key.retry).filter(|&retry| retry != Retry::None)
+        if let Some(retry) = Retry::from_place(self.key.retry).filter(|&retry| retry != Retry::None)
         {
             labels += "_";
             labels += &retry.label().replace('/', "_");

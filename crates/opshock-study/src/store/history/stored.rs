@@ -42,7 +42,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<StoredHistory, StoreError> {
         }
         Sealed::Broken => Err(damaged("its bytes do not match its seal".into())),
         Sealed::Without => Err(damaged(
-            "it has no seal: cut short, or of an opshock before histories were sealed".into(),
+            "it has no seal: it is cut short, or another program wrote it".into(),
         )),
     }
 }

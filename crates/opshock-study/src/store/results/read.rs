@@ -8,7 +8,7 @@ use opshock_solver::scene::discretisation::Levels;
 
 use super::columns::{get, get_number, get_text, get_texts};
 use super::rows::{PointKeep, RESULTS_FORMAT, Results, RunRow, Session};
-use crate::search::{Flag, ProbeResult, Purpose, Sign, Status, UndecidedCause, Verdict};
+use crate::search::{Flag, ProbeResult, Purpose, Ramp, Sign, Status, UndecidedCause, Verdict};
 use crate::store::error::StoreError;
 use crate::store::files::{self, RealFiles};
 use crate::store::hdf5_file;
@@ -24,7 +24,7 @@ use crate::store::summary::{
 ///
 /// # Errors
 ///
-/// The file is newer (E181), cannot be read (E183), or it is not HDF5, cut short, or its bytes or
+/// The file is of another format (E181), cannot be read (E183), or it is not HDF5, cut short, or its bytes or
 /// content do not match their digests (E182).
 pub fn read(path: &Path) -> Result<Option<Results>, StoreError> {
     files::read(&RealFiles, path)?
@@ -201,17 +201,13 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .iter()
         .map(|name| get(group, name))
         .collect::<hdf5::Result<_>>()?;
-    let contributions = error_parts(group)?;
+    let contributions = contribution_columns(group)?;
     let columns = axes
         .iter()
         .map(|name| axis(&group.group("axes")?, name))
         .collect::<hdf5::Result<Vec<_>>>()?;
     let n = ramp.len();
-    // Files from before adaptive refinement have no such column.
-    let levels = match group.link_exists("levels") {
-        true => get_texts(group, "levels")?,
-        false => vec![String::new(); n],
-    };
+    let levels = get_texts(group, "levels")?;
     let lengths = [
         levels.len(),
         sign.len(),
@@ -235,7 +231,7 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
     (0..n)
         .map(|i| {
             let number = |column: usize| Some(numbers[column][i]).filter(|value| !value.is_nan());
-            let contribution = |(name, [low, high, factor]): &PartColumns| {
+            let contribution = |(name, [low, high, factor]): &ContributionColumns| {
                 let contribution = Contribution {
                     low_g: low[i],
                     high_g: high[i],
@@ -244,7 +240,9 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 (!contribution.low_g.is_nan()).then(|| ((*name).to_owned(), contribution))
             };
             Ok(PointSummary {
-                ramp: ramp[i].clone(),
+                ramp: Ramp::from_word(&ramp[i])
+                    .ok_or_else(|| unknown("ramp", &ramp[i]))?
+                    .to_string(),
                 pulse_ms: numbers[0][i],
                 sign: Sign::from_word(&sign[i]).ok_or_else(|| unknown("sign", &sign[i]))?,
                 axes: columns.iter().map(|column| column[i].clone()).collect(),
@@ -270,10 +268,10 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
 }
 
 /// Name of a contribution of the uncertainty intervals; its low, high and factor, row by row.
-type PartColumns = (&'static str, [Vec<f64>; 3]);
+type ContributionColumns = (&'static str, [Vec<f64>; 3]);
 
-/// Low, high and factor of every contribution of the uncertainty intervals; older files have none.
-fn error_parts(group: &Group) -> hdf5::Result<Vec<PartColumns>> {
+/// Low, high and factor of every contribution of the uncertainty intervals; one that no row has is not in the file.
+fn contribution_columns(group: &Group) -> hdf5::Result<Vec<ContributionColumns>> {
     CONTRIBUTIONS
         .into_iter()
         .filter(|name| group.link_exists(&format!("err_{name}_low_g")))
@@ -386,12 +384,8 @@ fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result
     points.iter().enumerate().map(record).collect()
 }
 
-/// Refinement levels, row by row; files older than the uncertainty intervals have none.
+/// Refinement levels, row by row.
 fn levels(group: &Group) -> hdf5::Result<Vec<Levels>> {
-    if !group.link_exists("levels") {
-        let rows: Vec<u64> = get(group, "point")?;
-        return Ok(vec![Levels::NONE; rows.len()]);
-    }
     get_texts(group, "levels")?
         .iter()
         .map(|text| Levels::parse(text).ok_or_else(|| unknown("levels", text)))

@@ -89,7 +89,7 @@ pub struct Results {
     pub steps_per_octave: i32,
     /// Onset of the pulse on the study's time axis, s.
     pub start_s: f64,
-    /// Effects and rules of each ramp's scenes, as JSON; empty in files that have none.
+    /// Effects and rules of each ramp's scenes, as JSON.
     pub plan: String,
     /// Per point of the table.
     pub points: Vec<PointKeep>,

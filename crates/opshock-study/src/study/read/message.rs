@@ -5,6 +5,7 @@ use crate::study::fault::StudyError;
 use crate::study::fields;
 use crate::study::film_memory::{film_bytes, reference_bytes};
 use crate::study::key::{Key, Kind};
+use crate::study::renamed;
 use crate::study::suggest;
 use crate::study::tree::{Node, Value};
 
@@ -27,6 +28,11 @@ impl Reader {
                 Value::Text(text),
                 Kind::Number(_) | Kind::Integer(..) | Kind::Axis(_) | Kind::NumberOrWord(..),
             ) => {
+                let text = match text.matches(',').count() {
+                    // A decimal comma.
+                    1 => &text.replace(',', "."),
+                    _ => text,
+                };
                 let number: String = text
                     .trim()
                     .chars()
@@ -82,10 +88,13 @@ pub(super) fn not_a_word(
     let fault = StudyError::at(code, &node.place, path, message)
         .value(node.place.text())
         .allowed(key.kind.allowed());
-    match (code, suggest::nearest(text, words)) {
-        ("E157", None) => fault.hint("5%, 1% and 0.1% of format 1 are coarse, standard and fine; search.target_uncertainty_pct is the uncertainty wanted"),
-        (_, Some(near)) => fault.hint(format!("did you mean {near:?}?")),
-        _ => fault,
+    match (
+        renamed::word_today(key.path, text),
+        suggest::nearest(text, words),
+    ) {
+        (Some(today), _) => fault.hint(format!("write {today:?}, the word of format 2")),
+        (None, Some(near)) => fault.hint(format!("did you mean {near:?}?")),
+        (None, None) => fault,
     }
 }
 
@@ -93,10 +102,6 @@ pub(super) fn memory_hint(path: &str, count: f64) -> String {
     let bytes = match path {
         _ if path == fields::RESOLUTION_FILM_CELLS.path() => film_bytes(count),
         _ if path == fields::RESOLUTION_FILM_CORRECTION_CELLS.path() => reference_bytes(count),
-        // Two shapes of 2 (elements + 1) freedoms and as many modes per harmonic.
-        _ if path == fields::RESOLUTION_DISK_HARMONICS.path() => count * 2.0 * 82.0 * 82.0 * 8.0,
-        _ if path == fields::RESOLUTION_DISK_ELEMENTS.path() => 8.0 * (2.0 * count + 2.0).powi(2),
-        _ if path == fields::RESOLUTION_SUSPENSION_MODES.path() => 8.0 * count * count,
         _ => return "take a smaller number".to_string(),
     };
     format!(

@@ -188,10 +188,15 @@ impl Reader {
             self.errors.push(fault);
             return None;
         }
+        // A range above 0 is one of sizes: the sign is free.
+        let within = |low: f64, high: f64| {
+            let size = if low > 0.0 { value.abs() } else { value };
+            (low..=high).contains(&size)
+        };
         if let Some((low, high)) = key.usual
             && node.place.origin != Origin::Default
             && value != 0.0
-            && !(low..=high).contains(&value)
+            && !within(low, high)
         {
             self.remarks.push(
                 StudyError::at(
@@ -256,7 +261,8 @@ impl Reader {
         self.errors.push(if key.path == "study_format" {
             fault("E134", "this program reads format 2".to_string()).hint(match value {
                 1 => "write study_format = 2; keys that have another name since are listed with it",
-                _ => "a newer opshock may read this file",
+                3.. => "a newer opshock may read this file",
+                _ => "write study_format = 2",
             })
         } else if value < 0 {
             fault("E134", "must not be negative".to_string())

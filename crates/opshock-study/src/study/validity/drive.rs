@@ -3,8 +3,8 @@
 use opshock_solver::gas::{REFERENCE_TEMPERATURE_K, mean_free_path_m};
 
 use super::check::{Check, trim};
+use crate::search::Ramp;
 use crate::study::fields;
-use crate::study::words::Ramp;
 use crate::study::{imported_suspension, ramp_geometry, scene, unit};
 use opshock_solid::ramp::{GeometryError, MOST_ELEMENTS, SolidRampError};
 use opshock_solid::sparse::SparseError;

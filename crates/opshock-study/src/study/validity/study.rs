@@ -101,7 +101,20 @@ impl Check<'_, '_> {
             fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path(),
         ];
         let refines = refines.iter().any(|path| self.view.settings.has(path));
-        let rules: [(bool, &str, &[&str]); 9] = [
+        let is_given = |path: &str| self.view.settings.has(path);
+        let has_rayleigh = is_given(fields::SUSPENSION_RAYLEIGH_ALPHA_PER_S.path())
+            || is_given(fields::SUSPENSION_RAYLEIGH_BETA_S.path());
+        let rules: [(bool, &str, &[&str]); 11] = [
+            (
+                !has_rayleigh,
+                "suspension.rayleigh is given",
+                &[fields::SUSPENSION_DAMPING_RATIO.path()],
+            ),
+            (
+                self.view.get(&fields::SEARCH_UNCERTAINTY),
+                "search.uncertainty is false",
+                &[fields::SEARCH_TARGET_UNCERTAINTY_PCT.path()],
+            ),
             (
                 refines,
                 "neither tolerance_pct nor crossing_pct is given",
@@ -194,7 +207,7 @@ impl Check<'_, '_> {
                 let fault = self.fault(
                     "E156",
                     &paths,
-                    format!("the search range {low} to {high} g is empty"),
+                    format!("the search range {low} to {high} G is empty"),
                 );
                 fault.allowed = "min < max".to_string();
             }

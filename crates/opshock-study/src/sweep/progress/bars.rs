@@ -7,7 +7,7 @@ use std::time::Duration;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::event::{Event, PointLabel, Progress};
-use super::text::{answer, bracket, finished, left};
+use super::text::{answer, bracket, finished, left, stopping};
 
 /// Points shown at once; those that changed last.
 const ROWS: usize = 12;
@@ -122,6 +122,7 @@ impl Progress for Bars {
                 left(estimate)
             )),
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
+            Event::Stopping { in_flight } => state.say(&stopping(*in_flight)),
             Event::Finished {
                 totals,
                 wall_s,

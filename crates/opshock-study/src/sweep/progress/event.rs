@@ -50,6 +50,11 @@ pub struct Estimate {
 /// One thing that happened.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
+    /// A stop was requested, or the time is over: simulations at work end first.
+    Stopping {
+        /// Simulations at work.
+        in_flight: usize,
+    },
     /// The sweep begins.
     Started {
         /// Name of the study.
@@ -74,7 +79,7 @@ pub enum Event {
         amplitude_g: f64,
         /// `survives`, `fails`, `undecided`.
         verdict: &'static str,
-        /// `bracketing`, `bisect`, `scan`, `follow_up`, `window`.
+        /// `bracketing`, `bisect`, `scan`, `follow_up`, `window`, `uncertainty`.
         purpose: &'static str,
         /// Label of the retry, empty for a plain run.
         retry: &'static str,

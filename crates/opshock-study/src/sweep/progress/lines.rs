@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use super::event::{Event, PointLabel, Progress};
-use super::text::{answer, finished, left};
+use super::text::{answer, finished, left, stopping};
 
 /// Time between two lines about what is left.
 const EVERY: Duration = Duration::from_secs(10);
@@ -84,6 +84,7 @@ impl<W: Write + Send> Progress for Lines<W> {
                 state.say(&left(estimate));
             }
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
+            Event::Stopping { in_flight } => state.say(&stopping(*in_flight)),
             Event::Finished {
                 totals,
                 wall_s,

@@ -44,6 +44,11 @@ fn duration(seconds: f64) -> String {
     }
 }
 
+/// What a stop waits for.
+pub(super) fn stopping(in_flight: usize) -> String {
+    format!("stopping once {in_flight} simulations at work have ended; Ctrl-C again ends at once")
+}
+
 /// Last line.
 pub(super) fn finished(totals: &Totals, wall_s: f64, core_use: f64) -> String {
     let mut parts = Vec::new();

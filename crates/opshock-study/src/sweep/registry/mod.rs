@@ -8,4 +8,4 @@ mod stage;
 mod uncertainties;
 
 pub(super) use jobs::Job;
-pub(super) use searches::{Registry, Reported};
+pub(super) use searches::{AnsweredProbe, Registry};

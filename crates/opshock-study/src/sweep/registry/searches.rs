@@ -11,7 +11,7 @@ use crate::sweep::input::SweepInput;
 
 /// A probe whose verdict a search has taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::sweep) struct Reported {
+pub(in crate::sweep) struct AnsweredProbe {
     /// Place in the study.
     pub point: usize,
     /// Probe.
@@ -123,7 +123,7 @@ impl<'a> Registry<'a> {
     }
 
     /// Reports to the searches every known answer that they request; returns these in order.
-    pub(in crate::sweep) fn absorb_all(&mut self) -> Vec<Reported> {
+    pub(in crate::sweep) fn absorb_all(&mut self) -> Vec<AnsweredProbe> {
         for place in 0..self.input.points.len() {
             if let Some(&touch) = self.touches.get(&self.input.points[place].digest) {
                 self.campaign.set_touch(place, searched(touch));
@@ -132,12 +132,12 @@ impl<'a> Registry<'a> {
         self.absorb(Vec::new())
     }
 
-    /// Takes the amplitude of first touch; returns the answers reported in consequence.
+    /// Takes the amplitude of first touch; returns the probes answered in consequence.
     pub(in crate::sweep) fn touched(
         &mut self,
         digest: PointDigest,
         touch: StoredTouch,
-    ) -> Vec<Reported> {
+    ) -> Vec<AnsweredProbe> {
         self.onsets_in_flight.remove(&digest);
         self.touches.entry(digest).or_insert(touch);
         // Another shard may have added widths that this one does not know yet.
@@ -148,8 +148,8 @@ impl<'a> Registry<'a> {
         self.absorb(Vec::new())
     }
 
-    /// Takes a finished simulation; returns the answers reported in consequence.
-    pub(in crate::sweep) fn finished(&mut self, record: RunRecord) -> Vec<Reported> {
+    /// Takes a finished simulation; returns the probes answered in consequence.
+    pub(in crate::sweep) fn finished(&mut self, record: RunRecord) -> Vec<AnsweredProbe> {
         let key = record.key;
         self.in_flight.remove(&key);
         self.runs.entry(key).or_insert(record);
@@ -161,8 +161,8 @@ impl<'a> Registry<'a> {
     }
 
     /// Advances points, and those that start by it, as long as their answers are known.
-    fn absorb(&mut self, mut places: Vec<usize>) -> Vec<Reported> {
-        let mut reported = Vec::new();
+    fn absorb(&mut self, mut places: Vec<usize>) -> Vec<AnsweredProbe> {
+        let mut answered = Vec::new();
         places.extend(self.campaign.take_changed());
         while let Some(point) = places.pop() {
             while let Some(asked) = self.campaign.ask(point) {
@@ -175,12 +175,12 @@ impl<'a> Registry<'a> {
                 let result = &record.result;
                 self.campaign
                     .report_margin(point, &result.verdict, result.h_min_m);
-                reported.push(Reported { point, asked, key });
+                answered.push(AnsweredProbe { point, asked, key });
                 places.extend(self.campaign.take_changed());
             }
         }
-        reported.extend(self.draw_uncertainty(None));
-        reported
+        answered.extend(self.draw_uncertainty(None));
+        answered
     }
 
     /// All wanted points are complete.
@@ -194,7 +194,7 @@ impl<'a> Registry<'a> {
             point: self.input.points[point].digest.changed(probe.levels),
             amplitude_bits: self.amplitude_m_per_s2(point, probe).to_bits(),
             window_factor: probe.window_factor,
-            retry: probe.retry.level(),
+            retry: probe.retry.place(),
         }
     }
 

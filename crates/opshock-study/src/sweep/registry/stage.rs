@@ -35,7 +35,7 @@ pub(super) fn uncertainty_probe(ask: uncertainty::Ask) -> Probe {
 pub(super) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
     Asked {
         probe: uncertainty_probe(ask),
-        purpose: Purpose::ErrorBar,
+        purpose: Purpose::Uncertainty,
     }
 }
 

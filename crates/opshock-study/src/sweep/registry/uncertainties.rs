@@ -1,7 +1,7 @@
 //! Uncertainty intervals of points whose search is final, advanced as far as the known runs allow.
 
 use super::jobs::Job;
-use super::searches::{Registry, Reported};
+use super::searches::{AnsweredProbe, Registry};
 use super::stage::{UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
 use crate::search::{Flag, Status, Verdict, uncertainty};
 use crate::store::RunKey;
@@ -10,8 +10,8 @@ use opshock_solver::scene::discretisation::Levels;
 impl Registry<'_> {
     /// Advances uncertainty intervals as far as the known runs allow: those that wait for the run `finished`, or all,
     /// and those whose search has become final. Returns the runs used for the first time.
-    pub(super) fn draw_uncertainty(&mut self, finished: Option<RunKey>) -> Vec<Reported> {
-        let mut reported = Vec::new();
+    pub(super) fn draw_uncertainty(&mut self, finished: Option<RunKey>) -> Vec<AnsweredProbe> {
+        let mut answered = Vec::new();
         let n_final_chains = self.campaign.n_final_chains();
         let places: Vec<usize> = if n_final_chains == self.n_final_chains {
             self.drawing.values().copied().collect()
@@ -45,7 +45,7 @@ impl Registry<'_> {
             };
             let refinements = self.refinements(point);
             let (now, progress) = uncertainty::answer(input, refinements, &lookup);
-            reported.extend(now[log.len()..].iter().map(|&ask| Reported {
+            answered.extend(now[log.len()..].iter().map(|&ask| AnsweredProbe {
                 point,
                 asked: uncertainty_asked(ask),
                 key: self.key(point, uncertainty_probe(ask)),
@@ -65,7 +65,7 @@ impl Registry<'_> {
                 (*log, *before) = (now, progress);
             }
         }
-        reported
+        answered
     }
 
     /// Changes whenever a point becomes final.

@@ -262,7 +262,7 @@ fn errors_below_what_brackets_resolve_are_covered() {
 
 /// Brackets of further contributions are a 16th of the interval's length, an eighth where it exceeds 10 % in any case.
 #[test]
-fn parts_of_a_uncertainty_that_exceeds_in_any_case_are_bracketed_half_as_closely() {
+fn contributions_to_an_interval_above_target_in_any_case_are_bracketed_half_as_closely() {
     let (mut input, _) = Law::formal([0.0; 6], None).input(3);
     input.target = 0.1;
     let (lookup, mut log) = (|_: Ask| None, Vec::new());

@@ -5,12 +5,28 @@ mod film;
 mod refinements;
 
 use super::limits::Limits;
+use super::pieces::{pieces, whole};
+use super::walk::Walk;
 use super::*;
 use crate::search::amplitude_grid::AmplitudeGrid;
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::outcome::Flag;
 use crate::search::probe::Retry;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
+
+/// The interval of `input` without refinement, as far as `lookup` knows the runs it needs, with the runs requested.
+fn uncertainty(
+    input: &UncertaintyInput,
+    lookup: &dyn Fn(Ask) -> Option<Seen>,
+) -> (Vec<Ask>, Progress) {
+    let mut log = Vec::new();
+    let mut walk = Walk::new(input, lookup, &mut log);
+    let progress = match pieces(&mut walk, Default::default()) {
+        Ok(pieces) => Progress::Done(whole(&walk, &pieces)),
+        Err(ask) => Progress::Wants(ask),
+    };
+    (log, progress)
+}
 
 /// A law of failure: critical amplitude, G, and clearance at its event, for any levels of discretisation parameters.
 struct Law {

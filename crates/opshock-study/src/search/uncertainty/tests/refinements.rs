@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn a_uncertainty_that_exceeds_refinements_on_the_discretisation_that_dominates() {
+fn an_interval_above_target_refines_the_dominant_parameter() {
     // The film is 3 % off and the rest exact: one doubling leaves 1.5 %, a second 0.75 %.
     let law = Law::formal([0.03, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (plain, reported_g, _) = law.uncertainty();
@@ -34,7 +34,7 @@ fn climbs_take_two_steps_at_once_from_the_studys_own_discretisations_alone() {
 /// With 10 % error on the study's preset, only the film's contribution, at maximum refinement, sixteen times finer, is
 /// above a third of one per cent; refining the head covers the excess. With 18 % it cannot.
 #[test]
-fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
+fn a_small_contribution_is_refined_where_the_others_are_at_their_limit() {
     let refined = |film, refinements| {
         let law = Law::formal([film, 0.0, 0.0, 0.0, 0.003, 0.0], Some(1e-7));
         let (answer, ..) = law.refined(refinements);
@@ -57,7 +57,7 @@ fn what_does_not_count_is_turned_where_the_rest_is_on_the_floor() {
 /// While the film's contribution exceeds the target, the head's is estimated from one step coarser, three times its
 /// error. The film's last refinement makes room for a finer step that shows the error.
 #[test]
-fn what_counts_on_the_floor_is_looked_at_again_when_there_is_room() {
+fn a_large_contribution_at_its_limit_is_estimated_again_when_there_is_room() {
     let law = Law::formal([0.08, 0.0, 0.0, 0.0, 0.096, 0.0], None);
     let [two, three] = [2, 3].map(|refinements| law.refined(refinements).0);
     let at = [Discretisation::FilmGrid, Discretisation::HeadTolerance];
@@ -104,7 +104,7 @@ fn the_scene_is_bracketed_to_a_node_where_that_meets_what_was_asked() {
 }
 
 #[test]
-fn a_floor_is_said_and_no_refinements_is_made_unasked() {
+fn the_limit_is_flagged_and_nothing_is_refined_unasked() {
     let law = Law::formal([0.2, 0.0, 0.0, 0.0, 0.0, 0.0], None);
     let (answer, ..) = law.refined(3);
     assert!(
@@ -124,7 +124,7 @@ fn a_floor_is_said_and_no_refinements_is_made_unasked() {
 }
 
 #[test]
-fn a_refined_scene_without_verdict_is_tried_again_down_the_ladder() {
+fn a_refined_scene_without_verdict_is_tried_again_as_the_search_does() {
     let law = Law::formal([0.03, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (input, _) = law.input(3);
     let grid = input.grid;

@@ -6,7 +6,7 @@
 use super::closing::{BodyBalance, Closing};
 use super::contact_log::ContactLog;
 use super::driven::Driven;
-use super::energy::{Energies, LongSum, Registry};
+use super::energy::{Energies, ExchangedEnergy, LongSum};
 use super::error::StructureError;
 use super::free_motion::ForcedState;
 use super::history::StructuralHistory;
@@ -53,7 +53,7 @@ pub(super) struct RunState {
     pub keeps_motion: bool,
 }
 
-pub(super) struct RunBalances<'a> {
+pub(super) struct RunInProgress<'a> {
     pub shared: &'a Shared,
     pub amplitude: f64,
     pub state: &'a mut RunState,
@@ -67,7 +67,7 @@ pub(super) struct RunBalances<'a> {
     pub is_totalled: bool,
     /// Points at the end of a step, read during that step.
     pub seen: Option<Sight>,
-    pub registry: Registry,
+    pub exchanged: ExchangedEnergy,
     pub complementarity: Complementarity,
     /// Steps in which bounces were taken as lasting contact.
     pub accumulated_steps: u64,
@@ -128,7 +128,7 @@ impl RunState {
     }
 }
 
-impl<'a> RunBalances<'a> {
+impl<'a> RunInProgress<'a> {
     pub fn new(shared: &'a Shared, amplitude: f64, state: &'a mut RunState) -> Self {
         Self {
             shared,
@@ -139,7 +139,7 @@ impl<'a> RunBalances<'a> {
             n_moving: 0,
             is_totalled: false,
             seen: None,
-            registry: Registry::default(),
+            exchanged: ExchangedEnergy::default(),
             complementarity: Complementarity::default(),
             accumulated_steps: 0,
             both_arms: false,
@@ -173,8 +173,8 @@ impl<'a> RunBalances<'a> {
         free.state_at_node(self.k, &mut self.state.unit_now);
         let sample = self.sample();
         let a2 = self.amplitude * self.amplitude;
-        self.registry.work = LongSum::from_value(a2 * sample.work);
-        self.registry.damping = LongSum::from_value(a2 * sample.loss);
+        self.exchanged.work = LongSum::from_value(a2 * sample.work);
+        self.exchanged.damping = LongSum::from_value(a2 * sample.loss);
     }
 
     /// Pose and rate of the disk under the slider in free motion, without the part of the rotor.
@@ -270,9 +270,9 @@ impl<'a> RunBalances<'a> {
         self.record_bodies();
         let material = self.energies.material();
         if is_look {
-            let registry = &mut self.registry;
-            registry.peak_fixed_frame = registry.peak_fixed_frame.max(self.energies.fixed_frame);
-            registry.peak_material = registry.peak_material.max(material);
+            let exchanged = &mut self.exchanged;
+            exchanged.peak_fixed_frame = exchanged.peak_fixed_frame.max(self.energies.fixed_frame);
+            exchanged.peak_material = exchanged.peak_material.max(material);
         }
         self.decayed = self.has_decayed(self.k, material);
         if self.state.record {
@@ -293,7 +293,7 @@ impl<'a> RunBalances<'a> {
             return false;
         };
         let is_driven = (k as f64 * self.shared.free.step_s) < self.shared.free.pulse_end_s;
-        !is_driven && material_j <= share * self.registry.peak_material
+        !is_driven && material_j <= share * self.exchanged.peak_material
     }
 
     /// Appends node `k` to the history that the head reads.
@@ -445,11 +445,11 @@ impl<'a> RunBalances<'a> {
     /// [`StructureError::NotFinite`].
     pub fn finish(mut self) -> Result<StructureRun, StructureError> {
         let energies = self.energies_now();
-        let mut registry = self.registry;
+        let mut exchanged = self.exchanged;
         if self.driven.is_none() {
             let (a2, sample) = (self.amplitude * self.amplitude, self.sample());
-            registry.work = LongSum::from_value(a2 * sample.work);
-            registry.damping = LongSum::from_value(a2 * sample.loss);
+            exchanged.work = LongSum::from_value(a2 * sample.work);
+            exchanged.damping = LongSum::from_value(a2 * sample.loss);
         }
         let state = self.state;
         let history = std::mem::take(&mut state.history);
@@ -460,7 +460,7 @@ impl<'a> RunBalances<'a> {
             k: self.k,
             not_finite: self.not_finite,
             energies,
-            registry,
+            exchanged,
             extremes: self.extremes,
             complementarity: self.complementarity,
             bodies: self.bodies,

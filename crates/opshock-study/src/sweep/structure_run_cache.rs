@@ -15,11 +15,11 @@ pub(super) type Key = ([u8; 16], u64);
 type Shared = Arc<OnceLock<Result<StructureRun, StructureError>>>;
 
 /// Time steps kept at most: 48 bytes each, 96 MB in all.
-const MOST_NODES: usize = 2_000_000;
+const MOST_STEPS: usize = 2_000_000;
 
 /// The histories kept; the least recently used are dropped first.
 #[derive(Default)]
-pub(super) struct ModelCache {
+pub(super) struct StructureRunCache {
     inner: Mutex<Inner>,
 }
 
@@ -46,7 +46,7 @@ pub struct Counts {
     pub shared: u64,
 }
 
-impl ModelCache {
+impl StructureRunCache {
     /// The run of `key`, by `run` when it is not in the cache; `nodes` is its length in time steps.
     pub fn get_or_run(
         &self,
@@ -76,7 +76,7 @@ impl ModelCache {
             inner.counts.shared += 1;
             return run;
         }
-        while inner.nodes + nodes > MOST_NODES && !inner.places.is_empty() {
+        while inner.nodes + nodes > MOST_STEPS && !inner.places.is_empty() {
             inner.forget_oldest();
         }
         let run = Shared::default();
@@ -116,17 +116,17 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_made_once_and_the_shelf_stays_bounded() {
-        let cache = ModelCache::default();
+    fn a_run_is_made_once_and_the_cache_stays_bounded() {
+        let cache = StructureRunCache::default();
         let key = |i: u8| ([i; 16], 1);
-        let nodes = MOST_NODES / 2;
+        let nodes = MOST_STEPS / 2;
         cache.get_or_run(key(0), nodes, || failed(0.0));
         cache.get_or_run(key(1), nodes, || failed(1.0));
         let again = cache.get_or_run(key(0), nodes, || failed(9.0));
         assert_eq!(again.get(), Some(&failed(0.0)));
         // The third evicts the second, the least recently used.
         cache.get_or_run(key(2), nodes, || failed(2.0));
-        assert_eq!(cache.lock().nodes, MOST_NODES);
+        assert_eq!(cache.lock().nodes, MOST_STEPS);
         let kept = cache.get_or_run(key(0), nodes, || failed(9.0));
         assert_eq!(kept.get(), Some(&failed(0.0)));
         let gone = cache.get_or_run(key(1), nodes, || failed(8.0));
@@ -137,7 +137,7 @@ mod tests {
         };
         assert_eq!(cache.counts(), counts);
         // A history longer than the cache is run and shared while it is in use.
-        cache.get_or_run(key(3), 3 * MOST_NODES, || failed(3.0));
+        cache.get_or_run(key(3), 3 * MOST_STEPS, || failed(3.0));
         assert_eq!(cache.lock().places.len(), 1);
     }
 }
