@@ -364,7 +364,7 @@ fn fuzz_dynamic(range: std::ops::Range<u64>, report_every: u64) {
             };
             let flights = seed.is_multiple_of(2).then_some(&flights);
             let named = (&file, "DynLULS.def");
-            let written = drive::study(&slider, flights, named, None, asked)?;
+            let written = drive::study(&slider, flights, named, (None, None), asked)?;
             assert!(!written.text.contains("NaN") && !written.text.contains("inf"));
             Ok(())
         },

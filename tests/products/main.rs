@@ -11,6 +11,7 @@ mod cli_figures;
 mod cli_run;
 mod cli_shards;
 mod cli_studies;
+mod cml_decks;
 mod cml_drives;
 mod compare;
 mod digests;

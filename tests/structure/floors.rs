@@ -52,8 +52,8 @@ const IMPORT: &[(&str, u8)] = &[
     ("fault", 0),
     ("text", 1),
     ("matrix", 2),
-    ("cml", 2),
     ("gmsh", 2),
+    ("cml", 3),
 ];
 
 /// Module of the crate of solid elements, its layer.

@@ -14,22 +14,26 @@
 //! angle 7.0 degrees. This sign means a skew that grows outwards, as of a rotary actuator: the same arm has −6.1
 //! degrees at 17.9 mm.
 
+use super::deck;
+use super::dynamic::flexure::Parted;
 use super::dynamic::layout;
-use super::dynamic::{DynamicFile, Gas, Shape, Shock};
+use super::dynamic::{Contents, DynamicFile, Gas, Shape, Shock};
 use super::rail::RailFile;
 use super::run::RunFile;
 use super::study::{Asked, Sections, Written, gas, sections, shortest, suspension};
 use crate::fault::{Fault, Faults};
 use std::fmt::Write as _;
 
-/// Sizes of one slider in two files may differ by this share.
-const SAME: f64 = 1e-6;
+/// Sizes of one slider in two files may differ by this share; in a deck of version 6.4, whose surface is scaled to its
+/// size, by the second.
+const SAME: [f64; 2] = [1e-6, 0.02];
 
 /// Time constants after which a decaying sine is cut: 0.1 % is left.
 const DECAYED: f64 = 7.0;
 
 /// The study of a surface on the drive of a dynamic run. `run.dat` supplies what the dynamic run does not give: gas,
-/// and forces other than the air's. `imported` are the keys of a suspension by matrices.
+/// and forces other than the air's. `imported` are the keys of a suspension by matrices, `parted` is what a deck of version
+/// 6.4 has in them beside it.
 ///
 /// # Errors
 /// E175 for a slider of another size than the surface, a place of the ramp that is not over the disk, and as
@@ -38,7 +42,7 @@ pub fn study(
     rail: &RailFile,
     run: Option<&RunFile>,
     (file, name): (&DynamicFile, &str),
-    imported: Option<&str>,
+    (imported, parted): (Option<&str>, Option<&Parted>),
     asked: Asked<'_>,
 ) -> Result<Written, Faults> {
     let (mut study, mut left_out) = sections(rail, run, asked)?;
@@ -52,6 +56,13 @@ pub fn study(
     };
     faults.or(())?;
     fill(&mut study, rail, run, file, place);
+    let deck = match &file.suspension {
+        Contents::Deck(deck) => Some((file, deck)),
+        Contents::Unknown | Contents::Suspension(_) => None,
+    };
+    if let Some(deck) = deck {
+        deck::fill(&mut study, deck, rail, parted);
+    }
     if let Some(imported) = imported {
         let _ = writeln!(study.suspension, "[suspension.imported]\n{imported}");
     }
@@ -59,13 +70,11 @@ pub fn study(
         // The places, speeds and load of `run.dat` are not used, so no note is needed.
         left_out.retain(|note| !["radii", "speeds", "xf0, yf0"].contains(&note.what.as_str()));
     }
-    left_out.extend(reported(
-        file,
-        name,
-        run.is_some(),
-        place.is_some(),
-        imported.is_some(),
-    ));
+    let has_matrices = imported.is_some();
+    left_out.extend(match deck {
+        Some(deck) => deck::notes(deck, name, rail, has_matrices),
+        None => notes(file, name, run.is_some(), place.is_some(), has_matrices),
+    });
     Ok(Written {
         text: study.text(asked),
         left_out,
@@ -184,11 +193,12 @@ fn sine(period_s: f64, decay_per_s: f64) -> String {
 fn other_slider(rail: &RailFile, file: &DynamicFile, name: &str) -> Faults {
     let mut faults = Faults::default();
     let width_m = file.length_m * file.width_per_length;
+    let same = SAME[usize::from(matches!(file.suspension, Contents::Deck(_)))];
     for (what, value, wanted) in [
         ("xl", file.length_m, rail.length_m),
         ("xl times yl/xl", width_m, rail.width_m),
     ] {
-        if (value / wanted - 1.0).abs() > SAME {
+        if (value / wanted - 1.0).abs() > same {
             let fault = Fault::of("E175", name, "the slider is not that of the surface");
             faults.push(
                 fault
@@ -241,7 +251,7 @@ fn place(file: &DynamicFile, name: &str) -> Result<Option<Place>, Faults> {
 }
 
 /// Notes on assumptions about the file, and on values that are not imported.
-fn reported(
+fn notes(
     file: &DynamicFile,
     name: &str,
     has_run: bool,
@@ -294,8 +304,8 @@ fn reported(
             "radius, skew, speed, load and slip model are those of DynLULS.def",
         );
     }
-    match (has_matrices, &file.matrices) {
-        (true, Some(found)) => note(
+    match (has_matrices, &file.suspension) {
+        (true, Contents::Suspension(found)) => note(
             "freedom numbers of the slider",
             found.slider_row.to_string(),
             "the third value of its section, a row of the matrices: its node is the dimple",

@@ -4,6 +4,7 @@
 //! All values are SI. Versions other than 7.0 and 8.0 are rejected by name, because their layouts differ. [`study`]
 //! converts the files into a study file and a surface file; [`drive`] adds pulse, disk and ramp of a dynamic run.
 
+pub mod deck;
 pub mod drive;
 pub mod dynamic;
 pub mod rail;

@@ -72,6 +72,18 @@ impl<'a> Reader<'a> {
         Ok((reader, version))
     }
 
+    /// All lines of a file that has no header.
+    pub(super) fn without_header(source: &'a Source) -> Self {
+        let lines = source.lines();
+        let lines: Vec<Line<'a>> = lines.filter(|line| !line.text.trim().is_empty()).collect();
+        Self {
+            file: &source.name,
+            lines: lines.into_iter().peekable(),
+            faults: Faults::default(),
+            n_bytes: source.n_bytes(),
+        }
+    }
+
     /// E160: the file ends where `what` should stand.
     pub(super) fn cut_short(&self, what: &str) -> Faults {
         Fault::of("E160", self.file, format!("the file ends before {what}"))

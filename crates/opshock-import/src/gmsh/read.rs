@@ -149,7 +149,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
     fn nodes(&mut self, found: &mut Found) -> Result<(), Faults> {
         found.has_nodes = true;
         let n_blocks = self.count("blocks of nodes")?;
-        let reported = self.count("nodes")?;
+        let declared = self.count("nodes")?;
         self.count("lowest number of a node")?;
         self.count("highest number of a node")?;
         for _ in 0..n_blocks {
@@ -189,12 +189,12 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                 found.nodes.push(place);
             }
         }
-        self.as_reported("nodes", reported, found.nodes.len())
+        self.as_declared("nodes", declared, found.nodes.len())
     }
 
     fn elements(&mut self, found: &mut Found) -> Result<(), Faults> {
         let n_blocks = self.count("blocks of elements")?;
-        let reported = self.count("elements")?;
+        let declared = self.count("elements")?;
         self.count("lowest number of an element")?;
         self.count("highest number of an element")?;
         let mut there = 0;
@@ -272,6 +272,6 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
                 });
             }
         }
-        self.as_reported("elements", reported, there)
+        self.as_declared("elements", declared, there)
     }
 }

@@ -149,13 +149,13 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
         self.last
     }
 
-    pub(super) fn as_reported(
+    pub(super) fn as_declared(
         &self,
         what: &str,
-        reported: usize,
+        declared: usize,
         there: usize,
     ) -> Result<(), Faults> {
-        if reported == there {
+        if declared == there {
             return Ok(());
         }
         let fault = Fault::of("E177", self.file, "not the declared number");
@@ -163,7 +163,7 @@ impl<'a, L: Iterator<Item = Line<'a>>> Reader<'a, L> {
             .line(self.at())
             .what(what)
             .value(there.to_string())
-            .allowed(reported.to_string())
+            .allowed(declared.to_string())
             .into())
     }
 }

@@ -125,7 +125,7 @@ impl Listed {
 }
 
 /// "(row, column)", numbered from 1.
-pub(super) fn place(row: usize, column: usize) -> String {
+pub(crate) fn place(row: usize, column: usize) -> String {
     format!("({}, {})", row + 1, column + 1)
 }
 

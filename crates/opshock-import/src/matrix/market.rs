@@ -104,7 +104,7 @@ fn read_coordinates<'a>(
     source: &Source,
     lines: impl Iterator<Item = Line<'a>>,
     shape: (usize, usize),
-    reported: usize,
+    declared: usize,
     stored: Stored,
 ) -> Result<Matrix, Faults> {
     let (mut listed, mut faults, mut found) = (Listed::default(), Faults::default(), 0);
@@ -113,24 +113,24 @@ fn read_coordinates<'a>(
         listed.push(&source.name, &words, shape, &mut faults);
         found += 1;
     }
-    faults.append(counted(source, "entries", reported, found));
+    faults.append(counted(source, "entries", declared, found));
     let matrix = listed.finish(&source.name, shape, stored, &mut faults);
     faults.or(matrix)
 }
 
 /// E160 when a file holds another number of items than it declares.
-fn counted(source: &Source, of: &str, reported: usize, found: usize) -> Faults {
-    if reported == found {
+fn counted(source: &Source, of: &str, declared: usize, found: usize) -> Faults {
+    if declared == found {
         return Faults::default();
     }
-    let message = if found < reported {
-        format!("the file is cut short: {reported} {of} declared")
+    let message = if found < declared {
+        format!("the file is cut short: {declared} {of} declared")
     } else {
-        format!("the file has more than the {reported} {of} it declares")
+        format!("the file has more than the {declared} {of} it declares")
     };
     Fault::of("E160", &source.name, message)
         .value(format!("{found} {of} in {} bytes", source.n_bytes()))
-        .allowed(reported.to_string())
+        .allowed(declared.to_string())
         .into()
 }
 
@@ -146,7 +146,7 @@ fn read_array<'a>(
         Stored::OneTriangle => column,
         Stored::OneTriangleSkew => column + 1,
     };
-    let reported = (0..n_columns).fold(0_usize, |sum, column| {
+    let declared = (0..n_columns).fold(0_usize, |sum, column| {
         sum.saturating_add(n_rows.saturating_sub(first(column)))
     });
     let (mut row, mut column) = (first(0), 0);
@@ -179,7 +179,7 @@ fn read_array<'a>(
         }
         row += 1;
     }
-    faults.append(counted(source, "values", reported, found));
+    faults.append(counted(source, "values", declared, found));
     faults.or(())?;
     Ok(Matrix::of(&source.name, n_rows, n_columns, entries))
 }

@@ -11,12 +11,12 @@ pub mod calculix;
 pub mod check;
 pub mod dense;
 pub mod dof;
-mod entries;
+pub(crate) mod entries;
 pub mod envelope;
 pub mod files;
 pub mod market;
 pub mod modes;
-mod sparse;
+pub(crate) mod sparse;
 pub mod system;
 pub mod units;
 

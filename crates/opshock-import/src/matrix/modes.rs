@@ -137,18 +137,18 @@ pub fn of(
         return Err(fault.hint(hint).into());
     }
     let mut faults = Faults::default();
-    for (k, (column, reported)) in columns.iter().zip(&frequencies_hz).enumerate() {
+    for (k, (column, declared)) in columns.iter().zip(&frequencies_hz).enumerate() {
         let stiffness = product(column, column, &system.stiffness);
         let given = stiffness.max(0.0).sqrt() / std::f64::consts::TAU;
-        if (given - reported).abs() > FREQUENCY * reported.max(given) {
-            let ratio = reported / given;
+        if (given - declared).abs() > FREQUENCY * declared.max(given) {
+            let ratio = declared / given;
             let fault = Fault::of(
                 "E168",
                 frequencies_file,
                 "the frequency is not the matrices'",
             )
             .what(format!("mode {}", k + 1))
-            .value(format!("{reported}"))
+            .value(format!("{declared}"))
             .allowed(format!("{given:.6e} Hz to 1 %"));
             let in_radians = (ratio / std::f64::consts::TAU - 1.0).abs() < FREQUENCY;
             faults.push(if in_radians {

@@ -39,8 +39,8 @@ pub struct DynamicFile {
     pub gas: Option<Gas>,
     /// Pulse.
     pub shock: Option<Shock>,
-    /// Matrices of the suspension, where the section starts with whole numbers.
-    pub matrices: Option<Matrices>,
+    /// What is known of the suspension's matrices.
+    pub suspension: Contents,
     /// Disk.
     pub disk: Disk,
     /// Ramp.
@@ -94,6 +94,38 @@ pub struct Shock {
     pub time_constant_s: f64,
 }
 
+/// What the matrices beside the file contain.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contents {
+    /// Their section does not start with whole numbers.
+    Unknown,
+    /// The suspension.
+    Suspension(Matrices),
+    /// Suspension, flexure and slider, as a deck of version 6.4 has them.
+    Deck(DeckSuspension),
+}
+
+/// Suspension of a deck of version 6.4. Its matrices contain the slider, on the springs of the flexure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeckSuspension {
+    /// Rows.
+    pub n_rows: usize,
+    /// Rows of the slider along and about x, y, z, counted from 1.
+    pub slider_rows: [usize; 6],
+    /// Row of the load beam's displacement z at the dimple.
+    pub dimple_row: usize,
+    /// Force of the dimple without load, N.
+    pub preload_n: f64,
+    /// Gaps of the limiters, m.
+    pub limiters_m: Vec<f64>,
+    /// Static pitch and roll attitude, rad.
+    pub static_angles_rad: [f64; 2],
+    /// Rayleigh damping, share of the mass matrix, 1/s.
+    pub alpha_per_s: f64,
+    /// Share of the stiffness matrix, s.
+    pub beta_s: f64,
+}
+
 /// Matrices beside the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Matrices {
@@ -131,6 +163,8 @@ pub struct Ramp {
     pub angle_deg: f64,
     /// Clearance to the disk, m.
     pub clearance_m: f64,
+    /// Sides of the disk that have one: 0, 1 or 2.
+    pub sides: usize,
 }
 
 /// Number of the model of Fukui and Kaneko.

@@ -60,10 +60,13 @@ pub const DISK: usize = 18;
 pub struct Section<'a> {
     /// Line of asterisks that opens it.
     pub line: usize,
+    /// What stands between the asterisks, in lower case.
+    pub title: String,
     lines: Vec<Line<'a>>,
 }
 
 /// A value with its name in lower case, without its unit.
+#[derive(Clone)]
 pub struct Value<'a> {
     /// Name.
     pub name: String,
@@ -71,19 +74,21 @@ pub struct Value<'a> {
     pub word: Word<'a>,
 }
 
-/// Sections of a file: as many as there are in [`SECTIONS`].
+/// Sections of a file, of which there are to be `wanted`.
 ///
 /// # Errors
 /// E160 for a file without sections, E173 for another number of them.
-pub fn split<'a>(reader: &mut Reader<'a>) -> Result<Vec<Section<'a>>, Faults> {
+pub fn split<'a>(reader: &mut Reader<'a>, wanted: usize) -> Result<Vec<Section<'a>>, Faults> {
     let mut sections: Vec<Section<'a>> = Vec::new();
     for line in reader.lines.by_ref() {
         if line.text.trim_start().starts_with("**") {
             // A frame of two lines of asterisks opens one section, one behind the last opens none.
             sections.pop_if(|section| section.lines.is_empty());
-            let line = line.number;
-            let lines = Vec::new();
-            sections.push(Section { line, lines });
+            sections.push(Section {
+                line: line.number,
+                title: line.text.trim().trim_matches('*').trim().to_lowercase(),
+                lines: Vec::new(),
+            });
         } else if let Some(section) = sections.last_mut() {
             section.lines.push(line);
         }
@@ -92,26 +97,28 @@ pub fn split<'a>(reader: &mut Reader<'a>) -> Result<Vec<Section<'a>>, Faults> {
     if sections.is_empty() {
         return Err(reader.cut_short("its first section, a line of asterisks"));
     }
-    let (n, wanted) = (sections.len(), SECTIONS.len());
+    let n = sections.len();
     if n == wanted {
         return Ok(sections);
     }
     let message = match n > wanted {
-        true => "more sections than its layout has; later versions have a longer one",
+        true => "more sections than its layout has",
         false => "fewer sections than its layout has",
     };
     let titles: Vec<&str> = SECTIONS.iter().map(|(title, _)| *title).collect();
+    let allowed = match wanted == SECTIONS.len() {
+        true => format!("{wanted} below a header: {}", titles.join(", ")),
+        false => format!("{wanted} of version 6.4, the first one without a header before it"),
+    };
     let fault = Fault::of("E173", reader.file, message)
         .what("DynLULS.def")
         .value(format!("{n} sections"))
-        .allowed(format!("{wanted}: {}", titles.join(", ")));
+        .allowed(allowed);
     let fault = match sections.get(wanted) {
         Some(section) => fault.line(section.line),
         None => fault,
     };
-    Err(fault
-        .hint("a line of asterisks opens each; save it in the layout of version 8.0")
-        .into())
+    Err(fault.hint("a line of asterisks opens each").into())
 }
 
 /// Names of a line in lower case, without parts in brackets.
@@ -128,6 +135,28 @@ fn names(line: Line<'_>) -> Vec<String> {
     });
     let outside: String = outside.collect();
     outside.split_whitespace().map(str::to_lowercase).collect()
+}
+
+/// Values of a section in their order; those behind the last name of a line, and those on further lines, have a name too.
+pub fn lists<'a>(section: &Section<'a>) -> Vec<Value<'a>> {
+    let mut last: Vec<String> = Vec::new();
+    let mut found = Vec::new();
+    for line in &section.lines {
+        if !line.words().next().is_some_and(|word| is_numeric(&word)) {
+            last = names(*line);
+            continue;
+        }
+        for (at, word) in line.words().enumerate() {
+            let Some(name) = last.get(at).or(last.last()) else {
+                break;
+            };
+            found.push(Value {
+                name: name.clone(),
+                word,
+            });
+        }
+    }
+    found
 }
 
 /// Values of a section in their order. Numbers without a line of names before them are lists and are skipped.

@@ -13,10 +13,15 @@
 //! Each has a range, so that values in another order are rejected and not mistaken for these.
 
 mod contents;
+pub(super) mod deck;
+pub mod flexure;
 pub(super) mod layout;
 mod read;
+mod values;
 mod write;
 
-pub use contents::{Disk, DynamicFile, Gas, Matrices, Ramp, Shape, Shock};
+pub use contents::{
+    Contents, DeckSuspension, Disk, DynamicFile, Gas, Matrices, Ramp, Shape, Shock,
+};
 pub use read::read;
 pub use write::write;

@@ -1,6 +1,6 @@
 //! Writes a dynamic run as `DynLULS.def`: all values that are read, with every digit, in 19 sections.
 
-use super::contents::{DynamicFile, FUKUI_KANEKO, SHAPES};
+use super::contents::{Contents, DynamicFile, FUKUI_KANEKO, SHAPES};
 use super::layout::{self, SECTIONS};
 use std::fmt::Write as _;
 
@@ -77,12 +77,12 @@ fn section(file: &DynamicFile, at: usize) -> Vec<(&'static str, String)> {
             }
             None => nothing(),
         },
-        layout::MATRICES => match &file.matrices {
-            Some(found) => {
+        layout::MATRICES => match &file.suspension {
+            Contents::Suspension(found) => {
                 let values = format!("{} 1 {}", found.n_rows, found.slider_row);
                 vec![("size dtfac slider_freedom", values)]
             }
-            None => nothing(),
+            Contents::Unknown | Contents::Deck(_) => nothing(),
         },
         layout::DISK => {
             let (disk, ramp) = (&file.disk, &file.ramp);

@@ -1,7 +1,7 @@
 //! Tests of dynamic runs (`DynLULS.def`).
 
 use super::{shaken, source};
-use crate::cml::dynamic::{Shape, Shock};
+use crate::cml::dynamic::{Contents, Shape, Shock};
 use crate::cml::{dynamic, rail, run};
 use crate::text::Source;
 
@@ -9,7 +9,7 @@ use crate::text::Source;
 fn dynamic_runs_go_round() {
     let full = shaken();
     let mut without = full.clone();
-    (without.gas, without.shock, without.matrices) = (None, None, None);
+    (without.gas, without.shock, without.suspension) = (None, None, Contents::Unknown);
     let mut decaying = full.clone();
     decaying.shock = full.shock.map(|shock| Shock {
         shape: Shape::DecayingSine,

@@ -5,7 +5,7 @@ mod runs;
 mod studies;
 mod surfaces;
 
-use super::dynamic::{Disk, DynamicFile, Gas, Matrices, Ramp, Shape, Shock};
+use super::dynamic::{Contents, Disk, DynamicFile, Gas, Matrices, Ramp, Shape, Shock};
 use super::rail::{Rail, RailFile, Recess, Wall};
 use super::run::{RunFile, Slip};
 use crate::fault::Faults;
@@ -120,7 +120,7 @@ fn shaken() -> DynamicFile {
             magnitude_g: -200.0,
             time_constant_s: 0.0,
         }),
-        matrices: Some(Matrices {
+        suspension: Contents::Suspension(Matrices {
             n_rows: 250,
             slider_row: 241,
         }),
@@ -137,6 +137,7 @@ fn shaken() -> DynamicFile {
             distance_m: 35.6e-3,
             angle_deg: 15.91,
             clearance_m: 100e-6,
+            sides: 2,
         },
     }
 }

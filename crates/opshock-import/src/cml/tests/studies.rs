@@ -84,7 +84,8 @@ const DRIVE: study::Asked<'static> = study::Asked {
 #[test]
 fn the_ramps_place_follows_from_the_pivot() {
     let number = |file: &DynamicFile, section: &str, key: &str| -> f64 {
-        let written = drive::study(&surface(), None, (file, "DynLULS.def"), None, DRIVE).unwrap();
+        let written =
+            drive::study(&surface(), None, (file, "DynLULS.def"), (None, None), DRIVE).unwrap();
         let text = written.text.split(section).nth(1).unwrap();
         let line = text.lines().find(|line| line.starts_with(key)).unwrap();
         line.rsplit(' ').next().unwrap().parse().unwrap()
@@ -118,7 +119,8 @@ fn pulses_of_dynamic_runs_become_those_of_a_study() {
             time_constant_s: 2e-3,
             ..shock
         });
-        let written = drive::study(&rail, None, (&file, "DynLULS.def"), None, DRIVE).unwrap();
+        let written =
+            drive::study(&rail, None, (&file, "DynLULS.def"), (None, None), DRIVE).unwrap();
         let section = written.text.split("[pulse]\n").nth(1).unwrap();
         section.split("\n\n").next().unwrap().to_owned()
     };

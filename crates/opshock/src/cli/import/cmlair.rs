@@ -8,7 +8,8 @@ use crate::cli::exit::Exit;
 use crate::cli::failure::Failure;
 use crate::cli::global::GlobalArgs;
 use clap::Args;
-use opshock_import::cml::dynamic::DynamicFile;
+use opshock_import::cml::deck::MAP;
+use opshock_import::cml::dynamic::{Contents, DynamicFile};
 use opshock_import::cml::study::{Asked, study, surface};
 use opshock_import::cml::{drive, dynamic as dynamic_file, rail, run as run_file};
 use opshock_import::text::Source;
@@ -78,7 +79,10 @@ pub fn run(
     let surface = surface(&file, &source.name).map_err(refused)?;
     let study = match &dynamic {
         Some((name, dynamic, _)) => {
-            let imported = beside.map(|beside| beside.keys.as_str());
+            let imported = (
+                beside.map(|beside| beside.keys.as_str()),
+                beside.and_then(|beside| beside.parted.as_ref()),
+            );
             let dynamic = (dynamic, name.as_str());
             drive::study(&file, flights.as_ref(), dynamic, imported, asked)
         }
@@ -94,6 +98,14 @@ pub fn run(
         files.extend(dynamic::FILES.into_iter().zip(texts));
     }
     let paths = write_new(&arguments.out, &files)?;
+    let is_deck = |file: &DynamicFile| matches!(file.suspension, Contents::Deck(_));
+    let map = match &dynamic {
+        Some((_, file, _)) if is_deck(file) => &MAP[..],
+        _ => &[],
+    };
+    for (fields, keys) in map {
+        console.tell(&format!("{fields} -> {keys}"));
+    }
     let notes = [surface.left_out, study.left_out].concat();
     for note in &notes {
         console.tell(&format!("note: {note}"));
@@ -102,6 +114,7 @@ pub fn run(
         console.result_json(&json!({
             "files": shown(&paths),
             "rails": file.rails.len(),
+            "map": map.iter().map(|(fields, keys)| [fields, keys]).collect::<Vec<_>>(),
             "notes": notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
         }))?;
     } else {

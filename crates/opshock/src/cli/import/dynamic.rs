@@ -1,6 +1,7 @@
 //! Reads the suspension's matrices beside a CMLAir `DynLULS.def` (a dynamic run) for the study's folder.
 
-use opshock_import::cml::dynamic::DynamicFile;
+use opshock_import::cml::dynamic::flexure::{Parted, part};
+use opshock_import::cml::dynamic::{Contents, DynamicFile};
 use opshock_import::matrix::check::{self, Found};
 use opshock_import::matrix::system::System;
 use opshock_import::matrix::units::Units;
@@ -20,6 +21,8 @@ pub struct Beside {
     pub keys: String,
     /// What is questionable about the matrices.
     pub found: Found,
+    /// What a deck of version 6.4 has in them beside the suspension.
+    pub parted: Option<Parted>,
 }
 
 /// Reads the matrices beside `dynamic`; nothing where none of the files is there.
@@ -42,9 +45,21 @@ pub fn beside(path: &Path, dynamic: &DynamicFile) -> Result<Option<Beside>, Faul
         }
     }
     faults.or(())?;
+    let parted = match &dynamic.suspension {
+        Contents::Deck(deck) => Some(part(deck, [&sources[0], &sources[1], &sources[2]])?),
+        Contents::Unknown | Contents::Suspension(_) => None,
+    };
+    if let Some(parted) = &parted {
+        for (source, text) in sources.iter_mut().zip(&parted.texts) {
+            *source = Source::of(&source.name, text.clone().into_bytes())?;
+        }
+    }
     let [mass, stiffness, places] = [&sources[0], &sources[1], &sources[2]];
     let (freedoms, _) = dense::read_places(places)?;
-    let dimple = dimple(dynamic, &freedoms, &path.display().to_string())?;
+    let dimple = match &parted {
+        Some(parted) => parted.dimple,
+        None => dimple(dynamic, &freedoms, &path.display().to_string())?,
+    };
     let matrices = (dense::read(mass, true)?, dense::read(stiffness, true)?);
     let units = Units::MillimetreMillinewton;
     let system = System::of(matrices.0, matrices.1, None, Some(freedoms), units)?;
@@ -57,13 +72,14 @@ pub fn beside(path: &Path, dynamic: &DynamicFile) -> Result<Option<Beside>, Faul
         texts: [mass, stiffness, places].map(|source| source.text().to_owned()),
         keys,
         found,
+        parted,
     }))
 }
 
 /// Node of the slider's first freedom.
 fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64, Faults> {
     let leave = "--without-matrices takes the suspension of the default drive";
-    let Some(reported) = dynamic.matrices else {
+    let Contents::Suspension(declared) = &dynamic.suspension else {
         let fault = Fault::of(
             "E169",
             file,
@@ -75,7 +91,7 @@ fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64,
             .hint(leave)
             .into());
     };
-    if reported.n_rows != freedoms.len() {
+    if declared.n_rows != freedoms.len() {
         let fault = Fault::of(
             "E161",
             file,
@@ -83,12 +99,12 @@ fn dimple(dynamic: &DynamicFile, freedoms: &Freedoms, file: &str) -> Result<u64,
         );
         return Err(fault
             .what("size")
-            .value(reported.n_rows.to_string())
+            .value(declared.n_rows.to_string())
             .allowed(freedoms.len().to_string())
             .hint(leave)
             .into());
     }
     // Rows are counted from 1, and are at most those of the file.
-    let freedom = freedoms.get(reported.slider_row - 1);
+    let freedom = freedoms.get(declared.slider_row - 1);
     Ok(freedom.map_or(0, |freedom| freedom.node))
 }
