@@ -309,7 +309,7 @@ impl<'a> Run<'a> {
             loop {
                 self.ask_neighbours();
                 let stopped = self.stopped();
-                if stopped.is_some() && in_flight > 0 && !is_told {
+                if stopped.is_some() && !is_told {
                     self.tell(Event::Stopping { in_flight });
                     is_told = true;
                 }

@@ -46,7 +46,13 @@ fn duration(seconds: f64) -> String {
 
 /// What a stop waits for.
 pub(super) fn stopping(in_flight: usize) -> String {
-    format!("stopping once {in_flight} simulations at work have ended; Ctrl-C again ends at once")
+    match in_flight {
+        0 => "stopping".to_owned(),
+        1 => "stopping once the simulation at work has ended; Ctrl-C again ends at once".to_owned(),
+        _ => format!(
+            "stopping once {in_flight} simulations at work have ended; Ctrl-C again ends at once"
+        ),
+    }
 }
 
 /// Last line.
