@@ -76,7 +76,7 @@ fn balances(scene: &Scene, bearing: &Bearing) {
     assert!(flight.min_clearance_m > 0.0);
     // Let go from above, it comes to no higher flight.
     let mut above = flight.attitude;
-    above.centre_height_m *= 2.0;
+    above.centre_height_m *= 1.5;
     let highest = fly_from(film, [load_n, 0.0, 0.0], &above).expect("flies");
     assert!(
         highest.min_clearance_m < (1.0 + 1e-4) * flight.min_clearance_m,

@@ -5,7 +5,7 @@ use opshock_study::study::Study;
 use std::path::{Path, PathBuf};
 
 /// Folders that take hours: they may be of older physics when their first line says so.
-const MAY_BE_OLDER: [&str; 2] = ["accuracy", "bench"];
+const MAY_BE_OLDER: [&str; 3] = ["accuracy", "bench", "match-paper"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::air_bearing::steady::{Flight, SteadyError, fly, fly_among};
+use crate::air_bearing::steady::{Flight, SteadyError, fly, fly_among, fly_near};
 use crate::air_bearing::{CorrectionForces, Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
@@ -80,7 +80,7 @@ impl Bearing {
                 let mut starts = vec![plain.usual_attitude()];
                 starts.extend(fly(&plain, load).ok().map(|flight| flight.attitude));
                 let film = plain.corrected_by(reference)?;
-                let flight = fly_among(&film, load, &starts)?;
+                let flight = highest(&film, load, fly_among(&film, load, &starts)?);
                 (film, flight)
             }
             None => {
@@ -296,6 +296,19 @@ fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, Structu
         Needs::Head => structure,
         Needs::Structure | Needs::Flight => structure.without_motion(),
     })
+}
+
+/// The flight that Newton's method comes to from twice the height of `flight`, where that one has more clearance; again
+/// from there.
+fn highest(film: &Film, load: [f64; 3], flight: Flight) -> Flight {
+    let mut above = flight.attitude;
+    above.centre_height_m *= 2.0;
+    match fly_near(film, load, &above) {
+        Ok(higher) if higher.min_clearance_m > 1.001 * flight.min_clearance_m => {
+            highest(film, load, higher)
+        }
+        _ => flight,
+    }
 }
 
 fn slider_place(scene: &Scene) -> SliderPlace {
