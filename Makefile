@@ -123,7 +123,7 @@ verify-slurm: ## a job array with a killed task on a real Slurm on the loopback 
 verify-hard: bootstrap ## hard cases that take longer, each with figure and bound
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture hard_slow
 
-.PHONY: verify-flight verify-digests
+.PHONY: verify-flight verify-digests verify-documents
 verify-match: bootstrap ## planted truths that `opshock match` must keep (20 minutes; OPSHOCK_SEEDS=first..end for a part)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture match_slow
 

@@ -220,6 +220,14 @@ fn damaged_decks_get_their_message() {
         ),
         (
             name,
+            "ramp_opt clr\n0",
+            "ramp_opt clr\n0.5",
+            "E174",
+            "not a count",
+        ),
+        (name, "36 10 0", "3.5 10 0", "E174", "not a count"),
+        (
+            name,
             "x_ramp ramp_ang",
             "ramp_ang",
             "E175",

@@ -418,6 +418,16 @@ fn a_mode_of_the_base_without_damping_has_the_default() {
     assert_eq!(scene.base[0].damping_ratio, 0.02);
 }
 
+/// A share of the critical shock, half the width of its interval: 2 % as given, else that of the preset, 1 %.
+#[test]
+fn the_target_uncertainty_is_a_share() {
+    for (line, share) in [("target_uncertainty_pct = 2.0", 0.02), ("", 0.01)] {
+        let text = format!("{SHORT}[search]\n{line}\n");
+        let study = Study::from_text(&text, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(study.points[0].target_uncertainty, share, "{line}");
+    }
+}
+
 #[test]
 fn what_is_unset_is_as_if_the_file_did_not_have_it() {
     let text = format!("{SHORT}\n[surface_forces]\nhamaker_j = 1.8e-19\n");

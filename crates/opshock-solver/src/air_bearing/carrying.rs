@@ -91,13 +91,12 @@ impl Path {
 pub(super) fn followed(
     film: &Film,
     load: [f64; 3],
-    starts: &[Attitude],
+    start: &Attitude,
 ) -> Option<Result<Flight, SteadyError>> {
     let load = Vector3::from(load);
-    let starts = starts_of_drift(film, starts);
     let (share, found) = LIGHT
         .into_iter()
-        .find_map(|share| Some((share, let_down(film, load * share, &starts)?)))?;
+        .find_map(|share| Some((share, let_down(film, load * share, &starts(film, start))?)))?;
     let at = |share: f64| (film.clone(), load * share);
     let mut path = Path::along(&at, (share, found), film.min_height_m());
     for _ in 1..MOST_BRANCHES {
@@ -121,13 +120,12 @@ pub(super) fn followed(
     }))
 }
 
-/// Attitudes from which a slider is let go: a usual one, a higher one, and the other `starts`.
-pub(super) fn starts_of_drift(film: &Film, starts: &[Attitude]) -> Vec<Attitude> {
+/// Attitudes from which a light slider is let go.
+fn starts(film: &Film, start: &Attitude) -> [Attitude; 3] {
     let usual = film.usual_attitude();
     let mut high = usual;
     high.centre_height_m += 1e-7;
-    let others = starts.iter().filter(|start| **start != usual);
-    [usual, high].into_iter().chain(others.copied()).collect()
+    [usual, high, *start]
 }
 
 /// Where a slider comes to rest above the minimum film height, let go at one of `starts` under `load`.

@@ -14,7 +14,7 @@
 //! reaches the load, or it ends before and the slider cannot fly.
 
 use super::attitude::Attitude;
-use super::carrying::{Path, followed, starts_of_drift};
+use super::carrying::{Path, followed};
 use super::film::Film;
 use super::newton::{CONVERGED, MOST_ITERATIONS, Newton};
 use super::search::{Found, Search};
@@ -22,6 +22,9 @@ use nalgebra::Vector3;
 
 pub use super::search::{Equilibrium, Flight};
 pub use super::steady_error::{FlightsEnd, SteadyError};
+
+/// Relative difference of clearances of which the larger one is another flight.
+const HIGHER: f64 = 1e-5;
 
 /// Quasi-static film of a slider at a fixed attitude.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,23 +69,10 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<QuasiStaticFil
 ///
 /// As [`fly_from`].
 pub fn fly(film: &Film, load: [f64; 3]) -> Result<Flight, SteadyError> {
-    fly_among(film, load, &[film.usual_attitude()])
+    fly_from(film, load, &film.usual_attitude())
 }
 
-/// As [`fly`], from `start`, which may be far from the answer, and then from a usual attitude.
-///
-/// # Errors
-///
-/// As [`fly_among`].
-pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
-    let usual = film.usual_attitude();
-    match *start == usual {
-        true => fly(film, load),
-        false => fly_among(film, load, &[*start, usual]),
-    }
-}
-
-/// As [`fly`], from each of the `starts`, at least one.
+/// As [`fly`], from `start`, which may be far from the answer.
 ///
 /// Of several stable equilibria the one with the largest clearance is flown ([`lower_equilibria`] looks for those
 /// below). An equilibrium without clearance is no flight; with surface forces, neither is one within the range of the
@@ -92,20 +82,38 @@ pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight,
 ///
 /// [`SteadyError::CannotFly`] when the film does not carry the load; another [`SteadyError`], with the best attitude
 /// met, when a stable equilibrium is neither found nor ruled out.
-pub fn fly_among(film: &Film, load: [f64; 3], starts: &[Attitude]) -> Result<Flight, SteadyError> {
+pub fn fly_from(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
+    Ok(highest(film, load, flown(film, load, start)?))
+}
+
+/// The flight to which Newton's method comes from twice the height of `flight`, where its clearance is larger, and so
+/// on. A film with defect correction may have further equilibria near the disk, where its correction is large.
+fn highest(film: &Film, load: [f64; 3], flight: Flight) -> Flight {
+    let mut above = flight.attitude;
+    above.centre_height_m *= 2.0;
+    match fly_near(film, load, &above) {
+        Ok(higher) if higher.min_clearance_m > (1.0 + HIGHER) * flight.min_clearance_m => {
+            highest(film, load, higher)
+        }
+        _ => flight,
+    }
+}
+
+/// A flight, from `start` or a usual attitude.
+fn flown(film: &Film, load: [f64; 3], start: &Attitude) -> Result<Flight, SteadyError> {
     if !film.is_drawn_in() {
-        let flown = seek(film, load, starts, true);
+        let flown = seek(film, load, start, true);
         return match flown {
             Ok(flight) if flight.min_clearance_m > 0.0 => Ok(flight),
-            other => followed(film, load, starts).unwrap_or(other),
+            other => followed(film, load, start).unwrap_or(other),
         };
     }
-    let flown = seek(film, load, starts, false);
+    let flown = seek(film, load, start, false);
     let is_flight = |flight: &Flight| flight.min_clearance_m >= 2.0 * film.min_height_m();
     if flown.as_ref().is_ok_and(is_flight) {
         return flown;
     }
-    let bare = seek(&film.with_share_of_attraction(0.0), load, starts, true)?;
+    let bare = seek(&film.with_share_of_attraction(0.0), load, start, true)?;
     match is_flight(&bare) {
         true => follow(film, load, &bare),
         false => flown,
@@ -142,25 +150,24 @@ fn follow(film: &Film, load: [f64; 3], bare: &Flight) -> Result<Flight, SteadyEr
     Search::new(film, load, path.last.attitude).reported(path.last)
 }
 
-/// The search for equilibria behind [`fly_among`]; by overdamped motion only on request.
+/// The search for equilibria behind [`fly_from`]; by overdamped motion only on request.
 fn seek(
     film: &Film,
     load: [f64; 3],
-    starts: &[Attitude],
+    start: &Attitude,
     may_drift: bool,
 ) -> Result<Flight, SteadyError> {
     let load = Vector3::from(load);
-    let mut search = Search::new(film, load, starts[0]);
+    let mut search = Search::new(film, load, *start);
     let usual = film.usual_attitude();
-    for start in starts {
-        let psi = match *start == usual {
-            true => film.usual_psi().to_vec(),
-            false => film.ambient(start),
-        };
-        search.attempt(start, psi);
+    if *start != usual {
+        search.attempt(start, film.ambient(start));
     }
+    search.attempt(&usual, film.usual_psi().to_vec());
     if search.best().is_none() && may_drift {
-        for from in starts_of_drift(film, starts) {
+        let mut high = usual;
+        high.centre_height_m += 1e-7;
+        for from in [usual, high, *start] {
             search.attempt_by_drift(&from);
             if search.best().is_some() {
                 break;

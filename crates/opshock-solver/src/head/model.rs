@@ -29,14 +29,6 @@ pub enum HeadError {
         /// Its value.
         value: f64,
     },
-    /// A force that may be zero is below it or not finite.
-    #[error("{quantity} must not be negative and must be finite, found {value}")]
-    Negative {
-        /// Which one.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-    },
     /// The mass matrix of slider and suspension is singular.
     #[error("the mass matrix of slider and suspension is singular")]
     SingularMass,
@@ -172,16 +164,12 @@ impl HeadModel {
             ("slider density", slider.density_kg_per_m3),
             ("slider height", slider.height_m),
             ("gram load", suspension.gram_load_n),
+            ("steady dimple force", suspension.steady_dimple_force_n()),
             ("dimple stiffness", suspension.dimple.stiffness_n_per_m),
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(HeadError::NotPositive { quantity, value });
             }
-        }
-        let value = suspension.gimbal.dimple_preload_n;
-        if !(value >= 0.0 && value.is_finite()) {
-            let quantity = "dimple preload";
-            return Err(HeadError::Negative { quantity, value });
         }
         let limiters = suspension.limiters.iter().map(|limiter| &limiter.contact);
         let tab = suspension.lift_tab.iter().map(|tab| &tab.contact);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::air_bearing::steady::{Flight, SteadyError, fly, fly_among, fly_near};
+use crate::air_bearing::steady::{Flight, SteadyError, fly};
 use crate::air_bearing::{CorrectionForces, Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
@@ -73,21 +73,11 @@ impl Bearing {
             None => Some(Arc::new(correction_forces(scene)?)),
         };
         let plain = scene.film()?;
-        let load = [scene.suspension.gram_load_n, 0.0, 0.0];
-        let (film, flight) = match &reference {
-            Some(reference) => {
-                // A corrected film may have further equilibria near the disk, where its correction is large.
-                let mut starts = vec![plain.usual_attitude()];
-                starts.extend(fly(&plain, load).ok().map(|flight| flight.attitude));
-                let film = plain.corrected_by(reference)?;
-                let flight = highest(&film, load, fly_among(&film, load, &starts)?);
-                (film, flight)
-            }
-            None => {
-                let flight = fly(&plain, load)?;
-                (plain, flight)
-            }
+        let film = match &reference {
+            Some(reference) => plain.corrected_by(reference)?,
+            None => plain,
         };
+        let flight = fly(&film, [scene.suspension.gram_load_n, 0.0, 0.0])?;
         Ok(Self {
             film: Arc::new(film),
             flight: Arc::new(flight),
@@ -296,19 +286,6 @@ fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, Structu
         Needs::Head => structure,
         Needs::Structure | Needs::Flight => structure.without_motion(),
     })
-}
-
-/// The flight that Newton's method comes to from twice the height of `flight`, where that one has more clearance; again
-/// from there.
-fn highest(film: &Film, load: [f64; 3], flight: Flight) -> Flight {
-    let mut above = flight.attitude;
-    above.centre_height_m *= 2.0;
-    match fly_near(film, load, &above) {
-        Ok(higher) if higher.min_clearance_m > 1.001 * flight.min_clearance_m => {
-            highest(film, load, higher)
-        }
-        _ => flight,
-    }
 }
 
 fn slider_place(scene: &Scene) -> SliderPlace {

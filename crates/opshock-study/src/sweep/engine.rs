@@ -303,15 +303,15 @@ impl<'a> Run<'a> {
         let threads = self.options.threads;
         let (to_here, answers) = crossbeam_channel::unbounded::<Done>();
         let mut in_flight = 0;
-        let mut is_told = false;
+        let mut is_stopping = false;
         let mut checkpoint_at = Instant::now();
         pool.in_place_scope(|scope| {
             loop {
                 self.ask_neighbours();
                 let stopped = self.stopped();
-                if stopped.is_some() && !is_told {
-                    self.tell(Event::Stopping { in_flight });
-                    is_told = true;
+                if let (Some(ending), false) = (stopped, is_stopping) {
+                    self.tell(Event::Stopping { in_flight, ending });
+                    is_stopping = true;
                 }
                 while in_flight < threads && stopped.is_none() && !self.registry.is_done() {
                     let Some(job) = self.registry.next_job(self.options.speculate) else {

@@ -9,7 +9,7 @@ use opshock_solver::head::HeadError;
 use opshock_solver::quantity::GRAM_FORCE_N;
 use opshock_solver::simulation::BuildError;
 use opshock_study::study::{
-    ChoiceError, SetArg, SetSyntaxError, Study, StudyError, StudyErrors, fault,
+    ChoiceError, SetArg, SetSyntaxError, Severity, Study, StudyError, StudyErrors, fault,
 };
 use std::path::Path;
 
@@ -129,17 +129,17 @@ fn tell(remarks: &[StudyError], console: &Console) {
         Some(width) => fault::to_terminal(remarks, width, stderr_colour()),
         None => remarks
             .iter()
-            .map(|remark| format!("{}: {remark}\n", label(remark.code)))
+            .map(|remark| format!("{}: {remark}\n", label(remark.severity())))
             .collect(),
     };
     console.tell(text.trim_end());
 }
 
-/// What a code stands for.
-fn label(code: &str) -> &'static str {
-    match code.starts_with('W') {
-        true => "warning",
-        false => "note",
+fn label(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
     }
 }
 

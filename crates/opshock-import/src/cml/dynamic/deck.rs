@@ -9,6 +9,7 @@ use super::contents::{Contents, DeckSuspension, DynamicFile, Ramp};
 use super::layout::{self, Section, Value};
 use super::values::{ANY, Values};
 use crate::fault::{Fault, Faults};
+use crate::matrix::MAX_ROWS;
 use crate::text::Source;
 
 /// Version that the layout belongs to.
@@ -160,7 +161,7 @@ pub fn read(source: &Source) -> Result<DynamicFile, Faults> {
             distance_m: values.of(ramp, "x_ramp", "m", (1e-3, 0.3)),
             angle_deg: values.of(ramp, "ramp_ang", "deg", (-90.0, 90.0)),
             clearance_m: values.of(ramp, "clr", "m", (0.0, 2e-3)),
-            sides: values.of(ramp, "ramp_opt", "", (0.0, 2.0)) as usize,
+            sides: values.count(ramp, "ramp_opt", (0, 2)),
         },
     };
     values.flow(solver);
@@ -238,7 +239,7 @@ impl Values<'_> {
                 .filter(move |value| value.name == name)
                 .collect::<Vec<_>>()
         };
-        let n_rows = all("suspsz")[0].word.count().unwrap_or(0);
+        let n_rows = self.count(section, "suspsz", (1, MAX_ROWS));
         let mut row = |value: &Value<'_>| {
             let found = value.word.count().filter(|row| (1..=n_rows).contains(row));
             if found.is_none() {

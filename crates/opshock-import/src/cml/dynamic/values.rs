@@ -48,6 +48,31 @@ impl Values<'_> {
         within(self.file, &value.word, what, unit, range, &mut self.faults)
     }
 
+    /// The whole number of a name; the least one beside a fault.
+    pub(super) fn count(
+        &mut self,
+        section: &[Value<'_>],
+        name: &str,
+        (least, most): (usize, usize),
+    ) -> usize {
+        let Some(value) = section.iter().find(|value| value.name == name) else {
+            return least;
+        };
+        let found = value.word.count();
+        found
+            .filter(|n| (least..=most).contains(n))
+            .unwrap_or_else(|| {
+                let fault = Fault::of("E174", self.file, "not a count");
+                let fault = fault
+                    .at(value.word.place())
+                    .what(name)
+                    .value(value.word.text);
+                self.faults
+                    .push(fault.allowed(format!("a whole number from {least} to {most}")));
+                least
+            })
+    }
+
     /// 0 for none, or a length.
     pub(super) fn arm(&mut self, section: &[Value<'_>]) -> f64 {
         let found = section.iter().find(|value| value.name == "xact");

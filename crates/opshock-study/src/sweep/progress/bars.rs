@@ -122,7 +122,7 @@ impl Progress for Bars {
                 left(estimate)
             )),
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
-            Event::Stopping { in_flight } => state.say(&stopping(*in_flight)),
+            Event::Stopping { in_flight, ending } => state.say(&stopping(*in_flight, *ending)),
             Event::Finished {
                 totals,
                 wall_s,

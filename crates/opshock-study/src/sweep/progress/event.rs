@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Totals};
+use crate::sweep::options::Ending;
 
 /// Name of a point, as messages show it.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +55,8 @@ pub enum Event {
     Stopping {
         /// Simulations at work.
         in_flight: usize,
+        /// What stops the sweep.
+        ending: Ending,
     },
     /// The sweep begins.
     Started {

@@ -84,7 +84,7 @@ impl<W: Write + Send> Progress for Lines<W> {
                 state.say(&left(estimate));
             }
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
-            Event::Stopping { in_flight } => state.say(&stopping(*in_flight)),
+            Event::Stopping { in_flight, ending } => state.say(&stopping(*in_flight, *ending)),
             Event::Finished {
                 totals,
                 wall_s,

@@ -2,6 +2,7 @@
 
 use super::event::Estimate;
 use crate::store::summary::{PointSummary, Totals};
+use crate::sweep::options::Ending;
 
 /// `331.2 to 334.5 G`, `above 2000 G`, `below 20 G`.
 pub(super) fn answer(summary: &PointSummary) -> String {
@@ -45,13 +46,11 @@ fn duration(seconds: f64) -> String {
 }
 
 /// What a stop waits for.
-pub(super) fn stopping(in_flight: usize) -> String {
-    match in_flight {
-        0 => "stopping".to_owned(),
-        1 => "stopping once the simulation at work has ended; Ctrl-C again ends at once".to_owned(),
-        _ => format!(
-            "stopping once {in_flight} simulations at work have ended; Ctrl-C again ends at once"
-        ),
+pub(super) fn stopping(in_flight: usize, ending: Ending) -> String {
+    let waits = format!("stopping: {in_flight} simulations at work end first");
+    match ending {
+        Ending::Stopped { .. } => waits + "; a second signal (Ctrl-C) ends at once",
+        Ending::Budget | Ending::Complete => waits,
     }
 }
 
