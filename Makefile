@@ -153,7 +153,7 @@ verify-report: ## the report in headless Chromium, series read by VTK (installs 
 verify-mounts: bootstrap ## stores on file systems that are full or read-only (needs root, to mount them)
 	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture mounts_
 
-verify-hdf5: ## h5dump and h5py read every dataset with its units
+verify-hdf5: ## h5dump and h5py read every dataset with its units, pandas goes from the table to the histories
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture hdf5_readers
 

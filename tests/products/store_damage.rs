@@ -152,21 +152,72 @@ fn results_read_back_as_written() {
     assert_eq!(read.summary, reference.summary);
     assert_eq!(read.runs.len() as u64, reference.summary.totals.runs);
     let copy = folder.path().join("copy.h5");
-    results::write(&copy, &read).expect("writes");
+    results::write(&copy, &read, folder.path()).expect("writes");
     assert_eq!(
         results::read(&copy).expect("reads").expect("is there"),
         read
     );
-    for line in dump(&copy, &[]) {
-        let name = line.split(' ').next().expect("name");
-        assert!(
-            name.contains('@')
-                || dump(&copy, &[])
-                    .iter()
-                    .any(|other| other.starts_with(&format!("{name}@units"))),
-            "{name} has no units"
-        );
+    let lines = dump(&copy, &[]);
+    let names: Vec<&str> = lines
+        .iter()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    for name in names.iter().filter(|name| !name.contains('@')) {
+        for what in ["units", "description"] {
+            assert!(
+                names.contains(&&*format!("{name}@{what}")),
+                "{name} has no {what}"
+            );
+        }
     }
+    for group in [
+        "/",
+        "/points",
+        "/points/axes",
+        "/brackets",
+        "/runs",
+        "/machine",
+        "/machine/outside",
+    ] {
+        assert!(names.contains(&&*format!("{group}@description")), "{group}");
+    }
+
+    // Brackets are those of the JSON text, row by row.
+    let file = hdf5::File::open(&copy).expect("opens");
+    let column = |name: &str| {
+        file.dataset(name)
+            .expect("a column")
+            .read_raw::<f64>()
+            .expect("reads")
+    };
+    let place: Vec<u64> = file.dataset("brackets/point").unwrap().read_raw().unwrap();
+    let ends = column("brackets/lower_g")
+        .into_iter()
+        .zip(column("brackets/upper_g"));
+    let found: Vec<(u64, [f64; 2])> = place.into_iter().zip(ends.map(|(a, b)| [a, b])).collect();
+    let rows = (0..).zip(&read.summary.points);
+    let expected: Vec<(u64, [f64; 2])> = rows
+        .flat_map(|(place, row)| row.brackets_g.iter().map(move |pair| (place, *pair)))
+        .collect();
+    assert!(expected.len() >= read.summary.points.len());
+    assert_eq!(found, expected);
+
+    // A store of a program that wrote no descriptions, brackets and names of histories is read the same.
+    drop(file);
+    let file = hdf5::File::open_rw(&copy).expect("opens");
+    file.unlink("brackets").expect("removes");
+    file.unlink("runs/history").expect("removes");
+    for at in ["points", "runs"] {
+        file.group(at)
+            .unwrap()
+            .delete_attr("description")
+            .expect("removes");
+    }
+    file.close().expect("closes");
+    assert_eq!(
+        results::read(&copy).expect("reads").expect("is there"),
+        read
+    );
 }
 
 #[test]

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Mutex;
 
+use hdf5::types::VarLenUnicode;
 use opshock_study::search::{Flag, Ramp, Status};
-use opshock_study::store::summary::PointSummary;
+use opshock_study::store::summary::{AxisValue, PointSummary};
 use opshock_study::store::{Record, RunRecord, Store, folder::session, journal};
-use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, sweep};
-use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, study};
+use opshock_study::sweep::{Event, Progress, Silent, SweepOptions, SweepPoint, sweep};
+use opshock_tests::mock_sweep::{MockSimulator, Poison, Recorder, digest, study};
 
 #[test]
 fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
@@ -205,4 +206,110 @@ fn the_histories_of_the_bracket_are_kept_once() {
     run();
     assert_eq!(simulator.calls(), calls, "nothing is recorded twice");
     assert_eq!(files(), kept);
+}
+
+/// Names of histories carry the study's further axes, points of equal content share one, and files named without the
+/// axes, as earlier programs did, are used.
+#[test]
+fn histories_are_named_by_their_place_and_by_the_runs_that_they_are_of() {
+    let mut input = study(&[Ramp::None, Ramp::Rigid], &[0.5]);
+    let points = input.points.clone();
+    input.axes = vec!["clearance_um".into(), "head".into()];
+    let place = |clearance_um: f64, point: &SweepPoint| SweepPoint {
+        axes: vec![
+            AxisValue::Number(clearance_um),
+            AxisValue::Text("0 up".into()),
+        ],
+        ..point.clone()
+    };
+    // Without a ramp the clearance changes nothing.
+    let far = points.iter().map(|point| {
+        let mut point = place(100.5, point);
+        point.coordinates.axes = vec!["far".into()];
+        if point.coordinates.ramp != Ramp::None {
+            point.digest = digest(&format!("far {}", point.digest.hex()));
+        }
+        point
+    });
+    input.points = points
+        .iter()
+        .map(|point| place(80.0, point))
+        .chain(far)
+        .collect();
+    let folder = tempfile::tempdir().expect("folder");
+    let mut simulator = MockSimulator::new(&input);
+    simulator.records = true;
+    let options = SweepOptions::with_threads(1);
+    let run = || sweep(&input, &simulator, folder.path(), &options, &Silent).expect("sweeps");
+    let end = run();
+    let column = || -> Vec<(u64, f64, String)> {
+        let file = hdf5::File::open(folder.path().join("results.h5")).expect("opens");
+        let place: Vec<u64> = file.dataset("runs/point").unwrap().read_raw().unwrap();
+        let amplitude: Vec<f64> = file
+            .dataset("runs/amplitude_g")
+            .unwrap()
+            .read_raw()
+            .unwrap();
+        let history = file.dataset("runs/history").unwrap();
+        let history = history.read_raw::<VarLenUnicode>().unwrap();
+        let rows = place.into_iter().zip(amplitude).zip(history);
+        rows.map(|((place, amplitude), name)| (place, amplitude, name.to_string()))
+            .collect()
+    };
+    for (place, row) in (0..).zip(&end.summary.points) {
+        let clearance = match (row.ramp.as_str(), &row.axes[0]) {
+            ("none", _) => "80",
+            (_, AxisValue::Number(number)) if *number == 80.0 => "80",
+            _ => "100.5",
+        };
+        let sign = if row.sign.as_str() == "+" {
+            "plus"
+        } else {
+            "minus"
+        };
+        for amplitude_g in [row.a_crit_g.unwrap(), row.a_fail_g.unwrap()] {
+            let rows = column();
+            let named = rows
+                .iter()
+                .filter(|run| (run.0, run.1) == (place, amplitude_g));
+            let start = format!(
+                "histories/{}_0.5ms_{sign}_clearance_um={clearance}_head=0-up_{amplitude_g:.3}g_",
+                row.ramp
+            );
+            let named: Vec<&String> = named
+                .map(|run| &run.2)
+                .filter(|name| !name.is_empty())
+                .collect();
+            assert!(!named.is_empty(), "{place} {amplitude_g}");
+            for name in named {
+                assert!(name.starts_with(&start), "{name} {start}");
+                assert!(folder.path().join(name).is_file(), "{name}");
+            }
+        }
+    }
+    let kept: std::collections::BTreeSet<String> = column().into_iter().map(|run| run.2).collect();
+    // Both ends of two points without a ramp and of four with one, and the runs without a file.
+    assert_eq!(kept.len(), 2 * (2 + 4) + 1, "{kept:?}");
+
+    let calls = simulator.calls();
+    for name in kept.iter().filter(|name| !name.is_empty()) {
+        let (start, rest) = name.split_once("_clearance_um=").unwrap();
+        let (_, end) = rest.split_once("_head=0-up").unwrap();
+        std::fs::rename(
+            folder.path().join(name),
+            folder.path().join(format!("{start}{end}")),
+        )
+        .unwrap();
+    }
+    run();
+    assert_eq!(simulator.calls(), calls, "nothing is recorded twice");
+    let names: Vec<String> = column().into_iter().map(|run| run.2).collect();
+    assert!(names.iter().all(|name| !name.contains("clearance")));
+    assert_eq!(
+        names
+            .iter()
+            .collect::<std::collections::BTreeSet<_>>()
+            .len(),
+        kept.len()
+    );
 }

@@ -173,7 +173,7 @@ impl Store {
     /// The disk refused; the former file is in place.
     pub fn checkpoint(&self, results: &Results) -> Result<PathBuf, StoreError> {
         let path = self.folder.join(RESULTS_FILE);
-        results::write(&path, results)?;
+        results::write(&path, results, &self.folder)?;
         Ok(path)
     }
 }

@@ -289,14 +289,14 @@ fn decode_run(input: &mut Input<'_>) -> Option<RunRecord> {
     })
 }
 
-/// Names of a run's numbers of work, in the order of [`cost_counts`].
-pub(super) const COST_NAMES: [&str; 6] = [
-    "steps",
-    "rejected",
-    "film_solves",
-    "factorisations",
-    "structure_steps",
-    "film_unknowns",
+/// Names of a run's numbers of work and what they count, in the order of [`cost_counts`].
+pub(super) const COSTS: [(&str, &str); 6] = [
+    ("steps", "accepted time steps of the head"),
+    ("rejected", "rejected time steps of the head"),
+    ("film_solves", "solutions of the film's linear equations"),
+    ("factorisations", "factorisations of the film's matrix"),
+    ("structure_steps", "time steps of disk and ramp"),
+    ("film_unknowns", "cells of the film"),
 ];
 
 /// Numbers of work of a run.

@@ -11,6 +11,7 @@ use serde::{Serialize, Serializer};
 
 pub use crate::search::{Flag, Status};
 use crate::search::{ProbeResult, Purpose, RunCost, Sign, Verdict};
+use crate::study;
 
 /// Value of a further axis of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +21,17 @@ pub enum AxisValue {
     Number(f64),
     /// A word, a file, a truth value.
     Text(String),
+}
+
+impl From<&study::AxisValue> for AxisValue {
+    fn from(value: &study::AxisValue) -> Self {
+        match value {
+            study::AxisValue::Number(number) => AxisValue::Number(*number),
+            study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
+            study::AxisValue::Word(word) => AxisValue::Text(word.clone()),
+            study::AxisValue::Flag(flag) => AxisValue::Text(flag.to_string()),
+        }
+    }
 }
 
 impl std::fmt::Display for AxisValue {

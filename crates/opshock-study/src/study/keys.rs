@@ -136,6 +136,18 @@ pub fn find(path: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.path == pattern)
 }
 
+/// What an axis of a study is, by the name of its column in tables ([`Axis::column`](super::Axis::column)): the key at
+/// that path, or those with that last name.
+pub fn described(column: &str) -> String {
+    let named = |key: &&Key| key.path == column || (key.may_be_axis() && key.name() == column);
+    let found: Vec<String> = KEYS
+        .iter()
+        .filter(named)
+        .map(|key| format!("{}: {}", key.path, key.help))
+        .collect();
+    found.join(" Or ")
+}
+
 /// Whether some key lies below a path.
 pub fn is_table(pattern: &str) -> bool {
     KEYS.iter().any(|key| {

@@ -12,7 +12,7 @@ use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::uncertainty::MOST_STEPS;
 use crate::search::{AmplitudeGridError, Coordinates, SearchSettings, Sign};
-use crate::store::{AxisValue, PointDigest, StudyTexts};
+use crate::store::{PointDigest, StudyTexts};
 use crate::study::{Faces, Point, Study};
 
 impl SweepInput {
@@ -95,11 +95,7 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
                 .collect(),
             round: point.round,
         },
-        axes: point
-            .axes
-            .iter()
-            .map(|(_, value)| summarised(value))
-            .collect(),
+        axes: point.axes.iter().map(|(_, value)| value.into()).collect(),
         digest: digest(point, point.sign),
         uncertainty: search
             .uncertainty
@@ -160,15 +156,6 @@ fn digest(point: &Point, sign: Sign) -> PointDigest {
         hasher.update(b"faces up");
     }
     PointDigest(*hasher.finalize().as_bytes())
-}
-
-fn summarised(value: &crate::study::AxisValue) -> AxisValue {
-    match value {
-        crate::study::AxisValue::Number(number) => AxisValue::Number(*number),
-        crate::study::AxisValue::Integer(number) => AxisValue::Number(*number as f64),
-        crate::study::AxisValue::Word(word) => AxisValue::Text(word.clone()),
-        crate::study::AxisValue::Flag(flag) => AxisValue::Text(flag.to_string()),
-    }
 }
 
 /// Text that sorts as the value does.

@@ -4,6 +4,7 @@
 //! more with recording; the answer is the same to the bit. An existing file is used when it is whole and belongs to
 //! this run.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use super::input::SweepInput;
@@ -27,11 +28,14 @@ pub(super) struct Wanted {
 
 impl Wanted {
     fn run<'a>(&self, input: &'a SweepInput) -> KeptRun<'a> {
-        let at = &input.points[self.point].coordinates;
+        let point = &input.points[self.point];
+        let at = &point.coordinates;
         KeptRun {
             ramp: at.ramp.as_str(),
             pulse_ms: at.pulse_ms,
             sign: at.sign,
+            axes: &input.axes,
+            values: &point.axes,
             amplitude_g: self.amplitude_g,
             key: self.key,
             start_s: input.start_s,
@@ -61,15 +65,22 @@ impl Wanted {
     }
 }
 
-/// Histories of final points.
+/// Histories of final points. Points of equal content share theirs, which is that of the first.
 pub(super) fn wanted(input: &SweepInput, registry: &Registry<'_>) -> Vec<Wanted> {
-    let mut wanted = Vec::new();
+    let (mut wanted, mut keys) = (Vec::new(), HashSet::new());
     for point in (0..input.points.len()).filter(|&point| registry.wants(point)) {
+        let digest = input.points[point].digest;
+        let mut points = input.points.iter();
+        let first = points.position(|other| other.digest == digest);
         for probe in probes(input, registry, point) {
+            let key = registry.key(point, probe);
+            if !keys.insert(key) {
+                continue;
+            }
             wanted.push(Wanted {
-                point,
+                point: first.unwrap_or(point),
                 probe,
-                key: registry.key(point, probe),
+                key,
                 amplitude_m_per_s2: registry.amplitude_m_per_s2(point, probe),
                 amplitude_g: input.settings.grid.amplitude_g(probe.index),
             });
@@ -139,20 +150,16 @@ pub(super) fn record(
         None => ("none", None),
     };
     let at = &input.points[*point];
-    let mut coordinates = vec![
-        ("ramp".to_owned(), at.coordinates.ramp.to_string()),
-        ("pulse_ms".to_owned(), at.coordinates.pulse_ms.to_string()),
-        ("sign".to_owned(), at.coordinates.sign.as_str().to_owned()),
-    ];
-    for (name, value) in input.axes.iter().zip(&at.axes) {
-        coordinates.push((name.clone(), value.to_string()));
-    }
+    let axes = input.axes.iter().cloned().zip(at.axes.iter().cloned());
     let header = HistoryHeader {
         study: input.texts.name.clone(),
         digest: input.texts.digest.clone(),
         program_version: provenance::VERSION.to_owned(),
         commit: provenance::COMMIT.to_owned(),
-        point: coordinates,
+        ramp: at.coordinates.ramp.to_string(),
+        pulse_ms: at.coordinates.pulse_ms,
+        sign: at.coordinates.sign,
+        axes: axes.collect(),
         amplitude_g: *amplitude_g,
         start_s: input.start_s,
         verdict: verdict.to_owned(),

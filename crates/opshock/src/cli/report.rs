@@ -132,7 +132,7 @@ pub fn run(
     if let Some(out) = &arguments.out {
         let mut files = report_files(&source).context("cannot draw the report")?;
         // What the table shows, whatever became of the store's own file.
-        let bytes = results::bytes(&out.join(RESULTS_FILE), &results)?;
+        let bytes = results::bytes(&out.join(RESULTS_FILE), &results, &folder)?;
         files.push((RESULTS_FILE, bytes));
         for path in aside::write_all(out, files)? {
             console.tell(&format!("wrote {}", path.display()));

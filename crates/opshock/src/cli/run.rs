@@ -164,23 +164,18 @@ fn write_history(
 
 fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
     let point = &shot.point;
-    let mut coordinates = vec![
-        ("ramp".to_owned(), point.ramp.to_string()),
-        ("pulse_ms".to_owned(), point.pulse_ms.to_string()),
-        ("sign".to_owned(), point.sign.to_string()),
-    ];
-    coordinates.extend(
-        point
-            .axes
-            .iter()
-            .map(|(name, value)| (name.clone(), value.to_string())),
-    );
+    let axes = point.axes.iter();
     HistoryHeader {
         study: study.name.clone(),
         digest: study.digest_hex(),
         program_version: provenance::VERSION.to_owned(),
         commit: provenance::COMMIT.to_owned(),
-        point: coordinates,
+        ramp: point.ramp.to_string(),
+        pulse_ms: point.pulse_ms,
+        sign: point.sign,
+        axes: axes
+            .map(|(name, value)| (name.clone(), value.into()))
+            .collect(),
         amplitude_g: shot.amplitude_g,
         start_s: study.start_s,
         verdict: outcome

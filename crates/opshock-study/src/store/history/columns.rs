@@ -1,9 +1,11 @@
 //! Header and columns of a history file.
 
+use crate::search::Sign;
+use crate::store::summary::AxisValue;
 use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
 
 /// Number of the history file format; raised when a reader of the older one would go wrong.
-pub const HISTORY_FORMAT: u32 = 1;
+pub const HISTORY_FORMAT: u32 = 2;
 
 /// Header of a history file.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +18,14 @@ pub struct HistoryHeader {
     pub program_version: String,
     /// Commit the program was built from.
     pub commit: String,
-    /// What was simulated: key and value as a person would write them (`ramp`, `pulse_ms`, `sign`, axes).
-    pub point: Vec<(String, String)>,
+    /// Ramp model.
+    pub ramp: String,
+    /// Pulse width, ms.
+    pub pulse_ms: f64,
+    /// Sign of the shock.
+    pub sign: Sign,
+    /// Names of the study's further axes and the run's place on them.
+    pub axes: Vec<(String, AxisValue)>,
     /// Amplitude without sign, multiples of standard gravity.
     pub amplitude_g: f64,
     /// Onset of the pulse on the study's time axis, s.

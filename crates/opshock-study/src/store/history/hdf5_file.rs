@@ -5,6 +5,7 @@ use super::columns::{
 };
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::store::error::StoreError;
+use crate::store::summary::AxisValue;
 use crate::store::{aside, hdf5_file, seal};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, Location};
@@ -14,8 +15,9 @@ use std::path::Path;
 /// Writes a history in the layout of the [module](super). Root attributes: `format` (`opshock history`),
 /// `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`,
 /// `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none),
-/// `effects`, and one attribute `point_KEY` per coordinate of the simulated point. Every dataset has `units`,
-/// `description` and `time`, the path of the dataset it is given on.
+/// `effects`, and one attribute `point_KEY` per coordinate of the simulated point: a number where it is one. Every
+/// dataset has `units`, `description` and `time`, the path of the dataset it is given on; every group has
+/// `description`.
 ///
 /// # Errors
 ///
@@ -33,6 +35,11 @@ pub fn write_hdf5(
 fn fill(root: &Group, history: &History, header: &HistoryHeader) -> hdf5::Result<()> {
     text(root, "format", "opshock history")?;
     number(root, "format_version", HISTORY_FORMAT)?;
+    text(
+        root,
+        "description",
+        "one shock over time: all columns on the time of disk and ramp; those of the head are interpolated",
+    )?;
     text(root, "program_version", &header.program_version)?;
     text(root, "commit", &header.commit)?;
     number(root, "physics_structure", PHYSICS_STRUCTURE)?;
@@ -40,8 +47,15 @@ fn fill(root: &Group, history: &History, header: &HistoryHeader) -> hdf5::Result
     text(root, "study", &header.study)?;
     text(root, "study_digest", &header.digest)?;
     text(root, "run_blake3", &header.run)?;
-    for (key, value) in &header.point {
-        text(root, &format!("point_{key}"), value)?;
+    text(root, "point_ramp", &header.ramp)?;
+    number(root, "point_pulse_ms", header.pulse_ms)?;
+    text(root, "point_sign", header.sign.as_str())?;
+    for (axis, value) in &header.axes {
+        let name = format!("point_{axis}");
+        match value {
+            AxisValue::Number(value) => number(root, &name, *value)?,
+            AxisValue::Text(value) => text(root, &name, value)?,
+        }
     }
     number(root, "amplitude_g", header.amplitude_g)?;
     number(root, "start_s", header.start_s)?;

@@ -11,6 +11,10 @@ use crate::store::error::StoreError;
 use crate::store::files::{self, RealFiles};
 use crate::store::names::HISTORIES;
 use crate::store::record::RunKey;
+use crate::store::summary::AxisValue;
+
+/// Letters of the place on the axes at most: a name of 255 is the longest that file systems take.
+const LONGEST_PLACE: usize = 150;
 
 /// A simulation of a study whose history may be kept.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +25,10 @@ pub struct KeptRun<'a> {
     pub pulse_ms: f64,
     /// Sign.
     pub sign: Sign,
+    /// Names of the study's further axes.
+    pub axes: &'a [String],
+    /// Its place on them.
+    pub values: &'a [AxisValue],
     /// Amplitude without sign, G.
     pub amplitude_g: f64,
     /// The simulation by its content, physics versions included.
@@ -32,8 +40,14 @@ pub struct KeptRun<'a> {
 }
 
 impl KeptRun<'_> {
-    /// Its file in a store: `histories/RAMP_WIDTHms_SIGN_AMPLITUDEg_DIGEST.h5`.
+    /// Its file in a store: `histories/RAMP_WIDTHms_SIGN[_AXIS=VALUE...]_AMPLITUDEg_DIGEST.h5`.
     pub fn path(&self, store: &Path) -> PathBuf {
+        let [name, _] = self.names();
+        store.join(HISTORIES).join(name)
+    }
+
+    /// Name of its file, and the one that programs gave it which left the axes out.
+    pub(in crate::store) fn names(&self) -> [String; 2] {
         let mut labels = String::new();
         if self.key.window_factor != 1 {
             labels += "_window";
@@ -47,13 +61,28 @@ impl KeptRun<'_> {
             Sign::Plus => "plus",
             Sign::Minus => "minus",
         };
-        store.join(HISTORIES).join(format!(
-            "{}_{}ms_{sign}_{:.3}g{labels}_{}.h5",
-            self.ramp,
-            self.pulse_ms,
-            self.amplitude_g,
-            &self.key.point.hex()[..12]
-        ))
+        [self.place(), String::new()].map(|place| {
+            format!(
+                "{}_{}ms_{sign}{place}_{:.3}g{labels}_{}.h5",
+                self.ramp,
+                self.pulse_ms,
+                self.amplitude_g,
+                &self.key.point.hex()[..12]
+            )
+        })
+    }
+
+    /// Its place on the further axes, in letters that any file system takes.
+    fn place(&self) -> String {
+        let pairs = self.axes.iter().zip(self.values);
+        let text: String = pairs
+            .map(|(axis, value)| format!("_{axis}={value}"))
+            .collect();
+        let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._=+-".contains(letter);
+        text.chars()
+            .map(|letter| if is_plain(letter) { letter } else { '-' })
+            .take(LONGEST_PLACE)
+            .collect()
     }
 
     /// Digest of everything that decides what a history of it holds.
@@ -78,14 +107,24 @@ impl KeptRun<'_> {
         hasher.finalize().to_hex().to_string()
     }
 
+    /// Its file in a store and what that holds; `None` when there is none.
+    fn find(&self, store: &Path) -> Result<Option<(PathBuf, Vec<u8>)>, StoreError> {
+        for name in self.names() {
+            let path = store.join(HISTORIES).join(name);
+            if let Some(bytes) = files::read(&RealFiles, &path)? {
+                return Ok(Some((path, bytes)));
+            }
+        }
+        Ok(None)
+    }
+
     /// Copies its history from one store into another; `false` when there is none.
     ///
     /// # Errors
     ///
     /// As [`KeptRun::read`]; E183 it cannot be written.
     pub fn copy(&self, from: &Path, to: &Path) -> Result<bool, StoreError> {
-        let path = self.path(from);
-        let Some(bytes) = files::read(&RealFiles, &path)? else {
+        let Some((path, bytes)) = self.find(from)? else {
             return Ok(false);
         };
         let is_it = parse(&path, &bytes)?.run == self.content();
@@ -101,8 +140,7 @@ impl KeptRun<'_> {
     ///
     /// E182 the file is damaged or has no seal, E183 it cannot be read.
     pub fn read(&self, store: &Path) -> Result<Option<StoredHistory>, StoreError> {
-        let path = self.path(store);
-        let Some(bytes) = files::read(&RealFiles, &path)? else {
+        let Some((path, bytes)) = self.find(store)? else {
             return Ok(None);
         };
         let history = parse(&path, &bytes)?;

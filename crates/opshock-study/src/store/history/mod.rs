@@ -12,7 +12,8 @@
 //! So any two root columns can be drawn against each other at once, and nothing computed is lost.
 //! Extremes of the head belong to `/head`, interpolation may cut them off.
 //! Times are on the study's axis: the pulse starts at [`HistoryHeader::start_s`].
-//! An HDF5 file ends with a seal (`store/seal.rs`).
+//! An HDF5 file ends with a seal (`store/seal.rs`). Coordinates of the point that are numbers are numbers in the
+//! attributes since format 2; before they were text.
 
 mod columns;
 mod csv_file;

@@ -56,7 +56,12 @@ fn content(inside: &[u8]) -> hdf5::Result<StoredHistory> {
     let mut point = BTreeMap::new();
     for name in file.attr_names()? {
         if let Some(key) = name.strip_prefix("point_") {
-            point.insert(key.to_owned(), text(&name)?);
+            // Format 1 has numbers as text.
+            let value = match file.attr(&name)?.read_scalar::<f64>() {
+                Ok(number) => number.to_string(),
+                Err(_) => text(&name)?,
+            };
+            point.insert(key.to_owned(), value);
         }
     }
     let mut columns = BTreeMap::new();

@@ -1,4 +1,6 @@
 use super::*;
+use crate::search::Sign;
+use crate::store::summary::AxisValue;
 use opshock_solver::simulation::History;
 use opshock_solver::simulation::{HeadColumns, StructureColumns};
 
@@ -45,7 +47,13 @@ fn header() -> HistoryHeader {
         digest: "d1gest".into(),
         program_version: "0.1.0".into(),
         commit: "abc".into(),
-        point: vec![("ramp".into(), "rigid".into()), ("sign".into(), "+".into())],
+        ramp: "rigid".into(),
+        pulse_ms: 0.5,
+        sign: Sign::Plus,
+        axes: vec![
+            ("clearance_um".into(), AxisValue::Number(80.0)),
+            ("head".into(), AxisValue::Text("0 up".into())),
+        ],
         amplitude_g: 400.0,
         start_s: 5e-4,
         verdict: "fails".into(),
@@ -86,6 +94,14 @@ fn hdf5_carries_both_time_axes_units_and_provenance() {
     assert_eq!(text(&root, "study_digest"), "d1gest");
     assert_eq!(text(&root, "point_ramp"), "rigid");
     assert_eq!(text(&root, "effects"), "disk ramp.rigid");
+    for (name, value) in [("point_pulse_ms", 0.5), ("point_clearance_um", 80.0)] {
+        let found: f64 = root.attr(name).unwrap().read_scalar().unwrap();
+        assert_eq!(found, value, "{name}");
+    }
+    let read = parse(&path, &std::fs::read(&path).unwrap()).unwrap();
+    assert_eq!(read.point["pulse_ms"], "0.5");
+    assert_eq!(read.point["head"], "0 up");
+    assert!(text(&root, "description").starts_with("one shock over time"));
 
     let time = column("time_s");
     assert_eq!(time, [5e-4, 5e-4 + 1e-6, 5e-4 + 2e-6, 5e-4 + 3e-6]);

@@ -1,4 +1,6 @@
-//! Columns of a table in HDF5: one dataset each, with its unit.
+//! Columns of a table in HDF5: one dataset each, with its unit and what it is.
+
+use std::borrow::Cow;
 
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, H5Type, Location};
@@ -21,13 +23,19 @@ pub(super) enum Values {
 pub(super) struct Column {
     pub name: String,
     pub units: &'static str,
+    /// What it is, as written to the attribute `description`.
+    pub description: Text,
     pub values: Values,
 }
+
+/// A sentence, of the program or put together.
+pub(super) type Text = Cow<'static, str>;
 
 /// Column of numbers.
 pub(super) fn numbers<'a, T: 'a>(
     name: &str,
     units: &'static str,
+    description: impl Into<Text>,
     rows: impl IntoIterator<Item = &'a T>,
     of: impl Fn(&T) -> Option<f64>,
 ) -> Column {
@@ -38,6 +46,7 @@ pub(super) fn numbers<'a, T: 'a>(
     Column {
         name: name.to_owned(),
         units,
+        description: description.into(),
         values: Values::Numbers(values),
     }
 }
@@ -45,12 +54,14 @@ pub(super) fn numbers<'a, T: 'a>(
 /// Column of whole numbers.
 pub(super) fn counts<'a, T: 'a>(
     name: &str,
+    description: impl Into<Text>,
     rows: impl IntoIterator<Item = &'a T>,
     of: impl Fn(&T) -> u64,
 ) -> Column {
     Column {
         name: name.to_owned(),
         units: "1",
+        description: description.into(),
         values: Values::Counts(rows.into_iter().map(of).collect()),
     }
 }
@@ -58,14 +69,23 @@ pub(super) fn counts<'a, T: 'a>(
 /// Column of words.
 pub(super) fn texts<'a, T: 'a>(
     name: &str,
+    description: impl Into<Text>,
     rows: impl IntoIterator<Item = &'a T>,
     of: impl Fn(&T) -> String,
 ) -> Column {
     Column {
         name: name.to_owned(),
         units: "text",
+        description: description.into(),
         values: Values::Texts(rows.into_iter().map(of).collect()),
     }
+}
+
+/// Makes a group and says what it is.
+pub(super) fn group(parent: &Group, name: &str, description: &str) -> hdf5::Result<Group> {
+    let group = parent.create_group(name)?;
+    put_text(&group, "description", description)?;
+    Ok(group)
 }
 
 /// Writes columns into a group.
@@ -73,6 +93,7 @@ pub(super) fn write(group: &Group, columns: &[Column]) -> hdf5::Result<()> {
     for Column {
         name,
         units,
+        description,
         values,
     } in columns
     {
@@ -89,6 +110,7 @@ pub(super) fn write(group: &Group, columns: &[Column]) -> hdf5::Result<()> {
             }
         };
         put_text(&dataset, "units", units)?;
+        put_text(&dataset, "description", description)?;
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::store::error::StoreError;
 use crate::store::files::{self, RealFiles};
 use crate::store::hdf5_file;
 use crate::store::record::{
-    COST_NAMES, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
+    COSTS, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch, cost_from,
 };
 use crate::store::seal::{self, Sealed};
 use crate::store::summary::{
@@ -326,7 +326,8 @@ fn records(group: &Group, times: &Group, points: &[PointDigest]) -> hdf5::Result
         .collect::<hdf5::Result<_>>()?;
     let counts: Vec<Vec<u64>> = ["window_factor", "retry"]
         .iter()
-        .chain(&COST_NAMES)
+        .copied()
+        .chain(COSTS.map(|(name, _)| name))
         .map(|name| get(group, name))
         .collect::<hdf5::Result<_>>()?;
     let words: Vec<Vec<String>> = ["verdict", "cause", "message"]

@@ -118,18 +118,25 @@ impl Results {
 
     /// Runs at the study's own resolution: their histories may be kept.
     pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
-        let rows = self.runs.iter().filter(|row| row.levels.is_none());
-        rows.map(|row| {
-            let point = &self.summary.points[row.point];
-            KeptRun {
-                ramp: &point.ramp,
-                pulse_ms: point.pulse_ms,
-                sign: point.sign,
-                amplitude_g: row.amplitude_g,
-                key: row.run.key,
-                start_s: self.start_s,
-                plan: &self.plan,
-            }
+        self.runs.iter().filter_map(|row| self.kept_run(row))
+    }
+
+    /// The run of a row, when it is one at the study's own resolution. Points of equal content share their runs, which
+    /// are those of the first.
+    pub(super) fn kept_run(&self, row: &RunRow) -> Option<KeptRun<'_>> {
+        let digest = self.points[row.point].digest;
+        let first = self.points.iter().position(|other| other.digest == digest);
+        let point = &self.summary.points[first.unwrap_or(row.point)];
+        row.levels.is_none().then_some(KeptRun {
+            ramp: &point.ramp,
+            pulse_ms: point.pulse_ms,
+            sign: point.sign,
+            axes: &self.summary.axes,
+            values: &point.axes,
+            amplitude_g: row.amplitude_g,
+            key: row.run.key,
+            start_s: self.start_s,
+            plan: &self.plan,
         })
     }
 
