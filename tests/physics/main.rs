@@ -11,6 +11,7 @@ mod contact_method;
 mod contact_stiffness;
 mod coupled_ramp;
 mod dimple;
+mod disk_displacements;
 mod effects;
 mod effects_hard_cases;
 #[cfg(feature = "mutants")]

@@ -146,7 +146,7 @@ fn a_shock_becomes_three_series_that_hold_its_motion() {
     let across = disk[disk.len() - around / 2];
     assert!((rim - across).abs() > 1e-3 * rim.abs());
     assert!(
-        (rim - of("disk_rim_m")).abs() < 1e-6 * rim.abs(),
+        (rim - of("disk_rim_m")).abs() < 1e-12 * rim.abs(),
         "{rim} {}",
         of("disk_rim_m")
     );

@@ -8,7 +8,7 @@ use crate::head::HeadResolution;
 use crate::ramp::RampParameters;
 use crate::shock::{BaseMode, ObliqueShock, Pulse};
 use crate::slider::SliderParameters;
-use crate::structure::{StructureResolution, Window};
+use crate::structure::{SliderPlace, StructureParameters, StructureResolution, Window};
 use crate::suspension::SuspensionParameters;
 
 /// Everything one simulation needs but the amplitude.
@@ -64,6 +64,25 @@ impl Scene {
             spin_rad_per_s: self.disk.spin_rad_per_s,
         };
         (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
+    }
+
+    /// Disk, ramp, pulse and window, observed under the slider.
+    pub fn structure(&self) -> StructureParameters<'_> {
+        StructureParameters {
+            disk: &self.disk,
+            disk_resolution: &self.disk_resolution,
+            ramp: &self.ramp,
+            slider: SliderPlace {
+                radius_m: self.slider.radius_m,
+                angle_rad: self.slider.angle_rad,
+                skew_rad: self.slider.skew_rad,
+            },
+            pulse: &self.pulse,
+            oblique: self.oblique.as_ref(),
+            base: &self.base,
+            window: self.window,
+            resolution: &self.structure_resolution,
+        }
     }
 
     /// The film under the slider, over the disk at its speed, and the scene's other forces in the gap.

@@ -10,7 +10,7 @@ use crate::head::{HeadError, HeadModel};
 use crate::mutant;
 use crate::scene::Scene;
 use crate::scene::plan::{Decision, Mode, Needs, Output, Plan, Touch};
-use crate::structure::{SliderPlace, StructureError, StructureModel, StructureParameters};
+use crate::structure::{StructureError, StructureModel};
 
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -217,7 +217,7 @@ impl Model {
     /// the same place: the same structural history at every amplitude.
     pub fn has_structure(&self, scene: &Scene, plan: &Plan) -> bool {
         let own = &self.scene;
-        let place = slider_place(own) == slider_place(scene);
+        let place = own.structure().slider == scene.structure().slider;
         let steps = own.structure_resolution == scene.structure_resolution;
         all_agree([
             ("R9 disk", own.disk == scene.disk),
@@ -281,31 +281,12 @@ fn all_agree<const N: usize>(conditions: [(&str, bool); N]) -> bool {
 
 /// Disk and ramp of `scene` as `plan` needs them.
 fn build_structure(scene: &Scene, plan: &Plan) -> Result<StructureModel, StructureError> {
-    let parameters = StructureParameters {
-        disk: &scene.disk,
-        disk_resolution: &scene.disk_resolution,
-        ramp: &scene.ramp,
-        slider: slider_place(scene),
-        pulse: &scene.pulse,
-        oblique: scene.oblique.as_ref(),
-        base: &scene.base,
-        window: scene.window,
-        resolution: &scene.structure_resolution,
-    };
-    let structure = StructureModel::build(&parameters, plan.harmonics(scene))?;
+    let structure = StructureModel::build(&scene.structure(), plan.harmonics(scene))?;
     let structure = structure.with_activation(plan.activation);
     Ok(match plan.needs {
         Needs::Head => structure,
         Needs::Structure | Needs::Flight => structure.without_motion(),
     })
-}
-
-fn slider_place(scene: &Scene) -> SliderPlace {
-    SliderPlace {
-        radius_m: scene.slider.radius_m,
-        angle_rad: scene.slider.angle_rad,
-        skew_rad: scene.slider.skew_rad,
-    }
 }
 
 /// Share of the load a film can carry at which it is sampled if it cannot carry that of the scene.

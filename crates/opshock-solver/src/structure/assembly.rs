@@ -76,22 +76,9 @@ impl StructureModel {
         slow_corrections(&mut basis, step_s);
 
         let has_harmonics = basis.modes.iter().any(|mode| mode.nodal_diameters > 0);
-        let mut carried = Vec::new();
-        if is_on_hub || !base.is_empty() {
-            // The rotor holds the modes that move with hub and base.
-            let all = std::mem::take(&mut basis.modes);
-            let on_it = |mode: &DiskMode| is_carried(mode, is_on_hub);
-            (carried, basis.modes) = all.into_iter().partition(on_it);
-        }
-        let assembly = Assembly {
-            disk: disk.clone(),
-            ramp: ramp.clone(),
-            slider,
-            oblique: oblique.copied(),
-            has_riding: !base.is_empty() || ramp.model.relaxes(),
-            method: resolution.contact,
-            step_s,
-        };
+        let carried;
+        (carried, basis.modes) = Assembly::split(parameters, std::mem::take(&mut basis.modes));
+        let assembly = Assembly::of(parameters, step_s);
         let (mut bank, arms) = assembly.bank(&basis.modes);
         let riding = bank.riding.take().unwrap_or_default();
         let rotor = Rotor::build(
@@ -159,7 +146,7 @@ impl StructureModel {
 }
 
 /// What the bank of disk and arms is assembled from.
-struct Assembly {
+pub(super) struct Assembly {
     disk: DiskParameters,
     ramp: RampParameters,
     slider: SliderPlace,
@@ -170,8 +157,32 @@ struct Assembly {
 }
 
 impl Assembly {
+    pub fn of(parameters: &StructureParameters<'_>, step_s: f64) -> Self {
+        let StructureParameters { ramp, base, .. } = *parameters;
+        Self {
+            disk: parameters.disk.clone(),
+            ramp: ramp.clone(),
+            slider: parameters.slider,
+            oblique: parameters.oblique.copied(),
+            has_riding: !base.is_empty() || ramp.model.relaxes(),
+            method: parameters.resolution.contact,
+            step_s,
+        }
+    }
+
+    /// Modes of the disk that the rotor holds because they move with hub and base, and the others.
+    pub fn split(
+        parameters: &StructureParameters<'_>,
+        modes: Vec<DiskMode>,
+    ) -> (Vec<DiskMode>, Vec<DiskMode>) {
+        let is_on_hub = parameters.disk.hub.is_some();
+        let has_rotor = is_on_hub || !parameters.base.is_empty();
+        let on_it = |mode: &DiskMode| has_rotor && is_carried(mode, is_on_hub);
+        modes.into_iter().partition(on_it)
+    }
+
     /// Modes of the disk and both arms in one bank, padded.
-    fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
+    pub fn bank(&self, modes: &[DiskMode]) -> (Bank, [Arm; 2]) {
         let Self { disk, ramp, .. } = self;
         let mut bank = Bank::new(modes, disk, self.slider, ramp.angle_rad, self.has_riding);
         let spring = Spring::of(ramp, self.method, self.step_s);
@@ -216,7 +227,7 @@ fn divided_step_s(basis: &DiskBasis, resolution: &DiskResolution, step_s: f64) -
 }
 
 /// Slows static corrections that are too fast for the step; φ/ω, and with it the compliance, stays the same.
-fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
+pub(super) fn slow_corrections(basis: &mut DiskBasis, step_s: f64) {
     let limit = FASTEST_DISK_ANGLE / step_s;
     for mode in &mut basis.modes {
         if mode.nodal_circles.is_none() && mode.omega_rad_per_s > limit {

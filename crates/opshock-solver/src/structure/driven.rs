@@ -199,7 +199,7 @@ impl Driven {
 }
 
 /// Sorts the bank: the arms' modes, then the disk's by rising damping. Returns the arms with their new indices.
-fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
+pub(super) fn sorted(mut bank: Bank, arms: [Arm; 2]) -> (Bank, [Arm; 2]) {
     let is_used = |&i: &usize| bank.oscillators[i].omega_rad_per_s > 0.0;
     let disk = (0..bank.n_disk).filter(is_used);
     let mut disk: Vec<usize> = disk.collect();

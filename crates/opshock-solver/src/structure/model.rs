@@ -8,6 +8,7 @@ use super::rotor::Rotor;
 use super::run_in_progress::{RunInProgress, RunState};
 use super::sample::unit_gap;
 use super::shared::Shared;
+use super::snapshot::{Snapshot, Snapshots};
 use super::time_grid::count_steps;
 use crate::complementarity::{self, ContactMemory, Gap};
 use crate::mutant;
@@ -129,10 +130,10 @@ impl StructureModel {
         if !amplitude_m_per_s2.is_finite() {
             return Err(StructureError::NotFinite { time_s: 0.0 });
         }
-        if shared.method == ContactMethod::MoreauJean {
-            return self.run_moreau_jean(amplitude_m_per_s2, record);
-        }
         let state = workspace.state.get_or_insert_with(RunState::default);
+        if shared.method == ContactMethod::MoreauJean {
+            return self.run_moreau_jean(amplitude_m_per_s2, record, &mut state.snapshots);
+        }
         state.prepare(shared, record, self.keeps_motion);
         let amplitude_m_per_s2 = match mutant::is_on("R5 sign") {
             true => amplitude_m_per_s2.abs(),
@@ -172,6 +173,30 @@ impl StructureModel {
             }
         }
         system.into_run().finish()
+    }
+
+    /// Runs the signed amplitude and keeps the states at `nodes`, which rise, as far as the run gets.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub(super) fn run_keeping(
+        &self,
+        amplitude_m_per_s2: f64,
+        nodes: Vec<usize>,
+        workspace: &mut Workspace,
+    ) -> Result<Vec<Snapshot>, StructureError> {
+        let state = workspace.state.get_or_insert_with(RunState::default);
+        state.snapshots = Snapshots {
+            nodes,
+            taken: Vec::new(),
+        };
+        // Only a run that records visits every node.
+        let run = self.run(amplitude_m_per_s2, true, workspace);
+        let kept = workspace
+            .state
+            .as_mut()
+            .map(|state| std::mem::take(&mut state.snapshots));
+        run.map(|_| kept.unwrap_or_default().taken)
     }
 
     /// Smallest |amplitude| of the given sign at which the disk touches this ramp within the window, by linearity from

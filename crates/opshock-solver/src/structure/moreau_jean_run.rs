@@ -25,6 +25,7 @@ use super::parameters::Window;
 use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{RotorScratch, RotorState};
 use super::shared::Shared;
+use super::snapshot::Snapshots;
 use crate::complementarity::moreau_jean::{LinearMode, MoreauJean};
 use crate::disk::DiskPose;
 use crate::modal::bank::dot;
@@ -61,13 +62,21 @@ impl StructureModel {
         &self,
         amplitude: f64,
         record: bool,
+        snapshots: &mut Snapshots,
     ) -> Result<StructureRun, StructureError> {
         let shared = &*self.shared;
         let mut march = March::new(shared, shared.driven()?, amplitude, record);
+        // Its state is the whole motion.
+        let mut keep = |k: usize, march: &March<'_>| {
+            let modes = [&*march.now.q_re, &*march.now.q_im];
+            snapshots.offer(k, modes, &march.rotor_now, 0.0);
+        };
         march.record_node(0);
+        keep(0, &march);
         for k in 0..shared.n_steps {
             march.step(k);
             march.record_node(k + 1);
+            keep(k + 1, &march);
             if march.decayed() || !march.last.energies.fixed_frame.is_finite() {
                 break;
             }

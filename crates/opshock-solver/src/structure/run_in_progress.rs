@@ -18,6 +18,7 @@ use super::record::{Complementarity, DiskExtremes, StructureColumns};
 use super::rotor::{Leap, RotorState};
 use super::sample::Sample;
 use super::shared::Shared;
+use super::snapshot::Snapshots;
 use super::span::INTERVAL_NODES;
 use crate::complementarity::Gap;
 use crate::disk::DiskPose;
@@ -49,6 +50,7 @@ pub(super) struct RunState {
     pub logs: [ContactLog; 2],
     pub history: StructuralHistory,
     columns: StructureColumns,
+    pub snapshots: Snapshots,
     pub record: bool,
     pub keeps_motion: bool,
 }
@@ -276,15 +278,23 @@ impl<'a> RunInProgress<'a> {
         }
         self.decayed = self.has_decayed(self.k, material);
         if self.state.record {
-            self.state.columns.push(&node);
+            self.push_row(&node);
         }
+    }
+
+    /// Appends the node reached to the columns and, where it is asked for, its state to the snapshots.
+    fn push_row(&mut self, node: &Node) {
+        let (n, state) = (self.driven.map_or(0, |_| self.n_moving), &mut *self.state);
+        state.columns.push(node);
+        let modes = [&state.now.q_re, &state.now.q_im].map(|column| &column[..n]);
+        (state.snapshots).offer(self.k, modes, &state.rotor_now, self.amplitude);
     }
 
     /// Appends a row of the columns for a node within a contact-free interval, which neither extremes nor peaks need.
     pub fn record_within(&mut self, pose: DiskPose) {
         self.energies = self.energies_now();
         let node = self.node(pose);
-        self.state.columns.push(&node);
+        self.push_row(&node);
     }
 
     /// Whether the run ends at node `k` with this material energy.

@@ -7,16 +7,11 @@ use super::global::GlobalArgs;
 use super::run::simulated;
 use super::selection::ShockArgs;
 use super::study_file;
-use anyhow::Context as _;
-use opshock_solver::disk::Harmonics;
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::simulation::{History, StructureColumns};
-use opshock_solver::structure::{
-    SliderPlace, StructureError, StructureModel, StructureParameters, Workspace,
-};
+use opshock_solver::structure::disk_displacements;
 use opshock_study::report::vtk_files::{DiskSeries, FilmSeries, RampSeries, VtkSeries, write_vtk};
 use opshock_study::study::{SetArg, Shot, Study};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -45,7 +40,7 @@ pub(super) fn run(
         .ok_or_else(|| anyhow::anyhow!("the run kept no history: {:?}", outcome.verdict))?;
     let scene = &shot.point.scene;
     let series = VtkSeries {
-        disk: disk(&study, &shot, &times_s, global)?,
+        disk: disk(&study, &shot, &times_s)?,
         ramp: ramp(scene, &history.structure, &times_s, study.start_s),
         film: film(&history, study.start_s),
     };
@@ -124,74 +119,25 @@ fn at(columns: &StructureColumns, values: &[f64], time_s: f64) -> f64 {
     }
 }
 
-/// The disk on a polar grid. What the slider sees of the disk changes nothing in its motion, so the
-/// structure runs once for every point with the slider put there.
-fn disk(
-    study: &Study,
-    shot: &Shot,
-    times_s: &[f64],
-    global: &GlobalArgs,
-) -> Result<DiskSeries, Failure> {
+/// The disk on a polar grid.
+fn disk(study: &Study, shot: &Shot, times_s: &[f64]) -> Result<DiskSeries, Failure> {
     let scene = &shot.point.scene;
     let (inner, outer) = (scene.disk.inner_radius_m, scene.disk.outer_radius_m);
     let radii_m: Vec<f64> = (0..CIRCLES)
         .map(|k| inner + (outer - inner) * k as f64 / (CIRCLES - 1) as f64)
+        .map(|radius_m| radius_m.min(outer))
         .collect();
     let angles_rad: Vec<f64> = (0..ANGLES)
         .map(|k| TAU * k as f64 / ANGLES as f64)
         .collect();
-    let deflections = |radius_m: f64, angle_rad: f64| -> Result<Vec<f64>, StructureError> {
-        // The clamp does not move, and no point on the edges themselves is observed.
-        if radius_m <= inner {
-            return Ok(vec![0.0; times_s.len()]);
-        }
-        let radius_m = radius_m.min(outer * (1.0 - 1e-9));
-        let parameters = StructureParameters {
-            disk: &scene.disk,
-            disk_resolution: &scene.disk_resolution,
-            ramp: &scene.ramp,
-            slider: SliderPlace {
-                radius_m,
-                angle_rad,
-                skew_rad: 0.0,
-            },
-            pulse: &scene.pulse,
-            oblique: scene.oblique.as_ref(),
-            base: &scene.base,
-            window: scene.window,
-            resolution: &scene.structure_resolution,
-        };
-        let model = StructureModel::build(&parameters, Harmonics::All)?.without_motion();
-        let run = model.run(shot.amplitude_m_per_s2, true, &mut Workspace::default())?;
-        let columns = run.columns.unwrap_or_default();
-        Ok(times_s
-            .iter()
-            .map(|&t| at(&columns, &columns.disk_slider_m, t))
-            .collect())
-    };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(global.threads())
-        .build()
-        .context("cannot start threads")?;
-    let places: Vec<(f64, f64)> = radii_m
-        .iter()
-        .flat_map(|&r| angles_rad.iter().map(move |&a| (r, a)))
-        .collect();
-    let columns: Vec<Vec<f64>> = pool
-        .install(|| {
-            places
-                .par_iter()
-                .map(|&(r, a)| deflections(r, a))
-                .collect::<Result<_, _>>()
-        })
+    let (structure, places) = (scene.structure(), [&*radii_m, &*angles_rad]);
+    let deflection_m = disk_displacements(&structure, shot.amplitude_m_per_s2, times_s, places)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
     Ok(DiskSeries {
+        time_s: times_s.iter().map(|t| t + study.start_s).collect(),
         radii_m,
         angles_rad,
-        time_s: times_s.iter().map(|t| t + study.start_s).collect(),
-        deflection_m: (0..times_s.len())
-            .map(|frame| columns.iter().map(|column| column[frame]).collect())
-            .collect(),
+        deflection_m,
     })
 }
 
