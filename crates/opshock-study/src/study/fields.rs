@@ -91,10 +91,10 @@ fields! {
     BASE_MODES: Tables = Key::optional("base.modes", Kind::Tables, "a rigid base", "[{ frequency_hz = 900.0, damping_ratio = 0.02, participation_sqrt_kg = 0.25, spindle_per_sqrt_kg = 2.0, ramp_per_sqrt_kg = 2.4, pivot_per_sqrt_kg = 1.6 }]", "Modes of base plate and housing under the shock, of unit modal mass. Needs a straight shock.").code("E189");
     BASE_MODES_FREQUENCY_HZ: f64 = Key::required("base.modes[].frequency_hz", LENGTH, "900.0", "Undamped natural frequency.").usual(10.0, 1e5).code("E189");
     BASE_MODES_DAMPING_RATIO: f64 = Key::or("base.modes[].damping_ratio", Number(below(0.0, 1.0)), "0.02", "Damping ratio.").usual(0.0, 0.5).code("E132");
-    BASE_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("base.modes[].participation_sqrt_kg", Number(ANY), "0.25", "Load on the mode by a unit acceleration of the base.");
-    BASE_MODES_SPINDLE_PER_SQRT_KG: f64 = Key::required("base.modes[].spindle_per_sqrt_kg", Number(ANY), "2.0", "Displacement of the spindle along the disk's axis.");
-    BASE_MODES_RAMP_PER_SQRT_KG: f64 = Key::required("base.modes[].ramp_per_sqrt_kg", Number(ANY), "2.4", "Displacement of the ramp's mount.");
-    BASE_MODES_PIVOT_PER_SQRT_KG: f64 = Key::required("base.modes[].pivot_per_sqrt_kg", Number(ANY), "1.6", "Displacement of the actuator's pivot, which carries the suspension.");
+    BASE_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("base.modes[].participation_sqrt_kg", Number(ANY), "0.25", "Load on the mode by a unit acceleration of the base.").usual(-3.0, 3.0);
+    BASE_MODES_SPINDLE_PER_SQRT_KG: f64 = Key::required("base.modes[].spindle_per_sqrt_kg", Number(ANY), "2.0", "Displacement of the spindle along the disk's axis.").usual(-100.0, 100.0);
+    BASE_MODES_RAMP_PER_SQRT_KG: f64 = Key::required("base.modes[].ramp_per_sqrt_kg", Number(ANY), "2.4", "Displacement of the ramp's mount.").usual(-100.0, 100.0);
+    BASE_MODES_PIVOT_PER_SQRT_KG: f64 = Key::required("base.modes[].pivot_per_sqrt_kg", Number(ANY), "1.6", "Displacement of the actuator's pivot, which carries the suspension.").usual(-100.0, 100.0);
     BASE_IMPORTED_MASS: Text = Key::optional("base.imported.mass", Kind::Text, "modes, or a rigid base", "\"base.mas\"", "Mass matrix of the base by another program: Matrix Market (.mtx), CalculiX (.mas), or rows of numbers.");
     BASE_IMPORTED_STIFFNESS: Text = Key::optional("base.imported.stiffness", Kind::Text, "modes, or a rigid base", "\"base.sti\"", "Its stiffness matrix.");
     BASE_IMPORTED_FREEDOMS: Text = Key::optional("base.imported.freedoms", Kind::Text, "places", "\"base.dof\"", "Freedoms of the rows, a line node.direction each.");
@@ -159,10 +159,10 @@ fields! {
     RAMP_DEFORMABLE_MESH_MOUNT_TANGENTIAL_N_PER_M: Option<f64> = Key::optional("ramp.deformable.mesh.mount_tangential_n_per_m", LENGTH, "as mount_normal_n_per_m", "1.0e6", "Stiffness of the mount's face within its plane.").usual(1e3, 1e10);
     RAMP_DEFORMABLE_MESH_CUT_KHZ: Option<f64> = Key::optional("ramp.deformable.mesh.cut_khz", LENGTH, "100.0", "100.0", "Modes with the contacts held, below this frequency, are kept; responses are good to half of it.").usual(5.0, 1000.0).code("E174");
     RAMP_DEFORMABLE_COUPLED_MODES: Tables = Key::optional("ramp.deformable.coupled_modes", Kind::Tables, "a ramp given by modes of each arm", "[{ frequency_hz = 3180.2, top_per_sqrt_kg = 211.0, bottom_per_sqrt_kg = 220.0, participation_sqrt_kg = 0.005 }]", "Modes of both arms as one body.").code("E135");
-    RAMP_DEFORMABLE_COUPLED_MODES_FREQUENCY_HZ: f64 = Key::required("ramp.deformable.coupled_modes[].frequency_hz", LENGTH, "3180.2", "Undamped natural frequency.");
-    RAMP_DEFORMABLE_COUPLED_MODES_TOP_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].top_per_sqrt_kg", Number(ANY), "211.0", "Shape at the top contact, of unit modal mass.");
-    RAMP_DEFORMABLE_COUPLED_MODES_BOTTOM_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass.");
-    RAMP_DEFORMABLE_COUPLED_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base.");
+    RAMP_DEFORMABLE_COUPLED_MODES_FREQUENCY_HZ: f64 = Key::required("ramp.deformable.coupled_modes[].frequency_hz", LENGTH, "3180.2", "Undamped natural frequency.").usual(10.0, 1e6);
+    RAMP_DEFORMABLE_COUPLED_MODES_TOP_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].top_per_sqrt_kg", Number(ANY), "211.0", "Shape at the top contact, of unit modal mass.").usual(-1e4, 1e4);
+    RAMP_DEFORMABLE_COUPLED_MODES_BOTTOM_PER_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].bottom_per_sqrt_kg", Number(ANY), "220.0", "Shape at the bottom contact, of unit modal mass.").usual(-1e4, 1e4);
+    RAMP_DEFORMABLE_COUPLED_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("ramp.deformable.coupled_modes[].participation_sqrt_kg", Number(ANY), "0.005", "Load on the mode by a unit acceleration of the base.").usual(-0.1, 0.1);
     RAMP_DEFORMABLE_COUPLED_MODES_DAMPING_RATIO: Option<f64> = Key::optional("ramp.deformable.coupled_modes[].damping_ratio", RATIO, "as ramp.deformable.damping_ratio", "0.02", "Damping ratio of this mode.").code("E132");
     RAMP_DEFORMABLE_PRONY: Tables = Key::optional("ramp.deformable.prony", Kind::Tables, "elastic modes", "[{ share = 0.02, time_ms = 0.1 }, { share = 0.03, time_ms = 0.01 }, { share = 0.05, time_ms = 0.001 }]", "Prony series by which the stiffness of every mode relaxes; frequencies are those of the instantaneous modulus. Damping ratios add to it.").code("E132");
     RAMP_DEFORMABLE_PRONY_SHARE: f64 = Key::required("ramp.deformable.prony[].share", Number(open(0.0, 1.0)), "0.02", "Share of the instantaneous modulus that relaxes; the sum stays below 1.").code("E132");
@@ -238,11 +238,11 @@ fields! {
     SUSPENSION_IMPORTED_BASE: Numbers = Key::optional("suspension.imported.base", Kind::Numbers(ABOVE_ZERO), "the base is not in the matrices", "[1]", "Nodes that the base holds; their mass loads the others.");
     SUSPENSION_IMPORTED_CUT_KHZ: Option<f64> = Key::optional("suspension.imported.cut_khz", LENGTH, "1000.0", "1000.0", "Modes with the dimple held, below this frequency, are kept of matrices of more than 300 rows.").usual(20.0, 10_000.0).code("E174");
     SUSPENSION_MODES: Tables = Key::optional("suspension.modes", Kind::Tables, "a suspension by its geometry", "[{ frequency_hz = 333.0, vertical_per_sqrt_kg = 700.0, slope_per_m_sqrt_kg = 9.0e4, roll_per_m_sqrt_kg = 0.0, participation_sqrt_kg = 1.7e-3 }]", "Modes of the suspension on its base, in place of its geometry.").code("E135");
-    SUSPENSION_MODES_FREQUENCY_HZ: f64 = Key::required("suspension.modes[].frequency_hz", LENGTH, "333.0", "Undamped natural frequency.");
-    SUSPENSION_MODES_VERTICAL_PER_SQRT_KG: f64 = Key::required("suspension.modes[].vertical_per_sqrt_kg", Number(ANY), "700.0", "Displacement z of the dimple, of unit modal mass.");
-    SUSPENSION_MODES_SLOPE_PER_M_SQRT_KG: f64 = Key::required("suspension.modes[].slope_per_m_sqrt_kg", Number(ANY), "9.0e4", "Slope dw/dx at the dimple, x from root to tip.");
-    SUSPENSION_MODES_ROLL_PER_M_SQRT_KG: f64 = Key::required("suspension.modes[].roll_per_m_sqrt_kg", Number(ANY), "0.0", "Roll of the dimple; 0 in a mode that bends.");
-    SUSPENSION_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("suspension.modes[].participation_sqrt_kg", Number(ANY), "1.7e-3", "Load on the mode by a unit acceleration of the base.");
+    SUSPENSION_MODES_FREQUENCY_HZ: f64 = Key::required("suspension.modes[].frequency_hz", LENGTH, "333.0", "Undamped natural frequency.").usual(10.0, 1e6);
+    SUSPENSION_MODES_VERTICAL_PER_SQRT_KG: f64 = Key::required("suspension.modes[].vertical_per_sqrt_kg", Number(ANY), "700.0", "Displacement z of the dimple, of unit modal mass.").usual(-1e4, 1e4);
+    SUSPENSION_MODES_SLOPE_PER_M_SQRT_KG: f64 = Key::required("suspension.modes[].slope_per_m_sqrt_kg", Number(ANY), "9.0e4", "Slope dw/dx at the dimple, x from root to tip.").usual(-1e7, 1e7);
+    SUSPENSION_MODES_ROLL_PER_M_SQRT_KG: f64 = Key::required("suspension.modes[].roll_per_m_sqrt_kg", Number(ANY), "0.0", "Roll of the dimple; 0 in a mode that bends.").usual(-1e7, 1e7);
+    SUSPENSION_MODES_PARTICIPATION_SQRT_KG: f64 = Key::required("suspension.modes[].participation_sqrt_kg", Number(ANY), "1.7e-3", "Load on the mode by a unit acceleration of the base.").usual(-0.1, 0.1);
     // gas
     GAS_PRESSURE_PA: Option<f64> = Key::optional("gas.pressure_pa", LENGTH, "101325 Pa, or from altitude_m", "101325.0", "Ambient pressure.").usual(2e4, 2e5);
     GAS_ALTITUDE_M: Option<f64> = Key::optional("gas.altitude_m", Number(closed(-5000.0, 11000.0)), "sea level", "3000.0", "Altitude: pressure of the standard atmosphere.").usual(-500.0, 6000.0);
