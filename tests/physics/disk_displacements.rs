@@ -85,20 +85,29 @@ fn the_clamp_moves_with_the_hub() {
     let times_s = [1e-3];
     let clamped = drive(None);
     let inner_m = clamped.disk.inner_radius_m;
-    let angles_rad = [0.0, std::f64::consts::PI].map(|angle| clamped.ramp.angle_rad + angle);
+    let angles_rad = [0.0, 1.0, 2.0, 3.0]
+        .map(|quarters| clamped.ramp.angle_rad + quarters * std::f64::consts::FRAC_PI_2);
     let read = |structure: &Structure| {
         let places = [&[inner_m][..], &angles_rad];
         let amplitude = m_per_s2_from_g(AMPLITUDE_G);
         disk_displacements(&structure.parameters(), amplitude, &times_s, places).expect("runs")
     };
-    assert_eq!(read(&clamped), [[0.0, 0.0]]);
+    assert_eq!(read(&clamped), [[0.0; 4]]);
     let on_hub = drive(Some(spindle()));
     let columns = run(&on_hub, AMPLITUDE_G).columns.expect("recorded");
     let node = columns.time_s.partition_point(|&t| t < times_s[0] - 1e-12);
-    let (axial, lifts) = (columns.hub_axial_m[node], columns.hub_tilt_ramp_rad[node]);
-    assert!(inner_m * lifts.abs() > 0.1 * axial.abs());
-    for (sign, value) in [1.0, -1.0].into_iter().zip(&read(&on_hub)[0]) {
-        let expected = axial + sign * inner_m * lifts;
+    let axial = columns.hub_axial_m[node];
+    let tilts = [
+        columns.hub_tilt_ramp_rad[node],
+        columns.hub_tilt_across_rad[node],
+    ];
+    for tilt in tilts {
+        assert!(inner_m * tilt.abs() > 0.01 * axial.abs(), "{tilt:e}");
+    }
+    let [at_ramp, across] = tilts;
+    let lifts = [at_ramp, across, -at_ramp, -across];
+    for (lift, value) in lifts.into_iter().zip(&read(&on_hub)[0]) {
+        let expected = axial + inner_m * lift;
         assert!(
             (value - expected).abs() < 1e-12 * axial.abs(),
             "{value:e} {expected:e}"

@@ -132,7 +132,7 @@ impl Part {
         let contact = values(&at_ramp, real(1.0));
         let hub = layout
             .hub
-            .map(|at| [real(1.0), -i].map(|z| coupled.readout(&unit(at, z))));
+            .map(|at| [real(1.0), i].map(|z| coupled.readout(&unit(at, z))));
         let bodies = [
             (layout.hub).map(|at| Body::new(&coupled, &[(at, 1.0)], load[at], 1.0, step_s)),
             (layout.n_base > 0).then(|| base_body(&coupled, stand.base, step_s)),
