@@ -72,6 +72,7 @@ const SOLID: &[(&str, u8)] = &[
 const STUDY: &[(&str, u8)] = &[
     ("identity", 0),
     ("provenance", 0),
+    ("record", 0),
     ("search", 0),
     ("study", 1),
     ("store", 2),
