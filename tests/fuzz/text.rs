@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use opshock_study::study::samples::{self, Samples};
+use opshock_study::study::samples::{self, Layout, Samples};
 use opshock_study::study::source::Source;
 use opshock_study::study::text_file::decode;
 use opshock_study::study::{Study, StudyError, StudyErrors, fault::MAX_LISTED};
@@ -125,11 +125,11 @@ const WHOLE: u64 = 64;
 fn judge_samples(answer: Result<Samples, Vec<StudyError>>) -> bool {
     match answer {
         Ok(Samples {
-            time_ms, relative, ..
+            time, acceleration, ..
         }) => {
-            assert!(time_ms.len() >= 2 && time_ms.len() == relative.len());
-            assert!(time_ms[0] == 0.0 && time_ms.is_sorted_by(|a, b| a < b));
-            assert!(time_ms.iter().chain(&relative).all(|v| v.is_finite()));
+            assert!(time.len() >= 2 && time.len() == acceleration.len());
+            assert!(time.is_sorted_by(|a, b| a < b));
+            assert!(time.iter().chain(&acceleration).all(|v| v.is_finite()));
             true
         }
         Err(faults) => {
@@ -143,7 +143,15 @@ fn judge_samples(answer: Result<Samples, Vec<StudyError>>) -> bool {
 }
 
 fn fuzz_pulses(range: std::ops::Range<u64>, report_every: u64) {
-    let study = format!("{HEAD}[pulse]\nwidths_ms = [2.0]\nshape = \"table\"\ntable = \"pulse\"\n");
+    let study = format!(
+        "{HEAD}[pulse]\nshape = \"table\"\ntable = \"pulse\"\ntable_scale = \"measured\"\ntable_time_unit = \"ms\"\n\
+         table_acceleration_unit = \"g\"\ntable_cutoff_hz = 1500.0\ntable_filter_order = 3\n"
+    );
+    let layout = Layout {
+        columns: [0, 1],
+        may_have_more: false,
+        skip_rows: 0,
+    };
     let folder = scratch();
     let at = |file: &str| -> PathBuf { folder.path().join(file) };
     std::fs::write(at("study.toml"), study).expect("written");
@@ -155,7 +163,7 @@ fn fuzz_pulses(range: std::ops::Range<u64>, report_every: u64) {
             judge(seed, Study::from_path(&at("study.toml"), &[]));
         }
         match decode(bytes, "pulse") {
-            Ok(text) => judge_samples(samples::read(&Source::new("pulse".to_owned(), text))),
+            Ok(text) => judge_samples(samples::read(&Source::new("pulse", text), &layout)),
             Err(refused) => judge(seed, Err(StudyErrors::from(*refused))),
         }
     });

@@ -22,6 +22,7 @@ fn the_table_of_keys_is_consistent() {
         "head_tolerance",
         "coupling_tolerance",
         "table_relative",
+        "table_columns",
         "base",
         "held",
         "in_plane_x",
@@ -103,10 +104,11 @@ fn other_value(key: &opshock_study::study::key::Key) -> Option<String> {
         "ramp.models" => "[\"none\", \"rigid\"]".to_string(),
         "ramp.radius_mm" => "32.0".to_string(),
         "pulse.shape" => "\"square\"".to_string(),
-        "pulse.table" | "slider.surface.file" | "slider.surface.preset" | "slider.surface.rail" => {
+        "slider.surface.file" | "slider.surface.preset" | "slider.surface.rail" => {
             return None;
         }
-        "pulse.table_time_ms" | "pulse.table_relative" => return None,
+        // They make a sampled pulse together.
+        path if path.starts_with("pulse.table") => return None,
         "ramp.deformable.modes" | "ramp.deformable.bottom_modes" => {
             "[{ frequency_hz = 900.0, mass_mg = 50.0, participation = 0.2 }]".to_string()
         }

@@ -5,6 +5,7 @@ use super::included::{self, Location};
 use super::overlay::{self, Override};
 use super::points::{self, Axis, Point};
 use super::read::Reader;
+use super::recorded::MeasuredPulse;
 use super::set_arg::SetArg;
 use super::settings::{Settings, View};
 use super::source::{self, Origin, Source};
@@ -57,6 +58,8 @@ pub struct Study {
     pub file: Option<PathBuf>,
     /// Text of the study file.
     pub text: String,
+    /// The record of a pulse that a file gives.
+    pub measured: Option<MeasuredPulse>,
     pub(super) settings: Settings,
 }
 
@@ -158,6 +161,7 @@ impl Study {
             settings,
             mut errors,
             mut remarks,
+            measured,
         } = reader;
         let mut found = Vec::new();
         points::check(&settings, &mut found);
@@ -209,6 +213,7 @@ impl Study {
             path: location.file,
             file: None,
             text: source.text.clone(),
+            measured,
             settings,
         })
     }

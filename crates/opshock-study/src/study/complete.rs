@@ -8,6 +8,7 @@ use super::imported_suspension;
 use super::included::{self, Location};
 use super::key::{Key, Presence};
 use super::keys::{CHOICES, KEYS};
+use super::measured_pulse;
 use super::ramp_mesh;
 use super::read::Reader;
 use super::source::{Origin, Place};
@@ -25,7 +26,7 @@ pub fn complete(reader: &mut Reader, root: &Node, location: &Location) {
     for head in &heads {
         included::surface_of_head(reader, location, head);
     }
-    included::pulse_table(reader, location);
+    measured_pulse::read(reader, location);
     defaults(reader);
     // The gap between its contacts is compared with the disk's thickness.
     ramp_mesh::read(reader, location);

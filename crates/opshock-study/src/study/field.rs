@@ -246,6 +246,11 @@ macro_rules! named {
 
 named! {
     super::words::Shape: super::words::SHAPES;
+    super::words::TableScale: super::words::TABLE_SCALES;
+    super::words::TimeUnit: super::words::TIME_UNITS;
+    super::words::AccelerationUnit: super::words::ACCELERATION_UNITS;
+    super::words::TableOffset: super::words::TABLE_OFFSETS;
+    super::words::FilterClass: super::words::FILTER_CLASSES;
     super::words::RunOut: super::words::RUN_OUT;
     super::words::RailKind: super::words::RAIL_KINDS;
     super::words::LengthUnit: super::words::LENGTH_UNITS;

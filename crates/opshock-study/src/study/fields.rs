@@ -20,7 +20,8 @@ use super::field::{Corners, Field, Many, Named, Numbers, Pair, Tables, Text, fie
 use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, open};
 use super::settings::View;
 use super::words::{
-    self, Effects, Faces, KeepHistories, LeftOut, LengthUnit, RailKind, RunOut, Shape,
+    self, AccelerationUnit, Effects, Faces, FilterClass, KeepHistories, LeftOut, LengthUnit,
+    RailKind, RunOut, Shape, TableOffset, TableScale, TimeUnit,
 };
 use crate::search::{MonotonicityScan, Ramp, Sign};
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
@@ -42,7 +43,7 @@ fields! {
     HEADS_HEAD: Text = Key::required("heads[].head", Kind::Text, "\"0 up\"", "Name of the head, as tables show it.").code("E191");
     // pulse
     PULSE_SHAPE: Shape = Key::or("pulse.shape", Shape::KIND, "\"half_sine\"", "Shape of the acceleration pulse.");
-    PULSE_WIDTHS_MS: Numbers = Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study.").usual(0.05, 100.0).code("E150");
+    PULSE_WIDTHS_MS: Numbers = Key::required("pulse.widths_ms", Axis(ABOVE_ZERO), "[0.5, 1.0, 2.0]", "Pulse widths: an axis of the study. Left out with table_scale measured.").usual(0.05, 100.0).code("E150");
     PULSE_SIGNS: Many<Sign> = Key::or("pulse.signs", Sign::KIND_OF_MANY, "[\"+\", \"-\"]", "Signs of the shock: + moves the disk towards the slider first.");
     PULSE_START_MS: f64 = Key::or("pulse.start_ms", Number(FROM_ZERO), "0.5", "Onset of the pulse on the time axis of every output.").usual(0.0, 1000.0).code("E150").fixed();
     PULSE_WINDOW_MS: Option<f64> = Key::or("pulse.window_ms", NumberOrWord(ABOVE_ZERO, &["until_decayed"]), "5.0", "Simulated time after the onset.").usual(0.1, 500.0).code("E152");
@@ -51,9 +52,19 @@ fields! {
     PULSE_RISE_SHARE: f64 = Key::or("pulse.rise_share", Number(above(0.0, 0.5)), "0.1", "Share of the width in which a trapezoid rises, and again falls.").code("E150");
     PULSE_FREQUENCY_HZ: f64 = Key::or("pulse.frequency_hz", Number(ABOVE_ZERO), "1000.0", "Frequency of a damped sine.").usual(10.0, 1e5).code("E150");
     PULSE_DECAY_PER_S: f64 = Key::or("pulse.decay_per_s", Number(FROM_ZERO), "500.0", "Decay rate of a damped sine.").usual(0.0, 1e6).code("E150");
-    PULSE_TABLE: Text = Key::optional("pulse.table", Kind::Text, "no table", "\"pulse.csv\"", "File of a sampled pulse, two columns: time in ms from 0, relative acceleration. Stretched to the width, scaled to a largest value of 1.");
+    PULSE_TABLE: Text = Key::optional("pulse.table", Kind::Text, "no table", "\"pulse.csv\"", "File of a measured pulse, columns of time and acceleration. Needs table_time_unit and table_scale.");
+    PULSE_TABLE_SCALE: Option<TableScale> = Key::optional("pulse.table_scale", TableScale::KIND, "stretched, for samples given in the study", "\"measured\"", "measured: real time and G, the pulse's width is the record's own; stretched: to every width of pulse.widths_ms. The shock's amplitude is the largest magnitude of the pulse in both.").fixed();
+    PULSE_TABLE_TIME_UNIT: Option<TimeUnit> = Key::optional("pulse.table_time_unit", TimeUnit::KIND, "no file", "\"s\"", "Unit of the file's times.").fixed();
+    PULSE_TABLE_ACCELERATION_UNIT: Option<AccelerationUnit> = Key::optional("pulse.table_acceleration_unit", AccelerationUnit::KIND, "relative numbers, for stretched pulses only", "\"g\"", "Unit of the file's accelerations.").fixed();
+    PULSE_TABLE_COLUMNS: Numbers = Key::optional("pulse.table_columns", Kind::Numbers(ABOVE_ZERO), "[1, 2], and no others in the file", "[1, 3]", "Columns of time and acceleration in the file, counted from 1.").code("E153");
+    PULSE_TABLE_SKIP_ROWS: Option<usize> = Key::optional("pulse.table_skip_rows", Integer(0, 10_000), "0", "12", "Rows at the beginning of the file that are not read. Rows without a number before the first sample are its header.").code("E153").fixed();
+    PULSE_TABLE_WINDOW_MS: Pair = Key::optional("pulse.table_window_ms", Kind::Pair(ANY), "the whole record", "[-0.5, 3.0]", "The part of the record that is the pulse, in the file's time.").code("E153");
+    PULSE_TABLE_OFFSET: Option<TableOffset> = Key::optional("pulse.table_offset", TableOffset::KIND, "nothing is subtracted", "\"mean_before\"", "Zero line that is subtracted: mean of the samples before table_window_ms, or the straight line through those before and after it.").fixed();
+    PULSE_TABLE_FILTER: Option<FilterClass> = Key::optional("pulse.table_filter", FilterClass::KIND, "no filter", "\"cfc_1000\"", "Channel frequency class of SAE J211: phaseless low-pass filter of the record.").fixed();
+    PULSE_TABLE_CUTOFF_HZ: Option<f64> = Key::optional("pulse.table_cutoff_hz", Number(ABOVE_ZERO), "no filter", "2000.0", "Butterworth filter instead: frequency at which its two passes give -3 dB.").usual(10.0, 1e5).code("E153").fixed();
+    PULSE_TABLE_FILTER_ORDER: Option<u32> = Key::optional("pulse.table_filter_order", Integer(1, 8), "no filter", "4", "Its order in each of the two passes.").code("E153").fixed();
     PULSE_TABLE_TIME_MS: Numbers = Key::optional("pulse.table_time_ms", Kind::Numbers(FROM_ZERO), "no table", "[0.0, 0.5, 1.0]", "Times of a sampled pulse given here instead of in a file.").code("E153");
-    PULSE_TABLE_RELATIVE: Numbers = Key::optional("pulse.table_relative", Kind::Numbers(ANY), "no table", "[0.0, 1.0, 0.0]", "Relative accelerations of a sampled pulse.").code("E153");
+    PULSE_TABLE_RELATIVE: Numbers = Key::optional("pulse.table_relative", Kind::Numbers(ANY), "no table", "[0.0, 1.0, 0.0]", "Relative accelerations of a sampled pulse; in G when table_scale is measured.").code("E153");
     PULSE_IN_PLANE_X: Option<f64> = Key::optional("pulse.in_plane_x", Number(ANY), "a straight shock", "0.5", "Share of the shock in the plane of the disk, along angle 0: load along x per axial load. Needs a hub.").usual(-10.0, 10.0).code("E138");
     PULSE_IN_PLANE_Y: Option<f64> = Key::optional("pulse.in_plane_y", Number(ANY), "a straight shock", "0.5", "The same a quarter turn on in the disk's sense of rotation.").usual(-10.0, 10.0).code("E138");
     PULSE_ROTATION_X_PER_M: Option<f64> = Key::optional("pulse.rotation_x_per_m", Number(ANY), "a straight shock", "10.0", "Angular acceleration felt about x per axial acceleration at the spindle. Needs a hub.").usual(-100.0, 100.0).code("E138");

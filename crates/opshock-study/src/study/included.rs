@@ -1,20 +1,18 @@
-//! Reads what a study takes from elsewhere: the air-bearing surface (preset or file) and a sampled pulse (file).
+//! Reads what a study takes from elsewhere: the air-bearing surface (preset or file).
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::datum::Datum;
 use super::fault::StudyError;
-use super::fields;
 use super::key::{Kind, Presence};
 use super::keys::{KEYS, find};
 use super::read::Reader;
 use super::set_arg::SetArg;
-use super::settings::Setting;
 use super::source::{Origin, Place, Source};
+use super::surfaces;
 use super::text_file;
 use super::tree::{self, Node, Value};
-use super::{samples, surfaces};
 
 /// The surface of a study that says nothing about rails.
 const DEFAULT_SURFACE: &str = "femto-2.5in";
@@ -176,55 +174,8 @@ fn surface(reader: &mut Reader, location: &Location, pattern: &str, prefix: &str
     }
 }
 
-/// Reads the file of a sampled pulse into the two lists that may also be given directly.
-pub fn pulse_table(reader: &mut Reader, location: &Location) {
-    let Some(setting) = reader.settings.get(fields::PULSE_TABLE.path()).cloned() else {
-        return;
-    };
-    let Datum::Text(file) = &setting.values[0] else {
-        return;
-    };
-    let Some(source) = open_named(
-        reader,
-        location,
-        fields::PULSE_TABLE.path(),
-        file,
-        &setting.place,
-    ) else {
-        return;
-    };
-    match samples::read(&source) {
-        Err(faults) => {
-            reader.errors.extend(faults);
-            reader.settings.spoil(fields::PULSE_TABLE.path());
-        }
-        Ok(samples) => {
-            let place = Place {
-                span: 0..source.text.len(),
-                source,
-                origin: Origin::Included,
-            };
-            for (path, numbers) in [
-                (fields::PULSE_TABLE_TIME_MS.path(), samples.time_ms),
-                (fields::PULSE_TABLE_RELATIVE.path(), samples.relative),
-            ] {
-                reader.settings.put(
-                    path.to_string(),
-                    Setting {
-                        values: vec![Datum::Numbers(numbers)],
-                        is_axis: false,
-                        place: place.clone(),
-                        key_place: setting.key_place.clone(),
-                        value_places: Vec::new(),
-                    },
-                );
-            }
-        }
-    }
-}
-
 /// Opens a file a study names; its path starts from the study's folder.
-fn open_named(
+pub fn open_named(
     reader: &mut Reader,
     location: &Location,
     key: &str,

@@ -108,6 +108,16 @@ pub static CHOICES: &[Choice] = &[
         ],
     },
     Choice {
+        what: "the filter of the sampled pulse",
+        alternatives: &[
+            &[fields::PULSE_TABLE_FILTER.path()],
+            &[
+                fields::PULSE_TABLE_CUTOFF_HZ.path(),
+                fields::PULSE_TABLE_FILTER_ORDER.path(),
+            ],
+        ],
+    },
+    Choice {
         what: "the base of the surface",
         alternatives: &[
             &[fields::SLIDER_SURFACE_PRESET.path()],

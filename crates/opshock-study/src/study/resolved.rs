@@ -10,14 +10,14 @@ use super::datum::Datum;
 use super::fields;
 use super::key::{Key, Kind, Presence};
 use super::keys::{self, KEYS};
+use super::measured_pulse;
 use super::scene;
 use super::settings::{Settings, View};
 
 /// Keys that stand for what another key holds once the study is read.
-const REPLACED: [&str; 3] = [
+const REPLACED: [&str; 2] = [
     fields::SLIDER_SURFACE_PRESET.path(),
     fields::SLIDER_SURFACE_FILE.path(),
-    fields::PULSE_TABLE.path(),
 ];
 
 /// Tables of such keys.
@@ -34,8 +34,10 @@ pub fn text(settings: &Settings) -> String {
     );
     // A table may be opened only once, so its keys are brought together first.
     let mut tables: Vec<(&str, String)> = Vec::new();
-    let single =
-        |key: &&Key| !key.path.contains("[]") && key.kind != Kind::Tables && !is_replaced(key.path);
+    let single = |key: &&Key| {
+        let is_plain = !key.path.contains("[]") && key.kind != Kind::Tables;
+        is_plain && !is_replaced(key.path) && !measured_pulse::is_replaced(settings, key.path)
+    };
     for key in KEYS.iter().filter(single) {
         let Some(value) = value_at(settings, key.path) else {
             continue;

@@ -19,7 +19,7 @@ use super::fields::{self, PLACES};
 use super::settings::View;
 use super::unit;
 use super::words::{Faces, RailKind, RunOut, Shape};
-use super::{imported_suspension, ramp_geometry};
+use super::{imported_suspension, measured_pulse, ramp_geometry};
 use crate::search::Ramp;
 
 /// Builds the scene of one point as its head sees it, and the way this faces. `width_ms` is its pulse width.
@@ -109,7 +109,7 @@ fn at_preset(view: &View<'_>) -> Scene {
     scene
 }
 
-/// Stretched to the width, scaled to a largest magnitude of 1.
+/// Scaled to a largest magnitude of 1, to a length of `width_s`.
 fn table(view: &View<'_>, width_s: f64) -> PulseShape {
     let times = view.get(&fields::PULSE_TABLE_TIME_MS);
     let relative = view.get(&fields::PULSE_TABLE_RELATIVE);
@@ -124,7 +124,9 @@ fn table(view: &View<'_>, width_s: f64) -> PulseShape {
 }
 
 fn pulse(view: &View<'_>, width_ms: f64) -> Pulse {
-    let width_s = unit::si(fields::PULSE_WIDTHS_MS.path(), width_ms);
+    // The width of a measured pulse is the time above a share of its peak; the record is longer.
+    let length_ms = measured_pulse::length_ms(view).unwrap_or(width_ms);
+    let width_s = unit::si(fields::PULSE_WIDTHS_MS.path(), length_ms);
     let shape = match view.get(&fields::PULSE_SHAPE) {
         Shape::HalfSine => PulseShape::HalfSine,
         Shape::Haversine => PulseShape::Haversine,

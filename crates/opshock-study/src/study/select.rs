@@ -5,6 +5,7 @@ use opshock_solver::quantity;
 use super::checked::Study;
 use super::fault::{Severity, StudyError, StudyErrors};
 use super::fields;
+use super::measured_pulse;
 use super::points::{self, Point};
 use super::settings::View;
 use super::unit;
@@ -133,6 +134,13 @@ impl Study {
             });
         }
         let view = View::first(&self.settings);
+        if measured_pulse::length_ms(&view).is_some() && pulse_ms != self.widths_ms[0] {
+            return Err(ChoiceError::Value {
+                option: "--pulse-ms",
+                value: pulse_ms.to_string(),
+                allowed: "left out: a measured pulse has its own width (pulse.table_scale = \"measured\")",
+            });
+        }
         check_width(&view, pulse_ms)?;
         let ramp = choice.ramp.unwrap_or(self.ramps[0]);
         let sign = choice.sign.unwrap_or(self.signs[0]);

@@ -5,6 +5,7 @@
 
 use crate::search::{MonotonicityScan, Ramp, Sign};
 use opshock_solver::air_bearing::FlowModel;
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::Coupling;
 use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::{Needs, Output};
@@ -64,6 +65,39 @@ pub const SHAPES: [(&str, Shape); 6] = [
     ("trapezoid", Shape::Trapezoid),
     ("damped_sine", Shape::DampedSine),
     ("table", Shape::Table),
+];
+/// `pulse.table_scale`.
+pub const TABLE_SCALES: [(&str, TableScale); 2] = [
+    ("measured", TableScale::Measured),
+    ("stretched", TableScale::Stretched),
+];
+/// `pulse.table_time_unit`, in ms.
+pub const TIME_UNITS: [(&str, TimeUnit); 3] = [
+    ("s", TimeUnit { ms: 1e3 }),
+    ("ms", TimeUnit { ms: 1.0 }),
+    ("us", TimeUnit { ms: 1e-3 }),
+];
+/// `pulse.table_acceleration_unit`, in G.
+pub const ACCELERATION_UNITS: [(&str, AccelerationUnit); 2] = [
+    ("g", AccelerationUnit { g: 1.0 }),
+    (
+        "m_per_s2",
+        AccelerationUnit {
+            g: 1.0 / STANDARD_GRAVITY_M_PER_S2,
+        },
+    ),
+];
+/// `pulse.table_offset`.
+pub const TABLE_OFFSETS: [(&str, TableOffset); 2] = [
+    ("mean_before", TableOffset::MeanBefore),
+    ("line_outside", TableOffset::LineOutside),
+];
+/// `pulse.table_filter`.
+pub const FILTER_CLASSES: [(&str, FilterClass); 4] = [
+    ("cfc_60", FilterClass(60)),
+    ("cfc_180", FilterClass(180)),
+    ("cfc_600", FilterClass(600)),
+    ("cfc_1000", FilterClass(1000)),
 ];
 /// Units of length of a ramp's mesh, in m; the first is the default.
 pub const LENGTH_UNITS: [(&str, LengthUnit); 4] = [
@@ -164,6 +198,42 @@ pub enum Shape {
     /// Through points.
     Table,
 }
+
+/// What becomes of the time of a sampled pulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableScale {
+    /// It stays: the pulse has one width, its own.
+    Measured,
+    /// It is stretched to every width of the study.
+    Stretched,
+}
+
+/// A unit of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeUnit {
+    /// In ms.
+    pub ms: f64,
+}
+
+/// A unit of acceleration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AccelerationUnit {
+    /// In G.
+    pub g: f64,
+}
+
+/// Zero line of a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableOffset {
+    /// Mean of the samples before the pulse.
+    MeanBefore,
+    /// Straight line through the samples before and after the pulse.
+    LineOutside,
+}
+
+/// Channel frequency class of SAE J211.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FilterClass(pub u32);
 
 /// The way a head faces: down over its disk, up under it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -5,6 +5,7 @@ use crate::study::datum::Datum;
 use crate::study::fault::StudyError;
 use crate::study::key::{Key, Kind};
 use crate::study::keys;
+use crate::study::recorded::MeasuredPulse;
 use crate::study::settings::{Setting, Settings};
 use crate::study::suggest;
 use crate::study::tree::{self, Node, Value};
@@ -18,6 +19,8 @@ pub struct Reader {
     pub errors: Vec<StudyError>,
     /// Warnings and notes.
     pub remarks: Vec<StudyError>,
+    /// The record of a pulse that a file gives.
+    pub measured: Option<MeasuredPulse>,
 }
 
 impl Reader {

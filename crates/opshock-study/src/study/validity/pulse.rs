@@ -6,7 +6,7 @@ use crate::study::fault::StudyError;
 use crate::study::fields;
 use crate::study::source::Place;
 use crate::study::words::Shape;
-use crate::study::{samples, scene, unit};
+use crate::study::{measured_pulse, samples, scene, unit};
 
 /// Steps a pulse must span.
 const STEPS_PER_PULSE: f64 = 8.0;
@@ -67,11 +67,12 @@ impl Check<'_, '_> {
             };
             let end_ms =
                 fixed.unwrap_or_else(|| self.view.number(fields::PULSE_WINDOW_MAX_MS.path()));
-            if end_ms < width {
+            let length = measured_pulse::length_ms(self.view).unwrap_or(width);
+            if end_ms < length {
                 let fault = self.fault("E152", &[path], format!(
-                    "the simulation ends {end_ms} ms after the onset, inside the pulse of {width} ms"
+                    "the simulation ends {end_ms} ms after the onset, inside the pulse of {length} ms"
                 ));
-                fault.allowed = format!(">= {width} ms");
+                fault.allowed = format!(">= {length} ms");
             }
         }
     }
@@ -106,7 +107,7 @@ impl Check<'_, '_> {
             );
             fault.key = fields::PULSE_TABLE.path().to_string();
             fault.value = String::new();
-            fault.allowed = "a file of two columns: time in ms, relative acceleration".to_string();
+            fault.allowed = "a file with columns of time and acceleration".to_string();
             return;
         }
         let time_ms = self.view.get(&fields::PULSE_TABLE_TIME_MS);
@@ -122,11 +123,9 @@ impl Check<'_, '_> {
         let largest = relative
             .iter()
             .fold(0.0_f64, |most, value| most.max(value.abs()));
-        let width_ms = self
-            .view
-            .get(&fields::PULSE_WIDTHS_MS)
-            .iter()
-            .fold(0.0_f64, |most, width| most.max(*width));
+        let widths = self.view.get(&fields::PULSE_WIDTHS_MS).iter();
+        let longest = widths.fold(0.0_f64, |most, width| most.max(*width));
+        let width_ms = measured_pulse::length_ms(self.view).unwrap_or(longest);
         let last = time_ms.last().copied().unwrap_or(1.0);
         let area: f64 = (1..time_ms.len())
             .map(|row| {
@@ -147,7 +146,7 @@ impl Check<'_, '_> {
                 "the sampled shock changes the drive's velocity by {velocity:.0} m/s at the highest amplitude"
             ));
             fault.allowed = format!("usually below {LARGEST_VELOCITY_M_PER_S} m/s");
-            fault.hint = "check that times are in ms".to_string();
+            fault.hint = "check the unit of the times".to_string();
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::study::datum::Datum;
 use crate::study::field::{Field, Many, Named};
 use crate::study::fields;
 use crate::study::imported_suspension;
+use crate::study::measured_pulse;
 use crate::study::source::Origin;
 use crate::study::words::{self, Effects, LeftOut};
 use opshock_solver::scene::plan::{Needs, Output};
@@ -104,7 +105,7 @@ impl Check<'_, '_> {
         let is_given = |path: &str| self.view.settings.has(path);
         let has_rayleigh = is_given(fields::SUSPENSION_RAYLEIGH_ALPHA_PER_S.path())
             || is_given(fields::SUSPENSION_RAYLEIGH_BETA_S.path());
-        let rules: [(bool, &str, &[&str]); 11] = [
+        let rules: [(bool, &str, &[&str]); 12] = [
             (
                 !has_rayleigh,
                 "suspension.rayleigh is given",
@@ -156,6 +157,11 @@ impl Check<'_, '_> {
                     fields::PULSE_TABLE.path(),
                     fields::PULSE_TABLE_TIME_MS.path(),
                 ],
+            ),
+            (
+                is_given(fields::PULSE_TABLE.path()),
+                "pulse.table is not given",
+                &measured_pulse::OF_A_FILE,
             ),
             (
                 any(fields::PULSE_WINDOW_MS.path(), "until_decayed"),
