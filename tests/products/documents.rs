@@ -47,19 +47,35 @@ fn drive_of(page: &str, at: &Path) {
     std::fs::write(at.join("my-drive.toml"), study.to_string()).unwrap();
 }
 
-/// Runs a command of the page and holds what is shown behind it against its output.
-fn prints_what_is_shown(name: &str) {
-    let page = page("docs/your-own-drive.md");
-    let at = tempfile::tempdir().unwrap();
-    drive_of(&page, at.path());
-    let (words, lines) = shown(&page, name);
+/// Runs a command of a page in a folder and holds what is shown behind it against its output.
+fn prints_in(at: &Path, page: &str, name: &str) {
+    let (words, lines) = shown(page, name);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let done = Done::of(at.path(), &words);
+    let done = Done::of(at, &words);
     assert_eq!(done.code, 0, "{}", done.stderr);
     let printed: BTreeSet<&str> = done.stdout.lines().map(str::trim_end).collect();
     for line in lines {
         assert!(printed.contains(line.trim_end()), "{line}\n{}", done.stdout);
     }
+}
+
+fn prints_what_is_shown(name: &str) {
+    let page = page("docs/your-own-drive.md");
+    let at = tempfile::tempdir().unwrap();
+    drive_of(&page, at.path());
+    prints_in(at.path(), &page, name);
+}
+
+#[test]
+fn the_measured_pulse_is_shown_as_it_is() {
+    let page = page("docs/measured-pulses.md");
+    prints_in(&root(), &page, "pulse");
+    prints_in(&root(), &page, "run");
+    let study = root().join("docs/measured-pulse/study.toml");
+    let keys: toml::Table = std::fs::read_to_string(study).unwrap().parse().unwrap();
+    let shown = blocks(&page).into_iter().find(|block| block.0 == "toml");
+    let shown: toml::Table = shown.unwrap().1.parse().unwrap();
+    assert_eq!(keys["pulse"], shown["pulse"]);
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod lowest_gap;
 mod matching;
 mod matching_files;
 mod matching_truths;
+mod measured_pulse;
 mod memory;
 mod mode_shapes;
 mod multi_body;

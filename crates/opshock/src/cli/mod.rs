@@ -25,6 +25,7 @@ mod mode_shapes;
 mod modes;
 mod new;
 mod plan;
+mod pulse;
 mod report;
 mod responses;
 mod run;
@@ -81,6 +82,7 @@ enum Command {
     Steady(steady::SteadyArgs),
     Explain(explain::ExplainArgs),
     Plan(plan::PlanArgs),
+    Pulse(pulse::PulseArgs),
     Sweep(sweep::SweepArgs),
     Match(matching::MatchArgs),
     Merge(merge::MergeArgs),
@@ -151,6 +153,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Steady(arguments) => steady::run(arguments, &cli.global, console),
         Command::Explain(arguments) => explain::run(arguments, &cli.global, console),
         Command::Plan(arguments) => plan::run(arguments, &cli.global, console),
+        Command::Pulse(arguments) => pulse::run(arguments, &cli.global, console),
         Command::Merge(arguments) => merge::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Match(arguments) => matching::run(arguments, &cli.global, console),

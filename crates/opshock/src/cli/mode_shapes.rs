@@ -26,13 +26,13 @@ const ANGLES_PER_DIAMETER: usize = 8;
 /// # Errors
 ///
 /// Something else has that name.
-pub(super) fn check_folder(folder: &Path) -> Result<(), Failure> {
+pub(super) fn check_folder(option: &str, folder: &Path) -> Result<(), Failure> {
     if folder.exists() && !folder.is_dir() {
         return Err(Failure::Usage(vec![Fault {
-            key: Some("--shapes".into()),
+            key: Some(option.into()),
             value: Some(folder.display().to_string()),
             allowed: Some("a folder, or a name that nothing has".into()),
-            ..Fault::new("usage", "--shapes: there is a file of this name")
+            ..Fault::new("usage", format!("{option}: there is a file of this name"))
         }]));
     }
     Ok(())

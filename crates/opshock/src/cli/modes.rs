@@ -48,7 +48,9 @@ pub struct ModesArgs {
 pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
     // What cannot be written is said before anything is computed.
     let folder = arguments.shapes.as_deref();
-    folder.map_or(Ok(()), mode_shapes::check_folder)?;
+    folder.map_or(Ok(()), |folder| {
+        mode_shapes::check_folder("--shapes", folder)
+    })?;
     let study = study_file::read(&arguments.study, global, console)?;
     let scene = unshaken_point(&study, &arguments.point)?.scene;
     let structure = modes(&scene.disk, &scene.disk_resolution, &scene.ramp)

@@ -7,6 +7,7 @@ use super::global::GlobalArgs;
 use super::selection::ShockArgs;
 use super::{memory, study_file};
 use clap::Args;
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::Output;
 use opshock_solver::shock::PulseShape;
@@ -85,7 +86,7 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     if console.json {
         console.result_json(&answer)?;
     } else {
-        console.result(&run_text(&shock_words(&shot), &answer))?;
+        console.result(&run_text(&shock_words(&study, &shot), &answer))?;
     }
     Ok(match outcome.verdict {
         Some(Verdict::Undecided { .. }) => Exit::Open,
@@ -197,7 +198,7 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
 pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCaption {
     let scene: &Scene = &shot.point.scene;
     RunCaption {
-        shock: shock_words(shot),
+        shock: shock_words(study, shot),
         start_s: study.start_s,
         width_s: scene.pulse.width_s,
         t_fail_s: t_fail_s(study, outcome),
@@ -217,7 +218,7 @@ fn t_fail_s(study: &Study, outcome: &Outcome) -> Option<f64> {
 }
 
 /// `rigid ramp, 400 G, 2 ms half-sine, sign +`, and the further axes.
-fn shock_words(shot: &Shot) -> String {
+fn shock_words(study: &Study, shot: &Shot) -> String {
     let point = &shot.point;
     let ramp = match point.ramp.as_str() {
         "none" => "no ramp".to_owned(),
@@ -231,8 +232,13 @@ fn shock_words(shot: &Shot) -> String {
         PulseShape::DampedSine { .. } => "damped sine",
         PulseShape::Table { .. } => "sampled pulse",
     };
+    let measured = study.measured.as_ref().filter(|pulse| !pulse.is_stretched);
+    let factor = measured.map_or(String::new(), |pulse| {
+        let peak_g = pulse.used.peak_m_per_s2().abs() / STANDARD_GRAVITY_M_PER_S2;
+        format!(" ({:.3} of the record)", shot.amplitude_g / peak_g)
+    });
     let mut words = format!(
-        "{ramp}, {} G, {} ms {shape}, sign {}",
+        "{ramp}, {} G{factor}, {} ms {shape}, sign {}",
         shot.amplitude_g, point.pulse_ms, point.sign
     );
     for (name, value) in &point.axes {
