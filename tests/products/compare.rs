@@ -104,6 +104,38 @@ fn only_what_differs_is_reported_and_whether_it_is_beyond_the_errors() {
     }
 }
 
+/// Negative shocks are survived as before, positive ones ten times as far: a difference of the signs of one store.
+#[test]
+fn points_of_one_store_are_compared_with_one_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = folder.path().join("a.opshock");
+    swept(&store, &[0.5, 1.0], 1.1, "name = \"mock\"\n");
+    let compared = |more: &[&str]| {
+        let done = Done::of(folder.path(), &[&["compare", "a.opshock"], more].concat());
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done
+    };
+    let sides = ["--points", "sign=+", "--with", "sign=-", "--json"];
+    let json = compared(&sides).json();
+    assert_eq!(json["a"]["source"], "sign=+");
+    assert_eq!(json["settings"], serde_json::json!([]));
+    let points = json["points"].as_array().unwrap();
+    let found = points.len() + json["equal_points"].as_u64().unwrap() as usize;
+    assert_eq!(found, 2, "each width once: {json}");
+    for point in points {
+        let of = |side: &str| point[side]["a_crit_g"].as_f64().unwrap();
+        let change_pct = 100.0 * (of("b") / of("a") - 1.0);
+        assert!((point["change_pct"].as_f64().unwrap() - change_pct).abs() < 1e-9);
+    }
+    let table = Done::of(folder.path(), &["report", "a.opshock", "--json"]).json();
+    let rows = table["points"].as_array().unwrap();
+    let crit = rows.iter().filter_map(|row| row["a_crit_g"].as_f64());
+    let lowest = crit.fold(f64::INFINITY, f64::min);
+    let answer = compared(&["--json"]).json()["answer"].clone();
+    let wanted = format!("Critical shocks range from {lowest:.1} G (the worst case: no ramp, ");
+    assert!(answer.as_str().unwrap().starts_with(&wanted), "{answer}");
+}
+
 #[test]
 fn what_cannot_be_compared_is_refused_with_its_code() {
     let folder = tempfile::tempdir().unwrap();
@@ -121,8 +153,13 @@ fn what_cannot_be_compared_is_refused_with_its_code() {
     .unwrap();
     let fig13 = shipped("fig13").display().to_string();
     for (arguments, code) in [
-        (&["a.opshock"][..], 2),
-        (&["a.opshock", "none.opshock"], 2),
+        (&["a.opshock", "none.opshock"][..], 2),
+        (&["a.opshock", "--points", "sign=+"], 2),
+        (&["a.opshock", "--points", "sign=+", "--with", "sign=up"], 2),
+        (
+            &["a.opshock", "--points", "sign=+", "--with", "pulse_ms=1"],
+            2,
+        ),
         (&["bad.toml", "a.opshock"], 3),
         (&["a.opshock", "empty.opshock"], 6),
         (&[&fig13, &fig13, "--store", "a.opshock"], 2),

@@ -173,6 +173,23 @@ fn headings_of_tables_are_those_of_the_program() {
     }
 }
 
+/// The reference of words is the one that the program writes.
+#[test]
+fn the_reference_of_words_is_todays() {
+    let at = tempfile::tempdir().unwrap();
+    let done = Done::of(at.path(), &["schema", "--terms"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let path = root().join("docs/terms.md");
+    if std::env::var_os("INSTA_UPDATE").is_some_and(|how| how == "always") {
+        std::fs::write(&path, &done.stdout).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        committed == done.stdout,
+        "write it anew: opshock schema --terms > docs/terms.md"
+    );
+}
+
 /// The reference of keys is the one that the program writes, and knows every key with its words.
 #[test]
 fn the_reference_of_keys_is_todays() {

@@ -34,6 +34,7 @@ mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
 mod real_sweep;
+mod report_answer;
 mod report_files;
 mod report_page;
 mod report_run;

@@ -143,7 +143,7 @@ fn csv_without_further_axes_has_exactly_twelve_less_one_columns() {
 
 #[test]
 fn markdown_and_terminal_say_what_is_only_a_bound() {
-    let markdown = table::markdown(&summary(), "opshock 1 (abc)");
+    let markdown = table::markdown(&summary(), "The answer.", "opshock 1 (abc)");
     assert!(
         markdown.contains("| none | 0.5 | + | 60 | > 366.2 |"),
         "{markdown}"
@@ -157,7 +157,9 @@ fn markdown_and_terminal_say_what_is_only_a_bound() {
     assert_eq!(columns, [12; 10]);
     let terminal = table::terminal(&summary());
     assert!(
-        terminal.contains("8 points: 6 bracketed, 1 above and 1 below the range"),
+        terminal.contains(
+            "8 points: 6 critical shocks found, 1 above the searched range, 1 below the searched range; 96 simulations"
+        ),
         "{terminal}"
     );
 }
@@ -167,15 +169,19 @@ fn the_figure_is_nested_svg_and_a_png_three_times_its_size() {
     let figure = critical_shock_figure(&summary(), "opshock 1 (abc)");
     let svg = figure.svg();
     assert_nested(&svg, &[]);
-    assert!(svg.starts_with("<svg viewBox=\"0 0 972 "), "{}", &svg[..80]);
+    assert!(
+        svg.starts_with("<svg viewBox=\"0 0 1232 "),
+        "{}",
+        &svg[..80]
+    );
     assert!(svg.contains("Critical shock (G)") && svg.contains("Pulse width (ms)"));
     assert!(!svg.contains("<script"), "names of studies are text");
-    // One mark for each row, with what a pointer resting on it shows.
-    assert_eq!(svg.matches("<title>").count(), 8);
+    // One mark for each row, and the worst sign of two ramps at two widths, with what a pointer resting on it shows.
+    assert_eq!(svg.matches("<title>").count(), 8 + 4);
     let png = figure.png().expect("a picture");
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     let width = u32::from_be_bytes([png[16], png[17], png[18], png[19]]);
-    assert_eq!(width, 3 * 972);
+    assert_eq!(width, 3 * 1232);
 }
 
 #[test]
@@ -190,6 +196,7 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
     let without_namespace = page
         .replace("http://www.w3.org/2000/svg", "")
         .replace("href=\"#", "")
+        .replace("href=\"data:", "")
         .replace("url(#", "");
     for reference in [
         "http:", "https:", "src=", "href=", "url(", "@import", "fetch(",

@@ -88,8 +88,8 @@ fn report_out_writes_the_six_files_and_tells_them_on_stderr_only() {
     assert_eq!(
         names,
         [
-            "fig13.png",
-            "fig13.svg",
+            "critical_shock.png",
+            "critical_shock.svg",
             "report.html",
             "results.h5",
             "table.csv",
@@ -102,6 +102,26 @@ fn report_out_writes_the_six_files_and_tells_them_on_stderr_only() {
     assert_eq!(h5.dataset("points/a_crit_g").unwrap().size(), 36);
     let page = std::fs::read_to_string(folder.path().join("out/r/report.html")).unwrap();
     assert_eq!(page.matches("<tr data-point").count(), 36);
+
+    // An axis with one value less than the widths, on the abscissa; its word is checked.
+    let over = |key: &str| {
+        Done::of(
+            folder.path(),
+            &["report", "s.opshock", "--out", "out/x", "--x", key],
+        )
+    };
+    assert!([0, 4].contains(&over("ramp.models").code));
+    let svg = std::fs::read_to_string(folder.path().join("out/x/critical_shock.svg")).unwrap();
+    assert!(svg.contains("Ramp model") && !svg.contains("Pulse width (ms)"));
+    let wrong = over("clearance_um");
+    assert_eq!(wrong.code, 2, "{}", wrong.stderr);
+    assert!(
+        wrong
+            .stderr
+            .contains("--x = \"clearance_um\" must be one of ramp, pulse_ms, sign"),
+        "{}",
+        wrong.stderr
+    );
 
     let quiet = Done::of(
         folder.path(),

@@ -90,9 +90,9 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         "a sweep done again gives the same JSON"
     );
     assert!(
-        page.contains("R4 saved")
-            && page.contains("R6 saved")
-            && page.contains("saved nothing: R1"),
+        page.contains("rule R4 saved work in")
+            && page.contains("rule R6 saved work in")
+            && page.contains("rule R1 saved nothing: "),
         "{page}"
     );
     let path = study("fig13");

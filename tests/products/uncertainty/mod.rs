@@ -149,7 +149,7 @@ fn an_error_that_was_not_computed_is_absent_in_every_product() {
     let json = serde_json::to_value(&without).expect("JSON");
     assert!(json["points"][0]["err_low_g"].is_null() && json["points"][0]["err_high_g"].is_null());
     assert_eq!(json["points"][0]["contributions"], serde_json::json!({}));
-    for text in [table::terminal(&without), table::markdown(&without, "")] {
+    for text in [table::terminal(&without), table::markdown(&without, "", "")] {
         assert!(!text.contains("-0.0 +"), "{text}");
     }
     let file = hdf5::File::open(store.join("results.h5")).expect("opens");

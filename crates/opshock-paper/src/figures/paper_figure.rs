@@ -1,7 +1,7 @@
 //! Writes a figure of the paper and the table it was drawn from.
 
 use opshock_study::report::chart::Figure;
-use opshock_study::report::{ReportError, critical_shock_figure, picture, table};
+use opshock_study::report::{ReportError, paper_figure, picture, table};
 use opshock_study::store::aside::write_all;
 use opshock_study::store::summary::Summary;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub fn critical_figure(summary: &Summary, source: &str) -> PaperFigure {
     PaperFigure {
         number: 13,
         shows: format!("critical shock against pulse width, from {source}"),
-        figure: critical_shock_figure(summary, source),
+        figure: paper_figure(summary, source),
         csv: table::csv(summary),
     }
 }

@@ -3,7 +3,7 @@
 //! Points are matched by ramp, width, sign and further axes. An axis that only one study has is
 //! matched with the other study's setting of that key. Intervals that touch count as overlapping.
 
-use super::table::aligned;
+use super::table::{aligned, uncertainty_words};
 use crate::store::summary::{AxisValue, PointSummary, Status, Summary};
 use crate::study::difference::{self, SettingDifference, Settings};
 use serde::ser::SerializeMap;
@@ -55,7 +55,8 @@ impl Significance {
         }
     }
 
-    fn words(self) -> &'static str {
+    /// In words.
+    pub fn words(self) -> &'static str {
         match self {
             Significance::BeyondUncertainties => "beyond uncertainty intervals",
             Significance::WithinUncertainties => "within uncertainty intervals",
@@ -316,10 +317,7 @@ impl Comparison {
                 cells.extend(point.axes.iter().map(|(_, value)| value.to_string()));
                 for row in [&point.a, &point.b] {
                     cells.push(bracket_words(row));
-                    cells.push(match (row.err_low_g, row.err_high_g) {
-                        (Some(low), Some(high)) => format!("-{low:.1} +{high:.1}"),
-                        _ => String::new(),
-                    });
+                    cells.push(uncertainty_words(row));
                 }
                 let change = point.change_pct.map(|change| format!("{change:+.2}"));
                 cells.push(change.unwrap_or_default());

@@ -1,6 +1,9 @@
-//! Draws the critical shock against pulse width: the curve a study is made for.
+//! Draws the critical shock against any coordinate: the curve a study is made for.
 
 use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
+use super::coordinates::{self, PULSE, default_abscissa};
+use super::critical_layout::{Layout, Line, PanelOfLines};
+use super::terms::is_reserved;
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Status, Summary};
 
@@ -12,41 +15,41 @@ const MARKERS: [Marker; 4] = [
 ];
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
 
-/// Critical shock of every ramp model (and further axis value) against pulse width, a panel for
-/// each sign on one common ordinate.
+/// Critical shocks over the coordinate with most numbers, as [`critical_shock_over`].
+pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
+    critical_shock_over(summary, default_abscissa(summary), provenance)
+}
+
+/// Critical shocks over the pulse width with a panel for each sign: the paper's Fig. 13.
+pub fn paper_figure(summary: &Summary, provenance: &str) -> Figure {
+    figure(summary, &Layout::of(summary, PULSE, false), provenance)
+}
+
+/// Critical shocks over coordinate `x` (see [`super::coordinates`]) on one common ordinate; panels for each sign, and
+/// one for the worst of all signs and heads.
 ///
 /// Marks are `a_crit_g` with its uncertainty interval; an open mark has a reservation (see the table's
 /// status and flags); an open arrow is only a bound: no failure up to, or failure already at, the
 /// end of the searched range. Series of equal values are set some pixels apart.
-pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
-    let names = series_names(summary);
+pub fn critical_shock_over(summary: &Summary, x: usize, provenance: &str) -> Figure {
+    figure(summary, &Layout::of(summary, x, true), provenance)
+}
+
+pub(super) fn figure(summary: &Summary, layout: &Layout, provenance: &str) -> Figure {
     let ordinate = ordinate(summary);
-    let widths = distinct(summary.points.iter().map(|point| point.pulse_ms));
-    let span = match (widths.first(), widths.last()) {
-        (Some(first), Some(last)) if last > first => {
-            (first - 0.08 * (last - first), last + 0.08 * (last - first))
-        }
-        (Some(first), _) => (0.5 * first, 1.5 * first),
-        _ => (0.0, 1.0),
-    };
-    let panels: Vec<Panel> = [Sign::Plus, Sign::Minus]
-        .into_iter()
-        .filter(|sign| summary.points.iter().any(|point| point.sign == *sign))
-        .map(|sign| Panel {
-            title: match sign {
-                Sign::Plus => "Sign +: disk first moves towards the slider".into(),
-                Sign::Minus => "Sign \u{2212}: disk first moves away from the slider".into(),
-            },
-            x: Axis {
-                range: Some(span),
-                ticks: (widths.len() <= 9).then(|| readable(&widths, span)),
-                ..Axis::linear("Pulse width (ms)")
-            },
+    let abscissa = abscissa(summary, layout);
+    let panels: Vec<Panel> = layout
+        .panels
+        .iter()
+        .map(|panel| Panel {
+            title: panel.title.clone(),
+            x: abscissa.clone(),
             y: ordinate.clone(),
-            series: names
+            series: panel
+                .lines
                 .iter()
                 .enumerate()
-                .map(|(index, name)| series(summary, name, index, names.len(), sign))
+                .map(|(index, line)| series(summary, panel, line, index))
                 .collect(),
             rules: Vec::new(),
             shaded: None,
@@ -57,28 +60,61 @@ pub fn critical_shock_figure(summary: &Summary, provenance: &str) -> Figure {
         .iter()
         .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
     let has_uncertainty = |point: &PointSummary| point.err_low_g.is_some();
-    let mut subtitle = "highest surviving amplitude".to_owned();
+    let mut subtitle = "largest amplitude survived".to_owned();
     if summary.points.iter().any(has_uncertainty) {
         subtitle.push_str(" with its uncertainty interval");
+    }
+    if summary.points.iter().any(|point| is_reserved(point)) {
+        subtitle.push_str("; open mark: with a reservation");
+    }
+    if bounded {
+        subtitle.push_str("; open arrow: only a bound");
     }
     let lacks_uncertainty =
         |point: &PointSummary| point.status == Status::Ok && !has_uncertainty(point);
     if summary.points.iter().any(lacks_uncertainty) {
         subtitle.push_str("; no interval: uncertainty not known");
     }
-    if bounded {
-        subtitle.push_str("; open arrow: no bracket within the searched range");
-    }
     if !provenance.is_empty() {
         subtitle = format!("{subtitle}   [{provenance}]");
     }
+    let width_px = match layout.columns {
+        1 => 720.0,
+        2 => 470.0,
+        _ => 400.0,
+    };
     Figure {
         title: summary.study.clone(),
         subtitle,
-        columns: 2,
-        panel_px: (if panels.len() > 1 { 470.0 } else { 720.0 }, 400.0),
+        columns: layout.columns,
+        panel_px: (width_px, 400.0),
         panels,
     }
+}
+
+/// The abscissa with the values of the study as ticks, those that would sit on one another left out.
+fn abscissa(summary: &Summary, layout: &Layout) -> Axis {
+    let axis = Axis::linear(&coordinates::label(summary, layout.x));
+    let values: Vec<f64> = layout.ticks.iter().map(|(value, _)| *value).collect();
+    let (low, high) = match (values.first(), values.last()) {
+        (Some(first), Some(last)) if last > first => {
+            (first - 0.08 * (last - first), last + 0.08 * (last - first))
+        }
+        (Some(first), _) => (
+            first - 0.5 * first.abs().max(1.0),
+            first + 0.5 * first.abs().max(1.0),
+        ),
+        _ => (0.0, 1.0),
+    };
+    let axis = axis.between(low, high);
+    if layout.ticks.iter().all(|(_, word)| word.is_none()) {
+        return Axis {
+            ticks: (values.len() <= 9).then(|| readable(&values, (low, high))),
+            ..axis
+        };
+    }
+    let words = layout.ticks.iter();
+    axis.named(words.map(|(value, word)| (*value, word.clone().unwrap_or_default())))
 }
 
 /// One name per ramp model and combination of further axis values, in the study's order.
@@ -127,27 +163,32 @@ pub(super) fn series_name(summary: &Summary, point: &PointSummary) -> String {
     name
 }
 
-fn series(summary: &Summary, name: &str, index: usize, count: usize, sign: Sign) -> Series {
-    let mut samples: Vec<Sample> = summary
-        .points
+fn series(summary: &Summary, panel: &PanelOfLines, line: &Line, index: usize) -> Series {
+    let samples: Vec<Sample> = line
+        .marks
         .iter()
-        .filter(|point| point.sign == sign && series_name(summary, point) == *name)
-        .filter_map(|point| sample(name, point))
+        .filter_map(|&(x, row)| {
+            let point = &summary.points[row];
+            let name = match panel.is_worst {
+                true => format!("lowest: {}", coordinates::name(summary, point)),
+                false => coordinates::name(summary, point),
+            };
+            sample(x, &name, point)
+        })
         .collect();
-    samples.sort_by(|a, b| a.x.total_cmp(&b.x));
     Series {
-        dodge_px: 6.0 * (index as f64 - 0.5 * (count as f64 - 1.0)),
+        dodge_px: 6.0 * (index as f64 - 0.5 * (panel.lines.len() as f64 - 1.0)),
         ..Series::marked(
-            name,
-            colour::CYCLE[index % colour::CYCLE.len()],
-            Some(DASHES[index % DASHES.len()]),
-            (MARKERS[index % MARKERS.len()], Fill::Full),
+            &line.name,
+            colour::CYCLE[line.colour % colour::CYCLE.len()],
+            Some(DASHES[line.style % DASHES.len()]),
+            (MARKERS[line.style % MARKERS.len()], Fill::Full),
             samples,
         )
     }
 }
 
-fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
+fn sample(x: f64, name: &str, point: &PointSummary) -> Option<Sample> {
     let value = match (point.status, point.a_crit_g, point.a_fail_g) {
         (Status::AboveRange, Some(bound), _) => Value::Above(bound),
         (Status::BelowRange, _, Some(bound)) => Value::Below(bound),
@@ -164,9 +205,7 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
         _ => "uncertainty not known".to_owned(),
     };
     let mut note = format!(
-        "{name}, {} ms, {}: survives {} G, fails {} G, {uncertainty}, {}",
-        point.pulse_ms,
-        point.sign.as_str(),
+        "{name}: survives {} G, fails {} G, {uncertainty}, {}",
         g(point.a_crit_g),
         g(point.a_fail_g),
         point.status.as_str()
@@ -175,9 +214,9 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
         note.push_str(&format!(", {}", flag.as_str()));
     }
     Some(Sample {
-        x: point.pulse_ms,
+        x,
         value,
-        open: point.status != Status::Ok,
+        open: is_reserved(point),
         note,
     })
 }
@@ -186,7 +225,11 @@ fn sample(name: &str, point: &PointSummary) -> Option<Sample> {
 /// heights compare as they are, unless the values span so much that the small ones would vanish.
 fn ordinate(summary: &Summary) -> Axis {
     let mut values = Vec::new();
-    for point in summary.points.iter().filter_map(|point| sample("", point)) {
+    for point in summary
+        .points
+        .iter()
+        .filter_map(|point| sample(0.0, "", point))
+    {
         match point.value {
             Value::Known { y, low, high } => values.extend([y, low, high]),
             Value::Above(y) => values.extend([y, 1.25 * y]),
@@ -205,7 +248,7 @@ fn ordinate(summary: &Summary) -> Axis {
     }
 }
 
-/// The widths themselves as ticks, those that would sit on one another left out.
+/// Values as ticks without those that would sit on one another.
 fn readable(widths: &[f64], span: (f64, f64)) -> Vec<f64> {
     let mut kept: Vec<f64> = Vec::new();
     for &width in widths {

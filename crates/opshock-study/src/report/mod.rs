@@ -1,8 +1,11 @@
 //! Writes tables, plots and pages from stored results; never simulates.
 
 mod accuracy_files;
+pub mod answer;
 pub mod chart;
 pub mod comparison;
+pub mod coordinates;
+mod critical_layout;
 mod critical_shock;
 mod critical_table;
 mod crossings;
@@ -22,11 +25,12 @@ pub mod runs_table;
 pub mod savings;
 pub mod table;
 mod terminal_plot;
+pub mod terms;
 pub mod vtk_files;
 mod vtu;
 
 pub use accuracy_files::write_accuracy;
-pub use critical_shock::critical_shock_figure;
+pub use critical_shock::{critical_shock_figure, critical_shock_over, paper_figure};
 pub use critical_table::{TableError, read_table};
 pub use crossings::CrossingRow;
 pub use error::{ReportError, json};

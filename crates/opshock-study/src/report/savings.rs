@@ -25,7 +25,7 @@ pub struct Saving {
     /// no head steps. Not in JSON, which is the same for a sweep done again.
     #[serde(skip)]
     pub seconds: Option<f64>,
-    /// How it was found, or why there is nothing.
+    /// What is counted, or why there is nothing.
     pub method: &'static str,
 }
 
@@ -61,44 +61,46 @@ pub fn savings(results: &Results) -> Vec<Saving> {
     let is_bare = |row: &&RunRow| points[row.point].ramp == "none";
     let bare = plain().filter(is_bare).count();
     vec![
-        counted("R1", 0, "none here: a critical shock needs the moving head"),
+        counted(
+            "R1",
+            0,
+            "a critical shock needs the moving head in every run",
+        ),
         counted(
             "R2",
             bare,
-            "counted: runs without ramp, whose disk has no harmonics n >= 1",
+            "runs without ramp, whose disk moves in its axisymmetric modes only",
         ),
         counted(
             "R3",
             plain().count() - bare,
-            "counted: runs with a ramp, whose harmonics n >= 1 were inactive until the first touch",
+            "runs with a ramp, whose other disk modes were not computed before the first touch",
         ),
         of_head(
             "R4",
             not_repeated(results),
-            "counted: runs without ramp below the first touch of a ramp, which that ramp did not \
-             repeat, and their steps",
+            "runs below the first touch of a ramp, taken from the same point without ramp",
         ),
         counted(
             "R5",
             plain().count() - distinct(plain().map(|row| model(&points[row.point]))),
-            "counted: runs on a model and unit response that another amplitude or sign had built",
+            "runs with the model and unit response of another amplitude or sign",
         ),
         of_head(
             "R6",
             cut_short(results),
-            "counted: failing runs; their steps after touch estimated by the surviving runs of the \
-             same point",
+            "failing runs ended at touch; the time left is estimated by surviving runs of the same point",
         ),
         counted(
             "R7",
             0,
-            "none here: the sign costs nothing without ramp (R5), and a contact is run for each",
+            "both signs are simulated, since a contact depends on the sign",
         ),
-        counted("R8", 0, "none here: probes of a search keep no fields"),
+        counted("R8", 0, "a search keeps no pressure fields"),
         counted(
             "R9",
             points.len() - distinct(points.iter().map(|point| format!("{:?}", point.axes))),
-            "counted: points that took film and steady flight over from another",
+            "points with film and steady flight of another point",
         ),
     ]
 }
@@ -164,32 +166,24 @@ fn cut_short(results: &Results) -> (u64, u64) {
     saved
 }
 
-/// A line for each rule that saved something, and one for the others.
+/// A line for each rule: what it saved, or why nothing.
 pub fn lines(savings: &[Saving]) -> Vec<String> {
     let line = |saving: &Saving| {
-        let what = if saving.rule == "R9" { "films" } else { "runs" };
-        let head = match saving.seconds {
-            None => String::new(),
-            Some(seconds) => format!(
-                ", {} head steps, {:.0} % of the work, some {seconds:.0} s",
-                saving.head_steps,
-                100.0 * saving.share
-            ),
-        };
-        format!(
-            "{} saved {} {what}{head} ({})",
-            saving.rule, saving.runs, saving.method
-        )
+        let Saving {
+            rule,
+            runs,
+            head_steps,
+            method,
+            ..
+        } = saving;
+        let head = saving.seconds.map_or(String::new(), |seconds| {
+            let share = 100.0 * saving.share;
+            format!(": {head_steps} time steps of the head, {share:.0} % of the work, about {seconds:.0} s")
+        });
+        match runs {
+            0 => format!("rule {rule} saved nothing: {method}"),
+            runs => format!("rule {rule} saved work in {runs} {method}{head}"),
+        }
     };
-    let (some, none): (Vec<&Saving>, Vec<&Saving>) =
-        savings.iter().partition(|saving| saving.runs > 0);
-    let mut lines: Vec<String> = some.into_iter().map(line).collect();
-    if !none.is_empty() {
-        let nothing: Vec<String> = none
-            .iter()
-            .map(|saving| format!("{} ({})", saving.rule, saving.method))
-            .collect();
-        lines.push(format!("saved nothing: {}", nothing.join(", ")));
-    }
-    lines
+    savings.iter().map(line).collect()
 }

@@ -1,5 +1,6 @@
 //! Writes critical shocks as a table: terminal, Markdown, CSV.
 
+use super::terms::{self, Kind};
 use crate::store::summary::{CONTRIBUTIONS, PointSummary, Status, Summary};
 
 /// Columns of the table before those of the study's axes.
@@ -62,11 +63,14 @@ pub fn csv_line(cells: &[String]) -> String {
     quoted.join(",") + "\n"
 }
 
-/// Markdown table with its heading, and what the columns mean.
-pub fn markdown(summary: &Summary, provenance: &str) -> String {
+/// Markdown table below its heading and the `answer` in words, with the meaning of columns and flags.
+pub fn markdown(summary: &Summary, answer: &str, provenance: &str) -> String {
     let (header, rows) = readable(summary);
     let escape = |cell: &String| cell.replace('|', "\\|");
     let mut text = format!("# {}\n\n", summary.study);
+    if !answer.is_empty() {
+        text.push_str(&format!("{answer}\n\n"));
+    }
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     text.push_str(&line(header.iter().map(escape).collect()));
     let words = 1 + summary.axes.len();
@@ -88,11 +92,7 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
     for row in &rows {
         text.push_str(&line(row.iter().map(escape).collect()));
     }
-    text.push_str(
-        "\n`A_crit`: highest surviving amplitude below the lowest failing one, `A_fail`; uncertainty: \
-         ends of the uncertainty interval below and above `A_crit`, empty where it was not computed; first touch: amplitude at which the disk first reaches the ramp. \
-         `> A`: no failure up to A; `< A`: failure already at A.\n",
-    );
+    text.push_str(&legend(summary));
     text.push_str(&parts_table(summary));
     if !provenance.is_empty() {
         text.push_str(&format!("\n{provenance}\n"));
@@ -104,26 +104,63 @@ pub fn markdown(summary: &Summary, provenance: &str) -> String {
 pub fn terminal(summary: &Summary) -> String {
     let (header, rows) = readable(summary);
     let mut text = format!("{}\n{}", summary.study, aligned(&header, &rows));
+    text.push_str(&format!("{}\n", counts(summary)));
+    if let Some(share) = uncertainty_cost(summary) {
+        text.push_str(&format!("uncertainty intervals: {share}\n"));
+    }
+    text
+}
+
+/// How many points are answered, and what became of the others.
+pub fn counts(summary: &Summary) -> String {
     let totals = &summary.totals;
     let lacks_uncertainty = |row: &&PointSummary| {
         row.status == Status::Open && row.a_crit_g.and(row.a_fail_g).is_some()
     };
-    let open = match summary.points.iter().filter(lacks_uncertainty).count() {
-        0 => String::new(),
-        bracketed => format!(" ({bracketed} of them with a bracket)"),
+    let bracketed = summary.points.iter().filter(lacks_uncertainty).count();
+    let open = match bracketed {
+        0 => "not finished".to_owned(),
+        bracketed => format!("not finished ({bracketed} of them lack their uncertainty only)"),
     };
-    text.push_str(&format!(
-        "{} points: {} bracketed, {} above and {} below the range, {} undecided, {} open{open}; {} runs\n",
-        totals.points,
-        totals.ok,
-        totals.above_range,
-        totals.below_range,
-        totals.undecided,
-        totals.open,
-        totals.runs
-    ));
-    if let Some(share) = uncertainty_cost(summary) {
-        text.push_str(&format!("uncertainty intervals: {share}\n"));
+    let mut text = format!(
+        "{} points: {} critical shocks found",
+        totals.points, totals.ok
+    );
+    for (count, what) in [
+        (totals.above_range, "above the searched range"),
+        (totals.below_range, "below the searched range"),
+        (totals.undecided, "without verdict"),
+        (totals.open, &open),
+    ] {
+        if count > 0 {
+            text.push_str(&format!(", {count} {what}"));
+        }
+    }
+    text.push_str(&format!("; {} simulations", totals.runs));
+    text
+}
+
+/// What columns mean, and the statuses and flags that rows have, a line each.
+pub fn meanings(summary: &Summary) -> Vec<String> {
+    let has = |status: &Status| summary.points.iter().any(|point| point.status == *status);
+    let statuses = Status::ALL
+        .into_iter()
+        .filter(|status| *status != Status::Ok);
+    let statuses = statuses.filter(has).map(terms::of_status);
+    let flags = terms::flags_of(&summary.points);
+    let line = |term: &terms::Term| format!("`{}`: {}", term.name, term.text);
+    statuses.chain(flags).map(line).collect()
+}
+
+fn legend(summary: &Summary) -> String {
+    let mut text = String::from("\n");
+    for column in ["a_crit_g", "a_fail_g", "err_low_g", "onset_g", "sign"] {
+        if let Some(term) = terms::find(Kind::Column, column) {
+            text.push_str(&format!("- {}: {}\n", term.shown, term.text));
+        }
+    }
+    for line in meanings(summary) {
+        text.push_str(&format!("- {line}\n"));
     }
     text
 }
@@ -174,22 +211,34 @@ pub(super) fn uncertainty_cost(summary: &Summary) -> Option<String> {
 }
 
 /// What a reader of the contributions must know.
-pub(super) const CONTRIBUTIONS_NOTE: &str = "Half of each contribution, in per cent of `A_crit`; they add up to the half-width of the interval. \
-    The bracket of the search, and what a refined scene has shown, lie on one side of `A_crit`, the others on both. \
-    `x3`: safety factor 3, since the errors did not fall at the formal order; otherwise 1.25, and 1 for the bracket. \
-    `structure`, `head`: all discretisation parameters of disk and ramp, or of the head, changed together.";
+pub(super) fn contributions_note(summary: &Summary) -> String {
+    let mut text = String::from(
+        "Half of each contribution, in per cent of A_crit; they add up to the half-width of the interval. The bracket of \
+         the search, and what a refined simulation has shown, lie on one side of A_crit, the others on both. x3: the \
+         error did not fall as its method predicts (formal order), so that it is taken 3 times instead of 1.25 times; \
+         the bracket is taken once.",
+    );
+    for name in contribution_names(summary) {
+        if let Some(term) = terms::find(Kind::Contribution, name) {
+            text.push_str(&format!(" {}: {}", term.shown, term.text));
+        }
+    }
+    text
+}
+
+/// The contributions that a row has, in their order.
+fn contribution_names(summary: &Summary) -> Vec<&'static str> {
+    let has = |name: &&str| {
+        let own = |point: &PointSummary| point.contributions.iter().any(|(known, _)| known == name);
+        summary.points.iter().any(own)
+    };
+    CONTRIBUTIONS.into_iter().filter(has).collect()
+}
 
 /// Half the contributions of every uncertainty interval as per cent of `A_crit`, header and rows; `x3` marks the safety
 /// factor 3. `None` where the intervals have no other contribution than the bracket.
 pub(super) fn contributions(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
-    let names: Vec<&str> = CONTRIBUTIONS
-        .into_iter()
-        .filter(|name| {
-            let has =
-                |point: &PointSummary| point.contributions.iter().any(|(known, _)| known == name);
-            summary.points.iter().any(has)
-        })
-        .collect();
+    let names = contribution_names(summary);
     if names.len() < 2 {
         return None;
     }
@@ -253,7 +302,7 @@ fn parts_table(summary: &Summary) -> String {
     for row in rows {
         text.push_str(&format!("| {} |\n", row.join(" | ")));
     }
-    text.push_str(&format!("\n{CONTRIBUTIONS_NOTE}"));
+    text.push_str(&format!("\n{}", contributions_note(summary)));
     if let Some(cost) = uncertainty_cost(summary) {
         text.push_str(&format!(" Cost: {cost}."));
     }
@@ -290,10 +339,7 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
             row.extend([
                 bounded(point.a_crit_g, point.status == Status::AboveRange, '>'),
                 bounded(point.a_fail_g, point.status == Status::BelowRange, '<'),
-                match (point.err_low_g, point.err_high_g) {
-                    (Some(low), Some(high)) => format!("-{low:.1} +{high:.1}"),
-                    _ => String::new(),
-                },
+                uncertainty_words(point),
                 point.onset_g.map_or(String::new(), |v| format!("{v:.1}")),
                 point.runs.to_string(),
                 point.status.as_str().to_owned(),
@@ -303,6 +349,14 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
         })
         .collect();
     (header, rows)
+}
+
+/// Both ends of the uncertainty interval, G; empty where it is not known.
+pub(super) fn uncertainty_words(row: &PointSummary) -> String {
+    match (row.err_low_g, row.err_high_g) {
+        (Some(low), Some(high)) => format!("-{low:.1} +{high:.1}"),
+        _ => String::new(),
+    }
 }
 
 fn bounded(value: Option<f64>, bound: bool, sign: char) -> String {

@@ -21,6 +21,15 @@ pub enum Status {
 }
 
 impl Status {
+    /// All of them.
+    pub const ALL: [Status; 5] = [
+        Status::Ok,
+        Status::AboveRange,
+        Status::BelowRange,
+        Status::Undecided,
+        Status::Open,
+    ];
+
     /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -34,15 +43,7 @@ impl Status {
 
     /// Reads the word back.
     pub fn parse(text: &str) -> Option<Status> {
-        [
-            Status::Ok,
-            Status::AboveRange,
-            Status::BelowRange,
-            Status::Undecided,
-            Status::Open,
-        ]
-        .into_iter()
-        .find(|status| status.as_str() == text)
+        Self::ALL.into_iter().find(|status| status.as_str() == text)
     }
 }
 
@@ -89,7 +90,8 @@ pub enum Flag {
 }
 
 impl Flag {
-    const ALL: [Flag; 17] = [
+    /// All flags, in the order of the table's rows.
+    pub const ALL: [Flag; 17] = [
         Flag::NonMonotone,
         Flag::Window,
         Flag::WindowUndecided,
@@ -163,8 +165,8 @@ mod tests {
                 format!("\"{}\"", flag.as_str())
             );
         }
-        for status in ["ok", "above_range", "below_range", "undecided", "open"] {
-            assert_eq!(Status::parse(status).expect("known").as_str(), status);
+        for status in Status::ALL {
+            assert_eq!(Status::parse(status.as_str()), Some(status));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `opshock explain`: prints which effects each scene of a study calls for, and by which rule.
+//! `opshock explain`: prints which effects are simulated for each scene of a study, and which rule leaves out the others.
 
 use super::console::Console;
 use super::exit::Exit;
@@ -21,7 +21,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Print which effects each scene calls for: on, off or inactive, by which rule
+/// Print which effects are simulated for each scene: on, off or inactive, and by which rule
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
     /// Study file

@@ -8,6 +8,7 @@ use super::stored::{self, Stored};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use opshock_study::accuracy::Accuracy;
+use opshock_study::report::coordinates::{self, NotOfTheTable};
 use opshock_study::report::{
     CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
 };
@@ -30,9 +31,15 @@ pub struct ReportArgs {
     /// Plot the critical shocks as text
     #[arg(long, conflicts_with = "format")]
     plot: bool,
-    /// Folder for table.md, table.csv, fig13.svg, fig13.png, report.html and results.h5
+    /// Folder for table.md, table.csv, critical_shock.svg, critical_shock.png, report.html and results.h5
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Key on the abscissa of the figure, as ramp.clearance_um or pulse_ms [default: the numbers with most values]
+    #[arg(long, value_name = "KEY", requires = "out")]
+    x: Option<String>,
+    /// Also print what the rules of `opshock explain` saved
+    #[arg(short, long)]
+    verbose: bool,
     /// accuracy.json of `opshock accuracy`, shown in report.html
     #[arg(long, value_name = "FILE", requires = "out")]
     accuracy: Option<PathBuf>,
@@ -99,6 +106,9 @@ pub fn run(
         None => None,
     };
     let crossings = crossings(&stored);
+    let find = |key: &String| coordinates::find(&stored.summary, "--x", key);
+    let abscissa = arguments.x.as_ref().map(find).transpose();
+    let abscissa = abscissa.map_err(not_of_the_table)?;
     let source = ReportSource {
         summary: &stored.summary,
         runs: &stored.runs,
@@ -110,6 +120,7 @@ pub fn run(
         accuracy: accuracy.as_ref(),
         plan: &stored.plan,
         film: film.as_ref(),
+        abscissa,
     };
     if let Some(out) = arguments
         .out
@@ -145,24 +156,41 @@ pub fn run(
     match format {
         None if arguments.plot => console.result(&terminal_plot(&stored.summary))?,
         None => {
-            console.result(&table::terminal(&stored.summary))?;
+            let table = table::terminal(&stored.summary);
+            console.result(&format!("{}\n\n{table}", source.answer()))?;
+            for meaning in table::meanings(&stored.summary) {
+                console.tell(&meaning);
+            }
             if let Some(values) = source.not_refined() {
                 console.tell(&values);
             }
             for crossing in &crossings {
                 console.tell(&crossing.line());
             }
-            for line in savings::lines(&stored.savings) {
-                console.tell(&line);
+            let saved = savings::lines(&stored.savings);
+            for line in saved.iter().filter(|_| arguments.verbose) {
+                console.tell(line);
             }
         }
         Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,
         Some(TableFormat::Md) => {
-            console.result(&table::markdown(&stored.summary, &source.provenance()))?;
+            let (answer, provenance) = (source.answer(), source.provenance());
+            console.result(&table::markdown(&stored.summary, &answer, &provenance))?;
         }
         Some(TableFormat::Json) => console.result_json(&Reported::of(&stored))?,
     }
     Ok(exit_of(&stored.summary))
+}
+
+/// The failure of an option that names what the table does not have.
+pub(super) fn not_of_the_table(fault: NotOfTheTable) -> Failure {
+    let message = fault.to_string();
+    Failure::Usage(vec![Fault {
+        key: Some(fault.key),
+        value: Some(fault.value),
+        allowed: Some(fault.allowed),
+        ..Fault::new("usage", message)
+    }])
 }
 
 /// What `opshock accuracy` wrote.

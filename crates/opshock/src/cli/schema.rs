@@ -4,14 +4,15 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use clap::Args;
+use opshock_study::report::terms;
 use opshock_study::study::{reference, schema};
 use serde_json::json;
 
-/// Print what a key means, or the JSON Schema of study files
+/// Print what a key or a word of the report means, or the JSON Schema of study files
 #[derive(Args, Debug)]
 pub struct SchemaArgs {
     /// Keys or sections, as disk.thickness_mm: meaning, unit, range, default
-    #[arg(value_name = "KEY", conflicts_with_all = ["units", "markdown"])]
+    #[arg(value_name = "KEY", conflicts_with_all = ["units", "markdown", "terms"])]
     keys: Vec<String>,
     /// Print the suffixes of keys with their units instead
     #[arg(long)]
@@ -19,6 +20,9 @@ pub struct SchemaArgs {
     /// Print the reference of all keys instead
     #[arg(long, conflicts_with = "units")]
     markdown: bool,
+    /// Print the words of tables, plots and reports with their meaning instead
+    #[arg(long, conflicts_with_all = ["units", "markdown"])]
+    terms: bool,
 }
 
 /// Runs the command.
@@ -32,6 +36,8 @@ pub fn run(arguments: &SchemaArgs, console: &Console) -> Result<Exit, Failure> {
             true => console.result_json(&json!(texts))?,
             false => console.result(&texts.concat())?,
         }
+    } else if arguments.terms {
+        console.result(&terms::markdown())?;
     } else if arguments.markdown {
         console.result(&reference::markdown())?;
     } else if !arguments.units {

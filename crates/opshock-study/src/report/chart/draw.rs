@@ -3,7 +3,7 @@
 use super::axis::ResolvedAxis;
 use super::axis::Scale;
 use super::canvas::{Canvas, rgb, text_width};
-use super::colour::{GREY, Rgb};
+use super::colour::{FAINT_GRID, GREY, GRID, QUIET_TEXT, SHADE, TEXT, ZERO, dark_style};
 use super::figure::{ChartError, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value};
 use super::lines;
 use super::plot::{Plot, abscissae, ordinates};
@@ -17,21 +17,41 @@ const TEXT_SIZE: u32 = 12;
 /// Length of a line's sample in the legend.
 const KEY_PX: f64 = 34.0;
 const FONT: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
-const GRID: Rgb = (0xe4, 0xe4, 0xe4);
-const FAINT_GRID: Rgb = (0xf2, 0xf2, 0xf2);
-const SHADE: Rgb = (0xf4, 0xf1, 0xea);
-const TEXT: Rgb = (0x22, 0x22, 0x22);
-const QUIET_TEXT: Rgb = (0x66, 0x66, 0x66);
 
 pub(super) fn svg(figure: &Figure) -> String {
-    let scene = scene(figure);
+    let style = format!("<style>{}</style><rect ", dark_style());
+    inline_svg(figure).replacen("<rect ", &style, 1)
+}
+
+pub(super) fn inline_svg(figure: &Figure) -> String {
+    written(&scene(figure))
+}
+
+fn written(scene: &Scene) -> String {
     let (width, height) = (scene.width, scene.height);
     // The view box lets a page or a document scale the picture.
-    SvgBackend::new().render_scene(&scene).replacen(
+    SvgBackend::new().render_scene(scene).replacen(
         "<svg ",
         &format!(r#"<svg viewBox="0 0 {width} {height}" role="img" "#),
         1,
     )
+}
+
+/// The legend's entries: a drawing of line and mark, and the name.
+pub(super) fn keys(figure: &Figure) -> Vec<(String, String)> {
+    let entries = legend_rows(figure, f64::MAX).concat();
+    let drawn = entries.into_iter().map(|(series, _)| {
+        let mut canvas = Canvas {
+            scene: Scene::new(KEY_PX + 4.0, 16.0),
+        };
+        let unnamed = Series {
+            name: String::new(),
+            ..series.clone()
+        };
+        canvas.legend_entry((2.0, 8.0), &unnamed);
+        (written(&canvas.scene), series.name.clone())
+    });
+    drawn.collect()
 }
 
 pub(super) fn png(figure: &Figure, scale: f32) -> Result<Vec<u8>, ChartError> {
@@ -210,7 +230,7 @@ impl Canvas {
         }
         let zero = plot.py(0.0);
         if plot.y.scale == Scale::Linear && zero > plot.y0 + 1.0 && zero < plot.y1 - 1.0 {
-            self.segment((plot.x0, zero), (plot.x1, zero), (0xb0, 0xb0, 0xb0), 1.0);
+            self.segment((plot.x0, zero), (plot.x1, zero), ZERO, 1.0);
         }
     }
 

@@ -1,9 +1,10 @@
 //! The page's section on accuracy: contributions to the uncertainty intervals, and error against cost.
 
-use super::text::{escaped, figure};
+use super::text::{escaped, explained, figure};
 use crate::accuracy::{Accuracy, PointStudies};
 use crate::report::accuracy_files;
 use crate::report::table;
+use crate::report::terms::{self, Kind};
 use crate::store::summary::Summary;
 use std::fmt::Write as _;
 
@@ -20,7 +21,7 @@ pub(super) fn section(summary: &Summary, accuracy: Option<&Accuracy>) -> Option<
         let _ = writeln!(
             text,
             "<p>What the uncertainty intervals are made of, in per cent of A<sub>crit</sub>. {}{}</p>",
-            escaped(table::CONTRIBUTIONS_NOTE),
+            escaped(&table::contributions_note(summary)),
             escaped(&cost)
         );
         text.push_str(&plain_table(&header, &rows, 3 + summary.axes.len()));
@@ -39,9 +40,9 @@ pub(super) fn section(summary: &Summary, accuracy: Option<&Accuracy>) -> Option<
         escaped(&accuracy.digest)
     );
     for point in &accuracy.points {
-        let plot = accuracy_files::figure(point, "").svg();
+        let plot = accuracy_files::figure(point, "").inline_svg();
         let label = format!("Error against time, {}", escaped(&point.label));
-        text.push_str(&figure(&plot, &label));
+        text.push_str(&figure(&plot, &label).replacen("<figure>", "<figure class=\"wide\">", 1));
         text.push_str(&joint_table(point));
     }
     Some(text)
@@ -99,8 +100,18 @@ fn joint_table(point: &PointStudies) -> String {
         })
 }
 
+/// A heading that says on hover what stands below it.
+fn heading(name: &str) -> String {
+    let plain = name.trim_end_matches(" (%)");
+    let kinds = [Kind::Contribution, Kind::Word, Kind::Column];
+    let found = kinds
+        .into_iter()
+        .find_map(|kind| terms::find(kind, plain).or_else(|| terms::find(kind, name)));
+    found.map_or_else(|| escaped(name), |term| explained(name, term.text))
+}
+
 /// A table whose first `words` columns, but for the second of several, are words.
-fn plain_table(header: &[String], rows: &[Vec<String>], words: usize) -> String {
+pub(super) fn plain_table(header: &[String], rows: &[Vec<String>], words: usize) -> String {
     let class = |column: usize| match column >= words || (words > 1 && column == 1) {
         true => " class=\"n\"",
         false => "",
@@ -111,7 +122,7 @@ fn plain_table(header: &[String], rows: &[Vec<String>], words: usize) -> String 
             text,
             "<th scope=\"col\"{}>{}</th>",
             class(column),
-            escaped(name)
+            heading(name)
         );
     }
     text.push_str("</tr></thead>\n<tbody>\n");

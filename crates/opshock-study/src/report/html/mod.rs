@@ -5,84 +5,105 @@
 //! its points. The script (`report.js`) draws zoomable plots in place of the static ones.
 
 mod accuracy;
+mod critical;
 mod data;
+mod main_table;
 mod points;
-mod remarks;
 mod shock_film;
 mod source;
 pub(super) mod text;
+mod words;
 
 pub use shock_film::ShockFilm;
 pub use source::ReportSource;
 
-use remarks::{is_reservation, said_of};
-use text::{escaped, figure};
+use critical::drawn_with_keys;
+use text::escaped;
 
-use super::critical_shock::critical_shock_figure;
+use super::answer::Answer;
+use super::chart::colour;
+use super::coordinates;
+use super::critical_layout::Layout;
 use super::crossings;
 use super::margin_curves::margin_curves;
 use super::outcome_map::outcome_map;
 use super::savings;
 use super::table;
-use crate::store::summary::{PointSummary, Status, Summary};
+use super::terms::{self, Kind};
+use crate::store::summary::Summary;
 use std::fmt::Write as _;
 
 /// The page.
 pub fn html(source: &ReportSource<'_>) -> String {
     let summary = source.summary;
     let title = escaped(&summary.study);
-    let totals = &summary.totals;
+    let layout = Layout::of(summary, source.x(), true);
     let mut page = format!(
         r##"<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
 <title>{title}</title>
 <style>
-{style}</style>
+{style}{dark}
+</style>
 </head>
 <body>
 <a class="skip" href="#table">to the table</a>
 <header>
 <h1>{title}</h1>
-<p>{ok} of {points} points bracketed, {above} above and {below} below the searched range, {undecided} undecided, {open} open; {runs} simulations.</p>
-<p class="quiet">{program}, study {digest}</p>
+<p class="lead">{answer}</p>
+<p class="quiet">{counts}. {program}, study {digest}</p>
 </header>
 "##,
         style = include_str!("style.css"),
-        ok = totals.ok,
-        points = totals.points,
-        above = totals.above_range,
-        below = totals.below_range,
-        undecided = totals.undecided,
-        open = totals.open,
-        runs = totals.runs,
+        dark = colour::dark_style(),
+        answer = escaped(&source.answer()),
+        counts = escaped(&table::counts(summary)),
         program = escaped(source.program),
         digest = escaped(&summary.digest),
     );
-    let sections = sections(source);
+    let sections = sections(source, &layout);
     page.push_str("<nav aria-label=\"Sections\"><ul>\n");
     for section in &sections {
         let _ = writeln!(
             page,
-            "<li><a href=\"#{}\">{}</a></li>",
-            section.id, section.heading
+            "<li><a href=\"#{}\" title=\"{}\">{}</a></li>",
+            section.id,
+            escaped(section.meaning()),
+            section.heading()
         );
     }
     page.push_str("</ul></nav>\n<main>\n<div id=\"controls\" role=\"group\" aria-label=\"What the plots show\"></div>\n");
     for section in &sections {
+        let screen = match ["critical", "table"].contains(&section.id) {
+            true => "",
+            false => " class=\"screen\"",
+        };
         let _ = write!(
             page,
-            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{}</h2>\n{}\n</section>\n",
-            section.heading,
+            "<section id=\"{id}\"{screen} aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\" title=\"{}\">{}</h2>\n{}\n</section>\n",
+            escaped(section.meaning()),
+            section.heading(),
             section.body,
             id = section.id
         );
     }
-    page.push_str("</main>\n");
-    page.push_str(&data::block(summary, source.runs, source.film));
+    let _ = write!(
+        page,
+        "<div class=\"paper\">{}<p>On screen the report also has choices, points, simulations, accuracy, effects and provenance.</p></div>\n</main>\n",
+        words::of_rows(summary)
+    );
+    page.push_str(&data::block(
+        summary,
+        &layout,
+        &source.figure(""),
+        source.runs,
+        source.film,
+    ));
     let _ = write!(
         page,
         "<pre id=\"csv\" hidden>{}</pre>\n<script>\n{}</script>\n</body>\n</html>\n",
@@ -92,91 +113,89 @@ pub fn html(source: &ReportSource<'_>) -> String {
     page
 }
 
-/// One part of the page.
+/// One part of the page; its heading is a word of [`terms`].
 struct Section {
     id: &'static str,
-    heading: &'static str,
     body: String,
 }
 
+impl Section {
+    fn heading(&self) -> &'static str {
+        terms::find(Kind::Section, self.id).map_or("", |term| term.shown)
+    }
+
+    fn meaning(&self) -> &'static str {
+        terms::find(Kind::Section, self.id).map_or("", |term| term.text)
+    }
+}
+
 /// The parts, in their order. A part that has nothing to show is left out.
-fn sections(source: &ReportSource<'_>) -> Vec<Section> {
+fn sections(source: &ReportSource<'_>, layout: &Layout) -> Vec<Section> {
     let summary = source.summary;
-    let has_runs = !source.runs.is_empty();
     let mut sections = Vec::new();
-    let mut add = |id, heading, body: String| sections.push(Section { id, heading, body });
-    add(
-        "critical",
-        "Critical shock",
-        replaced(
-            &critical_shock_figure(summary, "").svg(),
-            "Critical shock against pulse width",
-            "critical",
-        ),
-    );
-    add("table", "Table", main_table(summary));
+    let mut add = |id, body: String| sections.push(Section { id, body });
+    add("critical", critical::section(source, layout));
+    add("table", main_table::section(summary));
+    let answer = Answer::of(summary);
+    if !answer.axes.is_empty() {
+        add("choices", choices(&answer));
+    }
     if !source.crossings.is_empty() {
         let body = crossings::section(source.crossings, &summary.axes);
-        add("crossings", "Crossings", body);
+        add("crossings", body);
     }
-    add(
-        "points",
-        "Points",
-        "<p>A name in the table, or a mark in a plot, opens the page of its point here.</p>\n"
-            .to_owned()
-            + &points::pages(summary, source.runs),
-    );
-    add(
-        "compare",
-        "Compare",
-        "<div id=\"compare-tool\"></div>".to_owned(),
-    );
-    if has_runs {
-        add(
-            "map",
-            "Outcome map",
-            format!(
-                "<p>Every simulation that the answers rest on, at its pulse width and amplitude: \
-                 open circles survive, full squares touch.</p>\n{}",
-                replaced(
-                    &outcome_map(summary, source.runs).svg(),
-                    "Outcome of every simulation",
-                    "map"
-                )
-            ),
-        );
-        add(
-            "margin",
-            "Margin",
-            format!(
-                "<p>Smallest clearance between slider and disk against amplitude.</p>\n{}",
-                replaced(
-                    &margin_curves(summary, source.runs).svg(),
-                    "Smallest clearance against amplitude",
-                    "margin"
-                )
-            ),
-        );
+    let pages = points::pages(summary, source.runs);
+    let how =
+        "<p>A name in the table, or a mark in a plot, opens the page of its point here.</p>\n";
+    add("points", how.to_owned() + &pages);
+    add("compare", "<div id=\"compare-tool\"></div>".to_owned());
+    if !source.runs.is_empty() {
+        let map = outcome_map(summary, source.runs);
+        let margin = margin_curves(summary, source.runs);
+        let legend = |figure: &str| {
+            let signs = terms::TERMS
+                .iter()
+                .filter(|term| term.kind == Kind::Sign && term.shown.contains(figure));
+            words::list(&signs.collect::<Vec<_>>())
+        };
+        let drawn = drawn_with_keys(&map, "Outcome of every simulation", "map");
+        add("map", legend("map") + &drawn);
+        let drawn = drawn_with_keys(&margin, "Smallest clearance against amplitude", "margin");
+        add("margin", legend("margin") + &drawn);
     }
     if let Some(film) = source.film {
-        add(
-            "film",
-            "One shock",
-            format!(
-                "<p>{}. Displacements are drawn some hundred times too large; an arm in contact is orange. \
-                 The figures of a run without this script: <code>opshock run --plots</code>.</p>\n\
-                 <div id=\"film-stage\"></div>",
-                escaped(&film.label)
-            ),
+        let body = format!(
+            "<p>{}. Displacements are drawn some hundred times too large; an arm in contact is orange. \
+             The figures of a run without this script: <code>opshock run --plots</code>.</p>\n\
+             <div id=\"film-stage\"></div>",
+            escaped(&film.label)
         );
+        add("film", body);
     }
     if let Some(body) = accuracy::section(summary, source.accuracy) {
-        add("accuracy", "Accuracy", body);
+        add("accuracy", body);
     }
-    add("effects", "Effects", effects(source));
-    add("trouble", "Trouble", reservations(summary));
-    add("provenance", "Provenance", provenance(source));
+    add("effects", effects(source));
+    let saved = savings::lines(source.savings);
+    if !saved.is_empty() {
+        let lines = saved
+            .iter()
+            .map(|line| format!("<li>{}</li>\n", escaped(line)));
+        add("time", format!("<ul>\n{}</ul>", lines.collect::<String>()));
+    }
+    add("reservations", reservations(summary));
+    add("words", words::section(summary));
+    add("provenance", provenance(source));
     sections
+}
+
+/// Every value of the axes to choose from, against the best.
+fn choices(answer: &Answer<'_>) -> String {
+    let mut text = String::new();
+    for (header, rows) in answer.tables() {
+        text.push_str(&accuracy::plain_table(&header, &rows, header.len()));
+    }
+    text
 }
 
 /// Effects simulated for each ramp, those left out, and the rules that apply.
@@ -224,93 +243,28 @@ fn effects(source: &ReportSource<'_>) -> String {
         }
         text.push_str("</tbody></table></div>\n");
     }
-    let saved = savings::lines(source.savings);
-    for line in &saved {
-        let _ = writeln!(text, "<p>{}</p>", escaped(line));
-    }
     if text.is_empty() {
         text.push_str("<p>The results name no effects.</p>");
     }
     text
 }
 
-/// A figure that the script replaces by a zoomable one.
-fn replaced(svg: &str, label: &str, plot: &str) -> String {
-    let figure = figure(svg, label).replacen("<figure>", "<figure class=\"static\">", 1);
-    format!("{figure}<div class=\"plot\" data-plot=\"{plot}\"></div>")
-}
-
-fn main_table(summary: &Summary) -> String {
-    let (header, rows) = table::readable(summary);
-    let words = 3 + summary.axes.len();
-    let numeric = |column: usize| column == 1 || (words..words + 5).contains(&column);
-    let mut text = String::from(
-        "<p>A<sub>crit</sub>: highest surviving amplitude below the lowest failing one, \
-         A<sub>fail</sub>. Uncertainty: ends of the uncertainty interval below and above A<sub>crit</sub>. First touch: amplitude at which the disk \
-         first reaches the ramp. Shaded rows carry a reservation. A click on a heading sorts.</p>\n\
-         <p><button type=\"button\" id=\"copy\">copy as CSV</button> <span id=\"copied\" role=\"status\"></span></p>\n\
-         <div class=\"scroll\"><table class=\"sortable\">\n<thead><tr>",
-    );
-    for (column, name) in header.iter().enumerate() {
-        let class = if numeric(column) { " class=\"n\"" } else { "" };
-        let _ = write!(
-            text,
-            "<th scope=\"col\"{class}><button type=\"button\">{}</button></th>",
-            escaped(name)
-        );
-    }
-    text.push_str("</tr></thead>\n<tbody>\n");
-    for (place, (point, row)) in summary.points.iter().zip(&rows).enumerate() {
-        let reserved = point.status != Status::Ok || point.flags.iter().any(is_reservation);
-        let class = if reserved { " class=\"reserved\"" } else { "" };
-        let _ = write!(text, "<tr data-point=\"{place}\"{class}>");
-        for (column, cell) in row.iter().enumerate() {
-            let class = if numeric(column) { " class=\"n\"" } else { "" };
-            let value = sort_value(point, column, words)
-                .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
-            let cell = escaped(cell);
-            let _ = match column {
-                0 => write!(
-                    text,
-                    "<th scope=\"row\"><a href=\"#point-{place}\">{cell}</a></th>"
-                ),
-                _ => write!(text, "<td{class}{value}>{cell}</td>"),
-            };
-        }
-        text.push_str("</tr>\n");
-    }
-    text.push_str("</tbody>\n</table></div>");
-    text
-}
-
-/// The number a cell sorts by, where its text is not one.
-fn sort_value(point: &PointSummary, column: usize, words: usize) -> Option<f64> {
-    match column.checked_sub(words)? {
-        0 => point.a_crit_g,
-        1 => point.a_fail_g,
-        2 => point.err_high_g,
-        _ => None,
-    }
-}
-
 fn reservations(summary: &Summary) -> String {
     let mut text = String::new();
-    for point in &summary.points {
-        let said = said_of(point);
+    for (place, point) in summary.points.iter().enumerate() {
+        let said = terms::reservations(point);
         if said.is_empty() {
             continue;
         }
-        let place = summary.points.iter().position(|other| other == point);
         let _ = writeln!(
             text,
-            "<li><a href=\"#point-{}\">{}</a>: {}</li>",
-            place.unwrap_or_default(),
-            escaped(&points::name(summary, point)),
-            said.join("; ")
+            "<li><a href=\"#point-{place}\">{}</a>: {}</li>",
+            escaped(&coordinates::name(summary, point)),
+            escaped(&said.join(" "))
         );
     }
     if text.is_empty() {
-        "<p>None: every point is bracketed, nothing was retried.</p>".into()
+        "<p>None: every critical shock is found.</p>".into()
     } else {
         format!("<ul>\n{text}</ul>")
     }
@@ -337,7 +291,7 @@ fn provenance(source: &ReportSource<'_>) -> String {
     entry(
         "work",
         &format!(
-            "{} simulations, {} without verdict; {} head steps, {} film solves of up to {} unknowns, {} structure steps",
+            "{} simulations, {} without verdict; {} time steps of the head, {} film solves of up to {} unknowns, {} structure steps",
             summary.totals.runs,
             summary.totals.undecided_runs,
             cost.steps,

@@ -1,29 +1,12 @@
 //! Writes a page for each point: answer, uncertainty interval, every simulation.
 
-use super::remarks::said_of;
-use super::text::escaped;
+use super::main_table::{flags, status};
+use super::text::{escaped, explained};
+use crate::report::coordinates;
 use crate::report::outcome_map::RunDot;
+use crate::report::terms::{self, Kind};
 use crate::store::summary::{PointSummary, Summary};
 use std::fmt::Write as _;
-
-/// Name of a point, as in its page's heading.
-pub(super) fn name(summary: &Summary, point: &PointSummary) -> String {
-    let axes: String = summary
-        .axes
-        .iter()
-        .zip(&point.axes)
-        .map(|(axis, value)| format!(", {axis} = {value}"))
-        .collect();
-    format!(
-        "{}, {} ms, sign {}{axes}",
-        match point.ramp.as_str() {
-            "none" => "no ramp".to_owned(),
-            ramp => format!("{ramp} ramp"),
-        },
-        point.pulse_ms,
-        point.sign.as_str()
-    )
-}
 
 /// All pages; one is shown at a time, the one the address names.
 pub(super) fn pages(summary: &Summary, runs: &[RunDot]) -> String {
@@ -33,7 +16,7 @@ pub(super) fn pages(summary: &Summary, runs: &[RunDot]) -> String {
             text,
             "<article class=\"page\" id=\"point-{row}\" tabindex=\"-1\" aria-labelledby=\"point-{row}-name\">\n\
              <h3 id=\"point-{row}-name\">{}</h3>\n<p><a href=\"#table\">close</a></p>\n",
-            escaped(&name(summary, point))
+            escaped(&coordinates::name(summary, point))
         );
         text.push_str(&facts(point));
         text.push_str(&contributions(point));
@@ -68,10 +51,13 @@ fn facts(point: &PointSummary) -> String {
     if let Some(gap) = point.largest_gap_pct {
         entry("largest untested step below", format!("{gap:.1} %"));
     }
-    entry("status", point.status.as_str().to_owned());
-    let said = said_of(point);
-    if !said.is_empty() {
-        entry("reservations", said.join("; "));
+    let reservations = terms::reservations(point);
+    if !reservations.is_empty() {
+        entry("reservations", reservations.join(" "));
+    }
+    let _ = write!(text, "<dt>status</dt><dd>{}</dd>", status(point));
+    if !point.flags.is_empty() {
+        let _ = write!(text, "<dt>flags</dt><dd>{}</dd>", flags(point));
     }
     text.push_str("</dl>\n");
     text
@@ -90,7 +76,7 @@ fn contributions(point: &PointSummary) -> String {
         let _ = writeln!(
             text,
             "<tr><td>{}</td><td class=\"n\">{:.2}</td><td class=\"n\">{:.2}</td><td class=\"n\">{}</td></tr>",
-            escaped(name),
+            explained(name, meaning(name)),
             contribution.low_g,
             contribution.high_g,
             contribution.factor
@@ -98,6 +84,10 @@ fn contributions(point: &PointSummary) -> String {
     }
     text.push_str("</tbody></table></div>\n");
     text
+}
+
+fn meaning(contribution: &str) -> &'static str {
+    terms::find(Kind::Contribution, contribution).map_or("", |term| term.text)
 }
 
 fn runs_table(row: usize, runs: &[RunDot]) -> String {

@@ -4,8 +4,9 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   document.documentElement.classList.add("js");
   const NS = "http://www.w3.org/2000/svg";
-  const COLOURS = ["#1a1a1a", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
+  const { layout, colours } = data, TEXT = "#222222", GRID = "#e4e4e4", WHITE = "#ffffff";
   const VERDICTS = { survives: "#0072b2", fails: "#d55e00", undecided: "#cc79a7" };
+  const DASHES = ["", "7 4", "8 3 1.5 3", "1.5 3"];
   const series = [...new Set(data.points.map(p => p.series))];
   const shown = { series: new Set(series), signs: new Set(data.points.map(p => p.sign)) };
   const visible = p => shown.series.has(p.series) && shown.signs.has(p.sign);
@@ -42,17 +43,13 @@
     return found;
   };
 
-  // A plot with zoom by dragging, wheel and keys. `link`: plots with one name share their abscissa.
+  // A plot with zoom by dragging, wheel and keys. Plots of one group share both axes, `link` shares the abscissa of groups.
   const plots = [];
   class Plot {
-    constructor(host, { label, x, y, link, draw }) {
-      Object.assign(this, { x, y, link, drawing: draw, W: 900, H: 420, L: 62, R: 14, T: 12, B: 46 });
+    constructor(cell, { label, title, x, y, group, link, draw }) {
+      Object.assign(this, { cell, title, x: { ...x }, y: { ...y }, group, link, drawing: draw, L: 58, R: 12, T: title ? 28 : 10, B: 44 });
       this.full = { x: [...x.range], y: [...y.range] };
-      const tools = html("p", { class: "tools" }, host);
-      for (const [text, act] of [["zoom in", () => this.scale(0.6)], ["zoom out", () => this.scale(1 / 0.6)], ["all", () => this.reset()]])
-        html("button", { type: "button" }, tools, text).addEventListener("click", act);
-      html("span", { class: "quiet" }, tools, " drag a box to zoom; keys + \u2212 0 and arrows; a click opens the point");
-      this.svg = element("svg", { viewBox: `0 0 ${this.W} ${this.H}`, role: "group", tabindex: "0", "aria-label": label }, host);
+      this.svg = element("svg", { role: "group", tabindex: "0", "aria-label": label }, cell);
       this.svg.addEventListener("wheel", e => {
         if (!e.ctrlKey && document.activeElement !== this.svg) return;
         e.preventDefault();
@@ -66,6 +63,13 @@
       });
       this.drag();
       plots.push(this);
+      this.fit();
+    }
+    // A pixel of the drawing is one of the page, so that words keep their size on a narrow one.
+    fit() {
+      this.W = Math.max(260, Math.round(this.cell.clientWidth));
+      this.H = Math.round(Math.min(420, Math.max(280, 0.6 * this.W)));
+      this.svg.setAttribute("viewBox", `0 0 ${this.W} ${this.H}`);
       this.draw();
     }
     share(axis, v) { const [a, b] = axis.range; return axis.log ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a); }
@@ -87,9 +91,10 @@
     }
     reset() { this.x.range = [...this.full.x]; this.y.range = [...this.full.y]; this.spread(); }
     spread() {
-      for (const other of plots) if (other === this || (this.link && other.link === this.link)) {
-        other.x.range = [...this.x.range];
-        other.draw();
+      for (const other of plots) {
+        const own = other.group === this.group;
+        if (own) other.y.range = [...this.y.range];
+        if (own || (this.link && other.link === this.link)) { other.x.range = [...this.x.range]; other.draw(); }
       }
     }
     drag() {
@@ -111,20 +116,27 @@
       });
     }
     inside(x, y) { const a = this.share(this.x, x), b = this.share(this.y, y); return a >= -1e-9 && a <= 1 + 1e-9 && b >= -1e-9 && b <= 1 + 1e-9; }
+    text(attributes, words) { return element("text", { "font-size": 12, fill: TEXT, ...attributes }, this.svg, words); }
     draw() {
       this.svg.replaceChildren();
+      const room = this.W - this.L - this.R;
       for (const v of ticks(...this.y.range, this.y.log, 6)) {
         const y = this.py(v);
-        element("line", { x1: this.L, x2: this.W - this.R, y1: y, y2: y, class: "grid" }, this.svg);
-        element("text", { x: this.L - 6, y: y + 4, "text-anchor": "end" }, this.svg, number(v));
+        element("line", { x1: this.L, x2: this.W - this.R, y1: y, y2: y, stroke: GRID }, this.svg);
+        this.text({ x: this.L - 6, y: y + 4, "text-anchor": "end" }, number(v));
       }
-      for (const v of ticks(...this.x.range, this.x.log, 8)) {
-        const x = this.px(v);
-        element("line", { x1: x, x2: x, y1: this.T, y2: this.H - this.B, class: "grid" }, this.svg);
-        element("text", { x, y: this.H - this.B + 17, "text-anchor": "middle" }, this.svg, number(v));
+      const [low, high] = this.x.range, words = this.x.words?.filter(([v]) => v >= low && v <= high);
+      let free = -1e9;
+      for (const [v, word] of words ?? ticks(low, high, this.x.log, Math.max(2, Math.floor(room / 70))).map(v => [v, number(v)])) {
+        const x = this.px(v), half = 3.7 * word.length;
+        element("line", { x1: x, x2: x, y1: this.T, y2: this.H - this.B, stroke: GRID }, this.svg);
+        if (x - half < free) continue;
+        this.text({ x, y: this.H - this.B + 17, "text-anchor": "middle" }, word);
+        free = x + half + 4;
       }
-      element("text", { x: (this.L + this.W - this.R) / 2, y: this.H - 8, "text-anchor": "middle" }, this.svg, this.x.label);
-      element("text", { transform: `translate(14 ${(this.T + this.H - this.B) / 2}) rotate(-90)`, "text-anchor": "middle" }, this.svg, this.y.label);
+      if (this.title) this.text({ x: this.L, y: 17, "font-size": 13 }, this.title);
+      this.text({ x: this.L + room / 2, y: this.H - 8, "text-anchor": "middle" }, this.x.label);
+      this.text({ transform: `translate(13 ${(this.T + this.H - this.B) / 2}) rotate(-90)`, "text-anchor": "middle" }, this.y.label);
       this.drawing(this);
     }
     line(values, colour, dash) {
@@ -141,12 +153,14 @@
         element("rect", { x: this.L, y: this.T, width: this.W - this.L - this.R, height: this.H - this.T - this.B }, element("clipPath", { id }, this.svg));
       return element("path", { d: d.join(""), fill: "none", stroke: colour, "stroke-width": 1.8, "stroke-dasharray": dash ?? "", "clip-path": `url(#${id})` }, this.svg);
     }
-    mark(x, y, { colour, open, point, note, square, size = 4.5 }) {
+    mark(x, y, { colour, open, point, note, style = 0, size = 4.5, dx = 0, bound = 0 }) {
       if (y === null || !this.inside(x, y)) return;
-      const fill = open ? "#fff" : colour;
-      const mark = square
-        ? element("rect", { x: this.px(x) - size, y: this.py(y) - size, width: 2 * size, height: 2 * size, fill, stroke: colour, "stroke-width": 1.5 }, this.svg)
-        : element("circle", { cx: this.px(x), cy: this.py(y), r: size, fill, stroke: colour, "stroke-width": 1.5 }, this.svg);
+      const at = [this.px(x) + dx, this.py(y)], r = size, fill = open || bound ? WHITE : colour;
+      const corners = [null, [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]], [[0, -1.25], [1.15, 0.85], [-1.15, 0.85]], [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]]][style % 4];
+      const path = points => "M" + points.map(([a, b]) => `${(at[0] + r * a).toFixed(1)} ${(at[1] + r * b).toFixed(1)}`).join("L") + "Z";
+      if (bound) element("path", { d: path([[0, -1.5 * bound], [0, -4 * bound], [-1, -4 * bound], [0, -5.5 * bound], [1, -4 * bound], [0, -4 * bound]]), fill: WHITE, stroke: colour, "stroke-width": 1.4 }, this.svg);
+      const paint = { fill, stroke: colour, "stroke-width": 1.5 };
+      const mark = corners ? element("path", { d: path(corners), ...paint }, this.svg) : element("circle", { cx: at[0], cy: at[1], r, ...paint }, this.svg);
       mark.classList.add("mark");
       mark.dataset.point = point;
       mark.setAttribute("role", "link");
@@ -157,6 +171,30 @@
       mark.addEventListener("mouseleave", () => light(point, false));
     }
   }
+  // The tools of a group of plots, above them.
+  const toolbar = (host, group) => {
+    const tools = html("p", { class: "tools" }), first = () => plots.find(p => p.group === group);
+    for (const [text, act] of [["zoom in", () => first().scale(0.6)], ["zoom out", () => first().scale(1 / 0.6)], ["all", () => first().reset()], ["save picture (SVG)", () => save(group)]])
+      html("button", { type: "button" }, tools, text).addEventListener("click", act);
+    html("span", { class: "quiet" }, tools, " drag a box to zoom; keys + \u2212 0 and arrows; a click opens the point");
+    host.before(tools);
+  };
+  // What a group shows now, as one file.
+  const save = group => {
+    const own = plots.filter(p => p.group === group), boxes = own.map(p => p.svg.getBoundingClientRect());
+    const left = Math.min(...boxes.map(b => b.left)), top = Math.min(...boxes.map(b => b.top));
+    const W = Math.max(...boxes.map(b => b.right)) - left, H = Math.max(...boxes.map(b => b.bottom)) - top;
+    const all = element("svg", { viewBox: `0 0 ${W} ${H}`, width: W, height: H, "font-family": "DejaVu Sans, Verdana, sans-serif" });
+    element("rect", { width: "100%", height: "100%", fill: WHITE }, all);
+    own.forEach((p, k) => {
+      const copy = p.svg.cloneNode(true);
+      for (const [key, v] of Object.entries({ x: boxes[k].left - left, y: boxes[k].top - top, width: p.W, height: p.H })) copy.setAttribute(key, v);
+      all.append(copy);
+    });
+    const address = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(all)], { type: "image/svg+xml" }));
+    html("a", { href: address, download: `${group}.svg` }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 1000);
+  };
   const light = (point, on) => {
     for (const e of document.querySelectorAll(`[data-point="${point}"]`)) e.classList.toggle("lit", on);
   };
@@ -175,77 +213,92 @@
     if (low === high) return log ? [low / 1.5, low * 1.5] : [low - 0.5, low + 0.5];
     return log ? [low / 1.1, high * 1.1] : [from ?? low - 0.05 * (high - low), high + 0.05 * (high - low)];
   };
-  const widths = data.points.map(p => p.ms);
-  const across = () => ({ label: "Pulse width (ms)", range: span(widths, false), log: false });
-  const colour = p => COLOURS[series.indexOf(p.series) % COLOURS.length];
+  const words = layout.words;
+  const across = () => ({ label: layout.label, range: layout.range, log: false, words });
+  const colour = p => colours[p.colour % colours.length];
   const groups = () => {
     const found = new Map();
     data.points.forEach((p, i) => {
       if (!visible(p)) return;
-      const key = `${p.series} ${p.sign}`;
+      const key = `${p.line} ${p.sign}`;
       if (!found.has(key)) found.set(key, []);
       found.get(key).push(i);
     });
-    for (const list of found.values()) list.sort((a, b) => data.points[a].ms - data.points[b].ms);
+    for (const list of found.values()) list.sort((a, b) => data.points[a].x - data.points[b].x);
     return [...found.values()];
   };
 
   const host = name => document.querySelector(`.plot[data-plot="${name}"]`);
-  // What the plots share: ramp models and signs.
+  // What the plots share: series and signs.
   const controls = document.getElementById("controls");
   const box = (set, value, label, swatch) => {
     const wrap = html("label", {}, controls), input = html("input", { type: "checkbox", checked: "" }, wrap);
-    if (swatch) html("i", { style: `background:${swatch}` }, wrap);
+    if (swatch) element("rect", { width: 11, height: 11, fill: swatch }, element("svg", { width: 11, height: 11, "aria-hidden": "true" }, wrap));
     wrap.append(` ${label} `);
     input.addEventListener("change", () => { input.checked ? set.add(value) : set.delete(value); plots.forEach(p => p.draw()); });
   };
-  series.forEach((s, k) => box(shown.series, s, s === "none" ? "no ramp" : s, COLOURS[k % COLOURS.length]));
+  series.forEach(s => box(shown.series, s, s, colour(data.points.find(p => p.series === s))));
   [...shown.signs].forEach(s => box(shown.signs, s, `sign ${s}`));
 
-  new Plot(host("critical"), {
-    label: "Critical shock against pulse width, zoomable", link: "width", x: across(),
-    y: { label: "Critical shock (G)", log: true, range: span(data.points.flatMap(p => [p.crit, p.crit === null ? null : p.crit - (p.low ?? 0), p.crit === null ? null : p.crit + (p.high ?? 0)]).filter(v => v === null || v > 5), true) },
-    draw: plot => {
-      for (const list of groups()) {
-        const points = list.map(i => data.points[i]), minus = points[0].sign === "-";
-        plot.line(points.map(p => [p.ms, p.crit]), colour(points[0]), minus ? "6 4" : "");
-        list.forEach(i => {
+  layout.panels.forEach((panel, place) => new Plot(html("div", {}, host("critical")), {
+    label: `Critical shock, ${panel.title}, zoomable`, title: panel.title, group: "critical", link: "abscissa", x: across(), y: layout.y,
+    draw: plot => panel.lines.forEach((line, k) => {
+      const own = line.marks.map(row => [row, data.points[row]]).filter(([, p]) => panel.worst ? shown.series.has(p.series) : visible(p));
+      const paint = colours[line.colour % colours.length], dx = 5 * (k - (panel.lines.length - 1) / 2);
+      const known = p => p.status === "above_range" ? null : p.crit;
+      plot.line(own.map(([, p]) => [p.x, known(p)]), paint, DASHES[line.style % 4]).setAttribute("transform", `translate(${dx} 0)`);
+      for (const [row, p] of own) {
+        const below = p.crit === null, y = below ? p.fail : p.crit, bound = { above_range: 1, below_range: -1 }[p.status] ?? 0;
+        if (!bound && !below && p.low !== null && p.high !== null)
+          plot.line([[p.x, Math.max(p.crit - p.low, 1e-3)], [p.x, p.crit + p.high]], paint).setAttribute("transform", `translate(${dx} 0)`);
+        plot.mark(p.x, y, { colour: paint, open: p.reserved, point: row, style: line.style, dx, bound,
+          note: `${panel.worst ? "lowest: " : ""}${p.name}: ${bound > 0 ? "more than " : bound ? "less than " : ""}${number(y)} G` });
+      }
+    }),
+  }));
+  // The first was as wide as the page while it was alone.
+  plots.forEach(p => p.fit());
+  toolbar(host("critical"), "critical");
+  if (host("map")) {
+    new Plot(host("map"), {
+      label: "Outcome of every simulation, zoomable", group: "map", link: "abscissa", x: across(),
+      y: { label: "Amplitude (G)", log: true, range: span(data.runs.map(r => r[1]), true) },
+      draw: plot => {
+        const nudge = 0.012 * (plot.full.x[1] - plot.full.x[0]);
+        const keys = [...new Set(data.points.map(p => `${p.line} ${p.sign}`))];
+        for (const list of groups()) plot.line(list.map(i => [data.points[i].x, data.points[i].crit]), colour(data.points[list[0]]), data.points[list[0]].sign === "-" ? "6 4" : "");
+        for (const [i, g, verdict, h] of data.runs) {
           const p = data.points[i];
-          if (p.crit === null) { if (p.fail !== null) plot.mark(p.ms, p.fail, { colour: colour(p), open: true, point: i, note: `${p.name}: below ${number(p.fail)} G` }); return; }
-          if (p.low !== null && p.high !== null) plot.line([[p.ms, Math.max(p.crit - p.low, 1e-3)], [p.ms, p.crit + p.high]], colour(p));
-          plot.mark(p.ms, p.crit, { colour: colour(p), open: minus, point: i, note: `${p.name}: ${number(p.crit)} G` });
+          if (!visible(p)) continue;
+          const beside = Math.max(-4, Math.min(4, keys.indexOf(`${p.line} ${p.sign}`) - (keys.length - 1) / 2)) * nudge;
+          plot.mark(p.x + beside, g, { colour: VERDICTS[verdict] ?? "#8c8c8c", open: verdict === "survives", style: verdict === "fails" ? 1 : 0, size: 3.2, point: i,
+            note: `${p.name}, ${number(g)} G: ${verdict}${h === null ? "" : `, ${number(h)} nm`}` });
+        }
+      },
+    });
+    toolbar(host("map"), "map");
+  }
+  if (host("margin")) {
+    new Plot(host("margin"), {
+      label: "Smallest clearance against amplitude, zoomable", group: "margin",
+      x: { label: "Amplitude (G)", log: true, range: span(data.runs.map(r => r[1]), true) },
+      y: { label: "Smallest clearance (nm)", log: false, range: span(data.runs.map(r => r[3]), false) },
+      draw: plot => {
+        data.points.forEach((p, i) => {
+          if (!visible(p)) return;
+          const own = data.runs.filter(r => r[0] === i && r[3] !== null).sort((a, b) => a[1] - b[1]);
+          plot.line(own.map(r => [r[1], r[3]]), colour(p), p.sign === "-" ? "6 4" : "");
+          for (const [, g, verdict, h] of own) plot.mark(g, h, { colour: colour(p), open: verdict === "fails", size: 3, point: i, note: `${p.name}, ${number(g)} G: ${verdict}, ${number(h)} nm` });
         });
-      }
-    },
-  });
-  if (host("map")) new Plot(host("map"), {
-    label: "Outcome of every simulation, zoomable", link: "width", x: across(),
-    y: { label: "Amplitude (G)", log: true, range: span(data.runs.map(r => r[1]), true) },
-    draw: plot => {
-      const nudge = 0.012 * (plot.full.x[1] - plot.full.x[0]);
-      const keys = [...new Set(data.points.map(p => `${p.series} ${p.sign}`))];
-      for (const list of groups()) plot.line(list.map(i => [data.points[i].ms, data.points[i].crit]), colour(data.points[list[0]]), data.points[list[0]].sign === "-" ? "6 4" : "");
-      for (const [i, g, verdict, h] of data.runs) {
-        const p = data.points[i];
-        if (!visible(p)) continue;
-        const beside = (keys.indexOf(`${p.series} ${p.sign}`) - (keys.length - 1) / 2) * nudge;
-        plot.mark(p.ms + beside, g, { colour: VERDICTS[verdict] ?? "#888", open: verdict === "survives", square: verdict === "fails", size: 3.2, point: i,
-          note: `${p.name}, ${number(g)} G: ${verdict}${h === null ? "" : `, ${number(h)} nm`}` });
-      }
-    },
-  });
-  if (host("margin")) new Plot(host("margin"), {
-    label: "Smallest clearance against amplitude, zoomable",
-    x: { label: "Amplitude (G)", log: true, range: span(data.runs.map(r => r[1]), true) },
-    y: { label: "Smallest clearance (nm)", log: false, range: span(data.runs.map(r => r[3]), false) },
-    draw: plot => {
-      data.points.forEach((p, i) => {
-        if (!visible(p)) return;
-        const own = data.runs.filter(r => r[0] === i && r[3] !== null).sort((a, b) => a[1] - b[1]);
-        plot.line(own.map(r => [r[1], r[3]]), colour(p), p.sign === "-" ? "6 4" : "");
-        for (const [, g, verdict, h] of own) plot.mark(g, h, { colour: colour(p), open: verdict === "fails", size: 3, point: i, note: `${p.name}, ${number(g)} G: ${verdict}, ${number(h)} nm` });
-      });
-    },
+      },
+    });
+    toolbar(host("margin"), "margin");
+  }
+  let due = false;
+  addEventListener("resize", () => {
+    if (due) return;
+    due = true;
+    requestAnimationFrame(() => { due = false; plots.forEach(p => p.fit()); });
   });
 
   // Tables: sort, copy.
@@ -326,16 +379,16 @@
   // Animation.
   const film = data.film, stage = document.getElementById("film-stage");
   if (film && stage) {
-    const W = 900, H = 340, svg = element("svg", { viewBox: `0 0 ${W} ${H}`, role: "img", "aria-label": `Animation: ${film.label}` });
-    const [ri, rs, rr, ro] = film.radii_mm, X = r => 60 + (r - ri) / (ro - ri) * 640;
+    const W = Math.min(900, Math.max(320, stage.clientWidth)), H = 290, svg = element("svg", { viewBox: `0 0 ${W} ${H}`, role: "img", "aria-label": `Animation: ${film.label}` });
+    const [ri, rs, rr, ro] = film.radii_mm, X = r => 60 + (r - ri) / (ro - ri) * (W - 110);
     const most = Math.max(film.gap_um, ...film.ramp_um.map(Math.abs), ...film.top_um.map(v => Math.abs(v + film.gap_um))) * 1.25;
     const Y = um => 150 - um / most * 120;
-    element("rect", { x: 20, y: 60, width: 40, height: 180, fill: "#ccc" }, svg);
-    element("text", { x: 40, y: 256, "text-anchor": "middle" }, svg, "clamp");
+    element("rect", { x: 20, y: 60, width: 40, height: 180, fill: "#b0b0b0" }, svg);
+    element("text", { x: 40, y: 256, "text-anchor": "middle", "font-size": 12, fill: TEXT }, svg, "clamp");
     const disk = element("path", { fill: "none", stroke: "#1a1a1a", "stroke-width": 4 }, svg);
     const arms = [0, 1].map(() => element("rect", { x: X(rr) - 14, width: 34, height: 12, fill: "#8c8c8c" }, svg));
     const slider = element("rect", { width: 30, height: 10, fill: "#0072b2" }, svg);
-    const told = element("text", { x: 60, y: 24 }, svg), words = element("text", { x: 60, y: 300 }, svg);
+    const told = element("text", { x: 60, y: 24, "font-size": 12, fill: TEXT }, svg), words = html("p", {});
     const clock = html("input", { type: "range", min: 0, max: film.time_ms.length - 1, value: 0, "aria-label": "time of the shock" });
     const play = html("button", { type: "button" }, null, "play");
     const draw = () => {
@@ -363,7 +416,7 @@
       }, 40);
     });
     clock.addEventListener("input", draw);
-    stage.append(svg, play, clock);
+    stage.append(svg, words, play, clock);
     draw();
   }
   document.documentElement.dataset.ready = "yes";

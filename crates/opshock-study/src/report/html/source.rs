@@ -2,13 +2,16 @@
 
 use super::shock_film::ShockFilm;
 use crate::accuracy::Accuracy;
+use crate::report::answer::Answer;
+use crate::report::chart::Figure;
+use crate::report::coordinates;
+use crate::report::critical_shock::critical_shock_over;
 use crate::report::crossings::CrossingRow;
 use crate::report::outcome_map::RunDot;
-use crate::report::savings::{self, Saving};
+use crate::report::savings::Saving;
 use crate::store::Audit;
 use crate::store::summary::Summary;
 use crate::study::Study;
-use std::fmt::Write as _;
 
 /// What a report is made from.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +36,8 @@ pub struct ReportSource<'a> {
     pub plan: &'a str,
     /// A kept shock to be shown moving.
     pub film: Option<&'a ShockFilm>,
+    /// Coordinate on the abscissa of the critical shocks (see [`coordinates`]); `None`: the one with most numbers.
+    pub abscissa: Option<usize>,
 }
 
 impl<'a> ReportSource<'a> {
@@ -49,7 +54,24 @@ impl<'a> ReportSource<'a> {
             accuracy: None,
             plan: "",
             film: None,
+            abscissa: None,
         }
+    }
+
+    /// Coordinate on the abscissa of the critical shocks.
+    pub(super) fn x(&self) -> usize {
+        let default = || coordinates::default_abscissa(self.summary);
+        self.abscissa.unwrap_or_else(default)
+    }
+
+    /// The figure of the critical shocks.
+    pub(in crate::report) fn figure(&self, provenance: &str) -> Figure {
+        critical_shock_over(self.summary, self.x(), provenance)
+    }
+
+    /// The answer in words.
+    pub fn answer(&self) -> String {
+        Answer::of(self.summary).sentences().join(" ")
     }
 
     /// Discretisation parameters that are values of the study's model, in words.
@@ -64,18 +86,10 @@ impl<'a> ReportSource<'a> {
         let audit = self
             .audit
             .map_or(String::new(), |audit| format!("; {}", audit.sentence()));
-        let mut text = self
+        let values = self
             .not_refined()
             .map_or(String::new(), |values| values + "\n\n");
-        let _ = write!(
-            text,
-            "{}, study {}{audit}",
-            self.program, self.summary.digest
-        );
-        for line in savings::lines(self.savings) {
-            text.push_str("\n\n");
-            text.push_str(&line);
-        }
-        text
+        let digest = &self.summary.digest;
+        format!("{values}{}, study {digest}{audit}", self.program)
     }
 }

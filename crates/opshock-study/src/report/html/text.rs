@@ -1,4 +1,4 @@
-//! Escapes text and labels figures for a page.
+//! Escapes text, labels figures, explains words and makes links to what a page holds.
 
 /// A figure with its label for those who do not see it.
 pub(super) fn figure(svg: &str, label: &str) -> String {
@@ -19,4 +19,54 @@ pub(in crate::report) fn escaped(text: &str) -> String {
         }
     }
     safe
+}
+
+/// A word that says its meaning on hover.
+pub(super) fn explained(word: &str, meaning: &str) -> String {
+    format!(
+        "<abbr title=\"{}\">{}</abbr>",
+        escaped(meaning),
+        escaped(word)
+    )
+}
+
+/// A link that saves what `address` holds as a file.
+pub(super) fn saved(file: &str, address: &str) -> String {
+    format!("<a download=\"{file}\" href=\"{address}\">{file}</a>")
+}
+
+/// An address that is its content (RFC 2397).
+pub(super) fn address(media_type: &str, content: &str) -> String {
+    let mut address = format!("data:{media_type};charset=utf-8,");
+    for byte in content.bytes() {
+        match byte {
+            b'a'..=b'z'
+            | b'A'..=b'Z'
+            | b'0'..=b'9'
+            | b'-'
+            | b'.'
+            | b'_'
+            | b'~'
+            | b','
+            | b'/'
+            | b':'
+            | b'='
+            | b';' => address.push(char::from(byte)),
+            other => address.push_str(&format!("%{other:02X}")),
+        }
+    }
+    address
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_has_nothing_that_ends_an_attribute_or_begins_a_tag() {
+        assert_eq!(
+            address("text/csv", "a,\"b\" µ<\n"),
+            "data:text/csv;charset=utf-8,a,%22b%22%20%C2%B5%3C%0A"
+        );
+    }
 }

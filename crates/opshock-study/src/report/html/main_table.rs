@@ -1,0 +1,88 @@
+//! The page's table of critical shocks: every column, status and flag explained on hover.
+
+use super::text::{escaped, explained};
+use crate::report::{table, terms};
+use crate::store::summary::{PointSummary, Summary};
+use std::fmt::Write as _;
+
+/// The table with its heading.
+pub(super) fn section(summary: &Summary) -> String {
+    let (header, rows) = table::readable(summary);
+    let words = 3 + summary.axes.len();
+    let numeric = |column: usize| column == 1 || (words..words + 5).contains(&column);
+    let mut text = String::from(
+        "<p class=\"screen\">A heading says on hover what its column is, and sorts by it when clicked; flags say theirs too. \
+         Shaded rows have a reservation. <a href=\"#words\">All words</a>.</p>\n\
+         <p class=\"screen\"><button type=\"button\" id=\"copy\">copy as CSV</button> <span id=\"copied\" role=\"status\"></span></p>\n\
+         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Critical shocks\"><table class=\"sortable\">\n<thead><tr>",
+    );
+    for (column, name) in header.iter().enumerate() {
+        let class = if numeric(column) { " class=\"n\"" } else { "" };
+        let _ = write!(
+            text,
+            "<th scope=\"col\"{class}><button type=\"button\" title=\"{}\">{}</button></th>",
+            escaped(terms::of_column(name)),
+            escaped(name)
+        );
+    }
+    text.push_str("</tr></thead>\n<tbody>\n");
+    for (place, (point, row)) in summary.points.iter().zip(&rows).enumerate() {
+        let class = match terms::is_reserved(point) {
+            true => " class=\"reserved\"",
+            false => "",
+        };
+        let _ = write!(text, "<tr data-point=\"{place}\"{class}>");
+        for (column, cell) in row.iter().enumerate() {
+            let class = if numeric(column) { " class=\"n\"" } else { "" };
+            let value = sort_value(point, column, words)
+                .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
+            let cell = escaped(cell);
+            let _ = match column {
+                0 => write!(
+                    text,
+                    "<th scope=\"row\"><a href=\"#point-{place}\">{cell}</a></th>"
+                ),
+                _ if column + 1 == row.len() => {
+                    write!(text, "<td class=\"wrap\">{}</td>", flags(point))
+                }
+                _ if column + 2 == row.len() => write!(text, "<td>{}</td>", status(point)),
+                _ => write!(text, "<td{class}{value}>{cell}</td>"),
+            };
+        }
+        text.push_str("</tr>\n");
+    }
+    text.push_str("</tbody>\n</table></div>");
+    text
+}
+
+/// The status, which does not say that all is well where a flag says otherwise.
+pub(super) fn status(point: &PointSummary) -> String {
+    let term = terms::of_status(point.status);
+    let is_found = point.status == crate::store::summary::Status::Ok;
+    let shown = match is_found && terms::is_reserved(point) {
+        true => format!("{}, see flags", term.shown),
+        false => term.shown.to_owned(),
+    };
+    explained(&shown, term.text)
+}
+
+/// The flags, each with its meaning on hover.
+pub(super) fn flags(point: &PointSummary) -> String {
+    let flags: Vec<String> = point
+        .flags
+        .iter()
+        .map(|flag| terms::of_flag(*flag))
+        .map(|term| explained(term.shown, term.text))
+        .collect();
+    flags.join(", ")
+}
+
+/// The number a cell sorts by, where its text is not one.
+fn sort_value(point: &PointSummary, column: usize, words: usize) -> Option<f64> {
+    match column.checked_sub(words)? {
+        0 => point.a_crit_g,
+        1 => point.a_fail_g,
+        2 => point.err_high_g,
+        _ => None,
+    }
+}
