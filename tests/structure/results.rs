@@ -107,7 +107,8 @@ fn results_are_of_todays_physics() {
             .and_then(|stem| stem.to_str())
             .unwrap_or_default();
         let stem = stem.split('-').next().unwrap_or_default();
-        let of_figures = stem.starts_with("fig") && (speaks("figures.md") || speaks("table.md"));
+        let of_figures = (stem.starts_with("fig") && speaks("figures.md"))
+            || (stem == "critical_shock" && speaks("table.md"));
         let of_match = ["observations", "parameters", "samples", "ranges", "choices"]
             .contains(&stem)
             && speaks("match.md");
