@@ -88,7 +88,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -146,9 +146,14 @@ verify-scenes: bootstrap ## 12000 random scenes (OPSHOCK_SEEDS=first..end goes o
 verify-accuracy: bootstrap ## do the uncertainty intervals contain the truth? 300 known answers, 40 ten times finer
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture accuracy_slow
 
-verify-report: ## the report in headless Chromium, series read by VTK (installs both)
+verify-report: ## the report in headless Chromium (installs it): 1400 and 420 px, light, dark, printed; pictures in target/report-pages/
+	@scripts/bootstrap --report
+	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture report_page
+
+.PHONY: verify-series
+verify-series: ## the series of `opshock export --format vtu` read by VTK (installs it)
 	@scripts/bootstrap --verify
-	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture report_page report_slow
+	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture series_slow
 
 verify-mounts: bootstrap ## stores on file systems that are full or read-only (needs root, to mount them)
 	cargo test --locked -p opshock-tests --test durability -- --ignored --nocapture mounts_

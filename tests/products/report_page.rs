@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const RAMPS: [&str; 3] = ["none", "rigid", "deformable"];
-const WIDTHS_MS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+const WIDTHS_MS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 
 fn chromium() -> PathBuf {
     let path = std::env::var_os("PATH").unwrap_or_default();
@@ -20,7 +20,7 @@ fn chromium() -> PathBuf {
     found.expect("Chromium on PATH: scripts/bootstrap --verify")
 }
 
-/// Three ramps, two signs, four widths: values that rise with the width and differ with all.
+/// Three ramps, two signs, six widths, 36 rows as in the paper's figure: values that rise with the width and differ with all.
 fn summary() -> Summary {
     let mut points = Vec::new();
     for (k, ramp) in RAMPS.into_iter().enumerate() {
@@ -41,7 +41,17 @@ fn summary() -> Summary {
                     onset_g: (ramp != "none").then_some(0.8 * crit),
                     runs: 3,
                     status: Status::Ok,
-                    flags: if ms < 1.0 { vec![Flag::Window] } else { vec![] },
+                    flags: if ms < 1.0 {
+                        vec![
+                            Flag::Window,
+                            Flag::SafetyFactor3,
+                            Flag::TargetNotMet,
+                            Flag::RefinementLimit,
+                            Flag::Refined,
+                        ]
+                    } else {
+                        vec![]
+                    },
                     brackets_g: vec![[crit, 1.01 * crit]],
                     scanned_from_g: None,
                     largest_gap_pct: None,
@@ -108,7 +118,7 @@ addEventListener("load", () => {
   const reported = { ready: document.documentElement.dataset.ready ?? "no" };
   const all = (selector, of = document) => [...of.querySelectorAll(selector)];
   const plot = name => document.querySelector(`.plot[data-plot="${name}"] svg`);
-  const marks = name => all(".mark", plot(name));
+  const marks = name => all(".mark", document.querySelector(`.plot[data-plot="${name}"]`));
   reported.marks = Object.fromEntries(["critical", "map", "margin"].map(name => [name, marks(name).length]));
   reported.static_hidden = all("figure.static").every(f => getComputedStyle(f).display === "none");
   // Texts of a plot must not lie on one another.
@@ -120,16 +130,25 @@ addEventListener("load", () => {
   const sections = all("main > section").map(s => s.getBoundingClientRect());
   reported.section_overlaps = sections.slice(1).filter((s, i) => s.top < sections[i].bottom - 1).length;
   reported.empty_sections = all("main > section").filter(s => s.getBoundingClientRect().height < 40).map(s => s.id);
+  // Every flag ends inside its table at any width, or can be scrolled to.
+  const flags = all("#table td:last-child").map(cell => cell.getBoundingClientRect().right);
+  const scroll = document.querySelector("#table .scroll");
+  reported.flags_seen = Math.max(...flags) <= innerWidth;
+  reported.table_scrolls = scroll.scrollWidth > scroll.clientWidth;
+  reported.letters_px = Math.min(...all(".plot text").map(t => parseFloat(getComputedStyle(t).fontSize) * t.closest("svg").getScreenCTM().a));
+  reported.ground = getComputedStyle(document.body).backgroundColor;
+  reported.ink = [...new Set(all(".plot text").map(t => getComputedStyle(t).fill))];
+  reported.line = getComputedStyle(plot("critical").querySelector("path")).stroke;
   reported.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
-  reported.unnamed = all("svg:not([aria-label]), button:empty, input:not([aria-label])")
+  reported.unnamed = all("svg:not([aria-label]):not([aria-hidden]), button:empty, input:not([aria-label])")
     .filter(e => !e.closest("label") && !e.closest("svg svg")).map(e => e.outerHTML.slice(0, 60).replace(/[<>&]/g, " "));
   // Linked zoom.
   const ticks = name => all("text", plot(name)).map(t => t.textContent).join(" ");
   const before = ticks("critical");
-  all(".tools button", plot("map").parentElement)[0].click();
+  all(".tools button", document.getElementById("map"))[0].click();
   reported.linked = ticks("critical") !== before;
   reported.fewer = marks("map").length < reported.marks.map;
-  all(".tools button", plot("map").parentElement)[2].click();
+  all(".tools button", document.getElementById("map"))[2].click();
   reported.back = ticks("critical") === before && marks("map").length === reported.marks.map;
   // One ramp model hidden.
   const boxes = all("#controls input");
@@ -164,9 +183,25 @@ addEventListener("load", () => {
     pre.id = "probe";
     pre.textContent = JSON.stringify(reported);
     document.body.append(pre);
+    // Shown in a frame: what contains it is asked for the text.
+    parent.postMessage(pre.textContent, "*");
   }, 50);
 });
 </script>"##;
+
+/// A page as wide as a phone: a browser's own window has a least width.
+const FRAME: &str = r##"<!doctype html><body style="margin:0"><iframe src="NAME" style="border:0;width:420px;height:4000px"></iframe>
+<script>addEventListener("message", e => {
+  if (document.getElementById("probe")) return;
+  const pre = document.createElement("pre"); pre.id = "probe"; pre.textContent = e.data; document.body.append(pre);
+});</script></body>"##;
+
+/// Where the pictures are left to be looked at.
+fn pictures() -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/report-pages");
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
 
 struct Page {
     browser: PathBuf,
@@ -188,6 +223,10 @@ impl Page {
         std::fs::write(folder.path().join("report.html"), &page).unwrap();
         let probed = page.replace("</body>", &format!("{PROBE}</body>"));
         std::fs::write(folder.path().join("probed.html"), probed).unwrap();
+        for name in ["report.html", "probed.html"] {
+            let frame = FRAME.replace("NAME", name);
+            std::fs::write(folder.path().join(format!("phone-{name}")), frame).unwrap();
+        }
         // A policy that runs no script: what a reader without JavaScript sees.
         let still = page.replace("script-src 'unsafe-inline'", "script-src 'none'");
         assert_ne!(page, still);
@@ -251,10 +290,14 @@ impl Page {
     }
 
     fn probe(&self, options: &[&str]) -> Value {
-        let output = self.open("probed.html", &[&["--dump-dom"], options].concat());
+        self.probe_in("probed.html", options)
+    }
+
+    fn probe_in(&self, file: &str, options: &[&str]) -> Value {
+        let output = self.open(file, &[&["--dump-dom"], options].concat());
         self.assert_quiet(&output);
         let page = String::from_utf8(output.stdout).unwrap();
-        let start = page.find("<pre id=\"probe\">").expect("the probe ran") + 16;
+        let start = page.rfind("<pre id=\"probe\">").expect("the probe ran") + 16;
         let end = start + page[start..].find("</pre>").unwrap();
         serde_json::from_str(&page[start..end]).expect("what the probe wrote down")
     }
@@ -299,13 +342,14 @@ fn the_report_works_in_a_browser_and_asks_nothing_of_the_network() {
     let page = Page::new(chromium());
     let reported = page.probe(&["--window-size=1200,900"]);
     assert_eq!(reported["ready"], "yes");
-    assert_eq!(reported["marks"]["critical"], 24, "{reported}");
-    assert_eq!(reported["marks"]["map"], 72);
-    assert_eq!(reported["marks"]["margin"], 72);
+    // The worst sign of 18, and each of 36.
+    assert_eq!(reported["marks"]["critical"], 18 + 36, "{reported}");
+    assert_eq!(reported["marks"]["map"], 108);
+    assert_eq!(reported["marks"]["margin"], 108);
     assert_eq!(reported["static_hidden"], true);
     assert_eq!(
         reported["text_overlaps"],
-        serde_json::json!([0, 0, 0]),
+        serde_json::json!([0, 0, 0, 0, 0]),
         "{reported}"
     );
     assert_eq!(reported["section_overlaps"], 0);
@@ -315,14 +359,14 @@ fn the_report_works_in_a_browser_and_asks_nothing_of_the_network() {
     for act in ["linked", "fewer", "back", "moves"] {
         assert_eq!(reported[act], true, "{act}: {reported}");
     }
-    assert_eq!(reported["without_first"], 16);
+    assert_eq!(reported["without_first"], 36);
     // 150 + 60 * 0.5 - 12 and 150 + 180 + 180 + 12.
     assert_eq!(reported["lowest"], 168.0);
     assert_eq!(reported["highest"], 522.0);
     assert_eq!(reported["sorted"], "descending");
     // 498 over 192.
     assert_eq!(reported["compared"], "159.4 %");
-    assert_eq!(reported["csv"], 1 + 24 + 1);
+    assert_eq!(reported["csv"], 1 + 36 + 1);
     let open = format!("point-{}", reported["clicked"].as_str().unwrap());
     assert_eq!(reported["open"], serde_json::json!([open]));
     assert_eq!(reported["focused"], open.as_str());
@@ -332,7 +376,7 @@ fn the_report_works_in_a_browser_and_asks_nothing_of_the_network() {
 #[ignore = "needs Chromium: make verify-report"]
 fn the_report_is_not_blank_with_and_without_its_script() {
     let page = Page::new(chromium());
-    let size = "--window-size=1200,4200";
+    let size = "--window-size=1200,5200";
     let with = page.ink("report.html", &[size], 8);
     let without = page.ink("still.html", &[size], 8);
     for ink in [&with, &without] {
@@ -342,19 +386,59 @@ fn the_report_is_not_blank_with_and_without_its_script() {
     }
     // Without its script the page has its static figures, not the plots: another picture.
     assert_ne!(with, without);
-    let narrow = page.ink("report.html", &["--window-size=500,4000"], 8);
-    assert!(
-        narrow.iter().all(|share| (0.005..0.6).contains(share)),
-        "{narrow:?}"
-    );
-    let reported = page.probe(&["--window-size=500,900"]);
-    assert_eq!(
-        reported["overflow"], 0,
-        "a phone needs no scrolling sideways: {reported}"
-    );
-    assert_eq!(
-        reported["text_overlaps"],
-        serde_json::json!([0, 0, 0]),
-        "{reported}"
-    );
+}
+
+const LIGHT: (&str, &str) = (
+    "--blink-settings=preferredColorScheme=1",
+    "rgb(255, 255, 255)",
+);
+const DARK: (&str, &str) = ("--blink-settings=preferredColorScheme=0", "rgb(22, 25, 29)");
+
+#[test]
+#[ignore = "needs Chromium: make verify-report"]
+fn the_report_fits_1400_and_420_px_light_and_dark() {
+    let page = Page::new(chromium());
+    for (name, (scheme, ground)) in [("light", LIGHT), ("dark", DARK)] {
+        for (file, px, size) in [
+            ("", 1400, "--window-size=1400,5200"),
+            ("phone-", 420, "--window-size=500,4000"),
+        ] {
+            let reported = page.probe_in(&format!("{file}probed.html"), &[size, scheme]);
+            assert_eq!(reported["overflow"], 0, "{name} {px}: {reported}");
+            let overlaps = reported["text_overlaps"].as_array().unwrap();
+            assert!(overlaps.iter().all(|n| *n == 0), "{name} {px}: {reported}");
+            // All flags are seen on a desk; on a phone the table scrolls.
+            assert_eq!(reported["flags_seen"], px == 1400, "{reported}");
+            assert_eq!(reported["table_scrolls"], px == 420, "{reported}");
+            assert!(
+                reported["letters_px"].as_f64().unwrap() >= 11.5,
+                "{reported}"
+            );
+            assert_eq!(reported["ground"], ground, "{name}");
+            let (ink, line) = match name {
+                "light" => ("rgb(34, 34, 34)", "rgb(26, 26, 26)"),
+                _ => ("rgb(230, 230, 230)", "rgb(238, 238, 238)"),
+            };
+            assert_eq!(reported["ink"], serde_json::json!([ink]), "{reported}");
+            assert_eq!(reported["line"], line, "{reported}");
+            let shot = pictures().join(format!("{name}-{px}.png"));
+            let shot = format!("--screenshot={}", shot.display());
+            page.open(&format!("{file}report.html"), &[&shot, size, scheme]);
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs Chromium: make verify-report"]
+fn a_report_of_36_rows_prints_on_two_light_pages() {
+    let page = Page::new(chromium());
+    for (file, (scheme, _)) in [("report.html", DARK), ("still.html", LIGHT)] {
+        let paper = pictures().join(file).with_extension("pdf");
+        let print = format!("--print-to-pdf={}", paper.display());
+        page.open(file, &[&print, "--no-pdf-header-footer", scheme]);
+        let bytes = std::fs::read(&paper).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        let pages = text.matches("/Type /Page").count() - text.matches("/Type /Pages").count();
+        assert!((1..=2).contains(&pages), "{file}: {pages} pages");
+    }
 }

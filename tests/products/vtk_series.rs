@@ -181,8 +181,8 @@ fn a_series_needs_a_folder_and_a_store_no_shock() {
 }
 
 #[test]
-#[ignore = "needs VTK: make verify-report"]
-fn report_slow_vtk_reads_every_series() {
+#[ignore = "needs VTK: make verify-series"]
+fn series_slow_vtk_reads_every_series() {
     let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/verify-venv/bin/python");
     assert!(
         python.is_file(),
