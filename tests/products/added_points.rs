@@ -61,7 +61,7 @@ fn a_crossing_is_located_and_a_kink_resolved() {
     let pulse_ms = format!("{:.4}", crossed.crossing.pulse_ms);
     let row = format!("<td>deformable</td><td>rigid</td><td>+</td><td>{pulse_ms}</td>");
     assert!(page.contains(&row), "{row}");
-    assert!(page.contains("<a href=\"#crossings\">Crossings</a>"));
+    assert!(page.contains("<a href=\"#crossings\" title=\"") && page.contains(">Crossings</a>"));
 
     // Lines between the answers: the tolerance, twice at the kink, and half a bracket.
     for ramp in [Ramp::Rigid, Ramp::Deformable] {

@@ -64,7 +64,7 @@ pub(super) fn figure(summary: &Summary, layout: &Layout, provenance: &str) -> Fi
     if summary.points.iter().any(has_uncertainty) {
         subtitle.push_str(" with its uncertainty interval");
     }
-    if summary.points.iter().any(|point| is_reserved(point)) {
+    if summary.points.iter().any(is_reserved) {
         subtitle.push_str("; open mark: with a reservation");
     }
     if bounded {

@@ -37,7 +37,12 @@ pub(super) fn section(source: &ReportSource<'_>, layout: &Layout) -> String {
 
 /// The figure's panels side by side as the page has room, below the legend; the script replaces them by plots to zoom.
 pub(super) fn drawn_with_keys(drawn: &Figure, label: &str, plot: &str) -> String {
-    let mut text = String::from("<ul class=\"keys\">");
+    // The other plots of the script have the colours of its controls.
+    let class = match plot {
+        "critical" => "keys",
+        _ => "static keys",
+    };
+    let mut text = format!("<ul class=\"{class}\">");
     for (line, name) in drawn.keys() {
         let line = line.replacen("<svg ", "<svg aria-hidden=\"true\" ", 1);
         let _ = write!(text, "<li>{line}{}</li>", escaped(&name));
