@@ -234,5 +234,6 @@ fn hdf5(path: &Path, is_results: bool) -> Result<Vec<String>, String> {
         history::parse(path, &bytes).map(drop)
     };
     sound.map_err(|error| error.to_string())?;
-    Ok(dump(path, &["/machine"]))
+    // Results name the histories that were there when they were written.
+    Ok(dump(path, &["/machine", "/runs/history"]))
 }

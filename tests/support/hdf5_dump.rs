@@ -24,6 +24,9 @@ fn walk(group: &Group, without: &[&str], lines: &mut Vec<String>) {
     }
     for dataset in group.datasets().expect("datasets") {
         let path = dataset.name();
+        if without.contains(&path.as_str()) {
+            continue;
+        }
         lines.push(format!("{path} {}", values(&dataset)));
         for attribute in dataset.attr_names().expect("attributes") {
             let value = dataset.attr(&attribute).expect("attribute");
