@@ -16,6 +16,7 @@ mod cml_drives;
 mod compare;
 mod digests;
 mod documents;
+mod forecasts;
 mod frozen_store;
 mod hdf5_readers;
 mod heads;

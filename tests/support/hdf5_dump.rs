@@ -5,7 +5,7 @@ use std::path::Path;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Container, File, Group};
 
-/// Lines of every attribute and dataset outside the groups named in `without`.
+/// Lines of every attribute and dataset outside the groups and datasets named in `without`.
 pub fn dump(path: &Path, without: &[&str]) -> Vec<String> {
     let file = File::open(path).expect("HDF5");
     let mut lines = Vec::new();

@@ -4,26 +4,27 @@
 //! the longest chain of successors first; else what a search will probably request. Answers may come back in any
 //! order: that affects when a probe is answered, and nothing else.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{RecvTimeoutError, Sender};
 
-use super::estimate;
+use super::forgotten::forget_undecided;
 use super::guard;
 use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::lucky::lucky;
 use super::neighbours::Neighbours;
 use super::options::{Ending, SweepEnd, SweepOptions};
+use super::outlook::Outlook;
 use super::progress::{Event, Progress};
 use super::registry::{AnsweredProbe, Job, Registry};
 use super::shard::Shard;
 use super::simulator::Simulator;
 use super::writer::{self, Message};
-use crate::search::{ProbeResult, Verdict};
+use crate::search::ProbeResult;
 use crate::store::{
     self, Loaded, PointDigest, Record, RunKey, RunMachine, RunRecord, Session, Store, StoreError,
     StoredTouch, TouchRecord, folder, machine,
@@ -33,9 +34,6 @@ use crate::store::{
 const CHANNEL: usize = 1024;
 /// Time between two checks of stop, budget and checkpoint.
 const TICK: Duration = Duration::from_millis(50);
-/// The estimate of what is left is renewed when the known runs have grown by 1 / `ESTIMATE_SHARE`, or after this time.
-const ESTIMATE_SHARE: usize = 256;
-const BETWEEN_ESTIMATES: Duration = Duration::from_secs(1);
 
 /// Sweeps a study into the store in `folder`, or continues it.
 ///
@@ -87,19 +85,6 @@ pub fn sweep(
     })
 }
 
-/// Forgets runs without verdict, except those of an amplitude that a later retry decided: made again they would end as
-/// before, and the retry is known.
-fn forget_undecided(runs: &mut HashMap<RunKey, RunRecord>) {
-    let node = |key: &RunKey| (key.point, key.amplitude_bits, key.window_factor);
-    let is_undecided = |run: &RunRecord| matches!(run.result.verdict, Verdict::Undecided { .. });
-    let decided: HashSet<_> = runs
-        .values()
-        .filter(|run| !is_undecided(run))
-        .map(|run| node(&run.key))
-        .collect();
-    runs.retain(|key, run| !is_undecided(run) || decided.contains(&node(key)));
-}
-
 /// Answer of a thread.
 enum Answer {
     Touch {
@@ -130,9 +115,9 @@ struct Run<'a> {
     is_reported: Vec<bool>,
     /// Changes of the registry after the last report.
     seen_changes: u64,
-    /// Known runs at which the estimate is renewed next, and when it was renewed last.
-    estimate_at: usize,
-    estimated: Instant,
+    outlook: Outlook,
+    /// Nothing but what the store had has been reported so far.
+    reports_stored: bool,
     began: Instant,
     busy_s: f64,
     computed_runs: u64,
@@ -162,8 +147,8 @@ impl<'a> Run<'a> {
             brackets: vec![(None, None); input.points.len()],
             is_reported: vec![false; input.points.len()],
             seen_changes: 0,
-            estimate_at: 0,
-            estimated: Instant::now(),
+            outlook: Outlook::new(),
+            reports_stored: true,
             began: Instant::now(),
             busy_s: 0.0,
             computed_runs: 0,
@@ -212,6 +197,7 @@ impl<'a> Run<'a> {
         }
         let answered = self.registry.absorb_all();
         self.report(&answered, None);
+        self.reports_stored = false;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.options.threads)
             .thread_name(|number| format!("sweep-{number}"))
@@ -276,6 +262,10 @@ impl<'a> Run<'a> {
                 if let Some(ending) = this.stopped() {
                     return Ok(Err(ending));
                 }
+                let fits = |left| one.fits(&this.outlook, this.input, left);
+                if !this.left().is_none_or(fits) {
+                    return Ok(Err(Ending::Budget));
+                }
                 let began = Instant::now();
                 let panicked = guard::record(this.input, simulator, one, folder)?;
                 busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);
@@ -314,7 +304,13 @@ impl<'a> Run<'a> {
                     is_stopping = true;
                 }
                 while in_flight < threads && stopped.is_none() && !self.registry.is_done() {
-                    let Some(job) = self.registry.next_job(self.options.speculate) else {
+                    let left = self.left();
+                    // The first run begins in any case: a sweep called again and again gets on.
+                    let fits = |job: &Job| {
+                        let fits = |left| self.outlook.fits(self.input, job, left);
+                        self.computed_runs == 0 || left.is_none_or(fits)
+                    };
+                    let Some(job) = self.registry.next_job(self.options.speculate, &fits) else {
                         break;
                     };
                     if let Job::Run { key, .. } = job
@@ -353,7 +349,14 @@ impl<'a> Run<'a> {
                 }
                 let waits = self.neighbours.is_some() && !self.registry.is_done();
                 if in_flight == 0 && (stopped.is_some() || !waits) {
-                    return stopped.unwrap_or(Ending::Complete);
+                    // Of what is left nothing would end within the budget.
+                    let is_cut = self.options.budget.is_some() && !self.registry.is_done();
+                    let ending = if is_cut {
+                        Ending::Budget
+                    } else {
+                        Ending::Complete
+                    };
+                    return stopped.unwrap_or(ending);
                 }
                 match answers.recv_timeout(TICK) {
                     Ok(done) => {
@@ -377,8 +380,13 @@ impl<'a> Run<'a> {
                 signal: self.options.stop.signal(),
             });
         }
+        (self.left()? == Duration::ZERO).then_some(Ending::Budget)
+    }
+
+    /// Time left of the budget.
+    fn left(&self) -> Option<Duration> {
         let budget = self.options.budget?;
-        (self.began.elapsed() >= budget).then_some(Ending::Budget)
+        Some(budget.saturating_sub(self.began.elapsed()))
     }
 
     fn take(&mut self, Done { answer, wall_s }: Done) {
@@ -415,15 +423,18 @@ impl<'a> Run<'a> {
         self.report(&answered, wall_s.map(|wall_s| (key, wall_s)));
     }
 
-    /// Reports what is left. It visits every point and run, so not after each of many runs.
+    /// Reports what is left.
     fn estimate(&mut self) {
-        let n_runs = self.registry.runs().len();
-        let is_due = n_runs >= self.estimate_at || self.estimated.elapsed() >= BETWEEN_ESTIMATES;
-        if is_due || self.registry.is_done() {
-            let left = estimate::estimate(self.input, &self.registry, self.options.threads);
+        // A short budget is for simulations.
+        let is_short = self
+            .left()
+            .is_some_and(|left| left < Duration::from_secs(1));
+        if (self.reports_stored || is_short) && !self.registry.is_done() {
+            return self.outlook.learn(self.input, &self.registry);
+        }
+        let threads = self.options.threads;
+        if let Some(left) = self.outlook.renew(self.input, &self.registry, threads) {
             self.tell(Event::Estimated(left));
-            self.estimate_at = n_runs + 1 + n_runs / ESTIMATE_SHARE;
-            self.estimated = Instant::now();
         }
     }
 
@@ -467,7 +478,11 @@ impl<'a> Run<'a> {
                 if !self.is_reported[point] && self.registry.is_final(point) {
                     self.is_reported[point] = true;
                     let summary = self.registry.row(point);
-                    self.tell(Event::PointDone { point, summary });
+                    self.tell(Event::PointDone {
+                        point,
+                        summary,
+                        is_stored: self.reports_stored,
+                    });
                 }
             }
         }

@@ -6,8 +6,10 @@
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::time::Duration;
 
 use super::input::SweepInput;
+use super::outlook::Outlook;
 use super::registry::Registry;
 use super::simulator::Simulator;
 use crate::provenance;
@@ -41,6 +43,11 @@ impl Wanted {
             start_s: input.start_s,
             plan: &input.plan,
         }
+    }
+
+    /// Recording it, by what is known of the time of its run, ends within `left`.
+    pub(super) fn fits(&self, outlook: &Outlook, input: &SweepInput, left: Duration) -> bool {
+        outlook.probe_fits(input, self.point, &self.probe, left)
     }
 
     /// Whether it is in the store in `folder`.

@@ -12,7 +12,7 @@ pub fn unkept(input: &SweepInput, simulator: &dyn Simulator) -> Summary {
     let mut registry = Registry::new(input, Loaded::default());
     registry.absorb_all();
     while !registry.is_done() {
-        let Some(job) = registry.next_job(false) else {
+        let Some(job) = registry.next_job(false, &|_| true) else {
             break;
         };
         match job {

@@ -30,7 +30,7 @@ pub struct SweepArgs {
     /// Simulate again what had no verdict
     #[arg(long, value_name = "WHAT")]
     only: Option<Only>,
-    /// Start nothing new after this time, save and end with exit code 5, as 7h30m
+    /// Start nothing that would end after this time, save and end with exit code 5, as 7h30m
     #[arg(long, value_name = "TIME", value_parser = duration)]
     budget: Option<Duration>,
     /// Take finished simulations of equal content from this store, of any study; may be repeated

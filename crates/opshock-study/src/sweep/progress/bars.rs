@@ -29,7 +29,7 @@ impl Bars {
     /// Begins with a line naming the study.
     pub fn start(study: &str) -> Bars {
         let table = MultiProgress::with_draw_target(ProgressDrawTarget::stderr());
-        let whole = table.add(ProgressBar::new_spinner().with_style(style("{spinner} {msg}")));
+        let whole = table.add(ProgressBar::new_spinner().with_style(style("{spinner} {wide_msg}")));
         whole.set_message(format!("sweep of {study}"));
         whole.enable_steady_tick(Duration::from_millis(120));
         whole.tick();
@@ -58,7 +58,7 @@ impl State {
                     self.hide(oldest);
                 }
             }
-            let row = ProgressBar::new_spinner().with_style(style("  {prefix:<34} {msg}"));
+            let row = ProgressBar::new_spinner().with_style(style("  {prefix:<34} {wide_msg}"));
             row.set_prefix(self.points[point].to_string());
             let row = self.table.insert_before(&self.whole, row);
             self.rows.insert(point, (row, 0));
@@ -102,9 +102,17 @@ impl Progress for Bars {
                 let text = format!("{:<22} {runs:>3} runs", bracket(*a_crit_g, *a_fail_g));
                 state.show(*point, &text);
             }
-            Event::PointDone { point, summary } => {
+            Event::PointDone {
+                point,
+                summary,
+                is_stored,
+            } => {
                 state.answered += 1;
                 state.hide(*point);
+                // An earlier sweep or round printed it.
+                if *is_stored {
+                    return;
+                }
                 let flags: Vec<&str> = summary.flags.iter().map(|flag| flag.as_str()).collect();
                 let line = format!(
                     "  {:<34} {:<22} {:>3} runs  {}",

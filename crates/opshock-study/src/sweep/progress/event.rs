@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::search::Sign;
 use crate::store::summary::{PointSummary, Totals};
 use crate::sweep::options::Ending;
+use crate::sweep::spread::Spread;
 
 /// Name of a point, as messages show it.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,17 +36,17 @@ impl std::fmt::Display for PointLabel {
     }
 }
 
-/// What is left, from the expected remaining probes of each run class.
+/// What is left, with its range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// Simulations finished, stored ones included.
     pub runs_done: u64,
-    /// Simulations expected to remain.
-    pub runs_left: f64,
-    /// Standard deviation of that number.
-    pub runs_left_sd: f64,
-    /// Time left at the measured pace, s; `None` until a run was measured.
-    pub eta_s: Option<f64>,
+    /// Simulations left.
+    pub runs_left: Spread,
+    /// Seconds of all simulations left, one after another; `None` until a run was measured.
+    pub core_s: Option<Spread>,
+    /// Seconds left with the threads of the sweep; `None` until a run was measured.
+    pub left_s: Option<Spread>,
 }
 
 /// One thing that happened.
@@ -106,6 +107,8 @@ pub enum Event {
         point: usize,
         /// Its row.
         summary: PointSummary,
+        /// The store had it before the sweep began.
+        is_stored: bool,
     },
     /// What is left.
     Estimated(Estimate),

@@ -65,7 +65,10 @@ impl<W: Write + Send> Progress for Lines<W> {
                     points.len()
                 ));
             }
-            Event::PointDone { point, summary } => {
+            Event::PointDone {
+                is_stored: true, ..
+            } => state.answered += 1,
+            Event::PointDone { point, summary, .. } => {
                 state.answered += 1;
                 let flags: Vec<&str> = summary.flags.iter().map(|flag| flag.as_str()).collect();
                 let line = format!(

@@ -3,6 +3,7 @@
 use super::event::Estimate;
 use crate::store::summary::{PointSummary, Totals};
 use crate::sweep::options::Ending;
+use crate::sweep::spread::Spread;
 
 /// `331.2 to 334.5 G`, `above 2000 G`, `below 20 G`.
 pub(super) fn answer(summary: &PointSummary) -> String {
@@ -26,12 +27,16 @@ fn short(value: f64) -> String {
 
 /// What is left, in words.
 pub(super) fn left(estimate: &Estimate) -> String {
+    let Spread { min, max, .. } = estimate.runs_left;
     let runs = format!(
-        "{} runs done, {:.0} \u{b1} {:.0} left",
-        estimate.runs_done, estimate.runs_left, estimate.runs_left_sd
+        "{} runs done, {min:.0} to {max:.0} left",
+        estimate.runs_done
     );
-    match estimate.eta_s {
-        Some(eta_s) if estimate.runs_left > 0.0 => format!("{runs}, about {}", duration(eta_s)),
+    match estimate.left_s {
+        Some(left_s) if max > 0.0 => {
+            let (least, most) = (duration(left_s.min), duration(left_s.max));
+            format!("{runs}, {least} to {most}")
+        }
         _ => runs,
     }
 }

@@ -25,12 +25,19 @@ pub(in crate::sweep) enum Job {
 }
 
 impl Registry<'_> {
-    /// The best free job: a request of a search, else what it will probably request.
-    pub(in crate::sweep) fn next_job(&mut self, speculate: bool) -> Option<Job> {
-        let job = self
-            .asked_job()
-            .or_else(|| self.uncertainty_job())
-            .or_else(|| speculate.then(|| self.likely_job()).flatten())?;
+    /// The best free job of those that `fits` admits: a request of a search, else what one will probably request, so that
+    /// all brackets come first; then a run of an uncertainty interval.
+    pub(in crate::sweep) fn next_job(
+        &mut self,
+        speculate: bool,
+        fits: &dyn Fn(&Job) -> bool,
+    ) -> Option<Job> {
+        let speculates = speculate && !self.campaign.is_done();
+        let asked = self.asked_job(fits);
+        let likely = || speculates.then(|| self.likely_job()).flatten();
+        let job = asked
+            .or_else(|| likely().filter(fits))
+            .or_else(|| self.uncertainty_job(fits))?;
         match job {
             Job::Onset { point } => {
                 self.onsets_in_flight
@@ -43,7 +50,7 @@ impl Registry<'_> {
         Some(job)
     }
 
-    fn asked_job(&mut self) -> Option<Job> {
+    fn asked_job(&mut self, fits: &dyn Fn(&Job) -> bool) -> Option<Job> {
         let sequence = &self.campaign.order().sequence;
         let is_touched = |place: usize| self.campaign.touch(place).is_some();
         let touched = sequence[self.n_touched..].iter();
@@ -58,10 +65,11 @@ impl Registry<'_> {
         // Wanted points first: another process may be about to answer the rest.
         [true, false].into_iter().find_map(|is_own| {
             let mut asking = self.asking.values();
-            let &(point, asked, key) = asking.find(|&&(point, _, key)| {
+            let &(point, asked, key) = asking.find(|&&(point, asked, key)| {
                 self.part.allowed[point]
                     && self.wants(point) == is_own
                     && !self.in_flight.contains(&key)
+                    && fits(&Job::Run { point, asked, key })
             })?;
             Some(Job::Run { point, asked, key })
         })

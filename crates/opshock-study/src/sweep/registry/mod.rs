@@ -1,6 +1,7 @@
 //! Registry of a sweep: the searches of a study with every simulation finished so far. It answers their requests from
 //! known runs, and reads table and runs from them.
 
+mod interval_order;
 mod jobs;
 mod results;
 mod searches;
@@ -9,3 +10,5 @@ mod uncertainties;
 
 pub(super) use jobs::Job;
 pub(super) use searches::{AnsweredProbe, Registry};
+pub(super) use stage::{seen, uncertainty_asked, uncertainty_probe};
+pub(super) use uncertainties::interval_input;

@@ -39,8 +39,11 @@ pub(in crate::sweep) struct Registry<'a> {
     pub(super) n_touched: usize,
     /// Uncertainty intervals as far as they have got, by place.
     pub(super) uncertainties: Vec<UncertaintyStage>,
-    /// Places whose interval waits for a run, by rank.
+    /// Places whose interval waits for a run, by rank of their interval.
     pub(super) drawing: BTreeMap<usize, usize>,
+    /// Rank of every place for its interval: that of the searches until all of them are final.
+    pub(super) interval_rank: Vec<usize>,
+    pub(super) are_intervals_ranked: bool,
     /// Final chains of the campaign when intervals were begun last.
     pub(super) n_final_chains: usize,
     /// Times that a point became final, or may have.
@@ -79,7 +82,7 @@ impl<'a> Registry<'a> {
             onsets_in_flight: HashSet::new(),
             sharing,
             urgency,
-            rank,
+            rank: rank.clone(),
             asking: BTreeMap::new(),
             n_touched: 0,
             uncertainties: input
@@ -88,6 +91,8 @@ impl<'a> Registry<'a> {
                 .map(|_| UncertaintyStage::Waiting)
                 .collect(),
             drawing: BTreeMap::new(),
+            interval_rank: rank,
+            are_intervals_ranked: false,
             n_final_chains: 0,
             n_changes: 0,
             part: Part {
@@ -115,6 +120,11 @@ impl<'a> Registry<'a> {
     /// The searches.
     pub(in crate::sweep) fn campaign(&self) -> &Campaign {
         &self.campaign
+    }
+
+    /// The first place in the study of the content of a point.
+    pub(in crate::sweep) fn first_of_content(&self, point: usize) -> usize {
+        self.sharing[&self.input.points[point].digest][0]
     }
 
     /// Simulations known.

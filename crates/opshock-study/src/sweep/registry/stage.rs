@@ -23,7 +23,7 @@ pub(super) enum UncertaintyStage {
 }
 
 /// A run of an uncertainty interval as a probe.
-pub(super) fn uncertainty_probe(ask: uncertainty::Ask) -> Probe {
+pub(in crate::sweep) fn uncertainty_probe(ask: uncertainty::Ask) -> Probe {
     Probe {
         is_fine: true,
         levels: ask.levels,
@@ -32,7 +32,7 @@ pub(super) fn uncertainty_probe(ask: uncertainty::Ask) -> Probe {
     }
 }
 
-pub(super) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
+pub(in crate::sweep) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
     Asked {
         probe: uncertainty_probe(ask),
         purpose: Purpose::Uncertainty,
@@ -40,7 +40,7 @@ pub(super) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
 }
 
 /// A run as an uncertainty interval sees it.
-pub(super) fn seen(result: &ProbeResult) -> uncertainty::Seen {
+pub(in crate::sweep) fn seen(result: &ProbeResult) -> uncertainty::Seen {
     uncertainty::Seen {
         verdict: match result.verdict {
             Verdict::Survives => AmplitudeVerdict::Survives,

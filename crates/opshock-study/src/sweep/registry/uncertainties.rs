@@ -1,11 +1,23 @@
 //! Uncertainty intervals of points whose search is final, advanced as far as the known runs allow.
 
+use super::interval_order::interval_ranks;
 use super::jobs::Job;
 use super::searches::{AnsweredProbe, Registry};
 use super::stage::{UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
-use crate::search::{Flag, Status, Verdict, uncertainty};
+use crate::search::{Campaign, Flag, Probe, ProbeResult, Status, Verdict, uncertainty};
 use crate::store::RunKey;
+use crate::sweep::input::SweepInput;
 use opshock_solver::scene::discretisation::Levels;
+
+/// An interval that has begun.
+pub(in crate::sweep) struct Begun<'a> {
+    /// What it starts from.
+    pub(in crate::sweep) input: &'a uncertainty::UncertaintyInput,
+    /// Runs that it has used.
+    pub(in crate::sweep) log: &'a [uncertainty::Ask],
+    /// All is known.
+    pub(in crate::sweep) is_done: bool,
+}
 
 impl Registry<'_> {
     /// Advances uncertainty intervals as far as the known runs allow: those that wait for the run `finished`, or all,
@@ -19,6 +31,15 @@ impl Registry<'_> {
             (0..self.input.points.len()).collect()
         };
         self.n_final_chains = n_final_chains;
+        if self.campaign.is_done() && !self.are_intervals_ranked {
+            self.are_intervals_ranked = true;
+            self.interval_rank = interval_ranks(self.input, &self.campaign, &self.rank);
+            let waiting: Vec<usize> = self.drawing.values().copied().collect();
+            let ranked = waiting.into_iter();
+            self.drawing = ranked
+                .map(|point| (self.interval_rank[point], point))
+                .collect();
+        }
         for point in places {
             match &self.uncertainties[point] {
                 UncertaintyStage::Waiting if self.campaign.is_final(point) => {
@@ -57,9 +78,9 @@ impl Registry<'_> {
             } = &mut self.uncertainties[point]
             {
                 if matches!(progress, uncertainty::Progress::Wants(_)) {
-                    self.drawing.insert(self.rank[point], point);
+                    self.drawing.insert(self.interval_rank[point], point);
                 } else {
-                    self.drawing.remove(&self.rank[point]);
+                    self.drawing.remove(&self.interval_rank[point]);
                     self.n_changes += 1;
                 }
                 (*log, *before) = (now, progress);
@@ -95,7 +116,7 @@ impl Registry<'_> {
     }
 
     /// Largest number of adaptive refinements of a point.
-    pub(super) fn refinements(&self, point: usize) -> u8 {
+    pub(in crate::sweep) fn refinements(&self, point: usize) -> u8 {
         let plan = self.input.points[point].uncertainty.as_ref();
         plan.map_or(0, |plan| plan.refinements)
     }
@@ -103,50 +124,8 @@ impl Registry<'_> {
     /// What the interval of a point with a final search starts from; `None` without a bracket of its
     /// own.
     pub(super) fn uncertainty_input(&self, point: usize) -> Option<uncertainty::UncertaintyInput> {
-        let plan = self.input.points[point].uncertainty.as_ref()?;
-        let findings = self.campaign.findings(point);
-        if findings.status != Status::Ok {
-            return None;
-        }
-        let (survivor, failure) = (findings.survivor?, findings.failure?);
-        let mut survivors = Vec::new();
-        let mut t_fail_s = None;
-        for asked in self.campaign.search(point)?.log() {
-            if asked.probe.window_factor != 1 {
-                continue;
-            }
-            let index = asked.probe.index * uncertainty::SUBDIVISIONS;
-            let result = &self.runs[&self.key(point, asked.probe)].result;
-            match &result.verdict {
-                Verdict::Fails {
-                    t_fail_s: time_s, ..
-                } if asked.probe.index == failure => {
-                    t_fail_s = Some(*time_s);
-                }
-                Verdict::Survives => {
-                    if let (Some(h_min_m), Some(t_min_s)) = (result.h_min_m, result.t_min_s) {
-                        survivors.push(uncertainty::Known {
-                            index,
-                            h_min_m,
-                            t_min_s,
-                        });
-                    }
-                }
-                Verdict::Fails { .. } | Verdict::Undecided { .. } => {}
-            }
-        }
-        Some(uncertainty::UncertaintyInput {
-            base: Levels::NONE,
-            grid: self.input.settings.grid.finer(uncertainty::SUBDIVISIONS),
-            survivor: survivor * uncertainty::SUBDIVISIONS,
-            failure: failure * uncertainty::SUBDIVISIONS,
-            t_fail_s,
-            survivors,
-            discretisations: plan.discretisations.clone(),
-            film_halvings: plan.film_halvings,
-            mesh_halvings: plan.mesh_halvings,
-            holds_films: plan.holds_films,
-            target: plan.target,
+        interval_input(self.input, &self.campaign, point, &|probe| {
+            self.runs[&self.key(point, probe)].result.clone()
         })
     }
 
@@ -162,11 +141,14 @@ impl Registry<'_> {
         }
     }
 
-    /// Runs that the uncertainty interval of a point has used, refinements included, and whether it is done; `None`
-    /// where it has not begun.
-    pub(in crate::sweep) fn uncertainty_runs(&self, point: usize) -> Option<(usize, bool)> {
+    /// The uncertainty interval of a point as far as it has got; `None` where it has not begun.
+    pub(in crate::sweep) fn interval(&self, point: usize) -> Option<Begun<'_>> {
         match &self.uncertainties[point] {
-            UncertaintyStage::Begun { log, .. } => Some((log.len(), self.is_final(point))),
+            UncertaintyStage::Begun { input, log, .. } => Some(Begun {
+                input,
+                log,
+                is_done: self.is_final(point),
+            }),
             _ => None,
         }
     }
@@ -179,7 +161,7 @@ impl Registry<'_> {
         }))
     }
 
-    pub(super) fn uncertainty_job(&self) -> Option<Job> {
+    pub(super) fn uncertainty_job(&self, fits: &dyn Fn(&Job) -> bool) -> Option<Job> {
         self.drawing.values().find_map(|&point| {
             let UncertaintyStage::Begun {
                 progress: uncertainty::Progress::Wants(ask),
@@ -189,11 +171,13 @@ impl Registry<'_> {
                 return None;
             };
             let key = self.key(point, uncertainty_probe(ask));
-            (!self.in_flight.contains(&key) && self.wants_uncertainty(point)).then_some(Job::Run {
+            let job = Job::Run {
                 point,
                 asked: uncertainty_asked(ask),
                 key,
-            })
+            };
+            let is_free = !self.in_flight.contains(&key) && self.wants_uncertainty(point);
+            (is_free && fits(&job)).then_some(job)
         })
     }
 
@@ -211,4 +195,59 @@ impl Registry<'_> {
             _ => None,
         }
     }
+}
+
+/// What the interval of a point with a final search starts from, by the results of its probes; `None` without a
+/// bracket of its own.
+pub(in crate::sweep) fn interval_input(
+    input: &SweepInput,
+    campaign: &Campaign,
+    point: usize,
+    result: &dyn Fn(Probe) -> ProbeResult,
+) -> Option<uncertainty::UncertaintyInput> {
+    let plan = input.points[point].uncertainty.as_ref()?;
+    let findings = campaign.findings(point);
+    if findings.status != Status::Ok {
+        return None;
+    }
+    let (survivor, failure) = (findings.survivor?, findings.failure?);
+    let mut survivors = Vec::new();
+    let mut t_fail_s = None;
+    for asked in campaign.search(point)?.log() {
+        if asked.probe.window_factor != 1 {
+            continue;
+        }
+        let index = asked.probe.index * uncertainty::SUBDIVISIONS;
+        let result = result(asked.probe);
+        match &result.verdict {
+            Verdict::Fails {
+                t_fail_s: time_s, ..
+            } if asked.probe.index == failure => {
+                t_fail_s = Some(*time_s);
+            }
+            Verdict::Survives => {
+                if let (Some(h_min_m), Some(t_min_s)) = (result.h_min_m, result.t_min_s) {
+                    survivors.push(uncertainty::Known {
+                        index,
+                        h_min_m,
+                        t_min_s,
+                    });
+                }
+            }
+            Verdict::Fails { .. } | Verdict::Undecided { .. } => {}
+        }
+    }
+    Some(uncertainty::UncertaintyInput {
+        base: Levels::NONE,
+        grid: input.settings.grid.finer(uncertainty::SUBDIVISIONS),
+        survivor: survivor * uncertainty::SUBDIVISIONS,
+        failure: failure * uncertainty::SUBDIVISIONS,
+        t_fail_s,
+        survivors,
+        discretisations: plan.discretisations.clone(),
+        film_halvings: plan.film_halvings,
+        mesh_halvings: plan.mesh_halvings,
+        holds_films: plan.holds_films,
+        target: plan.target,
+    })
 }

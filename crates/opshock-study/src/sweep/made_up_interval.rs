@@ -1,0 +1,191 @@
+//! Made-up answers of the runs that an uncertainty interval requests: every discretisation parameter has an error that
+//! falls by refinement, about at its formal order or, in a share of the cases, without order.
+//!
+//! An error is a share ε = τ m exp(a z + b y) of the critical amplitude, with τ the target uncertainty, z normal and common
+//! to all points of a study, y normal and the point's own. With m, a and b as below the intervals made up for the committed
+//! studies of Fig. 13 take as many runs as the real ones. Known runs keep their verdicts, and bound the made-up answer at their refinement levels.
+
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
+
+use super::made_up::Random;
+use crate::search::evidence::AmplitudeVerdict;
+use crate::search::uncertainty::{Ask, Seen, UncertaintyInput};
+
+/// Median error of a discretisation parameter as a share of the target uncertainty: presets have both in proportion.
+fn median_error(discretisation: Discretisation) -> f64 {
+    match discretisation {
+        Discretisation::FilmGrid => 0.8,
+        Discretisation::DiskModes => 1.0,
+        Discretisation::StructureStep | Discretisation::RampMesh => 0.5,
+        Discretisation::HeadTolerance => 0.4,
+        Discretisation::SuspensionModes | Discretisation::CouplingTolerance => 0.1,
+        Discretisation::QuasiStaticFilm => 0.0,
+    }
+}
+
+/// a and b above.
+const COMMON: f64 = 0.3;
+const OWN: f64 = 0.75;
+/// Share of discretisation parameters whose error has no order, and its largest alternating part.
+const DISORDERED: f64 = 0.3;
+const DISORDER: f64 = 0.6;
+/// What a quasi-static film misses of the error that it stands for, a standard deviation.
+const MISSED: f64 = 0.2;
+
+/// Common factors of the errors of a study's points, one of many possible.
+pub(super) struct Errors(Vec<(Discretisation, f64)>);
+
+impl Errors {
+    /// Those of a seed.
+    pub(super) fn of(sample: u64) -> Errors {
+        let mut random = Random(sample ^ 0x5eed_0000);
+        let all = Discretisation::ALL
+            .into_iter()
+            .chain([Discretisation::RampMesh]);
+        Errors(
+            all.map(|one| (one, median_error(one) * (COMMON * random.normal()).exp()))
+                .collect(),
+        )
+    }
+}
+
+/// Error of one discretisation parameter of a point.
+struct OwnError {
+    discretisation: Discretisation,
+    share: f64,
+    disorder: f64,
+}
+
+impl OwnError {
+    fn at(&self, level: i8) -> f64 {
+        let flip = if level.rem_euclid(2) == 1 { -1.0 } else { 1.0 };
+        let ratio = self.discretisation.formal_ratio();
+        self.share * ratio.powi(-i32::from(level)) * (1.0 + flip * self.disorder)
+    }
+}
+
+/// Answers of a point's interval.
+pub(super) struct MadeUpInterval<'a> {
+    input: &'a UncertaintyInput,
+    errors: Vec<OwnError>,
+    missed: f64,
+    /// Critical amplitude of the scene as it is, grid steps.
+    critical: f64,
+    /// Highest survivor and lowest failure known at some levels.
+    known: Vec<(Levels, [Option<i32>; 2])>,
+}
+
+impl<'a> MadeUpInterval<'a> {
+    /// Answers of a seed, in accord with the runs `known`.
+    pub(super) fn of(
+        input: &'a UncertaintyInput,
+        common: &Errors,
+        seed: u64,
+        known: &[(Ask, Seen)],
+    ) -> MadeUpInterval<'a> {
+        let mut random = Random(seed);
+        let inside = random.unit();
+        let width = f64::from(input.failure - input.survivor);
+        let mut error = |&(discretisation, median): &(Discretisation, f64)| {
+            let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+            let is_disordered = random.unit() < DISORDERED;
+            let disorder = DISORDER * random.unit();
+            OwnError {
+                discretisation,
+                share: sign * input.target * median * (OWN * random.normal()).exp(),
+                disorder: if is_disordered { disorder } else { 0.0 },
+            }
+        };
+        let errors = common.0.iter().map(&mut error);
+        let is_there = |one: &OwnError| input.discretisations.contains(&one.discretisation);
+        let errors = errors.filter(is_there).collect();
+        let mut bounds: Vec<(Levels, [Option<i32>; 2])> = Vec::new();
+        for (ask, seen) in known {
+            let place = bounds.iter().position(|(levels, _)| *levels == ask.levels);
+            let place = place.unwrap_or_else(|| {
+                bounds.push((ask.levels, [None; 2]));
+                bounds.len() - 1
+            });
+            let [survivor, failure] = &mut bounds[place].1;
+            match seen.verdict {
+                AmplitudeVerdict::Survives => *survivor = (*survivor).max(Some(ask.index)),
+                AmplitudeVerdict::Fails => {
+                    *failure = Some(failure.map_or(ask.index, |before| before.min(ask.index)));
+                }
+                AmplitudeVerdict::Undecided => {}
+            }
+        }
+        MadeUpInterval {
+            input,
+            errors,
+            missed: 1.0 + MISSED * random.normal(),
+            critical: f64::from(input.survivor) + inside * width,
+            known: bounds,
+        }
+    }
+
+    /// Critical amplitude at some levels, grid steps.
+    fn critical(&self, levels: Levels) -> f64 {
+        let held = levels.of(Discretisation::QuasiStaticFilm);
+        let change: f64 = self
+            .errors
+            .iter()
+            .map(|error| {
+                let level = levels.of(error.discretisation);
+                let changed = match (error.discretisation, held) {
+                    (Discretisation::FilmGrid, 1..) => error.at(level) * (1.0 - self.missed),
+                    (Discretisation::FilmGrid, ..=-1) => self.missed * error.at(level + held),
+                    _ => error.at(level),
+                };
+                changed - error.at(0)
+            })
+            .sum();
+        let steps = f64::from(self.input.grid.steps_per_octave);
+        let critical = self.critical + steps * (1.0 + change.clamp(-0.5, 1.0)).log2();
+        let known = self.known.iter().find(|(known, _)| *known == levels);
+        let Some((_, [survivor, failure])) = known else {
+            return critical;
+        };
+        let low = survivor.map_or(f64::NEG_INFINITY, f64::from);
+        let high = failure.map_or(f64::INFINITY, |failure| f64::from(failure) - 0.5);
+        critical.min(high).max(low)
+    }
+
+    /// Clearance and its time of the scene as it is, by the survivors known.
+    fn margin(&self, node: f64) -> Option<(f64, f64)> {
+        let known = &self.input.survivors;
+        let at_or_below = known.iter().filter(|known| f64::from(known.index) <= node);
+        let below = at_or_below.max_by_key(|known| known.index);
+        let above = known.iter().filter(|known| f64::from(known.index) > node);
+        let above = above.min_by_key(|known| known.index);
+        let nearest = below.or(above)?;
+        let (from, to, to_m) = match (below, above) {
+            (Some(below), Some(above)) => (below, f64::from(above.index), above.h_min_m),
+            (Some(below), None) => (below, self.critical.max(node), 0.0),
+            (None, _) => return Some((nearest.h_min_m, nearest.t_min_s)),
+        };
+        let length = (to - f64::from(from.index)).max(1e-9);
+        let share = (node - f64::from(from.index)) / length;
+        Some((
+            from.h_min_m + share * (to_m - from.h_min_m),
+            nearest.t_min_s,
+        ))
+    }
+
+    /// The made-up answer of a run.
+    pub(super) fn seen(&self, ask: Ask) -> Seen {
+        let critical = self.critical(ask.levels);
+        let node = f64::from(ask.index);
+        let is_held = ask.levels.of(Discretisation::QuasiStaticFilm) != 0;
+        let margin = self.margin(node + self.critical - critical);
+        Seen {
+            verdict: if is_held || node <= critical {
+                AmplitudeVerdict::Survives
+            } else {
+                AmplitudeVerdict::Fails
+            },
+            h_min_m: margin.map(|(h_min_m, _)| h_min_m),
+            t_min_s: margin.map(|(_, t_min_s)| t_min_s),
+        }
+    }
+}

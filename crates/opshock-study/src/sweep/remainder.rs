@@ -1,0 +1,261 @@
+//! What is left of a sweep: runs and seconds, as the range of many made-up ends.
+//!
+//! Each end finishes the searches and the uncertainty intervals from what is known, with refinement, quasi-static films
+//! and doubled windows, by the code that asks for the real runs. Two things are learnt on the way: the time of each kind
+//! of run (`pace`), and by how much real intervals cost more than made-up ones of the same points, by ramp model.
+
+use std::collections::BTreeMap;
+
+use super::input::SweepInput;
+use super::made_up::{Ended, Random, ended};
+use super::made_up_interval::{Errors, MadeUpInterval};
+use super::pace::{Kind, Pace};
+use super::registry::{Registry, interval_input, seen, uncertainty_probe};
+use super::spread::Spread;
+use crate::search::uncertainty::{self, Ask, UncertaintyInput};
+use crate::search::{Campaign, Flag, Probe, ProbeResult, Ramp, Touch};
+use crate::study::KeepHistories;
+
+/// Made-up ends, for few points and for many.
+const ENDS: u64 = 32;
+const FEWEST_ENDS: u64 = 8;
+/// Points made up at most in all ends.
+const MOST_POINTS: u64 = 4096;
+/// Share of the threads' time spent simulating.
+const CORE_USE: f64 = 0.95;
+/// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
+const MADE_UP_POINTS: f64 = 3.0;
+/// Standard deviation of the logarithm of the real over the made-up cost of all intervals, before any is finished.
+const MODEL_SPREAD: f64 = 0.2;
+
+/// What is left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Remainder {
+    /// Runs of the searches.
+    pub(super) search_runs: Spread,
+    /// Runs of the uncertainty intervals.
+    pub(super) uncertainty_runs: Spread,
+    /// All of them.
+    pub(super) runs: Spread,
+    /// Seconds of all simulations, one after another.
+    pub(super) core_s: Spread,
+    /// Seconds with the threads of the sweep.
+    pub(super) wall_s: Spread,
+}
+
+/// The interval of a point in one end.
+struct Interval {
+    ramp: Ramp,
+    /// Seconds and runs left.
+    left_s: f64,
+    runs: usize,
+    /// Seconds of the finished interval, real and made up.
+    finished_s: Option<[f64; 2]>,
+}
+
+/// What is left of the sweep of `registry`, at `pace`.
+pub(super) fn remainder(
+    input: &SweepInput,
+    registry: &Registry<'_>,
+    touches: &[Touch],
+    pace: &Pace,
+    threads: usize,
+) -> Remainder {
+    let n_points = input.points.len().max(1) as u64;
+    let n_ends = (MOST_POINTS / n_points).clamp(FEWEST_ENDS, ENDS);
+    let mut outcomes: [Vec<f64>; 5] = Default::default();
+    for end in 0..n_ends {
+        let one = one_end(input, registry, touches, pace, threads, end);
+        for (outcomes, one) in outcomes.iter_mut().zip(one) {
+            outcomes.push(one);
+        }
+    }
+    let [search_runs, uncertainty_runs, runs, core_s, wall_s] = outcomes.map(Spread::of);
+    Remainder {
+        search_runs,
+        uncertainty_runs,
+        runs,
+        core_s,
+        wall_s,
+    }
+}
+
+fn one_end(
+    input: &SweepInput,
+    registry: &Registry<'_>,
+    touches: &[Touch],
+    pace: &Pace,
+    threads: usize,
+    end: u64,
+) -> [f64; 5] {
+    let ended = ended(input, registry, touches, end);
+    let errors = Errors::of(end);
+    let mut random = Random(end ^ 0x7ace);
+    let z = [random.normal(), random.normal(), random.normal()];
+    let seconds = |point: usize, probe: &Probe| {
+        let kind = Kind::of(input.points[point].coordinates.ramp, probe);
+        let plain = (pace.plain_spread(kind.ramp) * z[2]).exp();
+        let seconds = plain * pace.seconds(kind).unwrap_or(0.0);
+        match probe.levels.is_none() {
+            true => seconds,
+            false => seconds * (pace.spread(kind.ramp) * z[0]).exp(),
+        }
+    };
+    let (mut searched, mut search_s, mut histories_s) = (0, 0.0, 0.0);
+    let mut intervals = Vec::new();
+    for point in 0..input.points.len() {
+        if !registry.wants(point) {
+            continue;
+        }
+        let new = &ended.new[point];
+        searched += new.len();
+        search_s += new.iter().map(|probe| seconds(point, probe)).sum::<f64>();
+        if !registry.is_final(point) {
+            let kept = match input.keep_histories {
+                KeepHistories::None => 0,
+                KeepHistories::Bracket => 2,
+                KeepHistories::All => new.len().max(2),
+            };
+            histories_s += kept as f64 * seconds(point, &Probe::at(0));
+        }
+        if registry.first_of_content(point) == point {
+            let seed = end.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ point as u64;
+            let of_probe = |probe: &Probe| seconds(point, probe);
+            intervals.extend(interval(
+                input, registry, &ended, &errors, point, seed, &of_probe,
+            ));
+        }
+    }
+    let factors = factors(&intervals, z[1]);
+    let lefts = intervals.iter().map(|one| {
+        factors
+            .get(&one.ramp)
+            .map_or(1.0, |factor| factor * one.left_s)
+    });
+    let lefts: Vec<f64> = lefts.collect();
+    let asked: f64 = intervals
+        .iter()
+        .map(|one| one.runs as f64 * factors.get(&one.ramp).copied().unwrap_or(1.0))
+        .sum();
+    let is_open = intervals.iter().any(|one| one.runs > 0);
+    let asked = asked.round().max(f64::from(u8::from(is_open)));
+    let core_s = search_s + histories_s + lefts.iter().sum::<f64>();
+    // One interval is made by one thread.
+    let longest_s = lefts.iter().copied().fold(0.0, f64::max);
+    let wall_s = (core_s / (CORE_USE * threads as f64)).max(longest_s);
+    [
+        searched as f64,
+        asked,
+        searched as f64 + asked,
+        core_s,
+        wall_s,
+    ]
+}
+
+/// Real over made-up cost of an interval by ramp model: one ratio by all finished ones, and by it those of each model.
+fn factors(intervals: &[Interval], z: f64) -> BTreeMap<Ramp, f64> {
+    let mut of_ramp: BTreeMap<Ramp, [f64; 3]> = BTreeMap::new();
+    for one in intervals {
+        let sums = of_ramp.entry(one.ramp).or_default();
+        if let Some([real_s, made_up_s]) = one.finished_s {
+            for (sum, more) in sums.iter_mut().zip([real_s, made_up_s, 1.0]) {
+                *sum += more;
+            }
+        }
+    }
+    let ratio = |[real_s, made_up_s, n]: [f64; 3], prior: f64| {
+        if made_up_s <= 0.0 {
+            return prior;
+        }
+        let more_s = MADE_UP_POINTS * made_up_s / n;
+        (real_s + prior * more_s) / (made_up_s + more_s)
+    };
+    let all = of_ramp.values().fold([0.0; 3], |sum, one| {
+        std::array::from_fn(|place| sum[place] + one[place])
+    });
+    let of_all = ratio(all, 1.0);
+    let spread = MODEL_SPREAD / (1.0 + all[2] / MADE_UP_POINTS).sqrt();
+    of_ramp
+        .into_iter()
+        .map(|(ramp, sums)| (ramp, ratio(sums, of_all) * (spread * z).exp()))
+        .collect()
+}
+
+/// The interval of a point; `None` where there is none of its own.
+fn interval(
+    input: &SweepInput,
+    registry: &Registry<'_>,
+    ended: &Ended,
+    errors: &Errors,
+    point: usize,
+    seed: u64,
+    seconds: &dyn Fn(&Probe) -> f64,
+) -> Option<Interval> {
+    let ramp = input.points[point].coordinates.ramp;
+    let refinements = registry.refinements(point);
+    let all_s = |asks: &[Ask]| -> f64 {
+        asks.iter()
+            .map(|&ask| seconds(&uncertainty_probe(ask)))
+            .sum()
+    };
+    let made_up = |from: &UncertaintyInput, known: &[(Ask, uncertainty::Seen)]| {
+        let law = MadeUpInterval::of(from, errors, seed, known);
+        let lookup = |ask: Ask| {
+            let known = known.iter().find(|(known, _)| *known == ask);
+            Some(known.map_or_else(|| law.seen(ask), |(_, seen)| *seen))
+        };
+        uncertainty::answer(from, refinements, &lookup).0
+    };
+    if let Some(begun) = registry.interval(point) {
+        if begun.is_done {
+            let finished_s = [all_s(begun.log), all_s(&made_up(begun.input, &[]))];
+            return Some(Interval {
+                ramp,
+                left_s: 0.0,
+                runs: 0,
+                finished_s: Some(finished_s),
+            });
+        }
+        let known: Vec<(Ask, uncertainty::Seen)> = begun
+            .log
+            .iter()
+            .filter_map(|&ask| {
+                let key = registry.key(point, uncertainty_probe(ask));
+                Some((ask, seen(&registry.runs().get(&key)?.result)))
+            })
+            .collect();
+        let mut asks = made_up(begun.input, &known);
+        asks.retain(|ask| !known.iter().any(|(known, _)| known == ask));
+        return Some(Interval {
+            ramp,
+            left_s: all_s(&asks),
+            runs: asks.len(),
+            finished_s: None,
+        });
+    }
+    if registry.is_final(point) || is_taken(&ended.campaign, point) {
+        return None;
+    }
+    let share = Random(seed ^ 0xe7e7).unit();
+    let result = |probe: Probe| -> ProbeResult {
+        let known = registry.runs().get(&registry.key(point, probe));
+        known.map_or_else(
+            || ended.result(input, point, probe, share),
+            |known| known.result.clone(),
+        )
+    };
+    let from = interval_input(input, &ended.campaign, point, &result)?;
+    let asks = made_up(&from, &[]);
+    Some(Interval {
+        ramp,
+        left_s: all_s(&asks),
+        runs: asks.len(),
+        finished_s: None,
+    })
+}
+
+/// The point's interval is that of the same point without ramp.
+fn is_taken(campaign: &Campaign, point: usize) -> bool {
+    let companion = campaign.order().relations[point].companion;
+    companion.is_some() && campaign.findings(point).flags.contains(&Flag::NoTouch)
+}
