@@ -349,12 +349,9 @@ impl<'a> Run<'a> {
                 }
                 let waits = self.neighbours.is_some() && !self.registry.is_done();
                 if in_flight == 0 && (stopped.is_some() || !waits) {
-                    // Of what is left nothing would end within the budget.
-                    let is_cut = self.options.budget.is_some() && !self.registry.is_done();
-                    let ending = if is_cut {
-                        Ending::Budget
-                    } else {
-                        Ending::Complete
+                    let ending = match self.options.budget {
+                        Some(_) if !self.registry.is_done() => Ending::Budget,
+                        _ => Ending::Complete,
                     };
                     return stopped.unwrap_or(ending);
                 }
