@@ -89,6 +89,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	scripts/bench-against $(REV) $(CASES)
 
 verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -129,6 +130,10 @@ verify-match: bootstrap ## planted truths that `opshock match` must keep (20 min
 
 verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
+
+.PHONY: verify-forecast
+verify-forecast: bootstrap ## forecasts of 20 small studies against the time they take (40 minutes of two idle cores)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture forecast_slow
 
 .PHONY: verify-solid
 verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh

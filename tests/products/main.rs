@@ -17,6 +17,7 @@ mod compare;
 mod digests;
 mod documents;
 mod forecasts;
+mod forecasts_verify;
 mod frozen_store;
 mod hdf5_readers;
 mod heads;
