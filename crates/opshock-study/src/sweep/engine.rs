@@ -262,10 +262,6 @@ impl<'a> Run<'a> {
                 if let Some(ending) = this.stopped() {
                     return Ok(Err(ending));
                 }
-                let fits = |left| one.fits(&this.outlook, this.input, left);
-                if !this.left().is_none_or(fits) {
-                    return Ok(Err(Ending::Budget));
-                }
                 let began = Instant::now();
                 let panicked = guard::record(this.input, simulator, one, folder)?;
                 busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);

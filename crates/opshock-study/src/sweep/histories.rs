@@ -6,10 +6,8 @@
 
 use std::collections::HashSet;
 use std::path::Path;
-use std::time::Duration;
 
 use super::input::SweepInput;
-use super::outlook::Outlook;
 use super::registry::Registry;
 use super::simulator::Simulator;
 use crate::provenance;
@@ -43,11 +41,6 @@ impl Wanted {
             start_s: input.start_s,
             plan: &input.plan,
         }
-    }
-
-    /// Recording it, by what is known of the time of its run, ends within `left`.
-    pub(super) fn fits(&self, outlook: &Outlook, input: &SweepInput, left: Duration) -> bool {
-        outlook.probe_fits(input, self.point, &self.probe, left)
     }
 
     /// Whether it is in the store in `folder`.

@@ -78,13 +78,7 @@ impl Outlook {
     }
 
     /// The run of a probe, by what is known of its time, ends within `left`.
-    pub(super) fn probe_fits(
-        &self,
-        input: &SweepInput,
-        point: usize,
-        probe: &Probe,
-        left: Duration,
-    ) -> bool {
+    fn probe_fits(&self, input: &SweepInput, point: usize, probe: &Probe, left: Duration) -> bool {
         let kind = Kind::of(input.points[point].coordinates.ramp, probe);
         let seconds = self.pace.seconds(kind);
         seconds.is_none_or(|seconds| seconds <= left.as_secs_f64())
