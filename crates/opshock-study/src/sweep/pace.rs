@@ -12,7 +12,8 @@
 //! | F | factor of a film of half, quarter, eighth of the cells, or of twice and four times as many | 0.42, 0.18, 0.13; 2.4, 6 |
 //! | T | factor of a level of the head's tolerances | 2.2 finer, 0.75 coarser |
 //!
-//! times 0.6 since many of them fail early, read off the 4400 runs of the committed studies of Fig. 13. What the store
+//! times 0.6 since many of them fail early. The factors are rounded means of four sweeps: two studies of Fig. 13, a default
+//! drive and one at the preset coarse; 0.6 was chosen so that forecasts of these sweeps hold. What the store
 //! measures replaces it: the ratio of measured to modelled time of each kind of run, and of all kinds of a ramp model
 //! where the kind is new.
 
