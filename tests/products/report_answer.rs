@@ -106,6 +106,13 @@ fn points_without_answer_and_bounds_are_said() {
     summary.points.clear();
     let none = Answer::of(&summary).sentences();
     assert_eq!(none, ["No critical shock is known yet."]);
+    let mut begun = five_clearances(1.0);
+    begun.points[3].status = Status::Open;
+    let said = Answer::of(&begun).sentences().join(" ");
+    assert!(
+        said.contains("1 of 20 points with a bracket alone so far"),
+        "{said}"
+    );
 }
 
 fn titles(figure: &Figure) -> Vec<&str> {

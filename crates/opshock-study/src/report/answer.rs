@@ -160,6 +160,14 @@ impl<'a> Answer<'a> {
                 summary.points.len()
             );
         }
+        let unfinished = known().filter(|point| point.status == Status::Open).count();
+        if unfinished > 0 {
+            let _ = write!(
+                first,
+                ", {unfinished} of {} points with a bracket alone so far",
+                summary.points.len()
+            );
+        }
         let mut clauses = self.axes.iter().map(Choice::clause);
         if let Some(clause) = clauses.next() {
             let _ = write!(first, "; {clause}");
