@@ -102,10 +102,10 @@ fn steps_and_cut_records_are_told() {
     // 23 G of 459.2 G from the end of the pulse on: 5.0 %.
     let offset = record(|t| if t > 1.9999e-3 { 22.96 } else { 0.0 });
     let window = format!("{MEASURED}table_window_ms = [0, 2.5]");
-    let told = remarks(&study(at.path(), &offset, &window).unwrap());
+    let warnings = remarks(&study(at.path(), &offset, &window).unwrap());
     assert!(
-        told.len() == 1 && told[0].contains("ends with a step of 5.0 % of its peak"),
-        "{told:?}"
+        warnings.len() == 1 && warnings[0].contains("ends with a step of 5.0 % of its peak"),
+        "{warnings:?}"
     );
     // The record ends at a quarter of the way down: sin(0.75 π).
     let cut: String = record(|_| 0.0)
@@ -113,17 +113,17 @@ fn steps_and_cut_records_are_told() {
         .take(252)
         .map(|row| format!("{row}\n"))
         .collect();
-    let told = remarks(&study(at.path(), &cut, MEASURED).unwrap());
+    let warnings = remarks(&study(at.path(), &cut, MEASURED).unwrap());
     assert!(
-        told.len() == 1 && told[0].contains("inside the pulse, at 70.7 % of its peak"),
-        "{told:?}"
+        warnings.len() == 1 && warnings[0].contains("inside the pulse, at 70.7 % of its peak"),
+        "{warnings:?}"
     );
     let turned = record(|_| 0.0).replace(',', ",-").replace("(s),-", "(s),");
     let turned = turned.replace("--", "");
-    let told = remarks(&study(at.path(), &turned, MEASURED).unwrap());
+    let warnings = remarks(&study(at.path(), &turned, MEASURED).unwrap());
     assert!(
-        told.len() == 1 && told[0].contains("peak is negative"),
-        "{told:?}"
+        warnings.len() == 1 && warnings[0].contains("peak is negative"),
+        "{warnings:?}"
     );
 }
 

@@ -90,12 +90,12 @@ fn an_audit_finds_every_altered_number_and_nothing_else() {
         "a sweep done again gives the same JSON"
     );
     assert!(!page.contains("saved"), "{page}");
-    let told = Done::of(folder.path(), &["report", "clean", "--verbose"]).stderr;
+    let verbose = Done::of(folder.path(), &["report", "clean", "--verbose"]).stderr;
     assert!(
-        told.contains("rule R4 saved work in")
-            && told.contains("rule R6 saved work in")
-            && told.contains("rule R1 saved nothing: "),
-        "{told}"
+        verbose.contains("rule R4 saved work in")
+            && verbose.contains("rule R6 saved work in")
+            && verbose.contains("rule R1 saved nothing: "),
+        "{verbose}"
     );
     let path = study("fig13");
     let mut words = vec![

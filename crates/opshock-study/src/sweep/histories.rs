@@ -69,16 +69,13 @@ impl Wanted {
 pub(super) fn wanted(input: &SweepInput, registry: &Registry<'_>) -> Vec<Wanted> {
     let (mut wanted, mut keys) = (Vec::new(), HashSet::new());
     for point in (0..input.points.len()).filter(|&point| registry.wants(point)) {
-        let digest = input.points[point].digest;
-        let mut points = input.points.iter();
-        let first = points.position(|other| other.digest == digest);
         for probe in probes(input, registry, point) {
             let key = registry.key(point, probe);
             if !keys.insert(key) {
                 continue;
             }
             wanted.push(Wanted {
-                point: first.unwrap_or(point),
+                point: registry.first_of_content(point),
                 probe,
                 key,
                 amplitude_m_per_s2: registry.amplitude_m_per_s2(point, probe),

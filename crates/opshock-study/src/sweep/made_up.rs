@@ -54,12 +54,12 @@ pub(super) fn ended(
     let mut new = vec![Vec::new(); input.points.len()];
     // Points of equal content share their runs.
     let mut counted = HashSet::new();
-    let mut n_told = usize::MAX;
-    while !campaign.is_done() && n_told > 0 {
-        n_told = 0;
+    let mut n_answered = usize::MAX;
+    while !campaign.is_done() && n_answered > 0 {
+        n_answered = 0;
         for (point, one) in input.points.iter().enumerate() {
             while let Some(asked) = campaign.ask(point) {
-                n_told += 1;
+                n_answered += 1;
                 let key = registry.key(point, asked.probe);
                 if let Some(known) = registry.runs().get(&key) {
                     let result = &known.result;

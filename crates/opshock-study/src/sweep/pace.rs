@@ -9,10 +9,11 @@
 //! | symbol | meaning | value |
 //! |---|---|---|
 //! | h, s | shares of the head and of disk and ramp in a plain run | 1, 0 without ramp; 0.9, 0.1 with one |
-//! | F | factor of a film of half, quarter, eighth of the cells, or of twice and four times as many | 0.42, 0.18, 0.13; 2.4, 6 |
+//! | F | factor of a film of half, quarter, eighth of the cells, or of twice and four times as many | 0.42, 0.18, 0.13; 2.45, 6 |
 //! | T | factor of a level of the head's tolerances | 2.2 finer, 0.75 coarser |
 //!
-//! times 0.6 since many of them fail early. The factors are rounded means of four sweeps: two studies of Fig. 13, a default
+//! times 0.6 since many of them fail early. A run in a doubled window takes 1.5 plain runs without ramp, 0.7 with one;
+//! a quasi-static film 1.2 of those without ramp, one of 2⁻ⁿ of the cells 0.6 × 2⁻ⁿ; a plain run with a ramp 2.4 of those without. The factors are rounded means of four sweeps: two studies of Fig. 13, a default
 //! drive and one at the preset coarse; 0.6 was chosen so that forecasts of these sweeps hold. What the store
 //! measures replaces it: the ratio of measured to modelled time of each kind of run, and of all kinds of a ramp model
 //! where the kind is new.

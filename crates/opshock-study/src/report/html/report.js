@@ -388,7 +388,7 @@
     const disk = element("path", { fill: "none", stroke: "#1a1a1a", "stroke-width": 4 }, svg);
     const arms = [0, 1].map(() => element("rect", { x: X(rr) - 14, width: 34, height: 12, fill: "#8c8c8c" }, svg));
     const slider = element("rect", { width: 30, height: 10, fill: "#0072b2" }, svg);
-    const told = element("text", { x: 60, y: 24, "font-size": 12, fill: TEXT }, svg), words = html("p", {});
+    const time = element("text", { x: 60, y: 24, "font-size": 12, fill: TEXT }, svg), words = html("p", {});
     const clock = html("input", { type: "range", min: 0, max: film.time_ms.length - 1, value: 0, "aria-label": "time of the shock" });
     const play = html("button", { type: "button" }, null, "play");
     const draw = () => {
@@ -403,7 +403,7 @@
       arms[1].setAttribute("y", Y(film.bottom_um[k] - film.gap_um)); arms[1].setAttribute("fill", force < -1e-3 ? "#d55e00" : "#8c8c8c");
       slider.setAttribute("x", X(rs) - 15); slider.setAttribute("y", Y(s) - 14 - (h === null ? 0 : Math.min(30, 2 * h)));
       slider.setAttribute("fill", h === null ? "#d55e00" : "#0072b2");
-      told.textContent = `${film.time_ms[k].toFixed(3)} ms`;
+      time.textContent = `${film.time_ms[k].toFixed(3)} ms`;
       words.textContent = `disk under the slider ${s.toFixed(1)} \u00b5m, at the ramp ${w.toFixed(1)} \u00b5m, contact ${Math.abs(force).toFixed(2)} N, clearance ${h === null ? "touched" : h.toFixed(2) + " nm"}`;
     };
     let timer = null;

@@ -1,5 +1,7 @@
 //! Content of `results.h5` for a study: its runs, points and sessions.
 
+use std::collections::HashMap;
+
 use opshock_solver::scene::discretisation::Levels;
 
 use crate::provenance;
@@ -118,15 +120,24 @@ impl Results {
 
     /// Runs at the study's own resolution: their histories may be kept.
     pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
-        self.runs.iter().filter_map(|row| self.kept_run(row))
+        self.kept_by_row().flatten()
     }
 
-    /// The run of a row, when it is one at the study's own resolution. Points of equal content share their runs, which
-    /// are those of the first.
-    pub(super) fn kept_run(&self, row: &RunRow) -> Option<KeptRun<'_>> {
-        let digest = self.points[row.point].digest;
-        let first = self.points.iter().position(|other| other.digest == digest);
-        let point = &self.summary.points[first.unwrap_or(row.point)];
+    /// The run of each row, when it is one at the study's own resolution. Points of equal content share their runs,
+    /// which are those of the first.
+    pub(super) fn kept_by_row(&self) -> impl Iterator<Item = Option<KeptRun<'_>>> {
+        let mut first = HashMap::new();
+        for (place, point) in self.points.iter().enumerate() {
+            first.entry(point.digest).or_insert(place);
+        }
+        self.runs
+            .iter()
+            .map(move |row| self.kept_run(row, first[&self.points[row.point].digest]))
+    }
+
+    /// The run of a row whose content `first` was the first to have.
+    fn kept_run(&self, row: &RunRow, first: usize) -> Option<KeptRun<'_>> {
+        let point = &self.summary.points[first];
         row.levels.is_none().then_some(KeptRun {
             ramp: &point.ramp,
             pulse_ms: point.pulse_ms,

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::columns::{Column, Values, counts, numbers, texts};
 use super::rows::{Results, RunRow};
 use crate::search::Verdict;
+use crate::store::history::KeptRun;
 use crate::store::names::HISTORIES;
 use crate::store::record::{COSTS, RunRecord, cost_counts};
 
@@ -17,11 +18,9 @@ pub(super) fn history_column(results: &Results, store: &Path) -> Column {
         .filter_map(|entry| entry.file_name().into_string().ok())
         .collect();
     let description = "file of its history, from the store's folder; empty: none is kept";
-    texts("history", description, &results.runs, |row| {
-        let names = results
-            .kept_run(row)
-            .into_iter()
-            .flat_map(|run| run.names());
+    let runs: Vec<Option<KeptRun<'_>>> = results.kept_by_row().collect();
+    texts("history", description, &runs, |run| {
+        let names = run.iter().flat_map(|run| run.names());
         let mut kept = names.filter(|name| kept.contains(name));
         let name = kept.next();
         name.map_or(String::new(), |name| format!("{HISTORIES}/{name}"))
