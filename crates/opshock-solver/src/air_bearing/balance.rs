@@ -14,7 +14,7 @@ use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
 use super::film::Film;
 use super::flux::Drive;
 use super::heights::{inverses, inverses_of_both, is_steep};
-use super::state::{FilmScratch, Picked, SideBlock, block_mut};
+use super::state::{FilmScratch, MeanConductance, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 
 impl Film {
@@ -179,7 +179,12 @@ impl Kernel for Balance<'_> {
         for (d, faces) in columns.interior.iter().enumerate() {
             let mut through = std::mem::take(&mut scratch.flux[d]);
             for first in (0..faces.length.len()).step_by(BLOCK) {
-                let [up, down] = faces.sides(scratch, first);
+                let mean;
+                let [mut up, mut down] = faces.sides(scratch, first);
+                if film.has_mean_conductance() {
+                    mean = MeanConductance::between([&up, &down]);
+                    (up, down) = (up.with(&mean, 0), down.with(&mean, 1));
+                }
                 let base = faces.places.heights(first, attitude);
                 let h_faces = [
                     film.limited_block(&base, up.recess)[0],
@@ -219,9 +224,14 @@ impl Kernel for Balance<'_> {
                 let cells = &faces.cells[first..first + BLOCK];
                 let behind = &faces.behind[first..first + BLOCK];
                 let picked = Picked::new(scratch, cells, behind, front, faces.wind != 0.0);
-                let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
+                let mean;
+                let mut side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
                 let h_face = film.limited_block(&base, side.recess)[0];
+                if film.has_mean_conductance() {
+                    mean = MeanConductance::at_edge(&side, film.ambient_pa, &h_face);
+                    side = side.with(&mean, 0);
+                }
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);
                 for (k, &cell) in cells.iter().enumerate() {

@@ -132,7 +132,7 @@ fn starts(film: &Film, start: &Attitude) -> [Attitude; 3] {
 fn let_down(film: &Film, load: Vector3<f64>, starts: &[Attitude]) -> Option<Found> {
     starts.iter().find_map(|start| {
         let mut search = Search::new(film, load, *start);
-        search.newton.relaxes = true;
+        search.newton.ends_on_disk = true;
         search.attempt_by_drift(start);
         let found = search.found.pop()?;
         (found.stable && found.clearance_m >= film.min_height_m()).then_some(found)

@@ -27,11 +27,8 @@ use super::newton::Newton;
 use super::search::Flight;
 use super::steady_error::SteadyError;
 
-/// Number of sampled attitudes, and most of them that may be left out for want of a film. Without slip a film may have no
-/// steady state on a grid, for the reason given in [`super::relaxation`]: followed from a neighbouring attitude, it ends
-/// before. Of 12 such random drives one leaves out 21 attitudes, one 12, the others 8 at most.
+/// Number of sampled attitudes.
 const SAMPLES: usize = 200;
-const MOST_MISSING: usize = SAMPLES / 4;
 
 /// Forces of quasi-static films without discretisation error at the sampled attitudes. They give the discretisation
 /// defect of every grid of the same film.
@@ -53,20 +50,20 @@ impl CorrectionForces {
     ///
     /// # Errors
     ///
-    /// [`SteadyError`] when more than a quarter of the quasi-static films do not converge.
+    /// [`SteadyError`] when a quasi-static film does not converge.
     pub fn sample(film: &Film, finer: &Film, flight: &Flight) -> Result<Self, SteadyError> {
         let range = Range::around(film, flight);
         let shares = in_a_row((1..=SAMPLES).map(spread).collect());
         let attitudes: Vec<Attitude> = shares.iter().map(|at| range.attitude(*at)).collect();
         let (mut coarse, mut fine) = (Held::new(film), Held::new(finer));
-        let forces = attitudes.into_iter().map(|attitude| {
-            let rough = coarse.force(&attitude, |_| film.ambient(&attitude))?;
+        let forces = attitudes.iter().map(|attitude| {
+            let rough = coarse.force(attitude, |_| film.ambient(attitude))?;
             let psi = &coarse.psi;
-            let close = fine.force(&attitude, |finer| carried(film, psi, finer, &attitude))?;
+            let close = fine.force(attitude, |finer| carried(film, psi, finer, attitude))?;
             let whole = std::array::from_fn(|f| close[f] + (close[f] - rough[f]) / 3.0);
-            Ok((attitude, (whole, rough)))
+            Ok((whole, rough))
         });
-        let (attitudes, forces): (Vec<_>, Vec<_>) = found(forces)?.into_iter().unzip();
+        let forces = forces.collect::<Result<Vec<_>, SteadyError>>()?;
         let (forces, on_grid) = forces.into_iter().unzip();
         Ok(Self {
             range,
@@ -95,7 +92,8 @@ impl CorrectionForces {
             let missing: [f64; 3] = std::array::from_fn(|f| whole[f] - own[f]);
             Ok((place, missing))
         });
-        let (places, missing): (_, Vec<_>) = found(defects)?.into_iter().unzip();
+        let defects: Result<Vec<_>, SteadyError> = defects.collect();
+        let (places, missing): (_, Vec<_>) = defects?.into_iter().unzip();
         Ok(Defect {
             range: self.range.clone(),
             missing: Interpolation::through(places, &missing),
@@ -119,15 +117,6 @@ impl Film {
     /// What [`Film::corrected_by`] adds to force and moments at an attitude; `None` without defect correction.
     pub fn correction(&self, attitude: &Attitude) -> Option<GapLoad> {
         Some(self.defect.as_ref()?.load(attitude))
-    }
-}
-
-/// Those of the `samples` whose film converged; the last error where too many did not.
-fn found<T>(samples: impl Iterator<Item = Result<T, SteadyError>>) -> Result<Vec<T>, SteadyError> {
-    let (found, missing): (Vec<_>, Vec<_>) = samples.partition(Result::is_ok);
-    match missing.into_iter().nth(MOST_MISSING) {
-        Some(missing) => Err(missing.err().expect("of the errors")),
-        None => found.into_iter().collect(),
     }
 }
 
@@ -157,28 +146,18 @@ impl<'a> Held<'a> {
         guess: impl Fn(&Film) -> Vec<f64>,
     ) -> Result<[f64; 3], SteadyError> {
         let film = self.newton.film;
-        if let Some(last) = self.last {
+        if let Some(last) = self.last.replace(*attitude) {
             let (before, now) = (film.ambient(&last), film.ambient(attitude));
             for (psi, (before, now)) in self.psi.iter_mut().zip(before.iter().zip(&now)) {
                 *psi *= now / before;
             }
             if let Ok(force) = self.newton.force_held(&mut self.psi, attitude) {
-                self.last = Some(*attitude);
                 return Ok(force);
             }
         }
         self.psi = guess(film);
         self.newton.forget();
-        let held = self.newton.force_held(&mut self.psi, attitude);
-        let held = held.or_else(|_| {
-            let mut newton = Newton::<f64>::new(film);
-            self.psi = film.ambient(attitude);
-            newton.relax(&mut self.psi, attitude);
-            newton.force_held(&mut self.psi, attitude)
-        });
-        // The next one does not start from a film that is none.
-        self.last = held.is_ok().then_some(*attitude);
-        held
+        self.newton.force_held(&mut self.psi, attitude)
     }
 }
 

@@ -35,6 +35,8 @@ pub(super) struct FaceDerivatives {
     pub(super) load: Block,
     pub(super) load_by_psi: [Block; 3],
     pub(super) load_by_attitude: [Block; 3],
+    /// Of flux and load by G of either half cell.
+    by_g: [[Block; 2]; 2],
 }
 
 impl FaceDerivatives {
@@ -47,6 +49,7 @@ impl FaceDerivatives {
             load: [0.0; BLOCK],
             load_by_psi: [[0.0; BLOCK]; 3],
             load_by_attitude: [[0.0; BLOCK]; 3],
+            by_g: [[[0.0; BLOCK]; 2]; 2],
         }
     }
 
@@ -61,6 +64,11 @@ impl FaceDerivatives {
         self.load_by_psi[0][k] = up_load[0];
         self.load_by_psi[1][k] = down_load[0];
         self.load_by_psi[2][k] = up_load[1];
+        for (s, side) in [up, down].into_iter().enumerate() {
+            let [flux, excess] = side.partials.by_g;
+            self.by_g[0][s][k] = side.share * flux;
+            self.by_g[1][s][k] = side.area * excess + load_by_p * flux;
+        }
         let height = [up.slopes, down.slopes];
         for q in 0..3 {
             let face = arms.face[q][k];
@@ -70,6 +78,58 @@ impl FaceDerivatives {
                 + (down_flux[2] * at[1] + down_flux[3] * at_face[1]);
             self.load_by_attitude[q][k] = (up_load[2] * at[0] + up_load[3] * at_face[0])
                 + (down_load[2] * at[1] + down_load[3] * at_face[1]);
+        }
+    }
+}
+
+impl FaceDerivatives {
+    /// Adds what reaches faces through the mean G of both half cells, but for G by a cell's own ψ, which is in their
+    /// partial derivatives.
+    #[inline(always)]
+    pub(super) fn add_through_mean(&mut self, [up, down]: [&SideBlock<'_>; 2], arms: &Arms) {
+        for k in 0..BLOCK {
+            let (h, p) = ([up.h(k), down.h(k)], [up.p(k), down.p(k)]);
+            let is_smooth = up.recess[k] == down.recess[k];
+            let by = |by_g: &[Block; 2]| {
+                let of = [0.5 * by_g[0][k], 0.5 * by_g[1][k]];
+                if is_smooth {
+                    return ([of[1], of[0]], [0.0; 2]);
+                }
+                // A cell's pressure acts on the other's G and falls with its own height at constant ψ.
+                let by_psi = [of[1] * h[1] / h[0], of[0] * h[0] / h[1]];
+                let by_height = [
+                    of[0] * p[1] - by_psi[0] * p[0],
+                    of[1] * p[0] - by_psi[1] * p[1],
+                ];
+                (by_psi, by_height)
+            };
+            let (flux_by_psi, flux_by_height) = by(&self.by_g[0]);
+            let (load_by_psi, load_by_height) = by(&self.by_g[1]);
+            for s in 0..2 {
+                self.flux_by_psi[s][k] += flux_by_psi[s];
+                self.load_by_psi[s][k] += load_by_psi[s];
+            }
+            let slopes = [up.h_slope(k), down.h_slope(k)];
+            for q in 0..3 {
+                let at = [slopes[0] * arms.up[q][k], slopes[1] * arms.down[q][k]];
+                self.flux_by_attitude[q][k] +=
+                    flux_by_height[0] * at[0] + flux_by_height[1] * at[1];
+                self.load_by_attitude[q][k] +=
+                    load_by_height[0] * at[0] + load_by_height[1] * at[1];
+            }
+        }
+    }
+
+    /// The same on the slider's edge, where the pressure is `p` and `h_slope` the derivative of the height that the film
+    /// sees by the true one.
+    #[inline(always)]
+    pub(super) fn add_through_edge_mean(&mut self, p: f64, h_slope: &Block, arms: &Arms) {
+        for (k, h_slope) in h_slope.iter().enumerate() {
+            for q in 0..3 {
+                let at = 0.5 * p * h_slope * arms.face[q][k];
+                self.flux_by_attitude[q][k] += self.by_g[0][0][k] * at;
+                self.load_by_attitude[q][k] += self.by_g[1][0][k] * at;
+            }
         }
     }
 }

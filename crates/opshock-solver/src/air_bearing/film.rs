@@ -186,10 +186,17 @@ impl Film {
         self.height_limit.apply_block(base, recess)
     }
 
-    /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face,
-    /// without recess.
-    pub(super) fn half_cell(&self, side: &Side, psi: &[f64], h_centre: f64, base: f64) -> HalfCell {
-        let (g, g_slope) = self.flow.conductance(psi[side.cell]);
+    /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face, without recess, and ψ
+    /// `across` the face, behind an etched step that of the pressure there at the height here.
+    pub(super) fn half_cell(
+        &self,
+        side: &Side,
+        psi: &[f64],
+        [h_centre, base]: [f64; 2],
+        across: f64,
+    ) -> HalfCell {
+        let flow = &self.flow;
+        let (g, g_slope) = flow.of_half_cell(psi[side.cell], across);
         let h_face = self.limited(base + side.recess).0;
         HalfCell {
             psi: psi[side.cell],
@@ -207,6 +214,12 @@ impl Film {
             inverse_distance: side.inverse_distance,
             wind: side.wind,
         }
+    }
+
+    /// Whether G of a half cell is that of the mean of both sides of the face ([`super::flux`]).
+    #[inline(always)]
+    pub(super) fn has_mean_conductance(&self) -> bool {
+        self.flow.is_proportional()
     }
 
     /// ψ of the undisturbed ambient pressure, Pa m.

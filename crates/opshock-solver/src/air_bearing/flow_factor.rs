@@ -115,6 +115,20 @@ impl FlowFactor {
         self.model
     }
 
+    /// Whether G is proportional to ψ: without slip.
+    pub(super) fn is_proportional(&self) -> bool {
+        self.model == FlowModel::Continuum
+    }
+
+    /// G of a half cell and its derivative by ψ: at the centre, or without slip at the mean of ψ and `across`, that of the
+    /// other side of the face ([`super::flux`]).
+    pub(super) fn of_half_cell(&self, psi: f64, across: f64) -> (f64, f64) {
+        match self.is_proportional() {
+            true => (0.5 * (psi + across), 0.5),
+            false => self.conductance(psi),
+        }
+    }
+
     /// G and dG/dψ of many ψ > 0 (Pa m), bit for bit as from [`FlowFactor::conductance`]. Whole registers hold all that
     /// needs no table; table rows are picked in between.
     ///

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! In the half cell from a cell's centre (ψ_c, h_c) to a face (p_f h_f) at the distance Δ, with G
-//! frozen at the centre, the flux is that of the exponential profile (Scharfetter and Gummel 1969):
+//! of the centre, the flux is that of the exponential profile (Scharfetter and Gummel 1969):
 //!
 //! ```text
 //! J = α − β p_f,   α = (D/Δ) B(−Pe) ψ_c + V δ,   β = (D/Δ) B(Pe) h_f,   B(x) = x/(eˣ − 1),
@@ -30,6 +30,14 @@
 //!
 //! g keeps ψ at the face positive for any slope. ω leaves diffusion unchanged, which the exponential profile resolves.
 //! There is no slope across an etched step.
+//!
+//! Without slip, G = ψ vanishes with ψ, and with G at the centre J is not monotone: without wind it grows with ψ_c only
+//! where p_f < 2 p_c. In front of a pad's inlet p_f is ten times p_c. An emptier cell then lets less gas flow back from
+//! the pad and stays empty, so that a film has several steady states. There G is that of the mean of both
+//! sides, (ψ_c + ψ_o)/2 with ψ_o at the centre across the face, or h_c (p_c + p_o)/2 at an etched step ((ψ_c + p_a h_f)/2
+//! at the slider's edge). Without wind J is then that of p², the exact one, and monotone; with wind towards the face too. A layer at a
+//! trailing edge, where p_f = p_o, lacks exactly the gas that it lacks with G = ψ, h (ψ_c² − ψ_f²)/(2 w). With slip, G
+//! is never below 6 λ_a p_a, and the bound on p_f/p_c is 1 + G/(ψ G′).
 //!
 //! The force integrates the same profiles. Without wind, the mean pressure over a half cell is that of the straight
 //! line to p_f. Where the wind dominates, ψ changes linearly and a layer of thickness D/V stands at the face that the
@@ -117,6 +125,8 @@ pub(super) struct HalfPartials {
     pub(super) excess: Partials,
     /// Of the same by the face pressure.
     pub(super) excess_by_p: f64,
+    /// Of both by G.
+    pub(super) by_g: [f64; 2],
 }
 
 impl HalfPartials {
@@ -125,6 +135,7 @@ impl HalfPartials {
         flux: [0.0; 4],
         excess: [0.0; 4],
         excess_by_p: 0.0,
+        by_g: [0.0; 2],
     };
 }
 
@@ -229,6 +240,7 @@ impl HalfCell {
                 0.0,
             ],
             excess_by_p: 0.5,
+            by_g: [per_g * drive, 0.0],
         }
     }
 
@@ -400,7 +412,17 @@ impl HalfCell {
             part[v] = gain * (strength * per_blow_slope * pe[v] + signed * blow[v])
                 + convective * q * mean_by[v];
         }
+        let pe_by_g = -flux.blow * self.inverse_g;
+        let rise_by_g = (rise_pe + rise_blow) * pe_by_g;
+        let k_by_g = flux.k.mul_add(self.inverse_g, flux.k_slope * pe_by_g);
+        let lean = (self.h_face - self.h_centre) * self.inverse_distance;
+        let mean_by_g = if UP { 0.5 * rise_by_g } else { 0.0 };
+        let by_g = [
+            k_by_g * drive + velocity * rise_by_g + carried * lean,
+            gain * (strength * per_blow_slope + signed) * pe_by_g + convective * q * mean_by_g,
+        ];
         HalfPartials {
+            by_g,
             flux: by_flux,
             excess: [
                 part[0] - at_centre * centre_by[0],

@@ -133,9 +133,7 @@ pub(super) fn refined(
 ) -> Option<([Lines; 2], Held)> {
     let attitude = film.usual_attitude();
     let mut newton = Newton::<f64>::new(&film);
-    newton
-        .hold_surely(&mut psi, &attitude, 40, ESTIMATED)
-        .ok()?;
+    newton.hold(&mut psi, &attitude, 40, ESTIMATED).ok()?;
     newton.factor(&psi, &attitude).ok()?;
     let mut adjoint = newton.clearance_goal(&attitude)?;
     let transposed = newton.linearisation.by_psi.transposed();
@@ -185,8 +183,12 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
         let d = usize::from(k >= (nx - 1) * ny);
         let base = face.place.height(attitude);
         let half: [HalfCell; 2] = std::array::from_fn(|s| {
-            let side = &face.sides[s];
-            film.half_cell(side, psi, heights[side.cell], base)
+            let [side, other] = [&face.sides[s], &face.sides[1 - s]];
+            let across = match face.is_smooth() {
+                true => psi[other.cell],
+                false => psi[other.cell] / heights[other.cell] * heights[side.cell],
+            };
+            film.half_cell(side, psi, [heights[side.cell], base], across)
         });
         let [(a, b), (c, e)] = half.map(|half| half.coefficients());
         let p = (a + c) / (b + e);

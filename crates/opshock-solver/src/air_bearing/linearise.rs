@@ -14,7 +14,7 @@ use super::balance::{Moments, any_steep, net};
 use super::derivatives::{Arms, FaceDerivatives, edge, height_by_attitude, still, windy};
 use super::faces::{BLOCK, Block, Columns, Interior, block};
 use super::film::Film;
-use super::state::{FilmScratch, Picked, SideBlock, block_mut};
+use super::state::{FilmScratch, MeanConductance, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 use crate::linalg::diagonals::Diagonals;
 
@@ -186,7 +186,12 @@ fn between_cells(
     let mut through = std::mem::take(&mut state.flux[d]);
     let mut all = FaceDerivatives::zero();
     for first in (0..faces.length.len()).step_by(BLOCK) {
-        let [up, down] = faces.sides(state, first);
+        let mean;
+        let [mut up, mut down] = faces.sides(state, first);
+        if film.has_mean_conductance() {
+            mean = MeanConductance::between([&up, &down]);
+            (up, down) = (up.with(&mean, 0), down.with(&mean, 1));
+        }
         let base = faces.places.heights(first, attitude);
         let faces_at = [
             film.limited_block(&base, up.recess),
@@ -211,6 +216,9 @@ fn between_cells(
             windy::<true>(&mut all, &up, &down, &faces_at, length, &arms)
         } else {
             windy::<false>(&mut all, &up, &down, &faces_at, length, &arms)
+        }
+        if film.has_mean_conductance() {
+            all.add_through_mean([&up, &down], &arms);
         }
         *block_mut(&mut through, front + first) = all.flux;
         let by_face = &mut out.by_face[d];
@@ -356,8 +364,14 @@ fn on_edges(
             let cells = &faces.cells[first..first + BLOCK];
             let behind = &faces.behind[first..first + BLOCK];
             let picked = Picked::new(state, cells, behind, front, faces.wind != 0.0);
-            let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
+            let mean;
+            let mut side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
+            let [h_face, h_face_slope] = film.limited_block(&base, side.recess);
+            if film.has_mean_conductance() {
+                mean = MeanConductance::at_edge(&side, film.ambient_pa, &h_face);
+                side = side.with(&mean, 0);
+            }
             let length = block(&faces.length, first);
             let [x, y] = [&columns.centre_x, &columns.centre_y].map(|column| {
                 let mut out = [0.0; BLOCK];
@@ -374,6 +388,9 @@ fn on_edges(
                 down: centre,
             };
             edge(&mut all, film, &side, &base, length, &arms);
+            if film.has_mean_conductance() {
+                all.add_through_edge_mean(film.ambient_pa, &h_face_slope, &arms);
+            }
             totals.moments.add(&all.load, &faces.places, first);
             totals.add_by_attitude(&all.load_by_attitude, &arms.face);
             for k in 0..BLOCK {

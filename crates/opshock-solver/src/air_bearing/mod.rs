@@ -22,7 +22,6 @@ mod layout;
 mod linearise;
 mod mesh;
 mod newton;
-mod relaxation;
 mod sampled_range;
 mod search;
 mod state;

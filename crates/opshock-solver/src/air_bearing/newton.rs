@@ -51,8 +51,8 @@ pub(super) struct Newton<'a, E: Entry = f64> {
     pub(super) n_factored: usize,
     /// Whether `lu` holds factors from near the state.
     has_factors: bool,
-    /// Whether [`Newton::drift`] uses relaxation for a film on which Newton's method fails, and ends on the disk.
-    pub(super) relaxes: bool,
+    /// Whether [`Newton::drift`] ends on the disk.
+    pub(super) ends_on_disk: bool,
 }
 
 impl<'a, E: Entry> Newton<'a, E> {
@@ -68,7 +68,7 @@ impl<'a, E: Entry> Newton<'a, E> {
             zero: Diagonals::zeros(n, Vec::new()),
             n_factored: 0,
             has_factors: false,
-            relaxes: false,
+            ends_on_disk: false,
         }
     }
 
@@ -157,26 +157,6 @@ impl<'a, E: Entry> Newton<'a, E> {
         Ok((most, step))
     }
 
-    /// As [`Newton::hold`]; where that fails, again after [`Newton::relax`] from ambient pressure. The last relative
-    /// step shows whether it converged.
-    pub(super) fn hold_surely(
-        &mut self,
-        psi: &mut Vec<f64>,
-        attitude: &Attitude,
-        most: usize,
-        until: f64,
-    ) -> Result<(usize, f64), BandedError> {
-        let before = self.n_factored;
-        match self.hold(psi, attitude, most, until) {
-            Ok(held) if held.1 < until => return Ok(held),
-            _ => {}
-        }
-        *psi = self.film.ambient(attitude);
-        self.relax(psi, attitude);
-        let (_, step) = self.hold(psi, attitude, most, until)?;
-        Ok((self.n_factored - before, step))
-    }
-
     /// Discards the kept factors.
     pub(super) fn forget(&mut self) {
         self.has_factors = false;
@@ -256,7 +236,7 @@ impl<'a, E: Entry> Newton<'a, E> {
     /// plate on springs; the film follows quasi-statically. D falls with the unbalanced force.
     pub(super) fn drift(
         &mut self,
-        psi: &mut Vec<f64>,
+        psi: &mut [f64],
         attitude: &mut Attitude,
         load: &Vector3<f64>,
     ) -> Result<(), BandedError> {
@@ -267,14 +247,10 @@ impl<'a, E: Entry> Newton<'a, E> {
         for _ in 0..MOST_DRIFT_STEPS {
             // A slider that far inside the disk does not return.
             let depth = -self.film.min_clearance(attitude).value_m / self.film.min_height_m();
-            if depth > if self.relaxes { 1.0 } else { 10.0 } {
+            if depth > if self.ends_on_disk { 1.0 } else { 10.0 } {
                 return Ok(());
             }
-            if self.relaxes {
-                self.hold_surely(psi, attitude, 8, NEAR)?;
-            } else {
-                self.hold(psi, attitude, 8, CONVERGED)?;
-            }
+            self.hold(psi, attitude, 8, CONVERGED)?;
             self.factor(psi, attitude)?;
             let (force, stiffness, pending) = self.schur();
             let unbalanced = force - load - pending;

@@ -116,12 +116,7 @@ impl<'a> Search<'a> {
         let before = self.newton.n_factored;
         let mut attitude = *start;
         let mut psi = self.newton.film.ambient(start);
-        match self.newton.relaxes {
-            true => self
-                .newton
-                .hold_surely(&mut psi, start, MOST_ITERATIONS, NEAR)?,
-            false => self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?,
-        };
+        self.newton.hold(&mut psi, start, MOST_ITERATIONS, NEAR)?;
         self.newton.drift(&mut psi, &mut attitude, &self.load)?;
         self.settle(&mut psi, &mut attitude, before)
     }

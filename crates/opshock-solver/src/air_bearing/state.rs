@@ -136,6 +136,46 @@ impl FilmScratch {
     }
 }
 
+/// G of both half cells of a block of faces at the mean of ψ of their cells, and its inverse ([`super::flux`]).
+pub(super) struct MeanConductance {
+    g: [Block; 2],
+    inverse_g: [Block; 2],
+}
+
+/// dG/dψ there.
+const MEAN_SLOPE: Block = [0.5; BLOCK];
+
+impl MeanConductance {
+    /// Between the cells of two sides.
+    #[inline(always)]
+    pub(super) fn between([up, down]: [&SideBlock<'_>; 2]) -> Self {
+        let (mut g, mut inverse_g) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
+        for k in 0..BLOCK {
+            let (u, d) = (up.cells.psi[k], down.cells.psi[k]);
+            let is_smooth = up.recess[k] == down.recess[k];
+            g[0][k] = 0.5 * (u + if is_smooth { d } else { down.p(k) * up.h(k) });
+            g[1][k] = 0.5 * (d + if is_smooth { u } else { up.p(k) * down.h(k) });
+            let inverse = 1.0 / (g[0][k] * g[1][k]);
+            (inverse_g[0][k], inverse_g[1][k]) = (inverse * g[1][k], inverse * g[0][k]);
+        }
+        Self { g, inverse_g }
+    }
+
+    /// Between the cells of a side and the pressure `p` at the slider's edge; only the first of both is set.
+    #[inline(always)]
+    pub(super) fn at_edge(side: &SideBlock<'_>, p: f64, h_face: &Block) -> Self {
+        let mut out = Self {
+            g: [[1.0; BLOCK]; 2],
+            inverse_g: [[1.0; BLOCK]; 2],
+        };
+        for (k, h_face) in h_face.iter().enumerate() {
+            out.g[0][k] = 0.5 * p.mul_add(*h_face, side.cells.psi[k]);
+            out.inverse_g[0][k] = 1.0 / out.g[0][k];
+        }
+        out
+    }
+}
+
 /// One side of a block of faces: its cells' state and what is fixed about them.
 pub(super) struct SideBlock<'a> {
     cells: CellBlock<'a>,
@@ -161,6 +201,21 @@ impl<'a> SideBlock<'a> {
             area: block(&sides.area, first),
             wind,
         }
+    }
+
+    /// The same with the `which`-th conductances of `mean`.
+    #[inline(always)]
+    pub(super) fn with(mut self, mean: &'a MeanConductance, which: usize) -> Self {
+        self.cells.g = &mean.g[which];
+        self.cells.inverse_g = &mean.inverse_g[which];
+        self.cells.g_slope = &MEAN_SLOPE;
+        self
+    }
+
+    /// Pressure at the centre of cell k.
+    #[inline(always)]
+    pub(super) fn p(&self, k: usize) -> f64 {
+        self.cells.psi[k] * self.cells.inverse_h[k]
     }
 
     /// Height at the centre of cell k.

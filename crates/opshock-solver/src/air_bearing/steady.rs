@@ -10,8 +10,7 @@
 //! positive real parts.
 //!
 //! Where neither finds a stable equilibrium with a clearance, the flight is followed from lighter loads (`carrying`).
-//! Films on which Newton's method fails are found by pseudo-transient continuation (`relaxation`). Either the flight
-//! reaches the load, or it ends before and the slider cannot fly.
+//! Either the flight reaches the load, or it ends before and the slider cannot fly.
 
 use super::attitude::Attitude;
 use super::carrying::{Path, followed};
@@ -46,8 +45,7 @@ pub fn fixed_attitude(film: &Film, attitude: &Attitude) -> Result<QuasiStaticFil
     let mut newton = Newton::<f64>::new(film);
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
-    let (n_iterations, step) =
-        newton.hold_surely(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
+    let (n_iterations, step) = newton.hold(&mut psi, attitude, 4 * MOST_ITERATIONS, CONVERGED)?;
     if step >= CONVERGED {
         return Err(SteadyError::NotConverged {
             iterations: n_iterations,

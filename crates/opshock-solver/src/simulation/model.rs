@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::air_bearing::steady::{Flight, SteadyError, fly, fly_from};
+use crate::air_bearing::steady::{Flight, SteadyError, fly};
 use crate::air_bearing::{CorrectionForces, Film, FilmError};
 use crate::head::{HeadError, HeadModel};
 use crate::mutant;
@@ -74,22 +74,11 @@ impl Bearing {
         };
         let plain = scene.film()?;
         let load = [scene.suspension.gram_load_n, 0.0, 0.0];
-        let (film, flight) = match &reference {
-            Some(reference) => {
-                let film = plain.corrected_by(reference)?;
-                let flight = match fly(&film, load) {
-                    Ok(flight) => flight,
-                    Err(error @ SteadyError::CannotFly { .. }) => return Err(error.into()),
-                    // Equilibria of the corrected film are near those of the film itself.
-                    Err(_) => fly_from(&film, load, &fly(&scene.film()?, load)?.attitude)?,
-                };
-                (film, flight)
-            }
-            None => {
-                let flight = fly(&plain, load)?;
-                (plain, flight)
-            }
+        let film = match &reference {
+            Some(reference) => plain.corrected_by(reference)?,
+            None => plain,
         };
+        let flight = fly(&film, load)?;
         Ok(Self {
             film: Arc::new(film),
             flight: Arc::new(flight),

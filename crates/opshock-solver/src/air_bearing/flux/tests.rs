@@ -85,13 +85,13 @@ fn half_cell_derivatives_match_differences() {
         for (h_face, psi_behind) in [(0.7, 1.2), (1.0, 2.5), (1.3, 1.9)] {
             let p = 1.2;
             let conductance = |psi: f64| psi + 3.0 + 0.2 * psi * psi;
-            let make = |v: [f64; 4]| HalfCell {
+            let make_with = |v: [f64; 4], extra_g: f64| HalfCell {
                 psi: v[0],
                 inverse_psi: 1.0 / v[0],
                 psi_behind: v[1],
                 reach: if wind > 0.0 { 0.45 } else { 0.0 },
-                g: conductance(v[0]),
-                inverse_g: 1.0 / conductance(v[0]),
+                g: conductance(v[0]) + extra_g,
+                inverse_g: 1.0 / (conductance(v[0]) + extra_g),
                 g_slope: 1.0 + 0.4 * v[0],
                 h_centre: v[2],
                 h_face: v[3],
@@ -101,6 +101,7 @@ fn half_cell_derivatives_match_differences() {
                 inverse_h: 1.0 / v[2],
                 wind,
             };
+            let make = |v| make_with(v, 0.0);
             let at = [1.7, psi_behind, 1.0, h_face];
             let cell = make(at);
             let partials = partials(&cell, p);
@@ -121,8 +122,58 @@ fn half_cell_derivatives_match_differences() {
                     );
                 }
             }
+            let e_g = 1e-4;
+            let with_g = |extra_g: f64| flux_and_excess(&make_with(at, extra_g), p);
+            for f in 0..2 {
+                let numeric = (with_g(e_g)[f] - with_g(-e_g)[f]) / (2.0 * e_g);
+                let scale = 1.0 + numeric.abs() + 1e-3 * wind.abs();
+                assert!(
+                    (partials.by_g[f] - numeric).abs() < 1e-6 * scale,
+                    "wind {wind} h_face {h_face} value {f} by G: {} {numeric}",
+                    partials.by_g[f]
+                );
+            }
             let numeric = (values(at, p + e)[1] - values(at, p - e)[1]) / (2.0 * e);
             assert!((by_p - numeric).abs() < 1e-6);
         }
     }
+}
+
+/// Without slip, the flux towards a face grows with the cell's own ψ if G is that of the mean pressure. With G of the
+/// centre it falls in front of a pad, where the face has ten times the cell's pressure.
+#[test]
+fn flux_without_slip_grows_with_the_cell_that_it_leaves() {
+    let slope = |is_mean: bool, wind: f64, ratio: f64| {
+        let at = |psi: f64| {
+            let g = if is_mean { 0.5 * (psi + ratio) } else { psi };
+            let cell = HalfCell {
+                psi,
+                inverse_psi: 1.0 / psi,
+                psi_behind: 1.0,
+                reach: 0.0,
+                g,
+                inverse_g: 1.0 / g,
+                g_slope: if is_mean { 0.5 } else { 1.0 },
+                h_centre: 1.0,
+                inverse_h: 1.0,
+                h_face: 1.0,
+                inverses: inverses(1.0, 1.0),
+                distance: 1.0,
+                inverse_distance: 1.0,
+                wind,
+            };
+            let (alpha, beta) = cell.coefficients();
+            alpha - beta * ratio
+        };
+        (at(1.0 + 1e-6) - at(1.0 - 1e-6)) / 2e-6
+    };
+    for wind in [0.0, 0.1, 1.0, 5.0, 30.0, 200.0] {
+        for ratio in [0.01, 0.5, 2.0, 5.0, 10.0, 100.0] {
+            assert!(slope(true, wind, ratio) > 0.0, "{wind} {ratio}");
+        }
+    }
+    // (ψ² − ratio²)/2 and ψ (ψ − ratio).
+    assert!((slope(true, 0.0, 10.0) - 1.0).abs() < 1e-8);
+    assert!((slope(false, 0.0, 10.0) + 8.0).abs() < 1e-8);
+    assert!(slope(false, 2.0, 10.0) < -1.0);
 }

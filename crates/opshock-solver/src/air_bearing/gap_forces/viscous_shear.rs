@@ -207,7 +207,11 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// Between `sides` where the true height without recess is `base`.
     fn new(film: &Film, cells: &CellStates<'_>, sides: [&'a Side; 2], base: f64) -> Self {
-        let halves = sides.map(|side| film.half_cell(side, cells.psi, cells.h[side.cell], base));
+        let halves = [sides, [sides[1], sides[0]]].map(|[side, other]| {
+            let heights = [cells.h[side.cell], base];
+            let across = cells.pressure(other.cell) * cells.h[side.cell];
+            film.half_cell(side, cells.psi, heights, across)
+        });
         let [(a, b), (c, e)] = halves.map(|half| half.coefficients());
         let inverse_beta = 1.0 / (b + e);
         Self {
@@ -230,9 +234,16 @@ impl<'a> Step<'a> {
         sum: &mut Sum<'_, SLOPES>,
     ) {
         for (i, side) in self.sides.into_iter().enumerate() {
-            let flux = partials(&self.halves[i], self.pressure).flux;
-            let [psi, psi_behind, h_centre, h_face] =
-                flux.map(|slope| by_pressure * self.inverse_beta * slope);
+            let partials = partials(&self.halves[i], self.pressure);
+            let by_flux = by_pressure * self.inverse_beta;
+            let [psi, psi_behind, h_centre, h_face] = partials.flux.map(|slope| by_flux * slope);
+            if film.has_mean_conductance() {
+                let other = self.sides[1 - i].cell;
+                let by_g = by_flux * partials.by_g[0];
+                sum.add_by_pressure(d, (film, cells), other, by_g * 0.5 * cells.h[side.cell]);
+                let by_height = by_g * 0.5 * cells.pressure(other) * cells.h_slope[side.cell];
+                sum.add_by_height(d, &film.mesh.cells[side.cell].place, by_height);
+            }
             sum.add_by_psi(d, side.cell, psi);
             sum.add_by_psi(d, side.behind, psi_behind);
             let centre = &film.mesh.cells[side.cell].place;
