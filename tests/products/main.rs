@@ -14,6 +14,7 @@ mod cli_studies;
 mod cml_decks;
 mod cml_drives;
 mod compare;
+mod decisive;
 mod digests;
 mod documents;
 mod forecasts;

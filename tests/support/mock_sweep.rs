@@ -50,6 +50,7 @@ pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
         plan: "{}".into(),
         axes: Vec::new(),
         points,
+        decides: None,
         settings: settings(MonotonicityScan::Sampled),
         checkpoint: Duration::from_secs(30),
         start_s: 5e-4,

@@ -39,28 +39,20 @@ pub struct Rank<'a> {
     pub unanswered: usize,
 }
 
-/// The critical shock of a row, or the bound that is known of it, G.
-fn known_g(point: &PointSummary) -> Option<f64> {
-    match point.status {
-        Status::BelowRange => point.a_fail_g,
-        _ => point.a_crit_g,
-    }
-}
-
 /// The row with the lowest critical shock.
 pub(super) fn worst<'a>(
     points: impl IntoIterator<Item = &'a PointSummary>,
 ) -> Option<&'a PointSummary> {
     let known = points
         .into_iter()
-        .filter_map(|point| Some((point, known_g(point)?)));
+        .filter_map(|point| Some((point, point.known_g()?)));
     known
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(point, _)| point)
 }
 
 fn grams(point: &PointSummary) -> String {
-    let value = known_g(point).unwrap_or(f64::NAN);
+    let value = point.known_g().unwrap_or(f64::NAN);
     match point.status {
         Status::AboveRange => format!("more than {value:.1} G"),
         Status::BelowRange => format!("less than {value:.1} G"),
@@ -93,7 +85,7 @@ impl<'a> Answer<'a> {
                 let rows: Vec<&PointSummary> = rows
                     .filter(|point| coordinates::value(point, place) == *value)
                     .collect();
-                let unanswered = rows.iter().filter(|row| known_g(row).is_none()).count();
+                let unanswered = rows.iter().filter(|row| row.known_g().is_none()).count();
                 if let Some(worst) = worst(rows) {
                     ranks.push(Rank {
                         value: value.clone(),
@@ -103,7 +95,7 @@ impl<'a> Answer<'a> {
                 }
             }
             ranks.sort_by(|a, b| {
-                let of = |rank: &Rank<'_>| known_g(rank.worst).unwrap_or(f64::NAN);
+                let of = |rank: &Rank<'_>| rank.worst.known_g().unwrap_or(f64::NAN);
                 of(b).total_cmp(&of(a))
             });
             let numbers = values.iter().filter_map(coordinates::number).count();
@@ -126,17 +118,21 @@ impl<'a> Answer<'a> {
             summary
                 .points
                 .iter()
-                .filter(|point| known_g(point).is_some())
+                .filter(|point| point.known_g().is_some())
         };
         let Some(lowest) = worst(known()) else {
             return vec!["No critical shock is known yet.".to_owned()];
         };
         let highest = known().max_by(|a, b| {
-            let of = |point: &PointSummary| known_g(point).unwrap_or(f64::NAN);
+            let of = |point: &PointSummary| point.known_g().unwrap_or(f64::NAN);
             of(a).total_cmp(&of(b))
         });
         let highest = highest.unwrap_or(lowest);
+        let is_alone =
+            |point: &PointSummary| point.status == Status::Ok && point.err_low_g.is_none();
+        let has_intervals = known().any(|point| point.err_low_g.is_some());
         let uncertainty = match uncertainty_words(lowest).as_str() {
+            "" if has_intervals && is_alone(lowest) => ", bracket alone".to_owned(),
             "" => String::new(),
             words => format!(", uncertainty {} G", words.replace('-', "\u{2212}")),
         };
@@ -165,6 +161,14 @@ impl<'a> Answer<'a> {
             let _ = write!(
                 first,
                 ", {unfinished} of {} points with a bracket alone so far",
+                summary.points.len()
+            );
+        }
+        let alone = known().filter(|point| is_alone(point)).count();
+        if has_intervals && alone > 0 {
+            let _ = write!(
+                first,
+                ", {alone} of {} points with a bracket alone",
                 summary.points.len()
             );
         }
@@ -230,7 +234,7 @@ impl<'a> Answer<'a> {
             let rank = &choice.ranks[place];
             json!({
                 "value": rank.value,
-                "worst_case_g": known_g(rank.worst),
+                "worst_case_g": rank.worst.known_g(),
                 "status": rank.worst.status,
                 "err_low_g": rank.worst.err_low_g,
                 "err_high_g": rank.worst.err_high_g,
@@ -256,7 +260,7 @@ impl<'a> Answer<'a> {
 impl Choice<'_> {
     /// By how much the worst case of a rank is below that of the best, per cent of the latter.
     pub fn behind_pct(&self, place: usize) -> f64 {
-        let of = |place: usize| known_g(self.ranks[place].worst).unwrap_or(f64::NAN);
+        let of = |place: usize| self.ranks[place].worst.known_g().unwrap_or(f64::NAN);
         100.0 * (1.0 - of(place) / of(0))
     }
 
@@ -267,8 +271,10 @@ impl Choice<'_> {
 
     fn clause(&self) -> String {
         let (best, next) = (&self.ranks[0], &self.ranks[1]);
-        let lead = known_g(best.worst)
-            .zip(known_g(next.worst))
+        let lead = best
+            .worst
+            .known_g()
+            .zip(next.worst.known_g())
             .map_or(f64::NAN, |(a, b)| a - b);
         let head = format!(
             "the best {} is {}, whose worst case, {}, is",
@@ -281,7 +287,7 @@ impl Choice<'_> {
         }
         format!(
             "{head} {lead:.1} G ({:.1} %) above that of the next, {}, a lead {}",
-            100.0 * lead / known_g(next.worst).unwrap_or(f64::NAN),
+            100.0 * lead / next.worst.known_g().unwrap_or(f64::NAN),
             next.value,
             significance_words(self.significance(1))
         )

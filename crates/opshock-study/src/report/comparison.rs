@@ -41,14 +41,14 @@ pub enum Significance {
 impl Significance {
     /// Compares the rows of one point.
     pub fn of(a: &PointSummary, b: &PointSummary) -> Significance {
-        let (Some(bracket_a), Some(bracket_b)) = (bracket(a), bracket(b)) else {
+        let (Some(bracket_a), Some(bracket_b)) = (a.bracket_g(), b.bracket_g()) else {
             return Significance::Unknown;
         };
         let overlap = |one: [f64; 2], other: [f64; 2]| one[0] <= other[1] && other[0] <= one[1];
         if overlap(bracket_a, bracket_b) {
             return Significance::WithinBrackets;
         }
-        match (uncertainty(a), uncertainty(b)) {
+        match (a.interval_g(), b.interval_g()) {
             (Some(a), Some(b)) if overlap(a, b) => Significance::WithinUncertainties,
             (Some(_), Some(_)) => Significance::BeyondUncertainties,
             _ => Significance::BeyondBrackets,
@@ -65,29 +65,6 @@ impl Significance {
             Significance::Unknown => "unknown",
         }
     }
-}
-
-/// Where the search has the critical shock, G.
-fn bracket(point: &PointSummary) -> Option<[f64; 2]> {
-    match point.status {
-        Status::Ok => Some([point.a_crit_g?, point.a_fail_g?]),
-        Status::AboveRange => Some([point.a_crit_g?, f64::INFINITY]),
-        Status::BelowRange => Some([0.0, point.a_fail_g?]),
-        Status::Undecided | Status::Open => None,
-    }
-}
-
-/// Uncertainty interval, never narrower than the bracket, G; a bound has its bracket alone.
-fn uncertainty(point: &PointSummary) -> Option<[f64; 2]> {
-    let [low, high] = bracket(point)?;
-    if point.status != Status::Ok {
-        return Some([low, high]);
-    }
-    let a_crit_g = point.a_crit_g?;
-    Some([
-        low.min(a_crit_g - point.err_low_g?),
-        high.max(a_crit_g + point.err_high_g?),
-    ])
 }
 
 /// A point of both tables whose answers differ.

@@ -5,6 +5,7 @@
 use super::table::BEFORE_AXES;
 use crate::search::Sign;
 use crate::store::summary::{AxisValue, PointSummary, Summary};
+use crate::study::HEADS;
 
 /// Place of the ramp model.
 pub const RAMP: usize = 0;
@@ -12,8 +13,6 @@ pub const RAMP: usize = 0;
 pub const PULSE: usize = 1;
 /// Place of the sign.
 pub const SIGN: usize = 2;
-/// Column of the heads of a drive.
-const HEAD: &str = "head";
 /// Keys of a study that list the values of the first three.
 const KEYS: [&str; 3] = ["ramp.models", "pulse.widths_ms", "pulse.signs"];
 
@@ -82,7 +81,7 @@ pub fn number(value: &AxisValue) -> Option<f64> {
 
 /// Whether a drive must survive all values of it: signs, and heads of one drive.
 pub fn is_worst_case(summary: &Summary, place: usize) -> bool {
-    place == SIGN || names(summary)[place] == HEAD
+    place == SIGN || names(summary)[place] == HEADS
 }
 
 /// Whether a designer chooses among its values: everything but pulse width, sign and head.

@@ -11,6 +11,7 @@ pub mod added_points;
 pub mod amplitude_grid;
 mod bracketing;
 pub mod campaign;
+pub mod decisive;
 pub mod evidence;
 pub mod findings;
 mod follow;

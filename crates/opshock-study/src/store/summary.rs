@@ -112,6 +112,39 @@ pub struct PointSummary {
     pub largest_gap_pct: Option<f64>,
 }
 
+impl PointSummary {
+    /// The critical shock, or the bound that is known of it, G.
+    pub fn known_g(&self) -> Option<f64> {
+        match self.status {
+            Status::BelowRange => self.a_fail_g,
+            _ => self.a_crit_g,
+        }
+    }
+
+    /// Where the search has the critical shock, G.
+    pub fn bracket_g(&self) -> Option<[f64; 2]> {
+        match self.status {
+            Status::Ok => Some([self.a_crit_g?, self.a_fail_g?]),
+            Status::AboveRange => Some([self.a_crit_g?, f64::INFINITY]),
+            Status::BelowRange => Some([0.0, self.a_fail_g?]),
+            Status::Undecided | Status::Open => None,
+        }
+    }
+
+    /// Uncertainty interval, never narrower than the bracket, G; a bound has its bracket alone.
+    pub fn interval_g(&self) -> Option<[f64; 2]> {
+        let [low, high] = self.bracket_g()?;
+        if self.status != Status::Ok {
+            return Some([low, high]);
+        }
+        let a_crit_g = self.a_crit_g?;
+        Some([
+            low.min(a_crit_g - self.err_low_g?),
+            high.max(a_crit_g + self.err_high_g?),
+        ])
+    }
+}
+
 /// Totals over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Totals {

@@ -10,7 +10,7 @@ use super::set_arg::SetArg;
 use super::settings::{Settings, View};
 use super::source::{self, Origin, Source};
 use super::text_file;
-use super::words::{Effects, KeepHistories, LeftOut};
+use super::words::{Effects, KeepHistories, LeftOut, UncertaintyOf};
 use super::{complete, example, fields, resolved, scene, tree};
 use crate::search::{MonotonicityScan, Ramp, Sign};
 use opshock_solver::scene::discretisation::Discretisation;
@@ -78,6 +78,8 @@ pub struct SearchSettings {
     pub scan_gap_pct: f64,
     /// Whether the contributions of the resolution to the uncertainty are estimated.
     pub uncertainty: bool,
+    /// Of which points.
+    pub uncertainty_of: UncertaintyOf,
     /// Times that a point which misses the target is refined.
     pub max_refinements: u8,
     /// How widths are added; `None`: not at all.
@@ -196,6 +198,9 @@ impl Study {
                 monotonicity_scan: view.get(&fields::SEARCH_MONOTONICITY_SCAN),
                 scan_gap_pct: view.number(fields::SEARCH_SCAN_GAP_PCT.path()),
                 uncertainty: view.get(&fields::SEARCH_UNCERTAINTY),
+                uncertainty_of: view
+                    .get(&fields::SEARCH_UNCERTAINTY_OF)
+                    .unwrap_or(UncertaintyOf::All),
                 max_refinements: view.get(&fields::SEARCH_MAX_REFINEMENTS),
                 added_points: added_points(&view),
             },

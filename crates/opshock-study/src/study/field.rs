@@ -256,6 +256,7 @@ named! {
     super::words::LengthUnit: super::words::LENGTH_UNITS;
     super::words::Faces: super::words::FACES;
     crate::search::MonotonicityScan: super::words::MONOTONICITY_SCAN;
+    super::words::UncertaintyOf: super::words::UNCERTAINTY_OF;
     super::words::Effects: super::words::EFFECTS;
     super::words::KeepHistories: super::words::KEEP_HISTORIES;
     FlowModel: super::words::FLOWS;

@@ -21,7 +21,7 @@ use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, op
 use super::settings::View;
 use super::words::{
     self, AccelerationUnit, Effects, Faces, FilterClass, KeepHistories, LeftOut, LengthUnit,
-    RailKind, RunOut, Shape, TableOffset, TableScale, TimeUnit,
+    RailKind, RunOut, Shape, TableOffset, TableScale, TimeUnit, UncertaintyOf,
 };
 use crate::search::{MonotonicityScan, Ramp, Sign};
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
@@ -272,6 +272,7 @@ fields! {
     SEARCH_MONOTONICITY_SCAN: MonotonicityScan = Key::or("search.monotonicity_scan", MonotonicityScan::KIND, "\"sampled\"", "Which amplitudes below the lowest failure are simulated, to see that none of them fails: all (full), some (sampled), none (off).");
     SEARCH_SCAN_GAP_PCT: f64 = Key::or("search.scan_gap_pct", Number(above(0.0, 100.0)), "10.0", "Largest gap between the amplitudes that a sampled scan simulates.").code("E156");
     SEARCH_UNCERTAINTY: bool = Key::or("search.uncertainty", Flag, "true", "Gives each critical shock its uncertainty interval.");
+    SEARCH_UNCERTAINTY_OF: Option<UncertaintyOf> = Key::optional("search.uncertainty_of", UncertaintyOf::KIND, "all points", "\"decisive\"", "Points that get uncertainty intervals: all, or the decisive ones, on which the best value of every axis and its lead depend, or without such an axis the worst case. These are refined only while that is open; the other points have their brackets alone.").code("E156");
     SEARCH_TARGET_UNCERTAINTY_PCT: Option<f64> = Key::optional("search.target_uncertainty_pct", Number(above(0.0, 100.0)), "that of the preset: 5, 1, 0.1", "1.0", "Uncertainty wanted of each critical shock: half-width of its uncertainty interval over the value. A point that misses it is refined.").usual(0.05, 20.0).code("E156");
     SEARCH_MAX_REFINEMENTS: u8 = Key::or("search.max_refinements", Integer(0, 100), "3", "Times that a point which misses the target uncertainty is refined and answered anew.");
     SEARCH_ADDED_POINTS_TOLERANCE_PCT: Option<f64> = Key::optional("search.added_points.tolerance_pct", Number(above(0.0, 100.0)), "no widths are added for it", "5.0", "Adds widths until straight lines between the answers of a ramp model are this good.").usual(1.0, 50.0).code("E156");

@@ -64,11 +64,13 @@ pub use crate::search::{Ramp, Sign};
 pub use checked::{AddedPointsSettings, OutputSettings, SearchSettings, Study, check_threads};
 pub use fault::{Severity, StudyError, StudyErrors};
 pub use overlay::Override;
-pub use points::{Axis, AxisValue, Point};
+pub use points::{Axis, AxisValue, HEADS, Point};
 pub use ramp_geometry::RampSolid;
 pub use ramp_remeshed::RemeshedRamp;
 pub use recorded::MeasuredPulse;
 pub use resolved::{digest_of, number_at};
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
 pub use set_arg::{SetArg, SetSyntaxError};
-pub use words::{Effects, Faces, KeepHistories, LeftOut, coupling_word, preset_word};
+pub use words::{
+    Effects, Faces, KeepHistories, LeftOut, UncertaintyOf, coupling_word, preset_word,
+};

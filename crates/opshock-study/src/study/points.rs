@@ -137,14 +137,17 @@ fn axis_paths(settings: &Settings) -> Vec<&str> {
     axes
 }
 
+/// Path of the axis of a drive's heads.
+pub const HEADS: &str = "head";
+
 /// The axes beside widths, ramp models and signs.
 pub fn axes(settings: &Settings) -> Vec<Axis> {
     let paths = axis_paths(settings);
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
     let heads = settings.heads();
     let head = (!heads.is_empty()).then(|| Axis {
-        path: "head".to_string(),
-        column: "head".to_string(),
+        path: HEADS.to_string(),
+        column: HEADS.to_string(),
         values: (settings.named_heads().into_iter())
             .filter(|(_, entry)| heads.contains(entry))
             .map(|(name, _)| AxisValue::Word(name.to_string()))

@@ -137,6 +137,11 @@ pub const MONOTONICITY_SCAN: [(&str, MonotonicityScan); 3] = [
     (MonotonicityScan::Off.as_str(), MonotonicityScan::Off),
     (MonotonicityScan::Full.as_str(), MonotonicityScan::Full),
 ];
+/// `search.uncertainty_of`.
+pub const UNCERTAINTY_OF: [(&str, UncertaintyOf); 2] = [
+    ("all", UncertaintyOf::All),
+    ("decisive", UncertaintyOf::Decisive),
+];
 /// `solver.effects`.
 pub const EFFECTS: [(&str, Effects); 2] = [
     (Effects::Auto.as_str(), Effects::Auto),
@@ -290,6 +295,15 @@ pub fn structure_outputs() -> String {
 pub enum LeftOut {
     /// Film, slider and suspension.
     AirBearing,
+}
+
+/// Which points get uncertainty intervals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UncertaintyOf {
+    /// Every one.
+    All,
+    /// Those on which the answer of the study depends ([`crate::search::decisive`]).
+    Decisive,
 }
 
 /// Which time histories are stored.

@@ -13,7 +13,7 @@ use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::uncertainty::MOST_STEPS;
 use crate::search::{AmplitudeGridError, Coordinates, SearchSettings, Sign};
 use crate::store::{PointDigest, StudyTexts};
-use crate::study::{Faces, Point, Study};
+use crate::study::{Faces, HEADS, Point, Study, UncertaintyOf};
 
 impl SweepInput {
     /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
@@ -33,6 +33,12 @@ impl SweepInput {
             search.scan_gap_pct / 100.0,
             study.points.iter().any(is_fixed),
         )?;
+        let points: Vec<SweepPoint> = study
+            .table_order()
+            .into_iter()
+            .map(|place| sweep_point(&study.points[place], search))
+            .collect();
+        let is_decisive = search.uncertainty && search.uncertainty_of == UncertaintyOf::Decisive;
         Ok(SweepInput {
             texts: StudyTexts {
                 name: study.name.clone(),
@@ -43,11 +49,8 @@ impl SweepInput {
             },
             plan: plan_json(study),
             axes: study.axes.iter().map(|axis| axis.column.clone()).collect(),
-            points: study
-                .table_order()
-                .into_iter()
-                .map(|place| sweep_point(&study.points[place], search))
-                .collect(),
+            decides: is_decisive.then(|| choices(study, &points)),
+            points,
             settings,
             start_s: study.start_s,
             keep_histories: study.output.keep_histories,
@@ -80,6 +83,34 @@ fn plan_json(study: &Study) -> String {
         whole["field_times_s"] = json!(plan.field_times_s);
     }
     whole.to_string()
+}
+
+/// The axes of which a value is chosen: ramp models, and every further one but the heads of a drive, which must all
+/// survive. For each the number of the value of every point; without any, one value of all.
+fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
+    fn numbered<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
+        let mut known: Vec<T> = Vec::new();
+        let number = |value: T| {
+            let number = known.iter().position(|other| *other == value);
+            number.unwrap_or_else(|| {
+                known.push(value);
+                known.len() - 1
+            })
+        };
+        values.map(number).collect()
+    }
+    let mut axes = vec![numbered(points.iter().map(|point| point.coordinates.ramp))];
+    for (place, axis) in study.axes.iter().enumerate() {
+        if axis.path != HEADS {
+            let values = points.iter().map(|point| &point.coordinates.axes[place]);
+            axes.push(numbered(values));
+        }
+    }
+    axes.retain(|axis| axis.iter().any(|&number| number > 0));
+    if axes.is_empty() {
+        axes.push(vec![0; points.len()]);
+    }
+    axes
 }
 
 fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {

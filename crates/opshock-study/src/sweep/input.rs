@@ -50,6 +50,9 @@ pub struct SweepInput {
     pub axes: Vec<String>,
     /// Points in the study's order.
     pub points: Vec<SweepPoint>,
+    /// Intervals are made for the points alone on which the answer depends, by the values of these axes
+    /// ([`crate::search::decisive`]): for each axis the number of every point's value. `None`: for all points.
+    pub decides: Option<Vec<Vec<usize>>>,
     /// Search.
     pub settings: SearchSettings,
     /// Time between checkpoints.

@@ -10,7 +10,8 @@ use super::input::SweepInput;
 use super::made_up::{Ended, Random, ended};
 use super::made_up_interval::{Errors, MadeUpInterval};
 use super::pace::{Kind, Pace};
-use super::registry::{Registry, interval_input, seen, uncertainty_probe};
+use super::registry::{Depth, Registry, interval_input, next_round, seen, uncertainty_probe};
+use super::rows;
 use super::spread::Spread;
 use crate::search::uncertainty::{self, Ask, UncertaintyInput};
 use crate::search::{Campaign, Flag, Probe, ProbeResult, Ramp, Touch};
@@ -51,6 +52,8 @@ struct Interval {
     runs: usize,
     /// Seconds of the finished interval, real and made up.
     finished_s: Option<[f64; 2]>,
+    /// The critical shock with it.
+    answer: Option<uncertainty::Answer>,
 }
 
 /// What is left of the sweep of `registry`, at `pace`.
@@ -102,7 +105,6 @@ fn one_end(
         }
     };
     let (mut searched, mut search_s, mut histories_s) = (0, 0.0, 0.0);
-    let mut intervals = Vec::new();
     for point in 0..input.points.len() {
         if !registry.wants(point) {
             continue;
@@ -118,14 +120,21 @@ fn one_end(
             };
             histories_s += kept as f64 * seconds(point, &Probe::at(0));
         }
-        if registry.first_of_content(point) == point {
-            let seed = end.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ point as u64;
-            let of_probe = |probe: &Probe| seconds(point, probe);
-            intervals.extend(interval(
-                input, registry, &ended, &errors, point, seed, &of_probe,
-            ));
-        }
     }
+    let made_up = |point: usize, refinements: u8| {
+        let seed = end.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ point as u64;
+        let of_probe = |probe: &Probe| seconds(point, probe);
+        interval(
+            input,
+            registry,
+            &ended,
+            &errors,
+            (point, refinements),
+            seed,
+            &of_probe,
+        )
+    };
+    let intervals = intervals(input, registry, &ended.campaign, &made_up);
     let factors = factors(&intervals, z[1]);
     let lefts = intervals.iter().map(|one| {
         factors
@@ -150,6 +159,55 @@ fn one_end(
         core_s,
         wall_s,
     ]
+}
+
+/// The intervals of all wanted points, each content once; of a sweep that makes those of decisive points alone, the
+/// intervals that its rounds choose by what is made up.
+fn intervals(
+    input: &SweepInput,
+    registry: &Registry<'_>,
+    campaign: &Campaign,
+    made_up: &dyn Fn(usize, u8) -> Option<Interval>,
+) -> Vec<Interval> {
+    let mut depths = registry.depths().to_vec();
+    let is_first = |point: usize| registry.first_of_content(point) == point;
+    let make = |point: usize, depth: Depth| made_up(point, depth.refinements()?);
+    let n_points = input.points.len();
+    let mut intervals: Vec<Option<Interval>> = (0..n_points)
+        .map(|point| {
+            let is_asked = is_first(point) && (registry.wants(point) || input.decides.is_some());
+            is_asked.then(|| make(point, depths[point])).flatten()
+        })
+        .collect();
+    // The point whose interval is that of this one.
+    let source = |point: usize| {
+        let companion = campaign.order().relations[point].companion;
+        let own = companion.filter(|_| is_taken(campaign, point));
+        registry.first_of_content(own.unwrap_or(point))
+    };
+    loop {
+        let row = |point: usize| {
+            let interval = intervals[source(point)].as_ref();
+            let answer = interval.and_then(|interval| interval.answer.as_ref());
+            let (one, findings) = (&input.points[point], campaign.findings(point));
+            let grid = &input.settings.grid;
+            rows::row(one, &findings, answer.map(|answer| (answer, 0)), None, grid)
+        };
+        let round = match registry.is_decided() {
+            true => Vec::new(),
+            false => next_round(input, &row, &|point| depths[source(point)]),
+        };
+        let mut round: Vec<usize> = round.into_iter().map(source).collect();
+        if round.is_empty() {
+            return intervals.into_iter().flatten().collect();
+        }
+        round.sort_unstable();
+        round.dedup();
+        for point in round {
+            depths[point] = depths[point].next();
+            intervals[point] = make(point, depths[point]);
+        }
+    }
 }
 
 /// Real over made-up cost of an interval by ramp model: one ratio by all finished ones, and by it those of each model.
@@ -187,12 +245,11 @@ fn interval(
     registry: &Registry<'_>,
     ended: &Ended,
     errors: &Errors,
-    point: usize,
+    (point, refinements): (usize, u8),
     seed: u64,
     seconds: &dyn Fn(&Probe) -> f64,
 ) -> Option<Interval> {
     let ramp = input.points[point].coordinates.ramp;
-    let refinements = registry.refinements(point);
     let all_s = |asks: &[Ask]| -> f64 {
         asks.iter()
             .map(|&ask| seconds(&uncertainty_probe(ask)))
@@ -204,16 +261,22 @@ fn interval(
             let known = known.iter().find(|(known, _)| *known == ask);
             Some(known.map_or_else(|| law.seen(ask), |(_, seen)| *seen))
         };
-        uncertainty::answer(from, refinements, &lookup).0
+        let (asks, progress) = uncertainty::answer(from, refinements, &lookup);
+        match progress {
+            uncertainty::Progress::Done(answer) => (asks, Some(answer)),
+            uncertainty::Progress::Wants(_) => (asks, None),
+        }
     };
     if let Some(begun) = registry.interval(point) {
-        if begun.is_done {
-            let finished_s = [all_s(begun.log), all_s(&made_up(begun.input, &[]))];
+        if begun.is_done && registry.refinements(point) == refinements {
+            let finished_s = [all_s(begun.log), all_s(&made_up(begun.input, &[]).0)];
+            let answer = registry.finished_uncertainty(point);
             return Some(Interval {
                 ramp,
                 left_s: 0.0,
                 runs: 0,
                 finished_s: Some(finished_s),
+                answer: answer.map(|(answer, _)| answer.clone()),
             });
         }
         let known: Vec<(Ask, uncertainty::Seen)> = begun
@@ -224,13 +287,14 @@ fn interval(
                 Some((ask, seen(&registry.runs().get(&key)?.result)))
             })
             .collect();
-        let mut asks = made_up(begun.input, &known);
+        let (mut asks, answer) = made_up(begun.input, &known);
         asks.retain(|ask| !known.iter().any(|(known, _)| known == ask));
         return Some(Interval {
             ramp,
             left_s: all_s(&asks),
             runs: asks.len(),
             finished_s: None,
+            answer,
         });
     }
     if registry.is_final(point) || is_taken(&ended.campaign, point) {
@@ -245,12 +309,13 @@ fn interval(
         )
     };
     let from = interval_input(input, &ended.campaign, point, &result)?;
-    let asks = made_up(&from, &[]);
+    let (asks, answer) = made_up(&from, &[]);
     Some(Interval {
         ramp,
         left_s: all_s(&asks),
         runs: asks.len(),
         finished_s: None,
+        answer,
     })
 }
 

@@ -7,7 +7,7 @@ use crate::study::fields;
 use crate::study::imported_suspension;
 use crate::study::measured_pulse;
 use crate::study::source::Origin;
-use crate::study::words::{self, Effects, LeftOut};
+use crate::study::words::{self, Effects, LeftOut, UncertaintyOf};
 use opshock_solver::scene::plan::{Needs, Output};
 
 impl Check<'_, '_> {
@@ -114,7 +114,10 @@ impl Check<'_, '_> {
             (
                 self.view.get(&fields::SEARCH_UNCERTAINTY),
                 "search.uncertainty is false",
-                &[fields::SEARCH_TARGET_UNCERTAINTY_PCT.path()],
+                &[
+                    fields::SEARCH_UNCERTAINTY_OF.path(),
+                    fields::SEARCH_TARGET_UNCERTAINTY_PCT.path(),
+                ],
             ),
             (
                 refines,
@@ -219,6 +222,7 @@ impl Check<'_, '_> {
             }
         }
         self.refine();
+        self.decisive();
         self.each_once(&fields::RAMP_MODELS, "ramp models");
         self.each_once(&fields::PULSE_SIGNS, "signs");
         if self.sound(&[fields::PULSE_WIDTHS_MS.path()]) {
@@ -265,6 +269,27 @@ impl Check<'_, '_> {
             let message = format!("holds {:?} twice", twice.to_string());
             let fault = self.fault("E154", &[path], message);
             fault.allowed = "values that differ".to_string();
+        }
+    }
+
+    /// Widths are added by the answers of all points, which must not change afterwards.
+    fn decisive(&mut self) {
+        let added = [
+            fields::SEARCH_ADDED_POINTS_TOLERANCE_PCT.path(),
+            fields::SEARCH_ADDED_POINTS_CROSSING_PCT.path(),
+        ];
+        let path = fields::SEARCH_UNCERTAINTY_OF.path();
+        let is_decisive =
+            self.view.get(&fields::SEARCH_UNCERTAINTY_OF) == Some(UncertaintyOf::Decisive);
+        if let Some(adds) = added.into_iter().find(|path| self.view.settings.has(path))
+            && self.sound(&[path, adds])
+            && is_decisive
+        {
+            let what = format!(
+                "cannot stand beside {adds}, which adds widths by the answers of all points"
+            );
+            let fault = self.fault("E156", &[path, adds], what);
+            fault.allowed = "\"all\", or no added widths".to_string();
         }
     }
 

@@ -4,11 +4,13 @@
 mod interval_order;
 mod jobs;
 mod results;
+mod rounds;
 mod searches;
 mod stage;
 mod uncertainties;
 
 pub(super) use jobs::Job;
+pub(super) use rounds::{Depth, next_round};
 pub(super) use searches::{AnsweredProbe, Registry};
 pub(super) use stage::{seen, uncertainty_asked, uncertainty_probe};
 pub(super) use uncertainties::interval_input;

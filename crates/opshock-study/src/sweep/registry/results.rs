@@ -2,7 +2,7 @@
 
 use super::searches::Registry;
 use super::stage::{UncertaintyStage, uncertainty_asked};
-use crate::search::{Status, Touch, uncertainty};
+use crate::search::{Findings, Status, Touch, uncertainty};
 use crate::store::summary::{PointSummary, Summary, Totals};
 use crate::store::{PointKeep, Results, RunRecord, RunRow, Session, machine};
 use crate::sweep::rows;
@@ -11,14 +11,19 @@ use std::collections::HashSet;
 impl Registry<'_> {
     /// Row of a point as the evidence has it.
     pub(in crate::sweep) fn row(&self, point: usize) -> PointSummary {
-        let onset_g = match self.campaign.touch(point) {
-            Some(Touch::At { onset_g }) => Some(onset_g),
-            Some(Touch::NoRamp | Touch::Unknown) | None => None,
-        };
         let mut findings = self.campaign.findings(point);
         if !self.is_final(point) {
             findings.status = Status::Open;
         }
+        self.row_with(point, findings)
+    }
+
+    /// Row of a point with these findings, and its interval where that is finished.
+    pub(super) fn row_with(&self, point: usize, findings: Findings) -> PointSummary {
+        let onset_g = match self.campaign.touch(point) {
+            Some(Touch::At { onset_g }) => Some(onset_g),
+            Some(Touch::NoRamp | Touch::Unknown) | None => None,
+        };
         rows::row(
             &self.input.points[point],
             &findings,

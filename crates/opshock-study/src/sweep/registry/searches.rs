@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 
+use super::rounds::Depth;
 use super::stage::UncertaintyStage;
 use crate::search::{Asked, Campaign, Probe, Touch, uncertainty};
 use crate::store::{Loaded, PointDigest, RunKey, RunRecord, StoredTouch};
-use crate::sweep::input::SweepInput;
+use crate::sweep::input::{SweepInput, SweepPoint};
 
 /// A probe whose verdict a search has taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,10 @@ pub(in crate::sweep) struct Registry<'a> {
     /// Rank of every place for its interval: that of the searches until all of them are final.
     pub(super) interval_rank: Vec<usize>,
     pub(super) are_intervals_ranked: bool,
+    /// How far the uncertainty of every place is taken.
+    pub(super) depths: Vec<Depth>,
+    /// No round of decisive points is left.
+    pub(super) is_decided: bool,
     /// Final chains of the campaign when intervals were begun last.
     pub(super) n_final_chains: usize,
     /// Times that a point became final, or may have.
@@ -69,6 +74,15 @@ impl<'a> Registry<'a> {
             sharing.entry(point.digest).or_default().push(place);
         }
         let urgency = urgency(&campaign);
+        let depth = |point: &SweepPoint| match input.decides {
+            Some(_) => Depth::Bracket,
+            None => Depth::Refined(
+                point
+                    .uncertainty
+                    .as_ref()
+                    .map_or(0, |plan| plan.refinements),
+            ),
+        };
         let mut rank = vec![0; urgency.len()];
         for (k, &point) in urgency.iter().enumerate() {
             rank[point] = k;
@@ -93,6 +107,8 @@ impl<'a> Registry<'a> {
             drawing: BTreeMap::new(),
             interval_rank: rank,
             are_intervals_ranked: false,
+            depths: input.points.iter().map(depth).collect(),
+            is_decided: input.decides.is_none(),
             n_final_chains: 0,
             n_changes: 0,
             part: Part {

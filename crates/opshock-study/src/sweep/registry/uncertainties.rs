@@ -2,6 +2,7 @@
 
 use super::interval_order::interval_ranks;
 use super::jobs::Job;
+use super::rounds::Depth;
 use super::searches::{AnsweredProbe, Registry};
 use super::stage::{UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
 use crate::search::{Campaign, Flag, Probe, ProbeResult, Status, Verdict, uncertainty};
@@ -23,9 +24,27 @@ impl Registry<'_> {
     /// Advances uncertainty intervals as far as the known runs allow: those that wait for the run `finished`, or all,
     /// and those whose search has become final. Returns the runs used for the first time.
     pub(super) fn draw_uncertainty(&mut self, finished: Option<RunKey>) -> Vec<AnsweredProbe> {
+        let mut answered = self.advance_uncertainty(finished, &[]);
+        loop {
+            let round = self.begin_round();
+            if round.is_empty() {
+                return answered;
+            }
+            answered.extend(self.advance_uncertainty(None, &round));
+        }
+    }
+
+    /// The same within a round; `further` are points that may be refined once more than before.
+    fn advance_uncertainty(
+        &mut self,
+        finished: Option<RunKey>,
+        further: &[usize],
+    ) -> Vec<AnsweredProbe> {
         let mut answered = Vec::new();
         let n_final_chains = self.campaign.n_final_chains();
-        let places: Vec<usize> = if n_final_chains == self.n_final_chains {
+        let places: Vec<usize> = if !further.is_empty() {
+            further.to_vec()
+        } else if n_final_chains == self.n_final_chains {
             self.drawing.values().copied().collect()
         } else {
             (0..self.input.points.len()).collect()
@@ -47,6 +66,10 @@ impl Registry<'_> {
                     self.n_changes += 1;
                 }
                 UncertaintyStage::Begun {
+                    progress: uncertainty::Progress::Done(_),
+                    ..
+                } if further.contains(&point) => {}
+                UncertaintyStage::Begun {
                     progress: uncertainty::Progress::Wants(ask),
                     ..
                 } => {
@@ -60,12 +83,21 @@ impl Registry<'_> {
             let UncertaintyStage::Begun { input, log, .. } = &self.uncertainties[point] else {
                 continue;
             };
+            if self.depths[point] == Depth::Bracket {
+                continue;
+            }
             let lookup = |ask: uncertainty::Ask| {
                 let record = self.runs.get(&self.key(point, uncertainty_probe(ask)))?;
                 Some(seen(&record.result))
             };
             let refinements = self.refinements(point);
-            let (now, progress) = uncertainty::answer(input, refinements, &lookup);
+            let (now, mut progress) = uncertainty::answer(input, refinements, &lookup);
+            if let uncertainty::Progress::Done(answer) = &mut progress
+                && self.is_refinable(point)
+            {
+                // It is not the number of refinements that ends here.
+                answer.uncertainty.flags.remove(&Flag::RefinementLimit);
+            }
             answered.extend(now[log.len()..].iter().map(|&ask| AnsweredProbe {
                 point,
                 asked: uncertainty_asked(ask),
@@ -115,10 +147,15 @@ impl Registry<'_> {
         }
     }
 
-    /// Largest number of adaptive refinements of a point.
+    /// Largest number of adaptive refinements of a point so far.
     pub(in crate::sweep) fn refinements(&self, point: usize) -> u8 {
+        self.depths[point].refinements().unwrap_or(0)
+    }
+
+    /// A later round may refine the point once more.
+    fn is_refinable(&self, point: usize) -> bool {
         let plan = self.input.points[point].uncertainty.as_ref();
-        plan.map_or(0, |plan| plan.refinements)
+        plan.is_some_and(|plan| self.refinements(point) < plan.refinements)
     }
 
     /// What the interval of a point with a final search starts from; `None` without a bracket of its
@@ -129,14 +166,20 @@ impl Registry<'_> {
         })
     }
 
-    /// A point has its final answer and its uncertainty interval.
+    /// A point has its final answer and, where it is to have one, its uncertainty interval.
     pub(in crate::sweep) fn is_final(&self, point: usize) -> bool {
+        self.is_decided && self.is_at_depth(point)
+    }
+
+    /// The uncertainty of a point is known as far as it is wanted so far.
+    pub(super) fn is_at_depth(&self, point: usize) -> bool {
         match &self.uncertainties[point] {
             UncertaintyStage::Waiting => false,
             UncertaintyStage::Without => true,
-            UncertaintyStage::Taken { companion } => self.is_final(*companion),
+            UncertaintyStage::Taken { companion } => self.is_at_depth(*companion),
             UncertaintyStage::Begun { progress, .. } => {
-                matches!(progress, uncertainty::Progress::Done(_))
+                self.depths[point] == Depth::Bracket
+                    || matches!(progress, uncertainty::Progress::Done(_))
             }
         }
     }
@@ -144,18 +187,21 @@ impl Registry<'_> {
     /// The uncertainty interval of a point as far as it has got; `None` where it has not begun.
     pub(in crate::sweep) fn interval(&self, point: usize) -> Option<Begun<'_>> {
         match &self.uncertainties[point] {
-            UncertaintyStage::Begun { input, log, .. } => Some(Begun {
-                input,
-                log,
-                is_done: self.is_final(point),
-            }),
+            UncertaintyStage::Begun { input, log, .. } if self.depths[point] != Depth::Bracket => {
+                Some(Begun {
+                    input,
+                    log,
+                    is_done: self.is_at_depth(point),
+                })
+            }
             _ => None,
         }
     }
 
     /// The interval of a point is wanted: its own, or that of a point which takes it over.
     pub(super) fn wants_uncertainty(&self, point: usize) -> bool {
-        self.part.allowed[point] && (self.wants(point) || (0..self.uncertainties.len()).any(|other| {
+        // The answer that decides is that of all points, whoever completes them.
+        self.part.allowed[point] && (self.input.decides.is_some() || self.wants(point) || (0..self.uncertainties.len()).any(|other| {
             self.wants(other)
                 && matches!(self.uncertainties[other], UncertaintyStage::Taken { companion } if companion == point)
         }))
@@ -182,7 +228,10 @@ impl Registry<'_> {
     }
 
     /// Answer of a point with its interval, once it is finished, and the runs it took.
-    pub(super) fn finished_uncertainty(&self, point: usize) -> Option<(&uncertainty::Answer, u64)> {
+    pub(in crate::sweep) fn finished_uncertainty(
+        &self,
+        point: usize,
+    ) -> Option<(&uncertainty::Answer, u64)> {
         match &self.uncertainties[point] {
             UncertaintyStage::Taken { companion } => {
                 Some((self.finished_uncertainty(*companion)?.0, 0))
