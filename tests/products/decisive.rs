@@ -250,22 +250,32 @@ fn threads_interruptions_and_shards_choose_the_same_points_and_give_the_same_sto
         (0, &reference.summary)
     );
 
-    // The first shard alone completes its points; the second finds what it needs.
-    for part in ["1/2", "2/2"] {
+    // Shards one after another: the first simulates what its points depend on; and at the same time.
+    let part = |name: &str, part: &str| {
         let part: Shard = part.parse().expect("a shard");
         let options = SweepOptions {
             shard: Some(part),
             ..SweepOptions::with_threads(1)
         };
-        let end = sweep(&some, &laws, &at("parts"), &options, &Silent).expect("sweeps");
+        let end = sweep(&some, &laws, &at(name), &options, &Silent).expect("sweeps");
         assert_eq!(end.ending, Ending::Complete);
-    }
-    let stores = shard::stores(&at("parts")).expect("stores");
-    let merged = merge(&some, &at("parts"), &stores, &folder::session(1)).expect("merges");
-    let MergeEnd::Merged(merged) = merged else {
-        panic!("shards disagree");
     };
-    assert_eq!(merged.results.summary, reference.summary);
+    part("after", "1/2");
+    part("after", "2/2");
+    std::thread::scope(|scope| {
+        for one in ["1/2", "2/2"] {
+            let part = &part;
+            scope.spawn(move || part("beside", one));
+        }
+    });
+    for name in ["after", "beside"] {
+        let stores = shard::stores(&at(name)).expect("stores");
+        let merged = merge(&some, &at(name), &stores, &folder::session(1)).expect("merges");
+        let MergeEnd::Merged(merged) = merged else {
+            panic!("shards disagree");
+        };
+        assert_eq!(merged.results.summary, reference.summary);
+    }
 }
 
 #[test]

@@ -167,13 +167,9 @@ impl<'a> Run<'a> {
         let wanted: Vec<bool> = points
             .map(|(point, &is_own)| is_own || point.coordinates.round > 0)
             .collect();
-        // Which points are decisive depends on all.
         let decides = self.input.decides.is_some();
-        let needed: Vec<bool> = wanted
-            .iter()
-            .map(|&is_wanted| is_wanted || decides)
-            .collect();
-        self.neighbours = Some(Neighbours::new(shard, whole, order, owned, &needed));
+        let neighbours = Neighbours::new(shard, whole, order, owned, (&wanted, decides));
+        self.neighbours = Some(neighbours);
         self.registry.want(wanted);
         self.ask_neighbours();
     }

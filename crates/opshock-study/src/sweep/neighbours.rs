@@ -22,18 +22,22 @@ pub(super) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Neighbours of a shard that owns the points `owned` and completes those `wanted`; not read yet.
+    /// Neighbours of a shard that owns the points `owned` and completes those `wanted`; not read yet. Where points decide
+    /// which intervals are made, it needs the answers of all.
     pub(super) fn new(
         shard: &Shard,
         whole: &Path,
         order: &Order,
         owned: Vec<bool>,
-        wanted: &[bool],
+        (wanted, decides): (&[bool], bool),
     ) -> Neighbours {
         Neighbours {
             others: Others::of(shard, whole),
             owners: shard.owners(order),
-            needed: shard::needed(order, wanted),
+            needed: match decides {
+                true => vec![true; wanted.len()],
+                false => shard::needed(order, wanted),
+            },
             owned,
             asked_at: None,
         }

@@ -80,6 +80,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
                 .and_then(|owner| owner.changed(&input.texts.resolved))
                 .unwrap_or_default(),
             forecast,
+            is_decisive: input.decides.is_some(),
         };
         if console.json {
             console.result_json(&plan)?;
@@ -96,6 +97,9 @@ struct Plan {
     #[serde(flatten)]
     forecast: Forecast,
     changed: Vec<SettingDifference>,
+    /// Intervals are made for decisive points alone.
+    #[serde(skip)]
+    is_decisive: bool,
 }
 
 /// Time steps of a history of the longest point.
@@ -151,6 +155,10 @@ fn as_text(name: &str, plan: &Plan) -> String {
     line("simulations", runs(forecast.runs));
     line("  search", runs(forecast.search_runs));
     line("  uncertainty", runs(forecast.uncertainty_runs));
+    if plan.is_decisive {
+        let left_out = "of decisive points alone, by made-up answers: the brackets choose others";
+        line("", left_out.to_owned());
+    }
     let paces: Vec<String> = forecast
         .seconds_per_run
         .iter()

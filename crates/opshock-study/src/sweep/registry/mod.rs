@@ -10,7 +10,7 @@ mod stage;
 mod uncertainties;
 
 pub(super) use jobs::Job;
-pub(super) use rounds::{Depth, next_round};
+pub(super) use rounds::next_round;
 pub(super) use searches::{AnsweredProbe, Registry};
-pub(super) use stage::{seen, uncertainty_asked, uncertainty_probe};
+pub(super) use stage::{Depth, seen, uncertainty_asked, uncertainty_probe};
 pub(super) use uncertainties::interval_input;

@@ -2,37 +2,10 @@
 //! every bracket and every interval of the rounds before is finished, so that it depends on no order of their runs.
 
 use super::searches::Registry;
-use super::stage::UncertaintyStage;
+use super::stage::{Depth, UncertaintyStage};
 use crate::search::decisive::{Further, Standing, decisive};
 use crate::store::summary::{Flag, PointSummary, Status};
 use crate::sweep::input::{SweepInput, SweepPoint};
-
-/// How far the uncertainty of a point is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::sweep) enum Depth {
-    /// It has its bracket alone.
-    Bracket,
-    /// An interval with so many refinements at most.
-    Refined(u8),
-}
-
-impl Depth {
-    /// One step further.
-    pub(in crate::sweep) fn next(self) -> Depth {
-        match self {
-            Depth::Bracket => Depth::Refined(0),
-            Depth::Refined(refinements) => Depth::Refined(refinements + 1),
-        }
-    }
-
-    /// Largest number of refinements; `None` without an interval.
-    pub(in crate::sweep) fn refinements(self) -> Option<u8> {
-        match self {
-            Depth::Bracket => None,
-            Depth::Refined(refinements) => Some(refinements),
-        }
-    }
-}
 
 /// Target uncertainties by which a bracket is widened as long as there is no interval: first one, which finds the points to
 /// begin with; when these are settled, as many as the largest half-width of an unrefined interval of Fig. 13 has (3.8 at

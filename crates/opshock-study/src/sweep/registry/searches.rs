@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 
-use super::rounds::Depth;
-use super::stage::UncertaintyStage;
+use super::stage::{Depth, UncertaintyStage};
 use crate::search::{Asked, Campaign, Probe, Touch, uncertainty};
 use crate::store::{Loaded, PointDigest, RunKey, RunRecord, StoredTouch};
 use crate::sweep::input::{SweepInput, SweepPoint};

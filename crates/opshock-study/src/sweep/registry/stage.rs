@@ -3,6 +3,33 @@
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::{Asked, Probe, ProbeResult, Purpose, Verdict, uncertainty};
 
+/// How far the uncertainty of a point is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sweep) enum Depth {
+    /// It has its bracket alone.
+    Bracket,
+    /// An interval with so many refinements at most.
+    Refined(u8),
+}
+
+impl Depth {
+    /// One step further.
+    pub(in crate::sweep) fn next(self) -> Depth {
+        match self {
+            Depth::Bracket => Depth::Refined(0),
+            Depth::Refined(refinements) => Depth::Refined(refinements + 1),
+        }
+    }
+
+    /// Largest number of refinements; `None` without an interval.
+    pub(in crate::sweep) fn refinements(self) -> Option<u8> {
+        match self {
+            Depth::Bracket => None,
+            Depth::Refined(refinements) => Some(refinements),
+        }
+    }
+}
+
 /// Uncertainty interval of a point as far as it has got.
 pub(super) enum UncertaintyStage {
     /// The point's search is not final.

@@ -2,9 +2,8 @@
 
 use super::interval_order::interval_ranks;
 use super::jobs::Job;
-use super::rounds::Depth;
 use super::searches::{AnsweredProbe, Registry};
-use super::stage::{UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
+use super::stage::{Depth, UncertaintyStage, seen, uncertainty_asked, uncertainty_probe};
 use crate::search::{Campaign, Flag, Probe, ProbeResult, Status, Verdict, uncertainty};
 use crate::store::RunKey;
 use crate::sweep::input::SweepInput;
