@@ -89,6 +89,28 @@ fn documents_slow_sweep_of_the_own_drive_is_shown_as_it_is() {
     prints_what_is_shown("sweep");
 }
 
+/// The best of five clearances: `new`, the sweep, and what `compare` prints.
+#[test]
+#[ignore = "slow: a sweep of 30 points, about a minute"]
+fn documents_slow_best_of_five_clearances_is_shown_as_it_is() {
+    let page = page("docs/your-own-drive.md");
+    let at = tempfile::tempdir().unwrap();
+    let is_it = |block: &(&str, &str)| block.1.contains("new > five.toml");
+    let commands = blocks(&page).into_iter().find(is_it);
+    let commands = commands.unwrap().1.replace("\\\n", " ");
+    for command in commands.lines() {
+        let words = command.split_whitespace().skip(1);
+        let words: Vec<&str> = words.map(|word| word.trim_matches('\'')).collect();
+        let to_file = words.iter().position(|&word| word == ">");
+        let done = Done::of(at.path(), &words[..to_file.unwrap_or(words.len())]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        if let Some(place) = to_file {
+            std::fs::write(at.path().join(words[place + 1]), done.stdout).unwrap();
+        }
+    }
+    prints_in(at.path(), &page, "compare");
+}
+
 /// Rows of README.md are those of the committed table of Fig. 13.
 #[test]
 fn rows_of_the_first_page_are_those_of_the_committed_table() {
