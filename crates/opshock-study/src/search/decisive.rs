@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn only_overlapping_values_are_refined_and_of_the_best_only_the_points_that_overlap() {
         use Further::{Nothing, Refinement};
-        let axis = vec![0, 0, 1, 1, 2];
+        let axes = [vec![0, 0, 1, 1, 2]];
         let mut standings = [
             at(100.0, 4.0, Refinement), // the best
             at(103.0, 3.5, Refinement),
@@ -163,15 +163,15 @@ mod tests {
             at(99.0, 3.0, Refinement), // not the worst case of its value
             at(80.0, 9.0, Refinement), // does not reach the best
         ];
-        assert_eq!(decisive(&[axis.clone()], &standings), [0, 2]);
+        assert_eq!(decisive(&axes, &standings), [0, 2]);
         // What is left for a point that cannot be refined is left to the other side.
         standings[2] = at(95.0, 3.0, Nothing);
-        assert_eq!(decisive(&[axis.clone()], &standings), [0]);
+        assert_eq!(decisive(&axes, &standings), [0]);
         standings[0] = at(100.0, 1.0, Refinement);
-        assert_eq!(decisive(&[axis.clone()], &standings), [0_usize; 0]);
+        assert_eq!(decisive(&axes, &standings), [0_usize; 0]);
         // A wide interval of a point with a higher value may hold the worst case, too.
         standings[1] = at(103.0, 5.5, Refinement);
-        assert_eq!(decisive(&[axis], &standings), [1]);
+        assert_eq!(decisive(&axes, &standings), [1]);
     }
 
     #[test]
