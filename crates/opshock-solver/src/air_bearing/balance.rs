@@ -10,7 +10,7 @@
 
 use super::attitude::Attitude;
 use super::exponential::growth;
-use super::faces::{BLOCK, Block, Columns, Interior, Places, block};
+use super::faces::{BLOCK, Block, Columns, Places, block};
 use super::film::Film;
 use super::flux::Drive;
 use super::heights::{inverses, inverses_of_both, is_steep};
@@ -179,12 +179,8 @@ impl Kernel for Balance<'_> {
         for (d, faces) in columns.interior.iter().enumerate() {
             let mut through = std::mem::take(&mut scratch.flux[d]);
             for first in (0..faces.length.len()).step_by(BLOCK) {
-                let mean;
-                let [mut up, mut down] = faces.sides(scratch, first);
-                if film.has_mean_conductance() {
-                    mean = MeanConductance::between([&up, &down]);
-                    (up, down) = (up.with(&mean, 0), down.with(&mean, 1));
-                }
+                let mut mean = None;
+                let [up, down] = faces.sides(film, scratch, first, &mut mean);
                 let base = faces.places.heights(first, attitude);
                 let h_faces = [
                     film.limited_block(&base, up.recess)[0],
@@ -224,14 +220,11 @@ impl Kernel for Balance<'_> {
                 let cells = &faces.cells[first..first + BLOCK];
                 let behind = &faces.behind[first..first + BLOCK];
                 let picked = Picked::new(scratch, cells, behind, front, faces.wind != 0.0);
-                let mean;
-                let mut side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
+                let mut mean = None;
+                let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
                 let h_face = film.limited_block(&base, side.recess)[0];
-                if film.has_mean_conductance() {
-                    mean = MeanConductance::at_edge(&side, film.ambient_pa, &h_face);
-                    side = side.with(&mean, 0);
-                }
+                let side = MeanConductance::of_edge(film, side, &h_face, &mut mean);
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);
                 for (k, &cell) in cells.iter().enumerate() {
@@ -261,23 +254,6 @@ pub(super) fn net(of: [&[f64]; 2], columns: &Columns, out: &mut [f64]) {
     let out = &mut out[..n];
     for k in 0..n {
         out[k] = (x_out[k] - x_in[k]) + (y_out[k] - y_in[k]);
-    }
-}
-
-impl Interior {
-    /// Both sides of the faces from `first`.
-    #[inline(always)]
-    pub(super) fn sides<'a>(&'a self, state: &'a FilmScratch, first: usize) -> [SideBlock<'a>; 2] {
-        let (up, down) = (self.up + first, self.down + first);
-        [
-            SideBlock::new(
-                state.cells(up, self.behind + first),
-                &self.up_side,
-                first,
-                self.wind,
-            ),
-            SideBlock::new(state.cells(down, down), &self.down_side, first, -self.wind),
-        ]
     }
 }
 

@@ -186,12 +186,8 @@ fn between_cells(
     let mut through = std::mem::take(&mut state.flux[d]);
     let mut all = FaceDerivatives::zero();
     for first in (0..faces.length.len()).step_by(BLOCK) {
-        let mean;
-        let [mut up, mut down] = faces.sides(state, first);
-        if film.has_mean_conductance() {
-            mean = MeanConductance::between([&up, &down]);
-            (up, down) = (up.with(&mean, 0), down.with(&mean, 1));
-        }
+        let mut mean = None;
+        let [up, down] = faces.sides(film, state, first, &mut mean);
         let base = faces.places.heights(first, attitude);
         let faces_at = [
             film.limited_block(&base, up.recess),
@@ -364,14 +360,11 @@ fn on_edges(
             let cells = &faces.cells[first..first + BLOCK];
             let behind = &faces.behind[first..first + BLOCK];
             let picked = Picked::new(state, cells, behind, front, faces.wind != 0.0);
-            let mean;
-            let mut side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
+            let mut mean = None;
+            let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
             let [h_face, h_face_slope] = film.limited_block(&base, side.recess);
-            if film.has_mean_conductance() {
-                mean = MeanConductance::at_edge(&side, film.ambient_pa, &h_face);
-                side = side.with(&mean, 0);
-            }
+            let side = MeanConductance::of_edge(film, side, &h_face, &mut mean);
             let length = block(&faces.length, first);
             let [x, y] = [&columns.centre_x, &columns.centre_y].map(|column| {
                 let mut out = [0.0; BLOCK];

@@ -1,7 +1,7 @@
 //! State of a film's cells as columns, padded so that every block of faces finds blocks of cells.
 
 use super::attitude::Attitude;
-use super::faces::{BLOCK, Block, Sides, block};
+use super::faces::{BLOCK, Block, Interior, Sides, block};
 use super::film::{CellStates, Film};
 use super::flow_factor::PickedRows;
 use super::flux::HalfCell;
@@ -146,9 +146,24 @@ pub(super) struct MeanConductance {
 const MEAN_SLOPE: Block = [0.5; BLOCK];
 
 impl MeanConductance {
+    /// A side on the slider's edge with it, where the film has it, and the height `h_face` there; it is kept in `kept`.
+    #[inline(always)]
+    pub(super) fn of_edge<'a>(
+        film: &Film,
+        side: SideBlock<'a>,
+        h_face: &Block,
+        kept: &'a mut Option<Self>,
+    ) -> SideBlock<'a> {
+        if !film.has_mean_conductance() {
+            return side;
+        }
+        let mean = kept.insert(Self::at_edge(&side, film.ambient_pa, h_face));
+        side.with(mean, 0)
+    }
+
     /// Between the cells of two sides.
     #[inline(always)]
-    pub(super) fn between([up, down]: [&SideBlock<'_>; 2]) -> Self {
+    fn between([up, down]: [&SideBlock<'_>; 2]) -> Self {
         let (mut g, mut inverse_g) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
         for k in 0..BLOCK {
             let (u, d) = (up.cells.psi[k], down.cells.psi[k]);
@@ -163,7 +178,7 @@ impl MeanConductance {
 
     /// Between the cells of a side and the pressure `p` at the slider's edge; only the first of both is set.
     #[inline(always)]
-    pub(super) fn at_edge(side: &SideBlock<'_>, p: f64, h_face: &Block) -> Self {
+    fn at_edge(side: &SideBlock<'_>, p: f64, h_face: &Block) -> Self {
         let mut out = Self {
             g: [[1.0; BLOCK]; 2],
             inverse_g: [[1.0; BLOCK]; 2],
@@ -173,6 +188,32 @@ impl MeanConductance {
             out.inverse_g[0][k] = 1.0 / out.g[0][k];
         }
         out
+    }
+}
+
+impl Interior {
+    /// Both sides of the faces from `first`, with the mean G where the film has it, which is kept in `kept`.
+    #[inline(always)]
+    pub(super) fn sides<'a>(
+        &'a self,
+        film: &Film,
+        state: &'a FilmScratch,
+        first: usize,
+        kept: &'a mut Option<MeanConductance>,
+    ) -> [SideBlock<'a>; 2] {
+        let (up, down) = (self.up + first, self.down + first);
+        let up = SideBlock::new(
+            state.cells(up, self.behind + first),
+            &self.up_side,
+            first,
+            self.wind,
+        );
+        let down = SideBlock::new(state.cells(down, down), &self.down_side, first, -self.wind);
+        if !film.has_mean_conductance() {
+            return [up, down];
+        }
+        let mean = kept.insert(MeanConductance::between([&up, &down]));
+        [up.with(mean, 0), down.with(mean, 1)]
     }
 }
 
@@ -205,7 +246,7 @@ impl<'a> SideBlock<'a> {
 
     /// The same with the `which`-th conductances of `mean`.
     #[inline(always)]
-    pub(super) fn with(mut self, mean: &'a MeanConductance, which: usize) -> Self {
+    fn with(mut self, mean: &'a MeanConductance, which: usize) -> Self {
         self.cells.g = &mean.g[which];
         self.cells.inverse_g = &mean.inverse_g[which];
         self.cells.g_slope = &MEAN_SLOPE;
