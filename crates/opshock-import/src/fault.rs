@@ -8,7 +8,7 @@ pub const MAX_LISTED: usize = 50;
 /// A fault with its place.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fault {
-    /// Stable code: E160 to E179; W205, W206 for a warning, N207 for a note.
+    /// Stable code: E160 to E179; W208, W206 for a warning, N207 for a note.
     pub code: &'static str,
     /// File as named by the user.
     pub file: String,

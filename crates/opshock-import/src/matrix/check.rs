@@ -29,7 +29,7 @@ const RIGID: f64 = 1e-10;
 /// Share of its diagonal below which a pivot of M is taken as zero.
 const ZERO_PIVOT: f64 = 1e-14;
 
-/// Ratio of eigenvalues beyond which half of the digits of a double are lost (W205).
+/// Ratio of eigenvalues beyond which half of the digits of a double are lost (W208).
 const LARGEST_RATIO: f64 = 1e14;
 
 /// Figures of accepted matrices.
@@ -45,7 +45,7 @@ pub struct Found {
     pub lowest_hz: Option<f64>,
     /// Approximate highest frequency, Hz.
     pub highest_hz: f64,
-    /// Warnings: W205 conditioning, W206 unusual mass or frequency.
+    /// Warnings: W208 conditioning, W206 unusual mass or frequency.
     pub warnings: Vec<Fault>,
 }
 
@@ -354,7 +354,7 @@ fn warnings(system: &System, found: &Found) -> Vec<Fault> {
         if ratio > LARGEST_RATIO {
             let message = "the stiffness is badly conditioned";
             warnings.push(
-                Fault::of("W205", &system.stiffness.file, message)
+                Fault::of("W208", &system.stiffness.file, message)
                     .value(format!("ratio of eigenvalues {ratio:.1e}"))
                     .allowed(format!("up to {LARGEST_RATIO:e}")),
             );

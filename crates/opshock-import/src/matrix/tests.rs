@@ -149,7 +149,7 @@ fn factors_solve_and_count() {
     }
 }
 
-/// A spring of 1 N/m beside one of 1e15 N/m is soft and not missing (W205).
+/// A spring of 1 N/m beside one of 1e15 N/m is soft and not missing (W208).
 #[test]
 fn a_soft_spring_beside_a_stiff_one_is_no_free_motion() {
     let entry = |at: usize, value: f64| Entry {
@@ -169,7 +169,7 @@ fn a_soft_spring_beside_a_stiff_one_is_no_free_motion() {
     assert!((lowest / 1e3 - 1.0).abs() < 1e-6, "{lowest}");
     assert_eq!(
         found.warnings.iter().map(|w| w.code).collect::<Vec<_>>(),
-        ["W205"]
+        ["W208"]
     );
 }
 

@@ -69,7 +69,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Status, "open", "not finished", "The search, or that of the uncertainty interval, has not ended: run the sweep again to go on."),
 
     term(Kind::Reservation, "non_monotone", "non_monotone", "Failure is not monotone in amplitude: a survivor lies above a failure. A_crit is the largest survivor below the smallest failure."),
-    term(Kind::Reservation, "window", "window", "The largest survivor fails later, in a simulated time (pulse.window_ms) twice as long."),
+    term(Kind::Reservation, "window", "window", "The largest survivor fails later, in a simulated time (pulse.window_ms) twice as long: the critical shock is too high."),
     term(Kind::Reservation, "window_undecided", "window_undecided", "In a simulated time twice as long the largest survivor has no verdict."),
     term(Kind::Reservation, "undecided_amplitude", "undecided_amplitude", "An amplitude without verdict widens the bracket or leaves a gap in the scan for earlier failures."),
     term(Kind::Reservation, "not_converged", "not_converged", "A simulation did not converge and has no verdict."),
@@ -80,11 +80,11 @@ pub const TERMS: &[Term] = &[
     term(Kind::Reservation, "onset_unknown", "onset_unknown", "The amplitude of first touch is not known, so that nothing was taken from the answer without ramp."),
     term(Kind::Reservation, "contribution_missing", "contribution_missing", "A contribution to the uncertainty interval could not be estimated and is missing from it."),
     term(Kind::Reservation, "target_not_met", "target_not_met", "Half the width of the uncertainty interval is more than the target (search.target_uncertainty_pct, or that of the resolution preset)."),
-    term(Kind::Reservation, "refinement_limit", "refinement_limit", "The target is not met and nothing is left to refine: search.max_refinements is reached, every discretisation parameter is at its finest, or the refined simulation has no verdict."),
+    term(Kind::Reservation, "refinement_limit", "refinement_limit", "The target is not met although the answer was refined, and nothing is left: search.max_refinements is reached, every discretisation parameter is at its finest, or the refined simulation has no verdict."),
 
     term(Kind::Note, "retry", "retry", "A verdict needed smaller time steps or another method; it counts as any other."),
     term(Kind::Note, "no_touch", "no_touch", "The disk does not reach the ramp below the critical shock: the answer is that without ramp."),
-    term(Kind::Note, "safety_factor_3", "safety_factor_3", "A discretisation error did not fall as its method predicts (formal order); the interval has it times 3 instead of 1.25."),
+    term(Kind::Note, "safety_factor_3", "safety_factor_3", "A discretisation error did not fall as its method predicts, or one step alone does not show how it falls; the interval has it times 3 instead of 1.25."),
     term(Kind::Note, "refined", "refined", "The answer is that of discretisation parameters refined beyond the study's resolution, to meet the target uncertainty."),
 
     term(Kind::Contribution, "search", "search", "The bracket: from A_crit to A_fail."),
@@ -126,6 +126,20 @@ pub const TERMS: &[Term] = &[
     term(Kind::Sign, "touched", "open mark (margin)", "A simulation in which the slider touches the disk."),
 
     term(Kind::Word, "bracket", "bracket", "The largest amplitude survived and the smallest that failed: the critical shock lies between."),
+    term(Kind::Word, "bracket alone", "bracket alone", "A critical shock whose uncertainty interval was not computed."),
+    term(Kind::Word, "lead of the best", "lead of the best", "Whether the best value's worst case lies above that of this value beyond the uncertainty intervals, beyond the brackets, or not at all."),
+    term(Kind::Word, "beyond brackets, no intervals", "beyond brackets, no intervals", "The brackets of two critical shocks do not overlap, but one of them has no uncertainty interval: the difference is not proven."),
+    term(Kind::Word, "below the best", "below the best", "By how much a value's worst case is lower than that of the best, per cent of the latter."),
+    term(Kind::Word, "without answer", "without answer", "Number of points of a value whose critical shock is not known."),
+    term(Kind::Word, "study", "study", "What a study file asks: a drive, its shocks, the axes to vary and how to search."),
+    term(Kind::Word, "point", "point", "A combination of ramp model, pulse width, sign and values of the further axes: it has one critical shock."),
+    term(Kind::Word, "axis", "axis", "A key of the study with a list of values."),
+    term(Kind::Word, "scene", "scene", "The drive and the shock of one simulation, in SI units."),
+    term(Kind::Word, "structure", "structure", "Disk and ramp."),
+    term(Kind::Word, "head", "head", "Slider, air film and suspension."),
+    term(Kind::Word, "verdict", "verdict", "Whether the slider survives a simulated shock or fails it; undecided where the simulation ended before."),
+    term(Kind::Word, "store", "store", "The folder that holds the results of a study; its journal has every finished simulation."),
+    term(Kind::Word, "shard", "shard", "A share of the points of a study, computed by one of several processes that use one store."),
     term(Kind::Word, "worst case", "worst case", "The lowest critical shock of all points that share a value."),
     term(Kind::Word, "uncertainty interval", "uncertainty interval", "A_crit less and plus its numerical uncertainty: the exact answer of the study's model is expected in it. It does not have the error of the model itself."),
     term(Kind::Word, "beyond the uncertainty intervals", "beyond the uncertainty intervals", "Two critical shocks whose uncertainty intervals do not overlap differ significantly."),
@@ -136,6 +150,18 @@ pub const TERMS: &[Term] = &[
     term(Kind::Word, "film work", "film work", "Solutions of the film times its cells: a measure of cost that does not depend on the machine."),
     term(Kind::Word, "head steps", "head steps", "Time steps of slider, film and suspension, which take nearly all of a sweep's time."),
 ];
+
+/// Meanings of a word, by its name in files or as people read it, a line each; none for another word.
+pub fn named(word: &str) -> Option<String> {
+    let meant = TERMS
+        .iter()
+        .filter(|term| [term.name, term.shown].contains(&word));
+    let mut texts: Vec<String> = meant
+        .map(|term| format!("{word}: {}\n", term.text))
+        .collect();
+    texts.dedup();
+    (!texts.is_empty()).then(|| texts.concat())
+}
 
 /// A word by kind and name.
 pub fn find(kind: Kind, name: &str) -> Option<&'static Term> {

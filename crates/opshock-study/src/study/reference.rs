@@ -93,10 +93,11 @@ pub fn of(name: &str) -> Result<String, String> {
     let alike = paths
         .iter()
         .filter(|path| path.rsplit('.').next() == Some(last));
-    let alike: Vec<&str> = alike
+    let mut alike: Vec<&str> = alike
         .chain(suggest::nearest(&pattern, &paths).iter())
         .copied()
         .collect();
+    alike.dedup();
     Err(match alike.is_empty() {
         true => format!(
             "there is no key {name}; sections are {}",

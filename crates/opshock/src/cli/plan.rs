@@ -156,7 +156,7 @@ fn as_text(name: &str, plan: &Plan) -> String {
     line("  search", runs(forecast.search_runs));
     line("  uncertainty", runs(forecast.uncertainty_runs));
     if plan.is_decisive {
-        let left_out = "of decisive points alone, by made-up answers: the brackets choose others";
+        let left_out = "of decisive points alone, as simulated answers choose them; the brackets to be found may choose others";
         line("", left_out.to_owned());
     }
     let paces: Vec<String> = forecast

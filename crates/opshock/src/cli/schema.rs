@@ -11,7 +11,7 @@ use serde_json::json;
 /// Print what a key or a word of the report means, or the JSON Schema of study files
 #[derive(Args, Debug)]
 pub struct SchemaArgs {
-    /// Keys or sections, as disk.thickness_mm: meaning, unit, range, default
+    /// Keys or sections, as disk.thickness_mm: meaning, unit, range, default; or words of tables and reports
     #[arg(value_name = "KEY", conflicts_with_all = ["units", "markdown", "terms"])]
     keys: Vec<String>,
     /// Print the suffixes of keys with their units instead
@@ -28,7 +28,10 @@ pub struct SchemaArgs {
 /// Runs the command.
 pub fn run(arguments: &SchemaArgs, console: &Console) -> Result<Exit, Failure> {
     if !arguments.keys.is_empty() {
-        let found = arguments.keys.iter().map(|key| reference::of(key));
+        let found = arguments
+            .keys
+            .iter()
+            .map(|key| reference::of(key).or_else(|wrong| terms::named(key).ok_or(wrong)));
         let texts: Vec<String> = found
             .collect::<Result<_, _>>()
             .map_err(|wrong| Failure::Usage(vec![Fault::new("usage", wrong)]))?;

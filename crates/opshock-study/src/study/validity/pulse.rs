@@ -70,9 +70,9 @@ impl Check<'_, '_> {
             let length = measured_pulse::length_ms(self.view).unwrap_or(width);
             if end_ms < length {
                 let fault = self.fault("E152", &[path], format!(
-                    "the simulation ends {end_ms} ms after the onset, inside the pulse of {length} ms"
+                    "the simulation ends {end_ms} ms after the onset, inside the pulse of {length:.4} ms"
                 ));
-                fault.allowed = format!(">= {length} ms");
+                fault.allowed = format!(">= {length:.4} ms");
             }
         }
     }

@@ -286,10 +286,10 @@ impl Check<'_, '_> {
             && is_decisive
         {
             let what = format!(
-                "cannot stand beside {adds}, which adds widths by the answers of all points"
+                "\"decisive\" cannot stand beside {adds}, which adds widths by the answers of all points"
             );
-            let fault = self.fault("E156", &[path, adds], what);
-            fault.allowed = "\"all\", or no added widths".to_string();
+            let fault = self.fault("E156", &[path], what);
+            fault.allowed = "\"all\", or no search.added_points".to_string();
         }
     }
 
