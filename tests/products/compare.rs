@@ -134,6 +134,7 @@ fn points_of_one_store_are_compared_with_one_another() {
     let answer = compared(&["--json"]).json()["answer"].clone();
     let wanted = format!("Critical shocks range from {lowest:.1} G (the worst case: no ramp, ");
     assert!(answer.as_str().unwrap().starts_with(&wanted), "{answer}");
+    assert_eq!(table["answer"], answer);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use super::stored::{self, Stored};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use opshock_study::accuracy::Accuracy;
+use opshock_study::report::answer::Answer;
 use opshock_study::report::coordinates::{self, NotOfTheTable};
 use opshock_study::report::{
     CrossingRow, ReportSource, Saving, report_files, savings, table, terminal_plot,
@@ -52,9 +53,10 @@ enum TableFormat {
     Json,
 }
 
-/// The table as JSON, with the audit when there was one and what the rules saved.
+/// The answer in words and the table as JSON, with the audit when there was one and what the rules saved.
 #[derive(Serialize)]
 pub(super) struct Reported<'a> {
+    answer: String,
     #[serde(flatten)]
     summary: &'a Summary,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -79,6 +81,7 @@ impl<'a> Reported<'a> {
     /// Of what a store holds.
     pub(super) fn of(stored: &'a Stored) -> Self {
         Self {
+            answer: Answer::of(&stored.summary).sentences().join(" "),
             summary: &stored.summary,
             audit: stored.audit.as_ref(),
             savings: &stored.savings,
