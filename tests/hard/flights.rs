@@ -9,7 +9,7 @@ use opshock_tests::seeded::{OnPanic, seeds};
 /// Cells of the films that give independently what a slider carries, and what they and the corrected one may differ by. A
 /// slider with a skew of 3.7 degrees carries 55 mN on 400 cells, 37.5 on 1000 and 35.9 on 4000 and 8000; another 6.5, 4.8,
 /// 4.0, 3.5 and 3.4 mN on 400, 1000, 2000, 4000 and 8000, so that two grids are extrapolated to cells of no size.
-const APART_CELLS: [usize; 3] = [400, 1000, 2000];
+const APART_CELLS: [usize; 4] = [400, 1000, 2000, 4000];
 const APART: f64 = 0.12;
 
 /// What is known of a drive.

@@ -30,4 +30,4 @@ pub fn long_version() -> &'static str {
 pub const PHYSICS_STRUCTURE: u32 = 8;
 
 /// Physics version of the head stage (film, slider, suspension, criterion).
-pub const PHYSICS_HEAD: u32 = 14;
+pub const PHYSICS_HEAD: u32 = 15;

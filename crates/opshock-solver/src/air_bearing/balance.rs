@@ -14,7 +14,7 @@ use super::faces::{BLOCK, Block, Columns, Places, block};
 use super::film::Film;
 use super::flux::Drive;
 use super::heights::{inverses, inverses_of_both, is_steep};
-use super::state::{FilmScratch, MeanConductance, Picked, SideBlock, block_mut};
+use super::state::{FaceConductance, FilmScratch, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 
 impl Film {
@@ -179,8 +179,8 @@ impl Kernel for Balance<'_> {
         for (d, faces) in columns.interior.iter().enumerate() {
             let mut through = std::mem::take(&mut scratch.flux[d]);
             for first in (0..faces.length.len()).step_by(BLOCK) {
-                let mut mean = None;
-                let [up, down] = faces.sides(film, scratch, first, &mut mean);
+                let mut kept = None;
+                let [up, down] = faces.sides(film, scratch, first, &mut kept);
                 let base = faces.places.heights(first, attitude);
                 let h_faces = [
                     film.limited_block(&base, up.recess)[0],
@@ -220,11 +220,11 @@ impl Kernel for Balance<'_> {
                 let cells = &faces.cells[first..first + BLOCK];
                 let behind = &faces.behind[first..first + BLOCK];
                 let picked = Picked::new(scratch, cells, behind, front, faces.wind != 0.0);
-                let mut mean = None;
+                let mut kept = None;
                 let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
                 let h_face = film.limited_block(&base, side.recess)[0];
-                let side = MeanConductance::of_edge(film, side, &h_face, &mut mean);
+                let side = FaceConductance::of_edge(film, side, &h_face, &mut kept);
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);
                 for (k, &cell) in cells.iter().enumerate() {

@@ -83,39 +83,46 @@ impl FaceDerivatives {
 }
 
 impl FaceDerivatives {
-    /// Adds what reaches faces through the mean G of both half cells, but for G by a cell's own ψ, which is in their
-    /// partial derivatives.
+    /// Adds what reaches faces through G by ψ across them.
     #[inline(always)]
-    pub(super) fn add_through_mean(&mut self, [up, down]: [&SideBlock<'_>; 2], arms: &Arms) {
-        for k in 0..BLOCK {
-            let (h, p) = ([up.h(k), down.h(k)], [up.p(k), down.p(k)]);
-            let is_smooth = up.recess[k] == down.recess[k];
-            let by = |by_g: &[Block; 2]| {
-                let of = [0.5 * by_g[0][k], 0.5 * by_g[1][k]];
-                if is_smooth {
-                    return ([of[1], of[0]], [0.0; 2]);
-                }
-                // A cell's pressure acts on the other's G and falls with its own height at constant ψ.
-                let by_psi = [of[1] * h[1] / h[0], of[0] * h[0] / h[1]];
-                let by_height = [
-                    of[0] * p[1] - by_psi[0] * p[0],
-                    of[1] * p[0] - by_psi[1] * p[1],
-                ];
-                (by_psi, by_height)
-            };
-            let (flux_by_psi, flux_by_height) = by(&self.by_g[0]);
-            let (load_by_psi, load_by_height) = by(&self.by_g[1]);
-            for s in 0..2 {
-                self.flux_by_psi[s][k] += flux_by_psi[s];
-                self.load_by_psi[s][k] += load_by_psi[s];
+    pub(super) fn add_across(
+        &mut self,
+        [up, down]: [&SideBlock<'_>; 2],
+        step: &Block,
+        arms: &Arms,
+    ) {
+        let (Some(up_by), Some(down_by)) = (up.by_across, down.by_across) else {
+            return;
+        };
+        // Derivatives of the other side's G by a side's ψ, of its own G and of the other's by its height. At a step a side's
+        // pressure acts on the other's G; it falls with the side's own height at constant ψ.
+        let [mut by_psi, mut own_by_height, mut other_by_height] = [[[0.0; BLOCK]; 2]; 3];
+        let sides = [(up, down, up_by, down_by), (down, up, down_by, up_by)];
+        for (s, (side, other, own_by, other_by)) in sides.into_iter().enumerate() {
+            for k in 0..BLOCK {
+                let slope = step[k] * side.h_slope(k);
+                by_psi[s][k] = other_by[k] * side.height_ratio(other, step, k);
+                own_by_height[s][k] = slope * (own_by[k] * other.p(k));
+                other_by_height[s][k] = -slope * (by_psi[s][k] * side.p(k));
             }
-            let slopes = [up.h_slope(k), down.h_slope(k)];
-            for q in 0..3 {
-                let at = [slopes[0] * arms.up[q][k], slopes[1] * arms.down[q][k]];
-                self.flux_by_attitude[q][k] +=
-                    flux_by_height[0] * at[0] + flux_by_height[1] * at[1];
-                self.load_by_attitude[q][k] +=
-                    load_by_height[0] * at[0] + load_by_height[1] * at[1];
+        }
+        let quantities = [
+            (&mut self.flux_by_psi, &mut self.flux_by_attitude),
+            (&mut self.load_by_psi, &mut self.load_by_attitude),
+        ];
+        for ((to_psi, to_attitude), by_g) in quantities.into_iter().zip(&self.by_g) {
+            for (s, arms) in [&arms.up, &arms.down].into_iter().enumerate() {
+                let (own, other) = (&by_g[s], &by_g[1 - s]);
+                let mut by_height = [0.0; BLOCK];
+                for k in 0..BLOCK {
+                    to_psi[s][k] += other[k] * by_psi[s][k];
+                    by_height[k] = own[k] * own_by_height[s][k] + other[k] * other_by_height[s][k];
+                }
+                for q in 0..3 {
+                    for k in 0..BLOCK {
+                        to_attitude[q][k] += by_height[k] * arms[q][k];
+                    }
+                }
             }
         }
     }
@@ -123,10 +130,19 @@ impl FaceDerivatives {
     /// The same on the slider's edge, where the pressure is `p` and `h_slope` the derivative of the height that the film
     /// sees by the true one.
     #[inline(always)]
-    pub(super) fn add_through_edge_mean(&mut self, p: f64, h_slope: &Block, arms: &Arms) {
+    pub(super) fn add_across_edge(
+        &mut self,
+        p: f64,
+        side: &SideBlock<'_>,
+        h_slope: &Block,
+        arms: &Arms,
+    ) {
+        let Some(by_across) = side.by_across else {
+            return;
+        };
         for (k, h_slope) in h_slope.iter().enumerate() {
             for q in 0..3 {
-                let at = 0.5 * p * h_slope * arms.face[q][k];
+                let at = by_across[k] * p * h_slope * arms.face[q][k];
                 self.flux_by_attitude[q][k] += self.by_g[0][0][k] * at;
                 self.load_by_attitude[q][k] += self.by_g[1][0][k] * at;
             }
@@ -277,13 +293,13 @@ pub(super) fn edge(
     all: &mut FaceDerivatives,
     film: &Film,
     side: &SideBlock<'_>,
-    base: &Block,
+    [h_faces, h_slopes]: &[Block; 2],
     length: &Block,
     arms: &Arms,
 ) {
     let p = film.ambient_pa;
     for k in 0..BLOCK {
-        let (h_face, slope) = film.limited(base[k] + side.recess[k]);
+        let (h_face, slope) = (h_faces[k], h_slopes[k]);
         let half = side.half(k, h_face, inverses(side.h(k), h_face));
         let mean = half.logarithmic_mean::<true>();
         let (partials, (alpha, beta), excess) = if side.wind == 0.0 {

@@ -90,6 +90,8 @@ pub(super) struct Interior {
     pub(super) behind: usize,
     /// Length times the sign that turns up-to-down into rising cell numbers.
     pub(super) length: Vec<f64>,
+    /// 1 on an etched step, 0 elsewhere.
+    pub(super) step: Vec<f64>,
     pub(super) places: Places,
     pub(super) up_side: Sides,
     pub(super) down_side: Sides,
@@ -197,6 +199,7 @@ fn interior(mesh: &Mesh, d: usize, blocks: usize, front: usize) -> Interior {
             front - stride
         },
         length: Vec::with_capacity(blocks),
+        step: Vec::with_capacity(blocks),
         places: Places::default(),
         up_side: Sides::default(),
         down_side: Sides::default(),
@@ -211,6 +214,7 @@ fn interior(mesh: &Mesh, d: usize, blocks: usize, front: usize) -> Interior {
         let [a, b] = face.sides;
         let [up, down] = if backwards { [b, a] } else { [a, b] };
         out.length.push(if backwards { -length } else { length });
+        out.step.push(f64::from(u8::from(!face.is_smooth())));
         out.places.push(&face.place);
         let area = |side: &Side| if real.is_some() { side.area } else { 0.0 };
         out.up_side.push(&up, area(&up));

@@ -196,7 +196,8 @@ impl Film {
         across: f64,
     ) -> HalfCell {
         let flow = &self.flow;
-        let (g, g_slope) = flow.of_half_cell(psi[side.cell], across);
+        let at_centre = flow.conductance(psi[side.cell]);
+        let [g, g_slope, _] = flow.of_half_cell(psi[side.cell], at_centre, across);
         let h_face = self.limited(base + side.recess).0;
         HalfCell {
             psi: psi[side.cell],
@@ -214,12 +215,6 @@ impl Film {
             inverse_distance: side.inverse_distance,
             wind: side.wind,
         }
-    }
-
-    /// Whether G of a half cell is that of the mean of both sides of the face ([`super::flux`]).
-    #[inline(always)]
-    pub(super) fn has_mean_conductance(&self) -> bool {
-        self.flow.is_proportional()
     }
 
     /// ψ of the undisturbed ambient pressure, Pa m.

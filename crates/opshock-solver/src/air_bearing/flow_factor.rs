@@ -120,12 +120,13 @@ impl FlowFactor {
         self.model == FlowModel::Continuum
     }
 
-    /// G of a half cell and its derivative by ψ: at the centre, or without slip at the mean of ψ and `across`, that of the
-    /// other side of the face ([`super::flux`]).
-    pub(super) fn of_half_cell(&self, psi: f64, across: f64) -> (f64, f64) {
+    /// G of a half cell with ψ = `psi` at its centre, where it has `at_centre` with its derivative, and ψ `across` the
+    /// face; its derivatives by both ([`super::flux`]).
+    #[inline(always)]
+    pub(super) fn of_half_cell(&self, psi: f64, at_centre: (f64, f64), across: f64) -> [f64; 3] {
         match self.is_proportional() {
-            true => (0.5 * (psi + across), 0.5),
-            false => self.conductance(psi),
+            true => of_mean_psi(psi, across),
+            false => least_monotone(psi, at_centre, across),
         }
     }
 
@@ -192,6 +193,24 @@ impl FlowFactor {
             }
         }
     }
+}
+
+/// [`FlowFactor::of_half_cell`] without slip.
+#[inline(always)]
+pub(super) fn of_mean_psi(psi: f64, across: f64) -> [f64; 3] {
+    [0.5 * (psi + across), 0.5, 0.5]
+}
+
+/// [`FlowFactor::of_half_cell`] with slip.
+#[inline(always)]
+pub(super) fn least_monotone(psi: f64, (at_centre, slope): (f64, f64), across: f64) -> [f64; 3] {
+    let beyond = (across - psi) - at_centre;
+    let share = if beyond > 0.0 { 0.5 } else { 0.0 };
+    [
+        at_centre + share * beyond,
+        slope - share * (slope + 1.0),
+        share,
+    ]
 }
 
 /// The model itself, for values that are rare or only tabulated.
@@ -358,6 +377,21 @@ mod tests {
                 );
                 assert!((a.0 - b.0).abs() < 1e-8 * a.0);
                 assert!((a.1 - b.1).abs() < 1e-6 * a.0);
+            }
+        }
+    }
+
+    /// Why the film's fluxes are monotone ([`super::super::flux`]).
+    #[test]
+    fn conductance_rises_by_less_than_psi_and_falls_by_less_than_its_inverse() {
+        for model in [FlowModel::Slip1, FlowModel::Slip2, FlowModel::FukuiKaneko] {
+            let factor = FlowFactor::new(model, KNUDSEN_PSI);
+            let mut psi = 1e-6 * KNUDSEN_PSI;
+            while psi < 1e6 * KNUDSEN_PSI {
+                let (g, slope) = factor.conductance(psi);
+                assert!(slope < 1.0 + 1e-9, "{model:?} {psi}: {slope}");
+                assert!(slope > -g / psi, "{model:?} {psi}: {slope}");
+                psi *= 1.013;
             }
         }
     }

@@ -6,8 +6,8 @@
 //! J = w ψ − G h dψ/dn + G ψ dh/dn.
 //! ```
 //!
-//! In the half cell from a cell's centre (ψ_c, h_c) to a face (p_f h_f) at the distance Δ, with G
-//! of the centre, the flux is that of the exponential profile (Scharfetter and Gummel 1969):
+//! In the half cell from a cell's centre (ψ_c, h_c) to a face (p_f h_f) at the distance Δ, with constant G, the flux is
+//! that of the exponential profile (Scharfetter and Gummel 1969):
 //!
 //! ```text
 //! J = α − β p_f,   α = (D/Δ) B(−Pe) ψ_c + V δ,   β = (D/Δ) B(Pe) h_f,   B(x) = x/(eˣ − 1),
@@ -31,13 +31,20 @@
 //! g keeps ψ at the face positive for any slope. ω leaves diffusion unchanged, which the exponential profile resolves.
 //! There is no slope across an etched step.
 //!
-//! Without slip, G = ψ vanishes with ψ, and with G at the centre J is not monotone: without wind it grows with ψ_c only
-//! where p_f < 2 p_c. In front of a pad's inlet p_f is ten times p_c. An emptier cell then lets less gas flow back from
-//! the pad and stays empty, so that a film has several steady states. There G is that of the mean of both
-//! sides, (ψ_c + ψ_o)/2 with ψ_o at the centre across the face, or h_c (p_c + p_o)/2 at an etched step ((ψ_c + p_a h_f)/2
-//! at the slider's edge). Without wind J is then that of p², the exact one, and monotone; with wind towards the face too. A layer at a
-//! trailing edge, where p_f = p_o, lacks exactly the gas that it lacks with G = ψ, h (ψ_c² − ψ_f²)/(2 w). With slip, G
-//! is never below 6 λ_a p_a, and the bound on p_f/p_c is 1 + G/(ψ G′).
+//! With G = G(ψ_c) everywhere J is not monotone. Without wind it is G(ψ_c) (ψ_c − ψ_f)/Δ where the height is
+//! constant, which grows with ψ_c only where ψ_f − ψ_c < G/G′. In front of a pad's inlet p_f is up to ten times p_c. Without
+//! slip (G = ψ) or with little of it, an emptier cell then lets less gas flow back from the pad and stays empty: a film
+//! has several steady states. With ψ_o at the centre across the face, behind an etched step p_o h_c, at the slider's edge
+//! p_a h_f, G is therefore
+//!
+//! ```text
+//! with slip       max(G(ψ_c), (ψ_o − ψ_c + G(ψ_c))/2)
+//! without slip    (ψ_c + ψ_o)/2
+//! ```
+//!
+//! The first is G(ψ_c) up to ψ_o − ψ_c = G; from there on J grows with ψ_c as well, because 1 − G′ is not negative in any model.
+//! The second gives the exact flux of p² without wind, and the gas that a layer at a trailing edge lacks, where p_f =
+//! p_o, h (ψ_c² − ψ_f²)/(2 w).
 //!
 //! The force integrates the same profiles. Without wind, the mean pressure over a half cell is that of the straight
 //! line to p_f. Where the wind dominates, ψ changes linearly and a layer of thickness D/V stands at the face that the
@@ -62,7 +69,7 @@ pub(super) struct HalfCell {
     /// Δ over the distance to that cell's centre; 0 where the film has a step in between or where
     /// there is no such cell.
     pub(super) reach: f64,
-    /// G at the centre, its inverse, and dG/dψ.
+    /// G, its inverse, and its derivative by ψ.
     pub(super) g: f64,
     pub(super) inverse_g: f64,
     pub(super) g_slope: f64,

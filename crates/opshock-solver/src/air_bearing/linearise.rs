@@ -14,7 +14,7 @@ use super::balance::{Moments, any_steep, net};
 use super::derivatives::{Arms, FaceDerivatives, edge, height_by_attitude, still, windy};
 use super::faces::{BLOCK, Block, Columns, Interior, block};
 use super::film::Film;
-use super::state::{FilmScratch, MeanConductance, Picked, SideBlock, block_mut};
+use super::state::{FaceConductance, FilmScratch, Picked, SideBlock, block_mut};
 use crate::lanes::{Kernel, SUMS, total, widest};
 use crate::linalg::diagonals::Diagonals;
 
@@ -186,8 +186,8 @@ fn between_cells(
     let mut through = std::mem::take(&mut state.flux[d]);
     let mut all = FaceDerivatives::zero();
     for first in (0..faces.length.len()).step_by(BLOCK) {
-        let mut mean = None;
-        let [up, down] = faces.sides(film, state, first, &mut mean);
+        let mut kept = None;
+        let [up, down] = faces.sides(film, state, first, &mut kept);
         let base = faces.places.heights(first, attitude);
         let faces_at = [
             film.limited_block(&base, up.recess),
@@ -213,9 +213,7 @@ fn between_cells(
         } else {
             windy::<false>(&mut all, &up, &down, &faces_at, length, &arms)
         }
-        if film.has_mean_conductance() {
-            all.add_through_mean([&up, &down], &arms);
-        }
+        all.add_across([&up, &down], block(&faces.step, first), &arms);
         *block_mut(&mut through, front + first) = all.flux;
         let by_face = &mut out.by_face[d];
         for s in 0..3 {
@@ -360,11 +358,11 @@ fn on_edges(
             let cells = &faces.cells[first..first + BLOCK];
             let behind = &faces.behind[first..first + BLOCK];
             let picked = Picked::new(state, cells, behind, front, faces.wind != 0.0);
-            let mut mean = None;
+            let mut kept = None;
             let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
-            let [h_face, h_face_slope] = film.limited_block(&base, side.recess);
-            let side = MeanConductance::of_edge(film, side, &h_face, &mut mean);
+            let at_face = film.limited_block(&base, side.recess);
+            let side = FaceConductance::of_edge(film, side, &at_face[0], &mut kept);
             let length = block(&faces.length, first);
             let [x, y] = [&columns.centre_x, &columns.centre_y].map(|column| {
                 let mut out = [0.0; BLOCK];
@@ -380,10 +378,8 @@ fn on_edges(
                 up: centre,
                 down: centre,
             };
-            edge(&mut all, film, &side, &base, length, &arms);
-            if film.has_mean_conductance() {
-                all.add_through_edge_mean(film.ambient_pa, &h_face_slope, &arms);
-            }
+            edge(&mut all, film, &side, &at_face, length, &arms);
+            all.add_across_edge(film.ambient_pa, &side, &at_face[1], &arms);
             totals.moments.add(&all.load, &faces.places, first);
             totals.add_by_attitude(&all.load_by_attitude, &arms.face);
             for k in 0..BLOCK {

@@ -12,6 +12,12 @@ use crate::slider::surface::Surface;
 /// Recesses that differ by less belong to one smooth part of the film.
 const SAME_RECESS_M: f64 = 1e-12;
 
+/// Whether surfaces of these recesses are one, without an etched step in between.
+#[inline(always)]
+pub(super) fn is_smooth([left, right]: [f64; 2]) -> bool {
+    (left - right).abs() < SAME_RECESS_M
+}
+
 /// Height of a place: the constant part and the lever arms of pitch and roll.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
@@ -76,8 +82,7 @@ pub(super) struct Face {
 impl Face {
     /// True when both sides belong to one smooth part of the film.
     pub(super) fn is_smooth(&self) -> bool {
-        let [left, right] = self.sides.map(|side| side.recess);
-        (left - right).abs() < SAME_RECESS_M
+        is_smooth(self.sides.map(|side| side.recess))
     }
 }
 
@@ -190,8 +195,7 @@ impl Mesh {
         } else {
             Some(k + 1).filter(|&b| b < lines.n_cells())
         };
-        let behind =
-            behind.filter(|&b| sign * wind > 0.0 && (recess(b) - recess(k)).abs() < SAME_RECESS_M);
+        let behind = behind.filter(|&b| sign * wind > 0.0 && is_smooth([recess(b), recess(k)]));
         let half_width = 0.5 * lines.width(k);
         Side {
             cell: cell(k),
@@ -224,7 +228,7 @@ impl Mesh {
                 ];
                 let recess = around.map(|c| self.cells[c].recess);
                 // A flat surface and a straight edge have no singularity.
-                let same = |a: usize, b: usize| (recess[a] - recess[b]).abs() < SAME_RECESS_M;
+                let same = |a: usize, b: usize| is_smooth([recess[a], recess[b]]);
                 if (same(0, 1) && same(2, 3)) || (same(1, 2) && same(3, 0)) {
                     continue;
                 }

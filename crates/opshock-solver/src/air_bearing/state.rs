@@ -3,7 +3,7 @@
 use super::attitude::Attitude;
 use super::faces::{BLOCK, Block, Interior, Sides, block};
 use super::film::{CellStates, Film};
-use super::flow_factor::PickedRows;
+use super::flow_factor::{PickedRows, least_monotone, of_mean_psi};
 use super::flux::HalfCell;
 
 /// Scratch of the flux balance, one per thread.
@@ -136,17 +136,62 @@ impl FilmScratch {
     }
 }
 
-/// G of both half cells of a block of faces at the mean of ψ of their cells, and its inverse ([`super::flux`]).
-pub(super) struct MeanConductance {
+/// G of both half cells of a block of faces, its inverse, and its derivatives by ψ of the cell and across the face
+/// ([`super::flux`]).
+pub(super) struct FaceConductance {
     g: [Block; 2],
     inverse_g: [Block; 2],
+    slope: [Block; 2],
+    by_across: [Block; 2],
 }
 
-/// dG/dψ there.
-const MEAN_SLOPE: Block = [0.5; BLOCK];
+/// Sign bits that all of a block have: the uppermost is set where every number is negative. In place of comparisons, whose
+/// results whole registers do not hold.
+#[inline(always)]
+fn signs(of: &Block) -> u64 {
+    of.iter().fold(u64::MAX, |all, x| all & x.to_bits())
+}
 
-impl MeanConductance {
-    /// A side on the slider's edge with it, where the film has it, and the height `h_face` there; it is kept in `kept`.
+impl FaceConductance {
+    /// `sides` with ψ `across` the faces; none where it is G of the centres everywhere, which `signs` tell ([`signs`]).
+    #[inline(always)]
+    fn new<const N: usize>(
+        film: &Film,
+        sides: [&SideBlock<'_>; N],
+        across: &[Block; N],
+        signs: u64,
+    ) -> Option<Self> {
+        let of_mean = film.flow.is_proportional();
+        if !of_mean && signs >> 63 == 1 {
+            return None;
+        }
+        let mut out = Self {
+            g: [[1.0; BLOCK]; 2],
+            inverse_g: [[1.0; BLOCK]; 2],
+            slope: [[0.0; BLOCK]; 2],
+            by_across: [[0.0; BLOCK]; 2],
+        };
+        for (s, (side, across)) in sides.into_iter().zip(across).enumerate() {
+            let CellBlock {
+                psi, g, g_slope, ..
+            } = side.cells;
+            for k in 0..BLOCK {
+                let at_centre = (g[k], g_slope[k]);
+                let [g, slope, by_across] = if of_mean {
+                    of_mean_psi(psi[k], across[k])
+                } else {
+                    least_monotone(psi[k], at_centre, across[k])
+                };
+                out.g[s][k] = g;
+                out.inverse_g[s][k] = 1.0 / g;
+                out.slope[s][k] = slope;
+                out.by_across[s][k] = by_across;
+            }
+        }
+        Some(out)
+    }
+
+    /// A side on the slider's edge with it, where the height is `h_face`; it is kept in `kept`.
     #[inline(always)]
     pub(super) fn of_edge<'a>(
         film: &Film,
@@ -154,52 +199,29 @@ impl MeanConductance {
         h_face: &Block,
         kept: &'a mut Option<Self>,
     ) -> SideBlock<'a> {
-        if !film.has_mean_conductance() {
-            return side;
-        }
-        let mean = kept.insert(Self::at_edge(&side, film.ambient_pa, h_face));
-        side.with(mean, 0)
-    }
-
-    /// Between the cells of two sides.
-    #[inline(always)]
-    fn between([up, down]: [&SideBlock<'_>; 2]) -> Self {
-        let (mut g, mut inverse_g) = ([[0.0; BLOCK]; 2], [[0.0; BLOCK]; 2]);
+        let (mut across, mut beyond) = ([0.0; BLOCK], [0.0; BLOCK]);
         for k in 0..BLOCK {
-            let (u, d) = (up.cells.psi[k], down.cells.psi[k]);
-            let is_smooth = up.recess[k] == down.recess[k];
-            g[0][k] = 0.5 * (u + if is_smooth { d } else { down.p(k) * up.h(k) });
-            g[1][k] = 0.5 * (d + if is_smooth { u } else { up.p(k) * down.h(k) });
-            let inverse = 1.0 / (g[0][k] * g[1][k]);
-            (inverse_g[0][k], inverse_g[1][k]) = (inverse * g[1][k], inverse * g[0][k]);
+            across[k] = film.ambient_pa * h_face[k];
+            beyond[k] = (across[k] - side.cells.psi[k]) - side.cells.g[k];
         }
-        Self { g, inverse_g }
-    }
-
-    /// Between the cells of a side and the pressure `p` at the slider's edge; only the first of both is set.
-    #[inline(always)]
-    fn at_edge(side: &SideBlock<'_>, p: f64, h_face: &Block) -> Self {
-        let mut out = Self {
-            g: [[1.0; BLOCK]; 2],
-            inverse_g: [[1.0; BLOCK]; 2],
-        };
-        for (k, h_face) in h_face.iter().enumerate() {
-            out.g[0][k] = 0.5 * p.mul_add(*h_face, side.cells.psi[k]);
-            out.inverse_g[0][k] = 1.0 / out.g[0][k];
+        *kept = Self::new(film, [&side], &[across], signs(&beyond));
+        match kept {
+            Some(conductance) => side.with(conductance, 0),
+            None => side,
         }
-        out
     }
 }
 
 impl Interior {
-    /// Both sides of the faces from `first`, with the mean G where the film has it, which is kept in `kept`.
+    /// Both sides of the faces from `first`, with G of the faces where it is not that of the centres, which is kept in
+    /// `kept`.
     #[inline(always)]
     pub(super) fn sides<'a>(
         &'a self,
         film: &Film,
         state: &'a FilmScratch,
         first: usize,
-        kept: &'a mut Option<MeanConductance>,
+        kept: &'a mut Option<FaceConductance>,
     ) -> [SideBlock<'a>; 2] {
         let (up, down) = (self.up + first, self.down + first);
         let up = SideBlock::new(
@@ -209,17 +231,34 @@ impl Interior {
             self.wind,
         );
         let down = SideBlock::new(state.cells(down, down), &self.down_side, first, -self.wind);
-        if !film.has_mean_conductance() {
-            return [up, down];
+        let step = block(&self.step, first);
+        let [
+            mut up_across,
+            mut down_across,
+            mut up_beyond,
+            mut down_beyond,
+        ] = [[0.0; BLOCK]; 4];
+        for k in 0..BLOCK {
+            let [of_up, of_down] = [up.cells.psi[k], down.cells.psi[k]];
+            up_across[k] = of_down * down.height_ratio(&up, step, k);
+            down_across[k] = of_up * up.height_ratio(&down, step, k);
+            up_beyond[k] = (up_across[k] - of_up) - up.cells.g[k];
+            down_beyond[k] = (down_across[k] - of_down) - down.cells.g[k];
         }
-        let mean = kept.insert(MeanConductance::between([&up, &down]));
-        [up.with(mean, 0), down.with(mean, 1)]
+        let signs = signs(&up_beyond) & signs(&down_beyond);
+        *kept = FaceConductance::new(film, [&up, &down], &[up_across, down_across], signs);
+        match kept {
+            Some(conductance) => [up.with(conductance, 0), down.with(conductance, 1)],
+            None => [up, down],
+        }
     }
 }
 
 /// One side of a block of faces: its cells' state and what is fixed about them.
 pub(super) struct SideBlock<'a> {
     cells: CellBlock<'a>,
+    /// Derivative of G by ψ across the faces, where it has any.
+    pub(super) by_across: Option<&'a Block>,
     pub(super) recess: &'a Block,
     pub(super) reach: &'a Block,
     distance: &'a Block,
@@ -235,6 +274,7 @@ impl<'a> SideBlock<'a> {
     pub(super) fn new(cells: CellBlock<'a>, sides: &'a Sides, first: usize, wind: f64) -> Self {
         Self {
             cells,
+            by_across: None,
             recess: block(&sides.recess, first),
             reach: block(&sides.reach, first),
             distance: block(&sides.distance, first),
@@ -244,19 +284,33 @@ impl<'a> SideBlock<'a> {
         }
     }
 
-    /// The same with the `which`-th conductances of `mean`.
+    /// The same with the `which`-th conductances.
     #[inline(always)]
-    fn with(mut self, mean: &'a MeanConductance, which: usize) -> Self {
-        self.cells.g = &mean.g[which];
-        self.cells.inverse_g = &mean.inverse_g[which];
-        self.cells.g_slope = &MEAN_SLOPE;
+    fn with(mut self, conductance: &'a FaceConductance, which: usize) -> Self {
+        self.cells.g = &conductance.g[which];
+        self.cells.inverse_g = &conductance.inverse_g[which];
+        self.cells.g_slope = &conductance.slope[which];
+        self.by_across = Some(&conductance.by_across[which]);
         self
+    }
+
+    /// Derivative of ψ that `other` sees across face k by ψ here: 1, on an etched `step` the ratio of its height to that
+    /// here. Without a choice, so that whole registers hold it.
+    #[inline(always)]
+    pub(super) fn height_ratio(&self, other: &SideBlock<'_>, step: &Block, k: usize) -> f64 {
+        1.0 + step[k] * (other.h(k) * self.inverse_h(k) - 1.0)
     }
 
     /// Pressure at the centre of cell k.
     #[inline(always)]
     pub(super) fn p(&self, k: usize) -> f64 {
         self.cells.psi[k] * self.cells.inverse_h[k]
+    }
+
+    /// Inverse of the height at the centre of cell k.
+    #[inline(always)]
+    pub(super) fn inverse_h(&self, k: usize) -> f64 {
+        self.cells.inverse_h[k]
     }
 
     /// Height at the centre of cell k.

@@ -69,7 +69,8 @@ fn wavy_state(film: &Film, attitude: &Attitude) -> Vec<f64> {
     let mut psi = vec![0.0; film.n_cells()];
     film.ambient_psi(attitude, &mut psi);
     for (k, v) in psi.iter_mut().enumerate() {
-        *v *= 1.5 + 0.7 * (k as f64 * 0.37).sin();
+        // Neighbours differ by up to ten times, beyond what G of a centre serves.
+        *v *= (1.2 * (k as f64 * 1.37).sin()).exp();
     }
     psi
 }

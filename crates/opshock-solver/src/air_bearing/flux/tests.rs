@@ -1,5 +1,6 @@
 //! Fluxes through faces against closed forms and finite differences.
 
+use super::super::flow_factor::{FlowFactor, FlowModel};
 use super::super::heights::{inverses, is_steep};
 use super::*;
 
@@ -139,13 +140,17 @@ fn half_cell_derivatives_match_differences() {
     }
 }
 
-/// Without slip, the flux towards a face grows with the cell's own ψ if G is that of the mean pressure. With G of the
-/// centre it falls in front of a pad, where the face has ten times the cell's pressure.
+/// The flux towards a face grows with the cell's own ψ. With G of the centre alone it falls in front of a pad, where the
+/// face has ten times the cell's pressure.
 #[test]
-fn flux_without_slip_grows_with_the_cell_that_it_leaves() {
-    let slope = |is_mean: bool, wind: f64, ratio: f64| {
+fn flux_grows_with_the_cell_that_it_leaves() {
+    let slope = |flow: &FlowFactor, of_centre: bool, wind: f64, ratio: f64| {
         let at = |psi: f64| {
-            let g = if is_mean { 0.5 * (psi + ratio) } else { psi };
+            let at_centre = flow.conductance(psi);
+            let [g, g_slope, _] = match of_centre {
+                true => [at_centre.0, at_centre.1, 0.0],
+                false => flow.of_half_cell(psi, at_centre, ratio),
+            };
             let cell = HalfCell {
                 psi,
                 inverse_psi: 1.0 / psi,
@@ -153,7 +158,7 @@ fn flux_without_slip_grows_with_the_cell_that_it_leaves() {
                 reach: 0.0,
                 g,
                 inverse_g: 1.0 / g,
-                g_slope: if is_mean { 0.5 } else { 1.0 },
+                g_slope,
                 h_centre: 1.0,
                 inverse_h: 1.0,
                 h_face: 1.0,
@@ -167,13 +172,29 @@ fn flux_without_slip_grows_with_the_cell_that_it_leaves() {
         };
         (at(1.0 + 1e-6) - at(1.0 - 1e-6)) / 2e-6
     };
-    for wind in [0.0, 0.1, 1.0, 5.0, 30.0, 200.0] {
-        for ratio in [0.01, 0.5, 2.0, 5.0, 10.0, 100.0] {
-            assert!(slope(true, wind, ratio) > 0.0, "{wind} {ratio}");
+    for model in [
+        FlowModel::Continuum,
+        FlowModel::Slip1,
+        FlowModel::Slip2,
+        FlowModel::FukuiKaneko,
+    ] {
+        for knudsen in [1e-4, 0.01, 0.1, 1.0, 7.0, 100.0] {
+            let flow = FlowFactor::new(model, knudsen);
+            for wind in [0.0, 0.1, 1.0, 5.0, 30.0, 200.0] {
+                for ratio in [0.01, 0.5, 2.0, 5.0, 10.0, 100.0] {
+                    let slope = slope(&flow, false, wind, ratio);
+                    assert!(slope > 0.0, "{model:?} {knudsen} {wind} {ratio}: {slope}");
+                }
+            }
         }
     }
-    // (ψ² − ratio²)/2 and ψ (ψ − ratio).
-    assert!((slope(true, 0.0, 10.0) - 1.0).abs() < 1e-8);
-    assert!((slope(false, 0.0, 10.0) + 8.0).abs() < 1e-8);
-    assert!(slope(false, 2.0, 10.0) < -1.0);
+    // (ψ² − ratio²)/2; with first-order slip of 6 Kn = 0.6 (ratio + 0.6) (ψ − ratio)/2. Of the centre ψ (ψ − ratio) and
+    // (ψ + 0.6) (ψ − ratio).
+    let none = FlowFactor::new(FlowModel::Continuum, 1.0);
+    let little = FlowFactor::new(FlowModel::Slip1, 0.1);
+    assert!((slope(&none, false, 0.0, 10.0) - 1.0).abs() < 1e-8);
+    assert!((slope(&little, false, 0.0, 10.0) - 5.3).abs() < 1e-8);
+    assert!((slope(&none, true, 0.0, 10.0) + 8.0).abs() < 1e-8);
+    assert!((slope(&little, true, 0.0, 10.0) + 7.4).abs() < 1e-8);
+    assert!(slope(&none, true, 2.0, 10.0) < -1.0);
 }

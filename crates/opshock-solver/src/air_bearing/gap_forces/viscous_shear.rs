@@ -197,6 +197,8 @@ fn on_edges<const SLOPES: bool>(film: &Film, cells: &CellStates<'_>, sum: &mut S
 struct Step<'a> {
     sides: [&'a Side; 2],
     halves: [HalfCell; 2],
+    /// Derivatives of their G by ψ across the face.
+    by_across: [f64; 2],
     pressure: f64,
     /// 1/(β + β).
     inverse_beta: f64,
@@ -207,16 +209,25 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// Between `sides` where the true height without recess is `base`.
     fn new(film: &Film, cells: &CellStates<'_>, sides: [&'a Side; 2], base: f64) -> Self {
-        let halves = [sides, [sides[1], sides[0]]].map(|[side, other]| {
-            let heights = [cells.h[side.cell], base];
-            let across = cells.pressure(other.cell) * cells.h[side.cell];
-            film.half_cell(side, cells.psi, heights, across)
+        let across = [0, 1].map(|i| {
+            let [side, other] = [sides[i].cell, sides[1 - i].cell];
+            cells.pressure(other) * cells.h[side]
+        });
+        let halves = [0, 1].map(|i| {
+            let heights = [cells.h[sides[i].cell], base];
+            film.half_cell(sides[i], cells.psi, heights, across[i])
+        });
+        let by_across = [0, 1].map(|i| {
+            let psi = cells.psi[sides[i].cell];
+            let at_centre = film.flow.conductance(psi);
+            film.flow.of_half_cell(psi, at_centre, across[i])[2]
         });
         let [(a, b), (c, e)] = halves.map(|half| half.coefficients());
         let inverse_beta = 1.0 / (b + e);
         Self {
             sides,
             halves,
+            by_across,
             pressure: (a + c) * inverse_beta,
             inverse_beta,
             h_slopes: sides.map(|side| film.limited(base + side.recess).1),
@@ -237,16 +248,13 @@ impl<'a> Step<'a> {
             let partials = partials(&self.halves[i], self.pressure);
             let by_flux = by_pressure * self.inverse_beta;
             let [psi, psi_behind, h_centre, h_face] = partials.flux.map(|slope| by_flux * slope);
-            if film.has_mean_conductance() {
-                let other = self.sides[1 - i].cell;
-                let by_g = by_flux * partials.by_g[0];
-                sum.add_by_pressure(d, (film, cells), other, by_g * 0.5 * cells.h[side.cell]);
-                let by_height = by_g * 0.5 * cells.pressure(other) * cells.h_slope[side.cell];
-                sum.add_by_height(d, &film.mesh.cells[side.cell].place, by_height);
-            }
+            let other = self.sides[1 - i].cell;
+            let by_across = by_flux * partials.by_g[0] * self.by_across[i];
+            sum.add_by_pressure(d, (film, cells), other, by_across * cells.h[side.cell]);
             sum.add_by_psi(d, side.cell, psi);
             sum.add_by_psi(d, side.behind, psi_behind);
             let centre = &film.mesh.cells[side.cell].place;
+            let h_centre = h_centre + by_across * cells.pressure(other);
             sum.add_by_height(d, centre, h_centre * cells.h_slope[side.cell]);
             sum.add_by_height(d, place, (h_face + by_height[i]) * self.h_slopes[i]);
         }
