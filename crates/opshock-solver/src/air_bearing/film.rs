@@ -187,19 +187,19 @@ impl Film {
     }
 
     /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face, without recess, and ψ
-    /// `across` the face, behind an etched step that of the pressure there at the height here.
+    /// `across` the face, behind an etched step that of the pressure there at the height here; and the derivative of its G by the latter.
     pub(super) fn half_cell(
         &self,
         side: &Side,
         psi: &[f64],
         [h_centre, base]: [f64; 2],
         across: f64,
-    ) -> HalfCell {
+    ) -> (HalfCell, f64) {
         let flow = &self.flow;
         let at_centre = flow.conductance(psi[side.cell]);
-        let [g, g_slope, _] = flow.of_half_cell(psi[side.cell], at_centre, across);
+        let [g, g_slope, by_across] = flow.of_half_cell(psi[side.cell], at_centre, across);
         let h_face = self.limited(base + side.recess).0;
-        HalfCell {
+        let half = HalfCell {
             psi: psi[side.cell],
             inverse_psi: 1.0 / psi[side.cell],
             psi_behind: psi[side.behind],
@@ -214,7 +214,8 @@ impl Film {
             distance: 1.0 / side.inverse_distance,
             inverse_distance: side.inverse_distance,
             wind: side.wind,
-        }
+        };
+        (half, by_across)
     }
 
     /// ψ of the undisturbed ambient pressure, Pa m.

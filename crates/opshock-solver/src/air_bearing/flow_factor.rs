@@ -124,10 +124,13 @@ impl FlowFactor {
     /// face; its derivatives by both ([`super::flux`]).
     #[inline(always)]
     pub(super) fn of_half_cell(&self, psi: f64, at_centre: (f64, f64), across: f64) -> [f64; 3] {
-        match self.is_proportional() {
-            true => of_mean_psi(psi, across),
-            false => least_monotone(psi, at_centre, across),
+        if self.is_proportional() {
+            return [0.5 * (psi + across), 0.5, 0.5];
         }
+        let (g, slope) = at_centre;
+        let beyond = (across - psi) - g;
+        let share = if beyond > 0.0 { 0.5 } else { 0.0 };
+        [g + share * beyond, slope - share * (slope + 1.0), share]
     }
 
     /// G and dG/dψ of many ψ > 0 (Pa m), bit for bit as from [`FlowFactor::conductance`]. Whole registers hold all that
@@ -193,24 +196,6 @@ impl FlowFactor {
             }
         }
     }
-}
-
-/// [`FlowFactor::of_half_cell`] without slip.
-#[inline(always)]
-pub(super) fn of_mean_psi(psi: f64, across: f64) -> [f64; 3] {
-    [0.5 * (psi + across), 0.5, 0.5]
-}
-
-/// [`FlowFactor::of_half_cell`] with slip.
-#[inline(always)]
-pub(super) fn least_monotone(psi: f64, (at_centre, slope): (f64, f64), across: f64) -> [f64; 3] {
-    let beyond = (across - psi) - at_centre;
-    let share = if beyond > 0.0 { 0.5 } else { 0.0 };
-    [
-        at_centre + share * beyond,
-        slope - share * (slope + 1.0),
-        share,
-    ]
 }
 
 /// The model itself, for values that are rare or only tabulated.

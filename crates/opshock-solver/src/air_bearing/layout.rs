@@ -189,6 +189,7 @@ fn strip_errors(film: &Film, psi: &[f64], attitude: &Attitude, adjoint: &[f64]) 
                 false => psi[other.cell] / heights[other.cell] * heights[side.cell],
             };
             film.half_cell(side, psi, [heights[side.cell], base], across)
+                .0
         });
         let [(a, b), (c, e)] = half.map(|half| half.coefficients());
         let p = (a + c) / (b + e);

@@ -3,7 +3,7 @@
 use super::attitude::Attitude;
 use super::faces::{BLOCK, Block, Interior, Sides, block};
 use super::film::{CellStates, Film};
-use super::flow_factor::{PickedRows, least_monotone, of_mean_psi};
+use super::flow_factor::PickedRows;
 use super::flux::HalfCell;
 
 /// Scratch of the flux balance, one per thread.
@@ -145,24 +145,22 @@ pub(super) struct FaceConductance {
     by_across: [Block; 2],
 }
 
-/// Sign bits that all of a block have: the uppermost is set where every number is negative. In place of comparisons, whose
-/// results whole registers do not hold.
-#[inline(always)]
-fn signs(of: &Block) -> u64 {
-    of.iter().fold(u64::MAX, |all, x| all & x.to_bits())
-}
-
 impl FaceConductance {
-    /// `sides` with ψ `across` the faces; none where it is G of the centres everywhere, which `signs` tell ([`signs`]).
+    /// `sides` with ψ `across` the faces; none where G is that of the centres everywhere.
     #[inline(always)]
     fn new<const N: usize>(
         film: &Film,
         sides: [&SideBlock<'_>; N],
         across: &[Block; N],
-        signs: u64,
     ) -> Option<Self> {
-        let of_mean = film.flow.is_proportional();
-        if !of_mean && signs >> 63 == 1 {
+        let mut any = film.flow.is_proportional();
+        for (side, across) in sides.iter().zip(across) {
+            let CellBlock { psi, g, .. } = side.cells;
+            for k in 0..BLOCK {
+                any |= across[k] - psi[k] > g[k];
+            }
+        }
+        if !any {
             return None;
         }
         let mut out = Self {
@@ -177,11 +175,7 @@ impl FaceConductance {
             } = side.cells;
             for k in 0..BLOCK {
                 let at_centre = (g[k], g_slope[k]);
-                let [g, slope, by_across] = if of_mean {
-                    of_mean_psi(psi[k], across[k])
-                } else {
-                    least_monotone(psi[k], at_centre, across[k])
-                };
+                let [g, slope, by_across] = film.flow.of_half_cell(psi[k], at_centre, across[k]);
                 out.g[s][k] = g;
                 out.inverse_g[s][k] = 1.0 / g;
                 out.slope[s][k] = slope;
@@ -199,12 +193,8 @@ impl FaceConductance {
         h_face: &Block,
         kept: &'a mut Option<Self>,
     ) -> SideBlock<'a> {
-        let (mut across, mut beyond) = ([0.0; BLOCK], [0.0; BLOCK]);
-        for k in 0..BLOCK {
-            across[k] = film.ambient_pa * h_face[k];
-            beyond[k] = (across[k] - side.cells.psi[k]) - side.cells.g[k];
-        }
-        *kept = Self::new(film, [&side], &[across], signs(&beyond));
+        let across = h_face.map(|h| film.ambient_pa * h);
+        *kept = Self::new(film, [&side], &[across]);
         match kept {
             Some(conductance) => side.with(conductance, 0),
             None => side,
@@ -232,21 +222,8 @@ impl Interior {
         );
         let down = SideBlock::new(state.cells(down, down), &self.down_side, first, -self.wind);
         let step = block(&self.step, first);
-        let [
-            mut up_across,
-            mut down_across,
-            mut up_beyond,
-            mut down_beyond,
-        ] = [[0.0; BLOCK]; 4];
-        for k in 0..BLOCK {
-            let [of_up, of_down] = [up.cells.psi[k], down.cells.psi[k]];
-            up_across[k] = of_down * down.height_ratio(&up, step, k);
-            down_across[k] = of_up * up.height_ratio(&down, step, k);
-            up_beyond[k] = (up_across[k] - of_up) - up.cells.g[k];
-            down_beyond[k] = (down_across[k] - of_down) - down.cells.g[k];
-        }
-        let signs = signs(&up_beyond) & signs(&down_beyond);
-        *kept = FaceConductance::new(film, [&up, &down], &[up_across, down_across], signs);
+        let across = [up.across(&down, step), down.across(&up, step)];
+        *kept = FaceConductance::new(film, [&up, &down], &across);
         match kept {
             Some(conductance) => [up.with(conductance, 0), down.with(conductance, 1)],
             None => [up, down],
@@ -292,6 +269,16 @@ impl<'a> SideBlock<'a> {
         self.cells.g_slope = &conductance.slope[which];
         self.by_across = Some(&conductance.by_across[which]);
         self
+    }
+
+    /// ψ of `other` across the faces, behind an etched `step` that of the pressure there at the height here.
+    #[inline(always)]
+    fn across(&self, other: &SideBlock<'_>, step: &Block) -> Block {
+        let mut out = *other.cells.psi;
+        for (k, psi) in out.iter_mut().enumerate() {
+            *psi *= other.height_ratio(self, step, k);
+        }
+        out
     }
 
     /// Derivative of ψ that `other` sees across face k by ψ here: 1, on an etched `step` the ratio of its height to that

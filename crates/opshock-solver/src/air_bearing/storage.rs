@@ -116,7 +116,7 @@ fn straight_share(film: &Film, face: &Face, psi: &[f64]) -> f64 {
     let attitude = film.usual_attitude();
     let h_centre = film.cell_height(&film.mesh.cells[up.cell], &attitude).0;
     let heights = [h_centre, face.place.height(&attitude)];
-    let half = film.half_cell(&up, psi, heights, psi[up.cell]);
+    let (half, _) = film.half_cell(&up, psi, heights, psi[up.cell]);
     let drive = half.drive(&half.logarithmic_mean::<true>());
     if drive.pe.abs() < SMALLEST_PE {
         return 0.0;

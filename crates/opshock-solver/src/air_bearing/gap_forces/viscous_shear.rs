@@ -209,25 +209,18 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// Between `sides` where the true height without recess is `base`.
     fn new(film: &Film, cells: &CellStates<'_>, sides: [&'a Side; 2], base: f64) -> Self {
-        let across = [0, 1].map(|i| {
-            let [side, other] = [sides[i].cell, sides[1 - i].cell];
-            cells.pressure(other) * cells.h[side]
+        let [(up, up_by), (down, down_by)] = [sides, [sides[1], sides[0]]].map(|[side, other]| {
+            let heights = [cells.h[side.cell], base];
+            let across = cells.pressure(other.cell) * cells.h[side.cell];
+            film.half_cell(side, cells.psi, heights, across)
         });
-        let halves = [0, 1].map(|i| {
-            let heights = [cells.h[sides[i].cell], base];
-            film.half_cell(sides[i], cells.psi, heights, across[i])
-        });
-        let by_across = [0, 1].map(|i| {
-            let psi = cells.psi[sides[i].cell];
-            let at_centre = film.flow.conductance(psi);
-            film.flow.of_half_cell(psi, at_centre, across[i])[2]
-        });
+        let halves = [up, down];
         let [(a, b), (c, e)] = halves.map(|half| half.coefficients());
         let inverse_beta = 1.0 / (b + e);
         Self {
             sides,
             halves,
-            by_across,
+            by_across: [up_by, down_by],
             pressure: (a + c) * inverse_beta,
             inverse_beta,
             h_slopes: sides.map(|side| film.limited(base + side.recess).1),
