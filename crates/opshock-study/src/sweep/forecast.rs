@@ -16,7 +16,7 @@ use super::registry::Registry;
 use super::remainder::remainder;
 use super::simulator::Simulator;
 use super::spread::Spread;
-use crate::search::{Probe, Ramp, Touch};
+use crate::search::{Probe, Ramp, Touch, Verdict};
 use crate::store::{Loaded, StoredTouch};
 use crate::study::KeepHistories;
 
@@ -114,7 +114,8 @@ pub fn forecast(
     for (place, point) in input.points.iter().enumerate() {
         let ramp = point.coordinates.ramp;
         if !registry.is_final(place) && !pace.plain_s().contains_key(&ramp) {
-            pace.set_plain(ramp, measured(input, simulator, place, touches[place]));
+            let seconds = measured(input, simulator, place, touches[place], threads);
+            pace.set_plain(ramp, seconds);
         }
     }
     let left = remainder(input, &registry, &touches, &pace, threads);
@@ -143,30 +144,55 @@ pub fn forecast(
     }
 }
 
-/// Time of one simulation of a point, a little above first touch or in the middle of the range. The first builds shared
-/// models, so a second is measured.
-fn measured(input: &SweepInput, simulator: &dyn Simulator, point: usize, touch: Touch) -> f64 {
-    let settings = &input.settings;
-    let guess_g = match touch {
-        Touch::At { onset_g } => 1.03 * onset_g,
-        Touch::NoRamp | Touch::Unknown => {
-            let nodes = settings.range;
-            settings
-                .grid
-                .amplitude_g(nodes.low + (nodes.high - nodes.low) / 2)
-        }
+/// Time of a surviving simulation of a point: the mean of two, half an octave apart, of which the higher is next to a
+/// failure. Every thread simulates it, since threads slow one another down. The very first simulation builds what the others
+/// share and is not measured.
+fn measured(
+    input: &SweepInput,
+    simulator: &dyn Simulator,
+    point: usize,
+    touch: Touch,
+    threads: usize,
+) -> f64 {
+    /// Amplitude over that of first touch from which the failure is sought.
+    const OVER_TOUCH: f64 = 1.4;
+    let (grid, range) = (&input.settings.grid, input.settings.range);
+    let from = match touch {
+        Touch::At { onset_g } => grid.nearest(OVER_TOUCH * onset_g),
+        Touch::NoRamp | Touch::Unknown => range.low + (range.high - range.low) / 2,
     };
-    let node = settings
-        .grid
-        .nearest(guess_g)
-        .clamp(settings.range.low, settings.range.high);
     let sign = input.points[point].coordinates.sign.factor();
     let run = |node: i32| {
-        let amplitude = sign * m_per_s2_from_g(settings.grid.amplitude_g(node));
-        guard::simulate(simulator, point, Probe::at(node), amplitude);
+        let amplitude = sign * m_per_s2_from_g(grid.amplitude_g(node));
+        let one = || guard::simulate(simulator, point, Probe::at(node), amplitude);
+        let began = Instant::now();
+        let result = std::thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(one);
+            }
+            one()
+        });
+        let seconds = began.elapsed().as_secs_f64();
+        (seconds, result.verdict == Verdict::Survives)
     };
+    let half_octave = (grid.steps_per_octave / 2).max(1);
+    let mut node = from.clamp(range.low, range.high);
     run(node);
-    let began = Instant::now();
-    run(node - 1);
-    began.elapsed().as_secs_f64()
+    node = (node - 1).max(range.low);
+    let (mut seconds, mut survives) = run(node);
+    let upwards = survives;
+    // Of the last survivor and the one before.
+    let mut survivors_s = [seconds; 2];
+    let step = if upwards { half_octave } else { -half_octave };
+    while survives == upwards && (range.low..=range.high).contains(&(node + step)) {
+        node += step;
+        (seconds, survives) = run(node);
+        if survives {
+            survivors_s = [survivors_s[1], seconds];
+        }
+    }
+    if !upwards {
+        survivors_s = [seconds, run((node - half_octave).max(range.low)).0];
+    }
+    survivors_s.iter().sum::<f64>() / 2.0
 }

@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use super::input::SweepInput;
 use super::registry::Registry;
 use crate::search::{
-    Campaign, Coordinates, Probe, ProbeResult, Ramp, RunCost, Sign, Touch, Verdict,
+    Asked, Campaign, Coordinates, Probe, ProbeResult, Ramp, RunCost, Sign, Touch, Verdict,
 };
 
 /// Numbers that look random and are the same everywhere (splitmix64).
@@ -33,8 +33,8 @@ impl Random {
 pub(super) struct Ended {
     /// The searches.
     pub(super) campaign: Campaign,
-    /// Probes of each point that have not been simulated.
-    pub(super) new: Vec<Vec<Probe>>,
+    /// Requests of each point that have not been simulated, and whether they fail.
+    pub(super) new: Vec<Vec<(Asked, bool)>>,
 }
 
 /// Ends the searches of `registry` by the table `sample`. First touches that it lacks come from `touches`.
@@ -66,14 +66,14 @@ pub(super) fn ended(
                     campaign.report_margin(point, &result.verdict, result.h_min_m);
                     continue;
                 }
-                if counted.insert(key) {
-                    new[point].push(asked.probe);
-                }
                 let node = asked.probe.index;
                 let fails = known_to_fail(registry, point, node).unwrap_or_else(|| {
                     let amplitude_g = input.settings.grid.amplitude_g(node);
                     law.fails(&one.coordinates, touches[point], amplitude_g)
                 });
+                if counted.insert(key) {
+                    new[point].push((asked, fails));
+                }
                 campaign.tell(point, &verdict(fails));
             }
         }

@@ -7,8 +7,8 @@ use super::input::SweepInput;
 use super::pace::{Kind, Pace};
 use super::progress::Estimate;
 use super::registry::{Job, Registry};
-use super::remainder::remainder;
-use crate::search::{Probe, Touch};
+use super::remainder::{CORE_USE, remainder};
+use crate::search::Touch;
 
 /// It is renewed when the known runs have grown by 1 / `SHARE`, or after this time.
 const SHARE: usize = 256;
@@ -57,6 +57,9 @@ impl Outlook {
         let touch = |point| registry.campaign().touch(point).unwrap_or(Touch::Unknown);
         let touches: Vec<Touch> = (0..input.points.len()).map(touch).collect();
         let left = remainder(input, registry, &touches, &self.pace, threads);
+        let runs = registry.runs().values();
+        let done_s: f64 = runs.map(|run| run.machine.wall_s).sum();
+        let done_wall_s = done_s / (CORE_USE * threads as f64);
         let is_measured = !self.pace.plain_s().is_empty();
         self.due_at_runs = n_runs + 1 + n_runs / SHARE;
         self.renewed = Instant::now();
@@ -64,8 +67,8 @@ impl Outlook {
         Some(Estimate {
             runs_done: n_runs as u64,
             runs_left: left.runs,
-            core_s: is_measured.then_some(left.core_s),
-            left_s: is_measured.then_some(left.wall_s),
+            core_s: is_measured.then(|| left.core_s.narrowed(done_s)),
+            left_s: is_measured.then(|| left.wall_s.narrowed(done_wall_s)),
         })
     }
 
@@ -73,14 +76,11 @@ impl Outlook {
     pub(super) fn fits(&self, input: &SweepInput, job: &Job, left: Duration) -> bool {
         match job {
             Job::Onset { .. } => true,
-            Job::Run { point, asked, .. } => self.probe_fits(input, *point, &asked.probe, left),
+            Job::Run { point, asked, .. } => {
+                let kind = Kind::of(input.points[*point].coordinates.ramp, asked, false);
+                let seconds = self.pace.seconds(kind);
+                seconds.is_none_or(|seconds| seconds <= left.as_secs_f64())
+            }
         }
-    }
-
-    /// The run of a probe, by what is known of its time, ends within `left`.
-    fn probe_fits(&self, input: &SweepInput, point: usize, probe: &Probe, left: Duration) -> bool {
-        let kind = Kind::of(input.points[point].coordinates.ramp, probe);
-        let seconds = self.pace.seconds(kind);
-        seconds.is_none_or(|seconds| seconds <= left.as_secs_f64())
     }
 }

@@ -1,30 +1,32 @@
 //! Time that a simulation takes, by what it is made for.
 //!
-//! A plain run of the search is the unit, per ramp model. A run with changed refinement levels takes
+//! The unit is a run on the scene as it is that a search requests for its bracket and that survives, per ramp model.
+//! Another run takes
 //!
 //! ```text
-//! t / t_plain = h F(film) T(head) + s 2.2^structure
+//! t / t_unit = V (h F(film) T(head) + s 2.2^structure)
 //! ```
 //!
 //! | symbol | meaning | value |
 //! |---|---|---|
-//! | h, s | shares of the head and of disk and ramp in a plain run | 1, 0 without ramp; 0.9, 0.1 with one |
-//! | F | factor of a film of half, quarter, eighth of the cells, or of twice and four times as many | 0.42, 0.18, 0.13; 2.45, 6 |
-//! | T | factor of a level of the head's tolerances | 2.2 finer, 0.75 coarser |
+//! | h, s | shares of the head and of disk and ramp | 0.87, 0 without ramp; 0.78, 0.09 with one |
+//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.75, 0.34, 0.28; 2.6^n |
+//! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n; 0.8 |
+//! | V | factor of a failure, which ends early | 0.22 without ramp, 0.35 with one; 1 for survivors |
 //!
-//! times 0.6 since many of them fail early. A run in a doubled window takes 1.5 plain runs without ramp, 0.7 with one;
-//! a quasi-static film 1.2 of those without ramp, one of 2⁻ⁿ of the cells 0.6 × 2⁻ⁿ; a plain run with a ramp 2.4 of those without. The factors are rounded means of four sweeps: two studies of Fig. 13, a default
-//! drive and one at the preset coarse; 0.6 was chosen so that forecasts of these sweeps hold. What the store
-//! measures replaces it: the ratio of measured to modelled time of each kind of run, and of all kinds of a ramp model
-//! where the kind is new.
+//! A run of the scan below the bracket takes 0.65 units, since low amplitudes take few steps; a failure on the scene as it
+//! is 0.22 without ramp, 0.47 with one. A quasi-static film takes 0.9 units of those without ramp, one of 2^-n of the cells
+//! 0.45 x 2^-n; a unit with a ramp is 2.1 of those without. The factors are rounded means of 23 sweeps: three studies of
+//! Fig. 13 and twenty small ones at the presets coarse and standard. What the store measures replaces them: the ratio of
+//! measured to modelled time of each kind of run, and of all kinds of a ramp model where the kind is new.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::input::SweepInput;
 use super::registry::{Registry, uncertainty_asked};
-use crate::search::{Probe, Ramp};
+use crate::search::{Asked, Purpose, Ramp, Verdict};
 
 /// A kind of run: all that its time is modelled from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,72 +37,75 @@ pub(super) struct Kind {
     pub(super) levels: Levels,
     /// Multiple of the study's window.
     pub(super) window_factor: u8,
+    /// It is of a search's scan below the bracket.
+    pub(super) scans: bool,
+    /// It ends by a failure.
+    pub(super) fails: bool,
 }
 
 impl Kind {
-    /// The kind of a probe.
-    pub(super) fn of(ramp: Ramp, probe: &Probe) -> Kind {
+    /// The kind of a requested run that fails or survives.
+    pub(super) fn of(ramp: Ramp, asked: &Asked, fails: bool) -> Kind {
         Kind {
             ramp,
-            levels: probe.levels,
-            window_factor: probe.window_factor,
+            levels: asked.probe.levels,
+            window_factor: asked.probe.window_factor,
+            scans: asked.purpose == Purpose::Scan,
+            fails,
         }
     }
 
-    fn plain(ramp: Ramp) -> Kind {
-        Kind {
-            ramp,
-            levels: Levels::NONE,
-            window_factor: 1,
-        }
+    /// A run of the search on the scene as it is.
+    fn is_plain(self) -> bool {
+        self.levels.is_none() && self.window_factor == 1
     }
 
-    /// Its time in plain runs of the ramp model.
+    /// Its time in units of the ramp model.
     fn relative(self) -> f64 {
-        let (head, structure) = match self.ramp {
-            Ramp::None => (1.0, 0.0),
-            Ramp::Rigid | Ramp::Deformable => (0.9, 0.1),
-        };
+        let has_ramp = self.ramp != Ramp::None;
+        if self.is_plain() {
+            return match (self.fails, has_ramp) {
+                (true, false) => 0.22,
+                (true, true) => 0.47,
+                (false, _) if self.scans => 0.65,
+                (false, _) => 1.0,
+            };
+        }
+        let (head, structure) = if has_ramp { (0.78, 0.09) } else { (0.87, 0.0) };
         let level = |discretisation| i32::from(self.levels.of(discretisation));
         match level(Discretisation::QuasiStaticFilm) {
             // A film at rest, extrapolated from twice the cells, or one of fewer cells.
-            1.. => return 1.2 * head / self.of_none(),
-            steps @ ..=-1 => return 0.6 * head / self.of_none() * 0.5_f64.powi(-steps),
+            1.. => return 0.9 / of_none(self.ramp),
+            steps @ ..=-1 => return 0.45 / of_none(self.ramp) * 0.5_f64.powi(-steps),
             0 => {}
         }
-        if self.window_factor > 1 {
-            return if self.ramp == Ramp::None { 1.5 } else { 0.7 };
-        }
         let film = match level(Discretisation::FilmGrid) {
-            ..=-3 => 0.13,
-            -2 => 0.18,
-            -1 => 0.42,
-            finer => 2.45_f64.powi(finer),
+            ..=-3 => 0.28,
+            -2 => 0.34,
+            -1 => 0.75,
+            finer => 2.6_f64.powi(finer),
         };
         let tolerance = match level(Discretisation::HeadTolerance) {
-            ..=-1 => 0.75,
-            finer => 2.2_f64.powi(finer),
+            ..=-1 => 0.8,
+            finer => 1.8_f64.powi(finer),
         };
         let time = head * film * tolerance
             + structure * 2.2_f64.powi(level(Discretisation::StructureStep));
-        if self.levels.is_none() {
-            time
-        } else {
-            MANY_FAIL * time
-        }
-    }
-
-    /// A plain run of the ramp model in plain runs without ramp.
-    fn of_none(self) -> f64 {
-        match self.ramp {
-            Ramp::None => 1.0,
-            Ramp::Rigid | Ramp::Deformable => 2.4,
+        match (self.fails, has_ramp) {
+            (true, false) => 0.22 * time,
+            (true, true) => 0.35 * time,
+            (false, _) => time,
         }
     }
 }
 
-/// Time of runs of changed scenes, many of which fail early, over that of survivors.
-const MANY_FAIL: f64 = 0.6;
+/// A unit of the ramp model in those without ramp.
+fn of_none(ramp: Ramp) -> f64 {
+    match ramp {
+        Ramp::None => 1.0,
+        Ramp::Rigid | Ramp::Deformable => 2.1,
+    }
+}
 
 /// Runs as many as which the model counts against measured ones, of a kind and of all kinds together.
 const MODEL_RUNS: f64 = 2.0;
@@ -142,7 +147,7 @@ pub(super) struct Pace {
 impl Pace {
     /// What the runs that the searches and intervals of `registry` have used took.
     pub(super) fn of(input: &SweepInput, registry: &Registry<'_>) -> Pace {
-        let mut all: Vec<(Kind, f64)> = Vec::new();
+        let mut all: Vec<(f64, Kind, f64)> = Vec::new();
         for (point, one) in input.points.iter().enumerate() {
             let search = registry.campaign().search(point);
             let searched = search.into_iter().flat_map(|search| search.log());
@@ -152,32 +157,37 @@ impl Pace {
             for asked in searched.copied().chain(asked) {
                 let key = registry.key(point, asked.probe);
                 if let Some(run) = registry.runs().get(&key) {
-                    let kind = Kind::of(one.coordinates.ramp, &asked.probe);
-                    all.push((kind, run.machine.wall_s));
+                    let fails = matches!(run.result.verdict, Verdict::Fails { .. });
+                    let kind = Kind::of(one.coordinates.ramp, &asked, fails);
+                    all.push((run.machine.finished_unix_s, kind, run.machine.wall_s));
                 }
             }
         }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // The first run of a ramp model builds what the others share.
+        let mut built = BTreeSet::new();
+        all.retain(|(_, kind, _)| !built.insert(kind.ramp));
         let mut plain: BTreeMap<Ramp, Sums> = BTreeMap::new();
-        for &(kind, wall_s) in &all {
-            if kind == Kind::plain(kind.ramp) {
+        for &(_, kind, wall_s) in &all {
+            if kind.is_plain() {
                 let sums = plain.entry(kind.ramp).or_default();
                 sums.measured_s += wall_s;
+                sums.modelled_s += kind.relative();
                 sums.runs += 1.0;
             }
         }
         let mut pace = Pace::default();
         for (&ramp, sums) in &plain {
-            pace.plain_s.insert(ramp, sums.measured_s / sums.runs);
+            pace.plain_s.insert(ramp, sums.measured_s / sums.modelled_s);
             pace.plain_runs.insert(ramp, sums.runs);
         }
-        for (kind, wall_s) in all {
+        for (_, kind, wall_s) in all {
             let Some(plain_s) = pace.plain_s.get(&kind.ramp) else {
                 continue;
             };
             let modelled_s = plain_s * kind.relative();
-            let is_plain = kind == Kind::plain(kind.ramp);
             let of_kind = pace.of_kind.entry(kind).or_default();
-            let of_ramp = (!is_plain).then(|| pace.of_ramp.entry(kind.ramp).or_default());
+            let of_ramp = (!kind.is_plain()).then(|| pace.of_ramp.entry(kind.ramp).or_default());
             for sums in [Some(of_kind), of_ramp].into_iter().flatten() {
                 sums.measured_s += wall_s;
                 sums.modelled_s += modelled_s;
@@ -187,12 +197,12 @@ impl Pace {
         pace
     }
 
-    /// Takes `seconds` for a plain run of a ramp model that was not measured yet.
+    /// Takes `seconds` for a unit of a ramp model that was not measured yet.
     pub(super) fn set_plain(&mut self, ramp: Ramp, seconds: f64) {
         self.plain_s.entry(ramp).or_insert(seconds);
     }
 
-    /// Seconds of a plain run by ramp model.
+    /// Seconds of a unit by ramp model.
     pub(super) fn plain_s(&self) -> &BTreeMap<Ramp, f64> {
         &self.plain_s
     }
@@ -201,16 +211,11 @@ impl Pace {
     pub(super) fn seconds(&self, kind: Kind) -> Option<f64> {
         let plain_s = self.plain_s.get(&kind.ramp).copied().or_else(|| {
             let (ramp, seconds) = self.plain_s.first_key_value()?;
-            let known = Kind::plain(*ramp);
-            Some(seconds * kind.of_none() / known.of_none())
+            Some(seconds * of_none(kind.ramp) / of_none(*ramp))
         })?;
         let sums = |known: Option<&Sums>| known.copied().unwrap_or_default();
         let of_all = sums(self.of_ramp.get(&kind.ramp)).ratio(MODEL_RUNS_OF_ALL, 1.0);
-        let of_all = if kind == Kind::plain(kind.ramp) {
-            1.0
-        } else {
-            of_all
-        };
+        let of_all = if kind.is_plain() { 1.0 } else { of_all };
         let ratio = sums(self.of_kind.get(&kind)).ratio(MODEL_RUNS, of_all);
         Some(plain_s * kind.relative() * ratio)
     }

@@ -10,11 +10,13 @@ use super::input::SweepInput;
 use super::made_up::{Ended, Random, ended};
 use super::made_up_interval::{Errors, MadeUpInterval};
 use super::pace::{Kind, Pace};
-use super::registry::{Depth, Registry, interval_input, next_round, seen, uncertainty_probe};
+use super::registry::{
+    Depth, Registry, interval_input, next_round, seen, uncertainty_asked, uncertainty_probe,
+};
 use super::rows;
 use super::spread::Spread;
 use crate::search::uncertainty::{self, Ask, UncertaintyInput};
-use crate::search::{Campaign, Flag, Probe, ProbeResult, Ramp, Touch};
+use crate::search::{Asked, Campaign, Flag, Probe, ProbeResult, Purpose, Ramp, Touch};
 use crate::study::KeepHistories;
 
 /// Made-up ends, for few points and for many.
@@ -23,7 +25,12 @@ const FEWEST_ENDS: u64 = 8;
 /// Points made up at most in all ends.
 const MOST_POINTS: u64 = 4096;
 /// Share of the threads' time spent simulating.
-const CORE_USE: f64 = 0.95;
+pub(super) const CORE_USE: f64 = 0.95;
+/// Runs that idle threads simulate before a search requests them and that none requests, as a share of the searches' own,
+/// for every thread beyond the first and point searched: 0.3 to 0.6 with two points and two threads, 0.1 with twelve.
+const AHEAD: f64 = 1.2;
+/// The largest such share: few runs are likely enough to be simulated ahead.
+const MOST_AHEAD: f64 = 2.0;
 /// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
 const MADE_UP_POINTS: f64 = 3.0;
 /// Standard deviation of the logarithm of the real over the made-up cost of all intervals, before any is finished.
@@ -95,35 +102,47 @@ fn one_end(
     let errors = Errors::of(end);
     let mut random = Random(end ^ 0x7ace);
     let z = [random.normal(), random.normal(), random.normal()];
-    let seconds = |point: usize, probe: &Probe| {
-        let kind = Kind::of(input.points[point].coordinates.ramp, probe);
+    let seconds = |point: usize, asked: &Asked, fails: bool| {
+        let kind = Kind::of(input.points[point].coordinates.ramp, asked, fails);
         let plain = (pace.plain_spread(kind.ramp) * z[2]).exp();
         let seconds = plain * pace.seconds(kind).unwrap_or(0.0);
-        match probe.levels.is_none() {
+        match asked.probe.levels.is_none() {
             true => seconds,
             false => seconds * (pace.spread(kind.ramp) * z[0]).exp(),
         }
     };
+    let survivor = Asked {
+        probe: Probe::at(0),
+        purpose: Purpose::Bisect,
+    };
     let (mut searched, mut search_s, mut histories_s) = (0, 0.0, 0.0);
+    let mut searches = 0;
     for point in 0..input.points.len() {
         if !registry.wants(point) {
             continue;
         }
         let new = &ended.new[point];
-        searched += new.len();
-        search_s += new.iter().map(|probe| seconds(point, probe)).sum::<f64>();
+        searched += new.len() as u32;
+        searches += usize::from(!new.is_empty());
+        let of_new = new
+            .iter()
+            .map(|(asked, fails)| seconds(point, asked, *fails));
+        search_s += of_new.sum::<f64>();
         if !registry.is_final(point) {
             let kept = match input.keep_histories {
                 KeepHistories::None => 0,
                 KeepHistories::Bracket => 2,
                 KeepHistories::All => new.len().max(2),
             };
-            histories_s += kept as f64 * seconds(point, &Probe::at(0));
+            histories_s += kept as f64 * seconds(point, &survivor, false);
         }
     }
+    let ahead = AHEAD * threads.saturating_sub(1) as f64 / searches.max(1) as f64;
+    let ahead = 1.0 + ahead.min(MOST_AHEAD);
+    let (searched, search_s) = ((ahead * f64::from(searched)).round(), ahead * search_s);
     let made_up = |point: usize, refinements: u8| {
         let seed = end.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ point as u64;
-        let of_probe = |probe: &Probe| seconds(point, probe);
+        let of_asked = |asked: &Asked, fails: bool| seconds(point, asked, fails);
         interval(
             input,
             registry,
@@ -131,7 +150,7 @@ fn one_end(
             &errors,
             (point, refinements),
             seed,
-            &of_probe,
+            &of_asked,
         )
     };
     let intervals = intervals(input, registry, &ended.campaign, &made_up);
@@ -152,13 +171,7 @@ fn one_end(
     // One interval is made by one thread.
     let longest_s = lefts.iter().copied().fold(0.0, f64::max);
     let wall_s = (core_s / (CORE_USE * threads as f64)).max(longest_s);
-    [
-        searched as f64,
-        asked,
-        searched as f64 + asked,
-        core_s,
-        wall_s,
-    ]
+    [searched, asked, searched + asked, core_s, wall_s]
 }
 
 /// The intervals of all wanted points, each content once; of a sweep that makes those of decisive points alone, the
@@ -247,29 +260,44 @@ fn interval(
     errors: &Errors,
     (point, refinements): (usize, u8),
     seed: u64,
-    seconds: &dyn Fn(&Probe) -> f64,
+    seconds: &dyn Fn(&Asked, bool) -> f64,
 ) -> Option<Interval> {
     let ramp = input.points[point].coordinates.ramp;
-    let all_s = |asks: &[Ask]| -> f64 {
-        asks.iter()
-            .map(|&ask| seconds(&uncertainty_probe(ask)))
+    let all_s = |asks: &[(Ask, bool)]| -> f64 {
+        let of_asks = asks.iter();
+        of_asks
+            .map(|&(ask, fails)| seconds(&uncertainty_asked(ask), fails))
             .sum()
     };
     let made_up = |from: &UncertaintyInput, known: &[(Ask, uncertainty::Seen)]| {
-        let law = MadeUpInterval::of(from, errors, seed, known);
+        let law = MadeUpInterval::of(from, ramp, errors, seed, known);
         let lookup = |ask: Ask| {
             let known = known.iter().find(|(known, _)| *known == ask);
             Some(known.map_or_else(|| law.seen(ask), |(_, seen)| *seen))
         };
         let (asks, progress) = uncertainty::answer(from, refinements, &lookup);
+        let is_failure = |ask: Ask| lookup(ask).is_some_and(|seen| seen.fails());
+        let asks: Vec<(Ask, bool)> = asks.into_iter().map(|ask| (ask, is_failure(ask))).collect();
         match progress {
             uncertainty::Progress::Done(answer) => (asks, Some(answer)),
             uncertainty::Progress::Wants(_) => (asks, None),
         }
     };
     if let Some(begun) = registry.interval(point) {
+        let known: Vec<(Ask, uncertainty::Seen)> = begun
+            .log
+            .iter()
+            .filter_map(|&ask| {
+                let key = registry.key(point, uncertainty_probe(ask));
+                Some((ask, seen(&registry.runs().get(&key)?.result)))
+            })
+            .collect();
         if begun.is_done && registry.refinements(point) == refinements {
-            let finished_s = [all_s(begun.log), all_s(&made_up(begun.input, &[]).0)];
+            let real: Vec<(Ask, bool)> = known
+                .iter()
+                .map(|(ask, seen)| (*ask, seen.fails()))
+                .collect();
+            let finished_s = [all_s(&real), all_s(&made_up(begun.input, &[]).0)];
             let answer = registry.finished_uncertainty(point);
             return Some(Interval {
                 ramp,
@@ -279,16 +307,8 @@ fn interval(
                 answer: answer.map(|(answer, _)| answer.clone()),
             });
         }
-        let known: Vec<(Ask, uncertainty::Seen)> = begun
-            .log
-            .iter()
-            .filter_map(|&ask| {
-                let key = registry.key(point, uncertainty_probe(ask));
-                Some((ask, seen(&registry.runs().get(&key)?.result)))
-            })
-            .collect();
         let (mut asks, answer) = made_up(begun.input, &known);
-        asks.retain(|ask| !known.iter().any(|(known, _)| known == ask));
+        asks.retain(|(ask, _)| !known.iter().any(|(known, _)| known == ask));
         return Some(Interval {
             ramp,
             left_s: all_s(&asks),

@@ -5,16 +5,16 @@ use serde::Serialize;
 /// An estimate with its range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// Lower end: 10 of 100 outcomes lie below.
+    /// Lower end: 5 of 100 outcomes lie below.
     pub min: f64,
     /// Half of the outcomes lie below.
     pub likely: f64,
-    /// Upper end: 10 of 100 outcomes lie above.
+    /// Upper end: 5 of 100 outcomes lie above.
     pub max: f64,
 }
 
 impl Spread {
-    /// 10th, 50th and 90th percentile of equally likely outcomes; zero without any.
+    /// 5th, 50th and 95th percentile of equally likely outcomes; zero without any.
     pub(super) fn of(mut outcomes: Vec<f64>) -> Spread {
         outcomes.sort_by(f64::total_cmp);
         let at = |share: f64| {
@@ -22,9 +22,9 @@ impl Spread {
             outcomes.get(place).copied().unwrap_or(0.0)
         };
         Spread {
-            min: at(0.1),
+            min: at(0.05),
             likely: at(0.5),
-            max: at(0.9),
+            max: at(0.95),
         }
     }
 
@@ -34,6 +34,18 @@ impl Spread {
             min: self.min * factor,
             likely: self.likely * factor,
             max: self.max * factor,
+        }
+    }
+
+    /// What is left, where the whole with what is `done` is given no wider range than a factor 1.9: a sweep that refines may
+    /// end outside, but a wider range is of no use.
+    pub(super) fn narrowed(self, done: f64) -> Spread {
+        let whole = done + self.likely;
+        let half = 1.9_f64.sqrt();
+        Spread {
+            min: self.min.max(whole / half - done),
+            likely: self.likely,
+            max: self.max.min(whole * half - done),
         }
     }
 }

@@ -70,6 +70,13 @@ pub struct Seen {
     pub t_min_s: Option<f64>,
 }
 
+impl Seen {
+    /// The run failed.
+    pub fn fails(&self) -> bool {
+        self.verdict == AmplitudeVerdict::Fails
+    }
+}
+
 /// How far an interval has got.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress<T = Uncertainty> {
