@@ -135,8 +135,9 @@ fn forecast_slow_ranges_hold_the_time_that_sweeps_take() {
         let (sets, study) = seeded(seed);
         let mut input = SweepInput::of(&study).expect("input");
         input.keep_histories = KeepHistories::None;
-        let physics = Physics::of(&study);
-        let plan = forecast(&input, &physics, Loaded::default(), THREADS, 0.0);
+        // Models of its own, as a process of its own has.
+        let planner = Physics::of(&study);
+        let plan = forecast(&input, &planner, Loaded::default(), THREADS, 0.0);
         let folder = tempfile::tempdir().expect("folder");
         let estimates = Estimates {
             began: Instant::now(),
@@ -172,10 +173,9 @@ fn forecast_slow_ranges_hold_the_time_that_sweeps_take() {
         let later_core = Range::of(at.core_s, at.core_left, core_s);
         before += usize::from(planned.holds());
         tenth += usize::from(later.holds());
-        // Ends are rounded when the sum of what passed and what is left is made.
-        narrow += usize::from(later.holds() && later.factor() <= 2.0 + 1e-9);
+        narrow += usize::from(later.holds() && later.factor() <= 2.0);
         core_before += usize::from(planned_core.holds());
-        core_tenth += usize::from(later_core.holds());
+        core_tenth += usize::from(later_core.holds() && later_core.factor() <= 2.0);
         println!(
             "{seed:2}: {runs:4} runs, {wall_s:5.1} s, {core_s:5.1} s of one core; in these units planned {planned}, of one core \
              {planned_core}; after {:.0} % {later}, factor {:.2}, of one core {later_core}; {sets}",
@@ -188,8 +188,6 @@ fn forecast_slow_ranges_hold_the_time_that_sweeps_take() {
          than a factor 2; of the time of one core {core_before} and {core_tenth}"
     );
     let needed = (HOLDING * n as f64).ceil() as usize;
-    assert!(
-        before >= needed && narrow >= needed,
-        "{before} and {narrow}"
-    );
+    let all = [before, narrow, core_before, core_tenth];
+    assert!(all.iter().all(|&held| held >= needed), "{all:?} of {n}");
 }

@@ -1,7 +1,7 @@
 //! Forecast of a sweep's cost before it starts or goes on: number of simulations, time and disk space.
 //!
 //! What is left is made up to its end many times (`remainder`), with the study's own first touches. The time of a
-//! plain simulation comes from one per ramp model, or from what the store has measured.
+//! simulation comes from a few per ramp model that are measured now, or from what the store has measured.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -38,7 +38,7 @@ pub struct Forecast {
     pub uncertainty_runs: Spread,
     /// All simulations.
     pub runs: Spread,
-    /// Seconds of a plain simulation by ramp model.
+    /// Seconds of a survivor near the critical shock, on the scene as it is, by ramp model.
     pub seconds_per_run: BTreeMap<Ramp, f64>,
     /// Core-hours.
     pub core_h: Spread,
@@ -85,6 +85,13 @@ const STORE_BYTES: f64 = 150e3;
 /// Columns of a history.
 const HISTORY_COLUMNS: f64 = 20.0;
 
+/// Simulations that a forecast for this number of threads runs at a time: threads slow one another down, so that it measures
+/// with as many, but not with more than this machine has cores.
+pub fn workers(threads: usize) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    threads.min(cores)
+}
+
 /// Forecast for sweeping `input` with the results `loaded` from its store.
 ///
 /// `history_nodes` is the number of time steps of a kept history.
@@ -114,7 +121,7 @@ pub fn forecast(
     for (place, point) in input.points.iter().enumerate() {
         let ramp = point.coordinates.ramp;
         if !registry.is_final(place) && !pace.plain_s().contains_key(&ramp) {
-            let seconds = measured(input, simulator, place, touches[place], threads);
+            let seconds = measured(input, simulator, place, touches[place], workers(threads));
             pace.set_plain(ramp, seconds);
         }
     }
@@ -145,14 +152,14 @@ pub fn forecast(
 }
 
 /// Time of a surviving simulation of a point: the mean of two, half an octave apart, of which the higher is next to a
-/// failure. Every thread simulates it, since threads slow one another down. The very first simulation builds what the others
-/// share and is not measured.
+/// failure. All workers simulate it at the same time. The very first simulation builds what the others share and is not
+/// measured.
 fn measured(
     input: &SweepInput,
     simulator: &dyn Simulator,
     point: usize,
     touch: Touch,
-    threads: usize,
+    workers: usize,
 ) -> f64 {
     /// Amplitude over that of first touch from which the failure is sought.
     const OVER_TOUCH: f64 = 1.4;
@@ -167,7 +174,7 @@ fn measured(
         let one = || guard::simulate(simulator, point, Probe::at(node), amplitude);
         let began = Instant::now();
         let result = std::thread::scope(|scope| {
-            for _ in 1..threads {
+            for _ in 1..workers {
                 scope.spawn(one);
             }
             one()

@@ -2,8 +2,9 @@
 //! falls by refinement, about at its formal order or, in a share of the cases, without order.
 //!
 //! An error is a share e = t m exp(a z + b y) of the critical amplitude, with t the target uncertainty, z normal and common
-//! to all points of a study, y normal and the point's own. m, a and b are about those of the contributions of 140 intervals
-//! at the presets coarse and standard. Known runs keep their verdicts, and bound the made-up answer at their refinement
+//! to all points of a study, y normal and the point's own. m, a and b are about those of the contributions to 114 points' intervals
+//! at the presets coarse and standard; m of films without ramp and of the disk's modes was then lowered, since forecasts of
+//! studies that refine came out too long. Known runs keep their verdicts, and bound the made-up answer at their refinement
 //! levels.
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};

@@ -16,8 +16,9 @@
 //!
 //! A run of the scan below the bracket takes 0.65 units, since low amplitudes take few steps; a failure on the scene as it
 //! is 0.22 without ramp, 0.47 with one. A quasi-static film takes 0.9 units of those without ramp, one of 2^-n of the cells
-//! 0.45 x 2^-n; a unit with a ramp is 2.1 of those without. The factors are rounded means of 23 sweeps: three studies of
-//! Fig. 13 and twenty small ones at the presets coarse and standard. What the store measures replaces them: the ratio of
+//! 0.45 x 2^-n; a unit with a ramp is 2.1 of those without. The factors are rounded medians
+//! or means of 23 to 28 sweeps, twenty of them small studies at the presets coarse and standard, the others Fig. 13, its
+//! variants and a choice of five clearances. What the store measures replaces them: the ratio of
 //! measured to modelled time of each kind of run, and of all kinds of a ramp model where the kind is new.
 
 use std::collections::{BTreeMap, BTreeSet};

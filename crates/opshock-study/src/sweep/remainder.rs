@@ -26,10 +26,11 @@ const FEWEST_ENDS: u64 = 8;
 const MOST_POINTS: u64 = 4096;
 /// Share of the threads' time spent simulating.
 pub(super) const CORE_USE: f64 = 0.95;
-/// Runs that idle threads simulate before a search requests them and that none requests, as a share of the searches' own,
-/// for every thread beyond the first and point searched: 0.3 to 0.6 with two points and two threads, 0.1 with twelve.
+/// Time of runs that idle threads simulate ahead of a search and that it never requests, over that of the search's own, times
+/// points over threads beyond the first. Measured with two threads: 0.2 to 0.7 of the time with two points, 0.02 to 0.13
+/// with twelve.
 const AHEAD: f64 = 1.2;
-/// The largest such share: few runs are likely enough to be simulated ahead.
+/// The most that AHEAD may add with many threads, a guess: few runs are likely enough to be simulated ahead.
 const MOST_AHEAD: f64 = 2.0;
 /// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
 const MADE_UP_POINTS: f64 = 3.0;
@@ -124,10 +125,9 @@ fn one_end(
         let new = &ended.new[point];
         searched += new.len() as u32;
         searches += usize::from(!new.is_empty());
-        let of_new = new
-            .iter()
-            .map(|(asked, fails)| seconds(point, asked, *fails));
-        search_s += of_new.sum::<f64>();
+        for (asked, fails) in new {
+            search_s += seconds(point, asked, *fails);
+        }
         if !registry.is_final(point) {
             let kept = match input.keep_histories {
                 KeepHistories::None => 0,
@@ -264,10 +264,8 @@ fn interval(
 ) -> Option<Interval> {
     let ramp = input.points[point].coordinates.ramp;
     let all_s = |asks: &[(Ask, bool)]| -> f64 {
-        let of_asks = asks.iter();
-        of_asks
-            .map(|&(ask, fails)| seconds(&uncertainty_asked(ask), fails))
-            .sum()
+        let of_ask = |&(ask, fails): &(Ask, bool)| seconds(&uncertainty_asked(ask), fails);
+        asks.iter().map(of_ask).sum()
     };
     let made_up = |from: &UncertaintyInput, known: &[(Ask, uncertainty::Seen)]| {
         let law = MadeUpInterval::of(from, ramp, errors, seed, known);

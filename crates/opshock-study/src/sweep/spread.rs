@@ -37,8 +37,8 @@ impl Spread {
         }
     }
 
-    /// What is left, where the whole with what is `done` is given no wider range than a factor 1.9: a sweep that refines may
-    /// end outside, but a wider range is of no use.
+    /// This estimate of what is left, narrowed until the total, with what is `done`, spans a factor 1.9 at most. A narrowed
+    /// range holds fewer than 90 of 100 outcomes.
     pub(super) fn narrowed(self, done: f64) -> Spread {
         let whole = done + self.likely;
         let half = 1.9_f64.sqrt();

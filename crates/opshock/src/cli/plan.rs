@@ -12,7 +12,7 @@ use opshock_study::study::Study;
 use opshock_study::study::difference::SettingDifference;
 use opshock_study::study::memory::Demand;
 use opshock_study::sweep::added_points::refined;
-use opshock_study::sweep::forecast::{Forecast, forecast};
+use opshock_study::sweep::forecast::{Forecast, forecast, workers};
 use opshock_study::sweep::spread::Spread;
 use opshock_study::sweep::{Physics, SweepInput};
 use serde::Serialize;
@@ -57,7 +57,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
     } else {
         global.threads()
     };
-    memory::check("the forecast", Demand::models(&study), 1)?;
+    memory::check("the forecast", Demand::models(&study), workers(threads))?;
     let nodes = history_nodes(&study);
     let mut forecast = forecast(&input, &Physics::of(&study), loaded, threads, nodes);
     forecast.may_add(to_add as u64);
