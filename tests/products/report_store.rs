@@ -2,6 +2,7 @@
 
 use super::cli::{Done, files};
 use opshock_study::sweep::{Silent, SweepOptions, sweep};
+use opshock_tests::hdf5_dump::open_rw;
 use opshock_tests::mock_sweep::{MockSimulator, fig13};
 use std::path::Path;
 
@@ -181,7 +182,7 @@ fn a_store_of_a_newer_format_is_refused_by_name_with_exit_6() {
     let store = folder.path().join("s.opshock");
     swept(&store);
     std::fs::remove_file(store.join("journal")).unwrap();
-    let file = hdf5::File::open_rw(store.join("results.h5")).unwrap();
+    let file = open_rw(store.join("results.h5"));
     file.attr("format_version")
         .unwrap()
         .write_scalar(&99u32)

@@ -5,7 +5,7 @@ use std::path::Path;
 use opshock_study::search::Ramp;
 use opshock_study::store::{Store, StoreError, folder::session, journal, results};
 use opshock_study::sweep::{Silent, SweepEnd, SweepInput, SweepOptions, sweep};
-use opshock_tests::hdf5_dump::dump;
+use opshock_tests::hdf5_dump::{dump, open_rw};
 use opshock_tests::mock_sweep::{MockSimulator, Recorder, study};
 
 fn input() -> SweepInput {
@@ -204,7 +204,7 @@ fn results_read_back_as_written() {
 
     // A store of a program that wrote no descriptions, brackets and names of histories is read the same.
     drop(file);
-    let file = hdf5::File::open_rw(&copy).expect("opens");
+    let file = open_rw(&copy);
     file.unlink("brackets").expect("removes");
     file.unlink("runs/history").expect("removes");
     for at in ["points", "runs"] {
@@ -250,7 +250,7 @@ fn a_changed_number_in_the_results_is_detected() {
     let (folder, input, ..) = swept();
     let path = folder.path().join("results.h5");
     std::fs::remove_file(folder.path().join("journal")).expect("removes");
-    let file = hdf5::File::open_rw(&path).expect("opens");
+    let file = open_rw(&path);
     let column = file.dataset("runs/h_min_m").expect("column");
     let mut values: Vec<f64> = column.read_raw().expect("reads");
     values[3] *= 1.0 + 1e-15;
@@ -267,7 +267,7 @@ fn a_newer_store_and_another_study_are_refused_by_name() {
     other.texts.digest = "4567".into();
     assert_eq!(code(run(&other, folder.path())), "E188");
 
-    let file = hdf5::File::open_rw(folder.path().join("results.h5")).expect("opens");
+    let file = open_rw(folder.path().join("results.h5"));
     file.attr("format_version")
         .expect("attribute")
         .write_scalar(&99_u32)

@@ -1,9 +1,23 @@
-//! Content of an HDF5 file as lines of text, bits of every number included.
+//! Content of an HDF5 file as lines of text, bits of every number included; and files opened to be changed.
 
 use std::path::Path;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Container, File, Group};
+
+/// A file to change. A process that another test starts holds the lock of a file just closed until it runs its program, so
+/// that a refused lock is tried again for a second.
+pub fn open_rw(path: impl AsRef<Path>) -> hdf5::File {
+    for _ in 0..100 {
+        match hdf5::File::open_rw(&path) {
+            Err(error) if error.to_string().contains("unable to lock file") => {
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+            opened => return opened.expect("opens"),
+        }
+    }
+    panic!("{}: locked for a second", path.as_ref().display());
+}
 
 /// Lines of every attribute and dataset outside the groups and datasets named in `without`.
 pub fn dump(path: &Path, without: &[&str]) -> Vec<String> {
