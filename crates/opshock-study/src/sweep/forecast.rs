@@ -14,6 +14,7 @@ use super::input::SweepInput;
 use super::pace::Pace;
 use super::registry::Registry;
 use super::remainder::remainder;
+use super::run_time::RunTime;
 use super::simulator::Simulator;
 use super::spread::Spread;
 use crate::search::{Probe, Ramp, Touch, Verdict};
@@ -38,7 +39,7 @@ pub struct Forecast {
     pub uncertainty_runs: Spread,
     /// All simulations.
     pub runs: Spread,
-    /// Seconds of a survivor near the critical shock, on the scene as it is, by ramp model.
+    /// Seconds of a survivor near the critical shock of a positive pulse of 1 ms, on the scene as it is, by ramp model.
     pub seconds_per_run: BTreeMap<Ramp, f64>,
     /// Core-hours.
     pub core_h: Spread,
@@ -151,9 +152,8 @@ pub fn forecast(
     }
 }
 
-/// Time of a surviving simulation of a point: the mean of two, half an octave apart, of which the higher is next to a
-/// failure. All workers simulate it at the same time. The very first simulation builds what the others share and is not
-/// measured.
+/// Time of a unit, by two survivors of a point half an octave apart, of which the higher lies next to a failure. All workers
+/// simulate them at the same time. The very first simulation builds what the others share and is not measured.
 fn measured(
     input: &SweepInput,
     simulator: &dyn Simulator,
@@ -188,18 +188,31 @@ fn measured(
     node = (node - 1).max(range.low);
     let (mut seconds, mut survives) = run(node);
     let upwards = survives;
-    // Of the last survivor and the one before.
-    let mut survivors_s = [seconds; 2];
+    // The last survivor and the one before.
+    let mut survivors = [(node, seconds); 2];
     let step = if upwards { half_octave } else { -half_octave };
     while survives == upwards && (range.low..=range.high).contains(&(node + step)) {
         node += step;
         (seconds, survives) = run(node);
         if survives {
-            survivors_s = [survivors_s[1], seconds];
+            survivors = [survivors[1], (node, seconds)];
         }
     }
     if !upwards {
-        survivors_s = [seconds, run((node - half_octave).max(range.low)).0];
+        let below = (node - half_octave).max(range.low);
+        survivors = [(node, seconds), (below, run(below).0)];
     }
-    survivors_s.iter().sum::<f64>() / 2.0
+    let onset_g = match touch {
+        Touch::At { onset_g } => onset_g,
+        Touch::NoRamp | Touch::Unknown => 0.0,
+    };
+    let at = &input.points[point].coordinates;
+    let highest = survivors[0].0.max(survivors[1].0);
+    let units = survivors.map(|(node, _)| {
+        // The critical amplitude lies a quarter of an octave above the highest survivor on average.
+        let octaves = 0.25 + f64::from(highest - node) / f64::from(grid.steps_per_octave);
+        let run = RunTime::survivor(at, Probe::at(node));
+        run.at(grid.amplitude_g(node), onset_g, octaves).units
+    });
+    survivors.iter().map(|(_, seconds)| seconds).sum::<f64>() / units.iter().sum::<f64>()
 }

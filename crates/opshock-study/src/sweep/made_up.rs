@@ -1,6 +1,7 @@
 //! Made-up ends of the searches of a sweep: its own searches, run on from what is known with made-up verdicts.
 //!
-//! A table of failure has a fixed seed, the study's own first touches, and the verdicts that are known.
+//! A table of failure has a fixed seed, the study's own first touches, the verdicts that are known, and of each ramp model
+//! one critical shock that is known.
 
 use std::collections::HashSet;
 
@@ -50,7 +51,7 @@ pub(super) fn ended(
             campaign.set_touch(point, touch);
         }
     }
-    let law = Law::of(input, touches, sample);
+    let law = Law::of(input, touches, sample).through_known(input, registry, touches);
     let mut new = vec![Vec::new(); input.points.len()];
     // Points of equal content share their runs.
     let mut counted = HashSet::new();
@@ -171,8 +172,8 @@ impl Law {
         Law {
             none_g: lowest_g * (highest_g / lowest_g).powf(0.7 * share()),
             slope: 0.6 * (share() - 0.5),
-            minus: 0.7 + 0.6 * share(),
-            place: [0.4 * share(), share()],
+            minus: 1.0 + 0.5 * share(),
+            place: [0.1 + 0.5 * share(), 0.8 * share().powi(2)],
             drift: 0.3 * share(),
             window: (share() < 0.25).then(|| {
                 let low = 0.7 + 0.25 * share();
@@ -181,13 +182,53 @@ impl Law {
         }
     }
 
-    fn fails(&self, at: &Coordinates, touch: Touch, amplitude_g: f64) -> bool {
-        let sign = if at.sign == Sign::Plus {
-            1.0
-        } else {
-            self.minus
+    /// This table moved so that it goes through one critical shock that is known of each ramp model.
+    fn through_known(
+        mut self,
+        input: &SweepInput,
+        registry: &Registry<'_>,
+        touches: &[Touch],
+    ) -> Law {
+        let octave = input.settings.grid.steps_per_octave;
+        for ramp in [Ramp::None, Ramp::Rigid, Ramp::Deformable] {
+            let known = input.points.iter().enumerate().find_map(|(point, one)| {
+                let evidence = registry.campaign().search(point)?.evidence();
+                let failure = evidence.lowest_failure()?;
+                let survivor = evidence.highest_survivor_below(Some(failure))?;
+                let is_it = one.coordinates.ramp == ramp && 4 * (failure - survivor) <= octave;
+                let known_g = input.settings.grid.amplitude_g(survivor);
+                is_it.then_some((&one.coordinates, touches[point], known_g))
+            });
+            let Some((at, touch, known_g)) = known else {
+                continue;
+            };
+            let none_g = self.none_g(at);
+            match touch {
+                Touch::At { onset_g } if ramp != Ramp::None => {
+                    if none_g < known_g {
+                        self.none_g *= known_g / none_g;
+                    }
+                    let span = (self.none_g(at) / onset_g).max(1.001).ln();
+                    let place = (known_g / onset_g).ln() / span - self.drift * at.pulse_ms.ln();
+                    self.place[usize::from(ramp == Ramp::Deformable)] = place;
+                }
+                _ => self.none_g *= known_g / none_g,
+            }
+        }
+        self
+    }
+
+    /// Critical amplitude without ramp.
+    fn none_g(&self, at: &Coordinates) -> f64 {
+        let sign = match at.sign {
+            Sign::Plus => 1.0,
+            Sign::Minus => self.minus,
         };
-        let none_g = self.none_g * sign * at.pulse_ms.powf(self.slope);
+        self.none_g * sign * at.pulse_ms.powf(self.slope)
+    }
+
+    fn fails(&self, at: &Coordinates, touch: Touch, amplitude_g: f64) -> bool {
+        let none_g = self.none_g(at);
         let (Touch::At { onset_g }, false) = (touch, at.ramp == Ramp::None) else {
             return amplitude_g >= none_g;
         };

@@ -32,6 +32,7 @@ mod remainder;
 mod replay;
 pub mod rounds;
 mod rows;
+mod run_time;
 pub mod shard;
 pub mod simulator;
 pub mod spread;

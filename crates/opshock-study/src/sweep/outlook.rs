@@ -4,10 +4,11 @@
 use std::time::{Duration, Instant};
 
 use super::input::SweepInput;
-use super::pace::{Kind, Pace};
+use super::pace::Pace;
 use super::progress::Estimate;
 use super::registry::{Job, Registry};
 use super::remainder::{CORE_USE, remainder};
+use super::run_time::RunTime;
 use crate::search::Touch;
 
 /// It is renewed when the known runs have grown by 1 / `SHARE`, or after this time.
@@ -77,8 +78,8 @@ impl Outlook {
         match job {
             Job::Onset { .. } => true,
             Job::Run { point, asked, .. } => {
-                let kind = Kind::of(input.points[*point].coordinates.ramp, asked, false);
-                let seconds = self.pace.seconds(kind);
+                let time = RunTime::survivor(&input.points[*point].coordinates, asked.probe);
+                let seconds = self.pace.seconds(time);
                 seconds.is_none_or(|seconds| seconds <= left.as_secs_f64())
             }
         }

@@ -9,14 +9,15 @@ use std::collections::BTreeMap;
 use super::input::SweepInput;
 use super::made_up::{Ended, Random, ended};
 use super::made_up_interval::{Errors, MadeUpInterval};
-use super::pace::{Kind, Pace};
+use super::pace::Pace;
 use super::registry::{
     Depth, Registry, interval_input, next_round, seen, uncertainty_asked, uncertainty_probe,
 };
 use super::rows;
+use super::run_time::RunTime;
 use super::spread::Spread;
 use crate::search::uncertainty::{self, Ask, UncertaintyInput};
-use crate::search::{Asked, Campaign, Flag, Probe, ProbeResult, Purpose, Ramp, Touch};
+use crate::search::{Asked, Campaign, Flag, Probe, ProbeResult, Ramp, Touch};
 use crate::study::KeepHistories;
 
 /// Made-up ends, for few points and for many.
@@ -27,15 +28,15 @@ const MOST_POINTS: u64 = 4096;
 /// Share of the threads' time spent simulating.
 pub(super) const CORE_USE: f64 = 0.95;
 /// Time of runs that idle threads simulate ahead of a search and that it never requests, over that of the search's own, times
-/// points over threads beyond the first. Measured with two threads: 0.2 to 0.7 of the time with two points, 0.02 to 0.13
-/// with twelve.
-const AHEAD: f64 = 1.2;
+/// points over threads beyond the first. Measured with two threads: 0.3 to 0.8 of the time with four points, 0 to 0.1
+/// with 12 to 36.
+const AHEAD: f64 = 1.9;
 /// The most that AHEAD may add with many threads, a guess: few runs are likely enough to be simulated ahead.
 const MOST_AHEAD: f64 = 2.0;
 /// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
 const MADE_UP_POINTS: f64 = 3.0;
 /// Standard deviation of the logarithm of the real over the made-up cost of all intervals, before any is finished.
-const MODEL_SPREAD: f64 = 0.2;
+const MODEL_SPREAD: f64 = 0.4;
 
 /// What is left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -103,18 +104,16 @@ fn one_end(
     let errors = Errors::of(end);
     let mut random = Random(end ^ 0x7ace);
     let z = [random.normal(), random.normal(), random.normal()];
-    let seconds = |point: usize, asked: &Asked, fails: bool| {
-        let kind = Kind::of(input.points[point].coordinates.ramp, asked, fails);
-        let plain = (pace.plain_spread(kind.ramp) * z[2]).exp();
-        let seconds = plain * pace.seconds(kind).unwrap_or(0.0);
-        match asked.probe.levels.is_none() {
-            true => seconds,
-            false => seconds * (pace.spread(kind.ramp) * z[0]).exp(),
-        }
+    let of_run = |time: RunTime| {
+        let plain = (pace.plain_spread(time.kind.ramp) * z[2]).exp();
+        plain * pace.seconds(time).unwrap_or(0.0)
     };
-    let survivor = Asked {
-        probe: Probe::at(0),
-        purpose: Purpose::Bisect,
+    let seconds = |point: usize, asked: &Asked, fails: bool| {
+        let time = RunTime::of(input, registry, &ended.campaign, point, asked, fails);
+        match asked.probe.levels.is_none() {
+            true => of_run(time),
+            false => of_run(time) * (pace.spread(time.kind.ramp) * z[0]).exp(),
+        }
     };
     let (mut searched, mut search_s, mut histories_s) = (0, 0.0, 0.0);
     let mut searches = 0;
@@ -134,7 +133,9 @@ fn one_end(
                 KeepHistories::Bracket => 2,
                 KeepHistories::All => new.len().max(2),
             };
-            histories_s += kept as f64 * seconds(point, &survivor, false);
+            let at = &input.points[point].coordinates;
+            let survivor = RunTime::survivor(at, Probe::at(0));
+            histories_s += kept as f64 * of_run(survivor);
         }
     }
     let ahead = AHEAD * threads.saturating_sub(1) as f64 / searches.max(1) as f64;
@@ -168,9 +169,15 @@ fn one_end(
     let is_open = intervals.iter().any(|one| one.runs > 0);
     let asked = asked.round().max(f64::from(u8::from(is_open)));
     let core_s = search_s + histories_s + lefts.iter().sum::<f64>();
-    // One interval is made by one thread.
-    let longest_s = lefts.iter().copied().fold(0.0, f64::max);
-    let wall_s = (core_s / (CORE_USE * threads as f64)).max(longest_s);
+    // An interval is made by one thread, the next one by the thread that is free first.
+    let shared_s = (search_s + histories_s) / threads as f64;
+    let mut busy_s = vec![shared_s; threads];
+    for left_s in lefts {
+        if let Some(first) = busy_s.iter_mut().min_by(|a, b| a.total_cmp(b)) {
+            *first += left_s;
+        }
+    }
+    let wall_s = busy_s.into_iter().fold(0.0, f64::max) / CORE_USE;
     [searched, asked, searched + asked, core_s, wall_s]
 }
 

@@ -37,11 +37,11 @@ impl Spread {
         }
     }
 
-    /// This estimate of what is left, narrowed until the total, with what is `done`, spans a factor 1.9 at most. A narrowed
+    /// This estimate of what is left, narrowed until the total, with what is `done`, spans a factor 1.98 at most. A narrowed
     /// range holds fewer than 90 of 100 outcomes.
     pub(super) fn narrowed(self, done: f64) -> Spread {
         let whole = done + self.likely;
-        let half = 1.9_f64.sqrt();
+        let half = 1.98_f64.sqrt();
         Spread {
             min: self.min.max(whole / half - done),
             likely: self.likely,
