@@ -131,7 +131,7 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-forecast
-verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (20 minutes of two idle cores; OPSHOCK_SEEDS=first..end for others)
+verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (13 to 21 minutes of two idle cores; OPSHOCK_SEEDS=first..end for others)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture forecast_slow
 
 .PHONY: verify-solid

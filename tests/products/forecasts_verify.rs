@@ -11,7 +11,7 @@ use opshock_study::sweep::{Ending, Event, Physics, Progress, SweepInput, SweepOp
 use opshock_tests::mock_uncertainty::Random;
 use opshock_tests::seeded::seeds;
 
-/// Seeds: those below were used to choose the factors of the forecast.
+/// Seeds: those below were looked at while the factors of the forecast were chosen.
 const STUDIES: std::ops::Range<u64> = 81..101;
 /// Share of the studies whose time lies in the range, at least.
 const HOLDING: f64 = 0.85;

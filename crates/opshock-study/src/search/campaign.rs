@@ -32,6 +32,16 @@ pub enum Touch {
     Unknown,
 }
 
+impl Touch {
+    /// Amplitude of first touch, G, where disk and ramp touch and it is known.
+    pub fn onset_g(self) -> Option<f64> {
+        match self {
+            Touch::At { onset_g } => Some(onset_g),
+            Touch::NoRamp | Touch::Unknown => None,
+        }
+    }
+}
+
 /// Answers that a starting amplitude may be made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trust {
@@ -253,10 +263,8 @@ impl Campaign {
     }
 
     fn onset_index(&self, point: usize) -> Option<i32> {
-        match self.points[point].touch {
-            Some(Touch::At { onset_g }) => Some(self.settings.grid.at_or_above(onset_g)),
-            Some(Touch::NoRamp | Touch::Unknown) | None => None,
-        }
+        let onset_g = self.points[point].touch?.onset_g()?;
+        Some(self.settings.grid.at_or_above(onset_g))
     }
 
     /// Starts whatever can start, beginning with `ready`.
@@ -395,21 +403,17 @@ impl Campaign {
         answer_g: Option<f64>,
         trust: Trust,
     ) -> Option<Known> {
-        let onset_g = |touch: Touch| match touch {
-            Touch::At { onset_g } => Some(onset_g),
-            Touch::NoRamp | Touch::Unknown => None,
-        };
         let reference = match self.order.relations[point].reference {
             None => None,
             Some(other) => {
-                let onset_g = onset_g(self.points[other].touch?);
+                let onset_g = self.points[other].touch?.onset_g();
                 self.answer_g(other, trust)?
                     .map(|answer_g| (onset_g, answer_g))
             }
         };
         Some(Known {
             pulse_ms: self.pulse_ms[point],
-            onset_g: onset_g(touch),
+            onset_g: touch.onset_g(),
             answer_g,
             reference,
         })

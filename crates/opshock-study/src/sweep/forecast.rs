@@ -202,10 +202,7 @@ fn measured(
         let below = (node - half_octave).max(range.low);
         survivors = [(node, seconds), (below, run(below).0)];
     }
-    let onset_g = match touch {
-        Touch::At { onset_g } => onset_g,
-        Touch::NoRamp | Touch::Unknown => 0.0,
-    };
+    let onset_g = touch.onset_g().unwrap_or(0.0);
     let at = &input.points[point].coordinates;
     let highest = survivors[0].0.max(survivors[1].0);
     let units = survivors.map(|(node, _)| {

@@ -160,13 +160,9 @@ impl Law {
         let mut share = || random.unit();
         let grid = input.settings.grid;
         let highest_g = grid.amplitude_g(input.settings.range.high);
-        let touch_g = |touch: &Touch| match touch {
-            Touch::At { onset_g } => *onset_g,
-            Touch::NoRamp | Touch::Unknown => 0.0,
-        };
         let lowest_g = touches
             .iter()
-            .map(touch_g)
+            .filter_map(|touch| touch.onset_g())
             .fold(grid.amplitude_g(input.settings.range.low), f64::max)
             .min(highest_g);
         Law {
@@ -182,7 +178,7 @@ impl Law {
         }
     }
 
-    /// This table moved so that it goes through one critical shock that is known of each ramp model.
+    /// This table moved so that it goes through one critical shock that is known, to a quarter of an octave, of each ramp model.
     fn through_known(
         mut self,
         input: &SweepInput,

@@ -15,7 +15,7 @@ const MODEL_RUNS_OF_ALL: f64 = 8.0;
 const UNIT_RUNS: f64 = 2.0;
 /// Standard deviation of the logarithm of a modelled time before anything was measured.
 const MODEL_SPREAD: f64 = 0.4;
-/// That of the time of a plain run, known from one, and the runs after which half of its variance is left.
+/// That of the time of a plain run, known from one, and the runs after which half of its variance is left. Both are estimates.
 const PLAIN_SPREAD: f64 = 0.35;
 const PLAIN_RUNS: f64 = 8.0;
 

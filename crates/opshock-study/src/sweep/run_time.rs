@@ -108,10 +108,8 @@ impl RunTime {
     ) -> RunTime {
         let at = &input.points[point].coordinates;
         let amplitude_g = registry.amplitude_g(asked.probe);
-        let onset_g = match campaign.touch(point) {
-            Some(Touch::At { onset_g }) => onset_g,
-            _ => 0.0,
-        };
+        let onset_g = campaign.touch(point).and_then(Touch::onset_g);
+        let onset_g = onset_g.unwrap_or(0.0);
         let octave = f64::from(input.settings.grid.steps_per_octave);
         let octaves = match asked.probe.is_fine {
             // The finer grid of an interval lies next to the critical amplitude.

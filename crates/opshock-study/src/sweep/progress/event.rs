@@ -45,7 +45,7 @@ pub struct Estimate {
     pub runs_left: Spread,
     /// Seconds of all simulations left, one after another; `None` until two runs of a ramp model were measured.
     pub core_s: Option<Spread>,
-    /// Seconds left with the threads of the sweep; `None` until then. Both ranges are narrowed to a factor 1.9 of the total.
+    /// Seconds left with the threads of the sweep; `None` until then. Both ranges are narrowed to a factor 1.98 of the total.
     pub left_s: Option<Spread>,
 }
 

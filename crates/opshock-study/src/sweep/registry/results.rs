@@ -20,10 +20,7 @@ impl Registry<'_> {
 
     /// Row of a point with these findings, and its interval where that is finished.
     pub(super) fn row_with(&self, point: usize, findings: Findings) -> PointSummary {
-        let onset_g = match self.campaign.touch(point) {
-            Some(Touch::At { onset_g }) => Some(onset_g),
-            Some(Touch::NoRamp | Touch::Unknown) | None => None,
-        };
+        let onset_g = self.campaign.touch(point).and_then(Touch::onset_g);
         rows::row(
             &self.input.points[point],
             &findings,
