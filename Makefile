@@ -88,7 +88,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast verify-uncertainty ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -133,6 +133,10 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 .PHONY: verify-forecast
 verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (13 to 21 minutes of two idle cores; OPSHOCK_SEEDS=first..end for others)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture forecast_slow
+
+.PHONY: verify-uncertainty
+verify-uncertainty: bootstrap ## are independent critical shocks inside the uncertainty intervals of Fig. 13? (hours; goes on where it stopped; OPSHOCK_SEEDS=first..end for some rows)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture uncertainty_slow
 
 .PHONY: verify-solid
 verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh

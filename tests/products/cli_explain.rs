@@ -183,7 +183,7 @@ fn a_sweep_in_full_gives_the_planned_critical_shocks() {
         .iter()
         .zip(full.as_array().unwrap())
     {
-        for key in ["ramp", "a_crit_g", "a_fail_g", "status"] {
+        for key in ["ramp", "survived_g", "failed_g", "status"] {
             assert_eq!(a[key], b[key], "{key}\n{planned:#}\n{full:#}");
         }
     }

@@ -7,9 +7,9 @@ use std::path::Path;
 
 /// Pulses of the paper's drive, on a coarse film and a short window.
 const WIDTHS: [&str; 2] = ["--set", "pulse.widths_ms=[0.5, 1.0]"];
-const TABLE: &str = "ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags\n\
-                     rigid,0.5,+,201.9,203.9,0,2,195.3,4,ok,\n\
-                     none,0.5,-,473.5,,,,,17,above_range,window\n";
+const TABLE: &str = "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags\n\
+                     rigid,0.5,+,202.9,1,201.9,203.9,195.3,4,ok,\n\
+                     none,0.5,-,,,473.5,,,17,above_range,window\n";
 
 fn figures(folder: &Path, more: &[&str]) -> Done {
     let path = study("paper-cases");
@@ -170,7 +170,7 @@ fn what_cannot_be_drawn_is_said_and_nothing_is_written() {
     for (more, reported) in [
         (
             &["--critical", "table.csv"][..],
-            "table.csv, line 2: a_fail_g = \"x\" must be a number",
+            "table.csv, line 2: failed_g = \"x\" must be a number",
         ),
         (&["--critical", "none.csv"], "cannot read none.csv"),
         (&["--short", "0.5"], "must be MS:G"),

@@ -71,13 +71,13 @@ fn only_what_differs_is_reported_and_whether_it_is_beyond_the_errors() {
     for (side, truth_g) in [("a", 500.0), ("b", 550.0)] {
         let of = |key: &str| point[side][key].as_f64().unwrap();
         assert!(
-            of("a_crit_g") <= truth_g && truth_g <= of("a_fail_g"),
+            of("survived_g") <= truth_g && truth_g <= of("failed_g"),
             "{point}"
         );
     }
     // Neither has uncertainty intervals: what is known of the errors decides nothing.
     assert_eq!(point["significance"], "beyond_brackets");
-    assert!(point["a"]["err_high_g"].is_null(), "{point}");
+    assert!(point["a"]["uncertainty_g"].is_null(), "{point}");
     let change_pct = point["change_pct"].as_f64().unwrap();
     assert!((change_pct - 10.0).abs() <= 1.1, "{change_pct}");
 

@@ -115,7 +115,10 @@ fn run(input: &SweepInput, simulator: &Law<'_>, folder: &Path, threads: usize) -
 
 /// Clearances and widths of the rows with an interval, with the levels of their answers.
 fn intervals(summary: &Summary) -> BTreeMap<(String, String, &str), &str> {
-    let rows = summary.points.iter().filter(|row| row.err_low_g.is_some());
+    let rows = summary
+        .points
+        .iter()
+        .filter(|row| row.uncertainty_g.is_some());
     rows.map(|row| {
         let key = (
             row.axes[0].to_string(),

@@ -133,8 +133,8 @@ fn a_stop_between_brackets_and_uncertainties_leaves_every_bracket() {
     assert!(matches!(end.ending, Ending::Stopped { .. }));
     for (row, law) in end.summary.points.iter().zip(&laws.0) {
         let critical_g = law.critical_g(Default::default());
-        let low = row.a_crit_g.expect("bracketed");
-        let high = row.a_fail_g.expect("bracketed");
+        let low = row.survived_g.expect("bracketed");
+        let high = row.failed_g.expect("bracketed");
         assert!(low <= critical_g && critical_g < high, "{low} {high}");
         assert!(high / low < 1.0101, "{low} to {high}");
     }

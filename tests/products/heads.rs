@@ -256,11 +256,11 @@ fn a_head_that_faces_up_is_the_one_that_faces_down_under_the_other_sign() {
         .collect();
     assert_eq!(signs, ["+", "-", "+", "-"]);
     for (over, under) in [(0, 3), (1, 2)] {
-        for key in ["a_crit_g", "a_fail_g", "onset_g", "status"] {
+        for key in ["survived_g", "failed_g", "onset_g", "status"] {
             assert_eq!(both[over][key], both[under][key], "{key}");
         }
     }
-    for key in ["a_crit_g", "onset_g"] {
+    for key in ["survived_g", "onset_g"] {
         assert_ne!(both[0][key], both[1][key], "{key}");
     }
 }

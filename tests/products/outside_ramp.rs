@@ -112,8 +112,8 @@ fn critical(folder: &Path, file: &str) -> Vec<Critical> {
             Critical {
                 sign: point["sign"].as_str().unwrap().to_owned(),
                 value,
-                low: value - number("err_low_g"),
-                high: value + number("err_high_g"),
+                low: value - number("uncertainty_g"),
+                high: value + number("uncertainty_g"),
             }
         })
         .collect()

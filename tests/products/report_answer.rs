@@ -28,9 +28,9 @@ fn five_clearances(half_g: f64) -> Summary {
                     sign,
                     axes: vec![AxisValue::Number(um)],
                     a_crit_g: Some(crit),
-                    a_fail_g: Some(crit + 1.0),
-                    err_low_g: Some(half_g),
-                    err_high_g: Some(half_g),
+                    uncertainty_g: Some(half_g),
+                    survived_g: Some(crit - 0.5),
+                    failed_g: Some(crit + 0.5),
                     contributions: vec![],
                     levels: String::new(),
                     onset_g: Some(90.0),
@@ -63,7 +63,7 @@ fn the_first_sentence_has_range_worst_case_and_the_best_value_with_its_lead() {
     let head = |half: &str| {
         format!(
             "Critical shocks range from 140.0 G (the worst case: rigid ramp, 0.5 ms, sign +, clearance_um = 40, \
-             uncertainty \u{2212}{half} +{half} G) to 340.0 G; the best clearance_um is 120, whose worst case, 220.0 G, is \
+             uncertainty \u{b1}{half} G) to 340.0 G; the best clearance_um is 120, whose worst case, 220.0 G, is \
              20.0 G (10.0 %) above that of the next, 100, a lead "
         )
     };
@@ -95,12 +95,13 @@ fn the_first_sentence_has_range_worst_case_and_the_best_value_with_its_lead() {
 fn points_without_answer_and_bounds_are_said() {
     let mut summary = five_clearances(1.0);
     for point in summary.points.iter_mut().take(2) {
-        (point.status, point.a_crit_g, point.a_fail_g) = (Status::Open, None, None);
+        point.status = Status::Open;
+        (point.a_crit_g, point.survived_g, point.failed_g) = (None, None, None);
     }
     summary.points[19].status = Status::AboveRange;
     let first = Answer::of(&summary).sentences().remove(0);
     assert!(
-        first.contains(" to more than 340.0 G, 2 of 20 points without answer;"),
+        first.contains(" to more than 339.5 G, 2 of 20 points without answer;"),
         "{first}"
     );
     summary.points.clear();

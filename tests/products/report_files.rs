@@ -18,10 +18,10 @@ fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary 
         pulse_ms,
         sign,
         axes: vec![AxisValue::Number(60.0)],
-        a_crit_g: (status != Status::BelowRange).then_some(366.25),
-        a_fail_g: (status != Status::AboveRange).then_some(369.5),
-        err_low_g: known.then_some(1.5),
-        err_high_g: known.then_some(3.25),
+        a_crit_g: known.then_some(367.125),
+        uncertainty_g: known.then_some(2.375),
+        survived_g: (status != Status::BelowRange).then_some(366.25),
+        failed_g: (status != Status::AboveRange).then_some(369.5),
         contributions: vec![],
         levels: String::new(),
         onset_g: (ramp != "none").then_some(195.5),
@@ -113,16 +113,16 @@ fn csv_has_the_documented_header_and_empty_cells_for_what_is_missing() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         lines[0],
-        "ramp,pulse_ms,sign,ramp.clearance_um,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags"
+        "ramp,pulse_ms,sign,ramp.clearance_um,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
     );
     assert_eq!(
         lines[1],
-        "none,0.5,+,60,366.25,,,,,12,above_range,retry;non_monotone"
+        "none,0.5,+,60,,,366.25,,,12,above_range,retry;non_monotone"
     );
-    assert_eq!(lines[2], "none,2,+,60,366.25,369.5,1.5,3.25,,12,ok,");
+    assert_eq!(lines[2], "none,2,+,60,367.125,2.375,366.25,369.5,,12,ok,");
     assert_eq!(
         lines[8],
-        "rigid,2,-,60,,369.5,,,195.5,12,below_range,retry;non_monotone"
+        "rigid,2,-,60,,,,369.5,195.5,12,below_range,retry;non_monotone"
     );
 }
 
@@ -137,7 +137,9 @@ fn csv_without_further_axes_has_exactly_twelve_less_one_columns() {
     let text = table::csv(&summary);
     assert_eq!(
         text.lines().next(),
-        Some("ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags")
+        Some(
+            "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
+        )
     );
 }
 
@@ -145,16 +147,16 @@ fn csv_without_further_axes_has_exactly_twelve_less_one_columns() {
 fn markdown_and_terminal_say_what_is_only_a_bound() {
     let markdown = table::markdown(&summary(), "The answer.", "opshock 1 (abc)");
     assert!(
-        markdown.contains("| none | 0.5 | + | 60 | > 366.2 |"),
+        markdown.contains("| none | 0.5 | + | 60 | > 366.2 |  | 366.2 |  |"),
         "{markdown}"
     );
-    assert!(markdown.contains("| < 369.5 |"), "{markdown}");
+    assert!(markdown.contains("| < 369.5 |  |  | 369.5 |"), "{markdown}");
     let columns: Vec<usize> = markdown
         .lines()
         .filter(|line| line.starts_with('|'))
         .map(|line| line.matches('|').count())
         .collect();
-    assert_eq!(columns, [12; 10]);
+    assert_eq!(columns, [13; 10]);
     let terminal = table::terminal(&summary());
     assert!(
         terminal.contains(
@@ -302,7 +304,8 @@ fn an_empty_or_unfinished_study_still_makes_a_report() {
     for point in &mut open.points {
         *point = PointSummary {
             a_crit_g: None,
-            a_fail_g: None,
+            survived_g: None,
+            failed_g: None,
             status: Status::Open,
             ..self::point("rigid", point.pulse_ms, point.sign, Status::Ok)
         };

@@ -32,10 +32,10 @@ fn summary() -> Summary {
                     pulse_ms: ms,
                     sign,
                     axes: vec![],
-                    a_crit_g: Some(crit),
-                    a_fail_g: Some(1.01 * crit),
-                    err_low_g: Some(0.05 * crit),
-                    err_high_g: Some(0.06 * crit),
+                    a_crit_g: Some(1.005 * crit),
+                    uncertainty_g: Some(0.055 * crit),
+                    survived_g: Some(crit),
+                    failed_g: Some(1.01 * crit),
                     contributions: vec![],
                     levels: String::new(),
                     onset_g: (ramp != "none").then_some(0.8 * crit),
@@ -75,7 +75,7 @@ fn summary() -> Summary {
 fn runs(summary: &Summary) -> Vec<RunDot> {
     let mut runs = Vec::new();
     for (point, row) in summary.points.iter().enumerate() {
-        let crit = row.a_crit_g.unwrap_or(0.0);
+        let crit = row.survived_g.unwrap_or(0.0);
         for (share, verdict, h) in [
             (0.7, "survives", 3.0e-9),
             (1.0, "survives", 0.6e-9),

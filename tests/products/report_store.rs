@@ -45,7 +45,7 @@ fn report_prints_table_csv_markdown_and_json_that_agree() {
     let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(
         lines[0].join(","),
-        "ramp,pulse_ms,sign,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,runs,status,flags"
+        "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
     );
     assert_eq!(lines.len(), 37);
     for (line, point) in lines[1..].iter().zip(points) {
@@ -102,7 +102,7 @@ fn report_out_writes_the_six_files_and_tells_them_on_stderr_only() {
     assert_eq!(done.stderr.matches("wrote ").count(), 6);
     assert!(!done.stdout.contains("wrote "));
     let h5 = hdf5::File::open(folder.path().join("out/r/results.h5")).unwrap();
-    assert_eq!(h5.dataset("points/a_crit_g").unwrap().size(), 36);
+    assert_eq!(h5.dataset("points/survived_g").unwrap().size(), 36);
     let page = std::fs::read_to_string(folder.path().join("out/r/report.html")).unwrap();
     assert_eq!(page.matches("<tr data-point").count(), 36);
 
@@ -162,7 +162,7 @@ fn export_lists_every_simulation_behind_the_table() {
     assert_eq!(json["runs"].as_array().map(Vec::len), Some(runs));
     // The evidence holds the answer: the reported survivor and failure are among the runs.
     let point = &report["points"][0];
-    for (key, verdict) in [("a_crit_g", "survives"), ("a_fail_g", "fails")] {
+    for (key, verdict) in [("survived_g", "survives"), ("failed_g", "fails")] {
         let Some(amplitude) = point[key].as_f64() else {
             continue;
         };

@@ -289,7 +289,7 @@ fn runs_per_point_on_figure_13() {
                     axes: Vec::new(),
                     round: 0,
                 },
-                critical_g: number(4).expect("a failure") * (1.0 - 1e-9),
+                critical_g: number(6).expect("a failure") * (1.0 - 1e-9),
                 onset_g: number(7),
                 windows_g: Vec::new(),
                 has_margin: sign == Sign::Minus,

@@ -156,8 +156,8 @@ fn points_of_equal_content_share_their_runs() {
     .expect("sweeps");
     for (twin, first) in [(4, 0), (5, 1), (6, 2), (7, 3)] {
         assert_eq!(
-            both.summary.points[twin].a_fail_g,
-            alone.summary.points[first].a_fail_g
+            both.summary.points[twin].failed_g,
+            alone.summary.points[first].failed_g
         );
     }
     assert!(both.computed_runs < both.summary.totals.runs);

@@ -54,7 +54,7 @@ fn hard_f4_poisoned_points_do_not_touch_their_neighbours() {
     {
         if poisoned.iter().any(|&(point, _)| point == place) {
             assert_eq!(row.status, Status::Undecided, "{place}");
-            assert_eq!(row.a_fail_g, None);
+            assert_eq!(row.failed_g, None);
             causes.push(row.flags.clone());
         } else {
             // A point that learns from a sick one starts its search elsewhere: the same answer
@@ -190,7 +190,7 @@ fn the_histories_of_the_bracket_are_kept_once() {
     };
     let kept = files();
     assert_eq!(kept.len(), 2 * end.summary.points.len(), "{kept:?}");
-    let failure = end.summary.points[0].a_fail_g.expect("bracketed");
+    let failure = end.summary.points[0].failed_g.expect("bracketed");
     let name = kept
         .iter()
         .find(|name| name.starts_with(&format!("none_0.5ms_plus_{failure:.3}g_")))
@@ -267,7 +267,7 @@ fn histories_are_named_by_their_place_and_by_the_runs_that_they_are_of() {
         } else {
             "minus"
         };
-        for amplitude_g in [row.a_crit_g.unwrap(), row.a_fail_g.unwrap()] {
+        for amplitude_g in [row.survived_g.unwrap(), row.failed_g.unwrap()] {
             let rows = column();
             let named = rows
                 .iter()

@@ -14,7 +14,7 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    fn middle_g(self) -> f64 {
+    pub(super) fn middle_g(self) -> f64 {
         0.5 * (self.low_g + self.high_g)
     }
 }
@@ -23,8 +23,7 @@ impl Truth {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Covered {
     pub(super) a_crit_g: f64,
-    pub(super) low_g: f64,
-    pub(super) high_g: f64,
+    pub(super) half_g: f64,
     pub(super) truth: Truth,
     /// A contribution could not be found and is missing in the interval, which says so by its flag.
     pub(super) is_partial: bool,
@@ -32,11 +31,11 @@ pub(super) struct Covered {
 
 impl Covered {
     pub(super) fn inside(&self) -> bool {
-        (self.a_crit_g - self.low_g..=self.a_crit_g + self.high_g).contains(&self.truth.middle_g())
+        (self.a_crit_g - self.truth.middle_g()).abs() <= self.half_g
     }
 
     fn ratio(&self) -> f64 {
-        0.5 * (self.low_g + self.high_g) / (self.a_crit_g - self.truth.middle_g()).abs().max(1e-9)
+        self.half_g / (self.a_crit_g - self.truth.middle_g()).abs().max(1e-9)
     }
 }
 
@@ -58,7 +57,7 @@ pub(super) struct Log {
 }
 
 const HEADER: &str =
-    "kind,seed,scene,a_crit_g,err_low_g,err_high_g,truth_low_g,truth_high_g,inside,partial";
+    "kind,seed,scene,a_crit_g,uncertainty_g,truth_low_g,truth_high_g,inside,partial";
 
 impl Log {
     /// What this program has measured so far, and the truths that others have.
@@ -85,13 +84,12 @@ impl Log {
             let covered = || {
                 Some(Covered {
                     a_crit_g: number(3)?,
-                    low_g: number(4)?,
-                    high_g: number(5)?,
+                    half_g: number(4)?,
                     truth: Truth {
-                        low_g: number(6)?,
-                        high_g: number(7)?,
+                        low_g: number(5)?,
+                        high_g: number(6)?,
                     },
-                    is_partial: cells[9] == "true",
+                    is_partial: cells[8] == "true",
                 })
             };
             let key = (cells[0].to_owned(), cells[1].parse().expect("a seed"));
@@ -142,15 +140,14 @@ impl Log {
         for ((kind, seed), line) in &self.rows {
             let scene = &line.scene;
             let Some(c) = line.covered else {
-                let _ = writeln!(text, "{kind},{seed},{scene},,,,,,,");
+                let _ = writeln!(text, "{kind},{seed},{scene},,,,,,");
                 continue;
             };
             let _ = writeln!(
                 text,
-                "{kind},{seed},{scene},{:.4},{:.4},{:.4},{:.4},{:.4},{},{}",
+                "{kind},{seed},{scene},{:.4},{:.4},{:.4},{:.4},{},{}",
                 c.a_crit_g,
-                c.low_g,
-                c.high_g,
+                c.half_g,
                 c.truth.low_g,
                 c.truth.high_g,
                 c.inside(),

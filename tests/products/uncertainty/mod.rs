@@ -9,7 +9,7 @@ use opshock_study::report::comparison::Significance;
 use opshock_study::report::{critical_shock_figure, table};
 use opshock_study::search::{Flag, Probe, Purpose, Retry, Status};
 use opshock_study::store::results;
-use opshock_study::store::summary::PointSummary;
+use opshock_study::store::summary::{Contribution, PointSummary};
 use opshock_study::study::Ramp;
 use opshock_study::sweep::{
     Ending, Event, Physics, Silent, Simulator, SweepEnd, SweepInput, SweepOptions, sweep,
@@ -33,12 +33,9 @@ fn table(end: &SweepEnd) -> String {
 /// Distance of the truth from the reported value and half the interval, both G; whether it is inside.
 fn covered(row: &PointSummary, exact_g: f64) -> (f64, f64, bool) {
     let a_crit_g = row.a_crit_g.expect("bracketed");
-    let (low, high) = (
-        row.err_low_g.expect("a interval"),
-        row.err_high_g.expect("a interval"),
-    );
-    let inside = (a_crit_g - low..=a_crit_g + high).contains(&exact_g);
-    ((a_crit_g - exact_g).abs(), 0.5 * (low + high), inside)
+    let half_g = row.uncertainty_g.expect("an interval");
+    let off_g = (a_crit_g - exact_g).abs();
+    (off_g, half_g, off_g <= half_g)
 }
 
 /// Share of the truths inside their intervals, and the median of half interval over true error.
@@ -108,16 +105,19 @@ fn runs_of_uncertainty_are_labelled_and_switched_off_by_the_plan() {
     let without = run(&input, &laws, &folder.path().join("without"), 2);
     assert_eq!(without.summary.totals.uncertainty_runs, 0);
     for (with, without) in with.summary.points.iter().zip(&without.summary.points) {
-        assert_eq!(with.a_crit_g, without.a_crit_g);
-        let sum: f64 = with
-            .contributions
-            .iter()
-            .map(|(_, contribution)| contribution.high_g)
-            .sum();
-        assert_eq!(with.err_high_g, Some(sum));
+        assert_eq!(with.survived_g, without.survived_g);
+        let sum = |of: fn(&Contribution) -> f64| -> f64 {
+            with.contributions.iter().map(|(_, part)| of(part)).sum()
+        };
+        let [low_g, high_g] = with.interval_g().expect("an interval");
+        let survived_g = with.survived_g.expect("bracketed");
+        assert!((survived_g - low_g - sum(|part| part.low_g)).abs() < 1e-9 * survived_g);
+        assert!((high_g - survived_g - sum(|part| part.high_g)).abs() < 1e-9 * survived_g);
+        let [low_g, high_g] = without.bracket_g().expect("bracketed");
+        assert_eq!(without.a_crit_g, Some(f64::midpoint(low_g, high_g)));
         // The bracket alone is no error.
         assert_eq!(without.contributions, []);
-        assert_eq!((without.err_low_g, without.err_high_g), (None, None));
+        assert_eq!(without.uncertainty_g, None);
     }
 }
 
@@ -142,22 +142,19 @@ fn an_error_that_was_not_computed_is_absent_in_every_product() {
         cells.split(',').nth(place.expect("a column"))
     };
     assert_eq!(cell("a_crit_g"), Some(&*row.a_crit_g.unwrap().to_string()));
-    assert_eq!(
-        (cell("err_low_g"), cell("err_high_g")),
-        (Some(""), Some(""))
-    );
+    assert_eq!(cell("uncertainty_g"), Some(""));
     let json = serde_json::to_value(&without).expect("JSON");
-    assert!(json["points"][0]["err_low_g"].is_null() && json["points"][0]["err_high_g"].is_null());
+    assert!(json["points"][0]["uncertainty_g"].is_null());
     assert_eq!(json["points"][0]["contributions"], serde_json::json!({}));
     for text in [table::terminal(&without), table::markdown(&without, "", "")] {
-        assert!(!text.contains("-0.0 +"), "{text}");
+        assert!(!text.contains("+-"), "{text}");
     }
     let file = hdf5::File::open(store.join("results.h5")).expect("opens");
     let column = |name: &str| {
         let set = file.dataset(&format!("points/{name}")).expect("a column");
         set.read_raw::<f64>().expect("reads")[0]
     };
-    assert!(column("err_low_g").is_nan() && column("err_high_g").is_nan());
+    assert!(column("uncertainty_g").is_nan());
     drop(file);
     let stored = results::read(&store.join("results.h5")).expect("reads");
     assert_eq!(stored.expect("is there").summary, without);
@@ -177,7 +174,11 @@ fn an_error_that_was_not_computed_is_absent_in_every_product() {
 
     // Two grid points apart: beyond the brackets, which decides nothing about errors.
     let mut other = row.clone();
-    for value in [&mut other.a_crit_g, &mut other.a_fail_g] {
+    for value in [
+        &mut other.a_crit_g,
+        &mut other.survived_g,
+        &mut other.failed_g,
+    ] {
         *value = value.map(|g| 1.05 * g);
     }
     assert_eq!(Significance::of(row, &other), Significance::BeyondBrackets);
@@ -355,6 +356,7 @@ fn the_truth_lies_inside_the_uncertainty_of_known_laws() {
 }
 
 mod coverage;
+mod fig13_truths;
 mod verify;
 
 /// The answer of a quasi-static film does not depend on whether the shock was run before; it is a clearance, with the

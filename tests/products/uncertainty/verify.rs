@@ -33,14 +33,14 @@ const WHOLE: usize = 40;
 
 /// Critical amplitude near `from_g` to a `share`, by searching exponentially and halving, going on from what is
 /// `known` of it; `None` without verdicts or farther off than a factor 4.
-fn truth(
+pub(super) fn truth(
     from_g: f64,
     share: f64,
     known: Option<Truth>,
     fails: &mut dyn FnMut(f64) -> Option<bool>,
 ) -> Option<Truth> {
     let (mut low, mut high) = (None, None);
-    let (mut at, mut stride) = (from_g, 1.01_f64);
+    let (mut at, mut stride) = (from_g, 1.0 + 2.0 * share);
     if let Some(known) = known {
         (low, high) = (Some(known.low_g), Some(known.high_g));
     }
@@ -294,14 +294,12 @@ fn covered(
         println!("no critical shock: {:?}", row.status);
         return None;
     }
-    let a_crit_g = row.a_crit_g?;
-    let (low_g, high_g) = (row.err_low_g?, row.err_high_g?);
+    let (a_crit_g, half_g) = (row.a_crit_g?, row.uncertainty_g?);
     // Fine enough to tell inside from outside, and the interval from twenty times the error.
-    let share = (0.05 * (low_g + high_g) / a_crit_g).max(0.002);
+    let share = (0.1 * half_g / a_crit_g).max(0.002);
     Some(Covered {
         a_crit_g,
-        low_g,
-        high_g,
+        half_g,
         truth: truth(a_crit_g, share, known, fails)?,
         is_partial: row.flags.contains(&Flag::ContributionMissing),
     })
@@ -342,8 +340,7 @@ fn laws(log: &Mutex<Log>) {
     for (seed, (row, law)) in end.summary.points.iter().zip(&laws.0).enumerate() {
         let covered = Covered {
             a_crit_g: row.a_crit_g.expect("bracketed"),
-            low_g: row.err_low_g.expect("a interval"),
-            high_g: row.err_high_g.expect("a interval"),
+            half_g: row.uncertainty_g.expect("an interval"),
             truth: Truth {
                 low_g: law.exact_g,
                 high_g: law.exact_g,

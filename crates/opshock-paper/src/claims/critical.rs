@@ -4,7 +4,7 @@
 //! and in opposite directions.
 
 use opshock_study::search::Sign;
-use opshock_study::store::summary::{PointSummary, Status, Summary};
+use opshock_study::store::summary::{PointSummary, Summary};
 
 /// One number of a statement about many critical shocks: place, number, bounds by the uncertainty intervals.
 pub type Place = (String, f64, Option<[f64; 2]>);
@@ -39,11 +39,11 @@ struct WithUncertainty {
 
 impl WithUncertainty {
     fn of(point: &PointSummary) -> Option<WithUncertainty> {
-        let value = point.a_crit_g.filter(|_| point.status == Status::Ok)?;
-        let uncertainty = point.err_low_g.zip(point.err_high_g);
+        let value = point.a_crit_g?;
+        let uncertainty = point.uncertainty_g;
         Some(WithUncertainty {
             value,
-            uncertainty: uncertainty.map(|(low, high)| [(value - low).max(0.0), value + high]),
+            uncertainty: uncertainty.map(|half| [(value - half).max(0.0), value + half]),
         })
     }
 

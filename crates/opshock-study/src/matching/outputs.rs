@@ -341,17 +341,17 @@ fn only<T: Copy>(list: &[T]) -> Option<T> {
 
 impl MatchProblem {
     /// Numerical uncertainty of a critical shock's number by the tolerance of its search: for each critical shock half
-    /// of the tolerance from the middle of the bracket, all of it from the reported survivor.
+    /// of the tolerance, from the middle of the bracket, which is reported.
     pub(super) fn search_uncertainty(&self, one: &Observation, number: Known) -> f64 {
         let Known::Is(value) = number else {
             return 0.0;
         };
         let share = 0.01 * self.tolerance_pct;
         match one.quantity {
-            Quantity::Critical(_) => share * value.abs(),
+            Quantity::Critical(_) => 0.5 * share * value.abs(),
             // Of differences in per cent, and of ratios.
-            Quantity::Statement { unit: "%", .. } => 200.0 * share,
-            _ => 2.0 * share * value.abs(),
+            Quantity::Statement { unit: "%", .. } => 100.0 * share,
+            _ => share * value.abs(),
         }
     }
 }

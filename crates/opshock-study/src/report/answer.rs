@@ -129,12 +129,12 @@ impl<'a> Answer<'a> {
         });
         let highest = highest.unwrap_or(lowest);
         let is_alone =
-            |point: &PointSummary| point.status == Status::Ok && point.err_low_g.is_none();
-        let has_intervals = known().any(|point| point.err_low_g.is_some());
+            |point: &PointSummary| point.status == Status::Ok && point.uncertainty_g.is_none();
+        let has_intervals = known().any(|point| point.uncertainty_g.is_some());
         let uncertainty = match uncertainty_words(lowest).as_str() {
             "" if has_intervals && is_alone(lowest) => ", bracket alone".to_owned(),
             "" => String::new(),
-            words => format!(", uncertainty {} G", words.replace('-', "\u{2212}")),
+            words => format!(", uncertainty {} G", words.replace("+-", "\u{b1}")),
         };
         let at = coordinates::name(summary, lowest);
         let mut first = match known().count() {
@@ -236,8 +236,7 @@ impl<'a> Answer<'a> {
                 "value": rank.value,
                 "worst_case_g": rank.worst.known_g(),
                 "status": rank.worst.status,
-                "err_low_g": rank.worst.err_low_g,
-                "err_high_g": rank.worst.err_high_g,
+                "uncertainty_g": rank.worst.uncertainty_g,
                 "at": coordinates::name(self.summary, rank.worst),
                 "unanswered": rank.unanswered,
                 "behind_pct": (place > 0).then(|| choice.behind_pct(place)),

@@ -217,9 +217,9 @@ fn axes_of(
 fn differing(a: &PointSummary, b: &PointSummary) -> Vec<&'static str> {
     [
         ("a_crit_g", a.a_crit_g != b.a_crit_g),
-        ("a_fail_g", a.a_fail_g != b.a_fail_g),
-        ("err_low_g", a.err_low_g != b.err_low_g),
-        ("err_high_g", a.err_high_g != b.err_high_g),
+        ("uncertainty_g", a.uncertainty_g != b.uncertainty_g),
+        ("survived_g", a.survived_g != b.survived_g),
+        ("failed_g", a.failed_g != b.failed_g),
         ("onset_g", a.onset_g != b.onset_g),
         ("status", a.status != b.status),
         ("flags", a.flags != b.flags),
@@ -230,9 +230,7 @@ fn differing(a: &PointSummary, b: &PointSummary) -> Vec<&'static str> {
 }
 
 fn change_pct(a: &PointSummary, b: &PointSummary) -> Option<f64> {
-    let both = a.status == Status::Ok && b.status == Status::Ok;
-    let (a, b) = (a.a_crit_g?, b.a_crit_g?);
-    both.then(|| 100.0 * (b / a - 1.0))
+    Some(100.0 * (b.a_crit_g? / a.a_crit_g? - 1.0))
 }
 
 impl Comparison {
@@ -330,9 +328,9 @@ impl Comparison {
 fn bracket_words(row: &PointSummary) -> String {
     let number = |value: Option<f64>| value.map_or("?".to_owned(), |value| format!("{value:.1}"));
     match row.status {
-        Status::Ok => format!("{} .. {}", number(row.a_crit_g), number(row.a_fail_g)),
-        Status::AboveRange => format!("> {}", number(row.a_crit_g)),
-        Status::BelowRange => format!("< {}", number(row.a_fail_g)),
+        Status::Ok => format!("{} .. {}", number(row.survived_g), number(row.failed_g)),
+        Status::AboveRange => format!("> {}", number(row.survived_g)),
+        Status::BelowRange => format!("< {}", number(row.failed_g)),
         Status::Undecided | Status::Open => row.status.as_str().to_owned(),
     }
 }
@@ -352,9 +350,9 @@ fn coordinates<M: SerializeMap>(
 fn answer(row: &PointSummary) -> Value {
     json!({
         "a_crit_g": row.a_crit_g,
-        "a_fail_g": row.a_fail_g,
-        "err_low_g": row.err_low_g,
-        "err_high_g": row.err_high_g,
+        "uncertainty_g": row.uncertainty_g,
+        "survived_g": row.survived_g,
+        "failed_g": row.failed_g,
         "onset_g": row.onset_g,
         "status": row.status,
         "flags": row.flags,

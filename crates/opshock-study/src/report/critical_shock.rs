@@ -59,7 +59,7 @@ pub(super) fn figure(summary: &Summary, layout: &Layout, provenance: &str) -> Fi
         .points
         .iter()
         .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
-    let has_uncertainty = |point: &PointSummary| point.err_low_g.is_some();
+    let has_uncertainty = |point: &PointSummary| point.uncertainty_g.is_some();
     let mut subtitle = "largest amplitude survived".to_owned();
     if summary.points.iter().any(has_uncertainty) {
         subtitle.push_str(" with its uncertainty interval");
@@ -189,25 +189,27 @@ fn series(summary: &Summary, panel: &PanelOfLines, line: &Line, index: usize) ->
 }
 
 fn sample(x: f64, name: &str, point: &PointSummary) -> Option<Sample> {
-    let value = match (point.status, point.a_crit_g, point.a_fail_g) {
-        (Status::AboveRange, Some(bound), _) => Value::Above(bound),
-        (Status::BelowRange, _, Some(bound)) => Value::Below(bound),
-        (_, Some(y), _) => Value::Known {
+    let y = point.known_g()?;
+    let half = point.uncertainty_g.unwrap_or(0.0);
+    let value = match point.status {
+        Status::AboveRange => Value::Above(y),
+        Status::BelowRange => Value::Below(y),
+        Status::Ok | Status::Undecided | Status::Open => Value::Known {
             y,
-            low: y - point.err_low_g.unwrap_or(0.0),
-            high: y + point.err_high_g.unwrap_or(0.0),
+            low: y - half,
+            high: y + half,
         },
-        _ => return None,
     };
     let g = |v: Option<f64>| v.map_or("-".to_owned(), |v| format!("{v:.1}"));
-    let uncertainty = match (point.err_low_g, point.err_high_g) {
-        (Some(low), Some(high)) => format!("uncertainty -{low:.1} +{high:.1} G"),
-        _ => "uncertainty not known".to_owned(),
+    let critical = match (point.a_crit_g, point.uncertainty_g) {
+        (Some(y), Some(half)) => format!("{y:.1} +- {half:.1} G"),
+        (Some(y), None) => format!("{y:.1} G, uncertainty not known"),
+        (None, _) => "not known".to_owned(),
     };
     let mut note = format!(
-        "{name}: survives {} G, fails {} G, {uncertainty}, {}",
-        g(point.a_crit_g),
-        g(point.a_fail_g),
+        "{name}: {critical}, survives {} G, fails {} G, {}",
+        g(point.survived_g),
+        g(point.failed_g),
         point.status.as_str()
     );
     for flag in &point.flags {

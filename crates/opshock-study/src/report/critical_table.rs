@@ -67,7 +67,7 @@ fn parse(text: &str, path: &str) -> Result<Summary, TableError> {
             line: 1,
             key: "header".into(),
             value: header.join(","),
-            allowed: "ramp,pulse_ms,sign, further axes, a_crit_g,a_fail_g,err_low_g,err_high_g,\
+            allowed: "ramp,pulse_ms,sign, further axes, a_crit_g,uncertainty_g,survived_g,failed_g,\
                       onset_g,runs,status,flags",
         });
     };
@@ -123,9 +123,9 @@ fn point(
             })
             .collect(),
         a_crit_g: maybe(0)?,
-        a_fail_g: maybe(1)?,
-        err_low_g: maybe(2)?,
-        err_high_g: maybe(3)?,
+        uncertainty_g: maybe(1)?,
+        survived_g: maybe(2)?,
+        failed_g: maybe(3)?,
         contributions: Vec::new(),
         levels: String::new(),
         onset_g: maybe(4)?,
@@ -170,16 +170,16 @@ mod tests {
     use super::*;
     use crate::report::table;
 
-    const TABLE: &str = "ramp,pulse_ms,sign,\"a, b\",a_crit_g,a_fail_g,err_low_g,err_high_g,\
+    const TABLE: &str = "ramp,pulse_ms,sign,\"a, b\",a_crit_g,uncertainty_g,survived_g,failed_g,\
                          onset_g,runs,status,flags\n\
-                         rigid,0.5,+,60,201.9,203.9,0,2,195.3,4,ok,retry;window\n\
-                         none,3,-,\"say \"\"x\"\"\",2000,,,,,7,above_range,\n";
+                         rigid,0.5,+,60,202.9,1,201.9,203.9,195.3,4,ok,retry;window\n\
+                         none,3,-,\"say \"\"x\"\"\",,,2000,,,7,above_range,\n";
 
     #[test]
     fn a_table_read_back_is_written_the_same() {
         let summary = parse(TABLE, "table.csv").expect("a table");
         assert_eq!(summary.axes, ["a, b"]);
-        assert_eq!(summary.points[0].a_fail_g, Some(203.9));
+        assert_eq!(summary.points[0].failed_g, Some(203.9));
         assert_eq!(summary.points[1].status, Status::AboveRange);
         assert_eq!(table::csv(&summary), TABLE);
     }
@@ -190,7 +190,7 @@ mod tests {
             (
                 "203.9",
                 "high",
-                "t.csv, line 2: a_fail_g = \"high\" must be a number",
+                "t.csv, line 2: failed_g = \"high\" must be a number",
             ),
             (
                 "above_range",

@@ -72,7 +72,7 @@ fn panel_series(summary: &Summary, runs: &[RunDot], name: &str, sign: Sign) -> V
             "critical shock",
             colour::BLACK,
             Dash::Solid,
-            curve(|p| p.a_crit_g),
+            curve(|p| p.known_g()),
         ),
         Series::curve(
             "first touch of the ramp",

@@ -8,16 +8,16 @@ pub(super) const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
 /// Columns behind them.
 pub(super) const AFTER_AXES: [&str; 8] = [
     "a_crit_g",
-    "a_fail_g",
-    "err_low_g",
-    "err_high_g",
+    "uncertainty_g",
+    "survived_g",
+    "failed_g",
     "onset_g",
     "runs",
     "status",
     "flags",
 ];
 
-/// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,a_fail_g,err_low_g,err_high_g,onset_g,
+/// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,
 /// runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
 /// digits. Nothing in it depends on the machine.
 pub fn csv(summary: &Summary) -> String {
@@ -35,9 +35,9 @@ pub fn csv(summary: &Summary) -> String {
         row.extend(point.axes.iter().map(ToString::to_string));
         row.extend([
             number(point.a_crit_g),
-            number(point.a_fail_g),
-            number(point.err_low_g),
-            number(point.err_high_g),
+            number(point.uncertainty_g),
+            number(point.survived_g),
+            number(point.failed_g),
             number(point.onset_g),
             point.runs.to_string(),
             point.status.as_str().to_owned(),
@@ -115,7 +115,7 @@ pub fn terminal(summary: &Summary) -> String {
 pub fn counts(summary: &Summary) -> String {
     let totals = &summary.totals;
     let lacks_uncertainty = |row: &&PointSummary| {
-        row.status == Status::Open && row.a_crit_g.and(row.a_fail_g).is_some()
+        row.status == Status::Open && row.survived_g.and(row.failed_g).is_some()
     };
     let bracketed = summary.points.iter().filter(lacks_uncertainty).count();
     let open = match bracketed {
@@ -154,7 +154,14 @@ pub fn meanings(summary: &Summary) -> Vec<String> {
 
 fn legend(summary: &Summary) -> String {
     let mut text = String::from("\n");
-    for column in ["a_crit_g", "a_fail_g", "err_low_g", "onset_g", "sign"] {
+    for column in [
+        "a_crit_g",
+        "uncertainty_g",
+        "survived_g",
+        "failed_g",
+        "onset_g",
+        "sign",
+    ] {
         if let Some(term) = terms::find(Kind::Column, column) {
             text.push_str(&format!("- {}: {}\n", term.shown, term.text));
         }
@@ -214,7 +221,7 @@ pub(super) fn uncertainty_cost(summary: &Summary) -> Option<String> {
 pub(super) fn contributions_note(summary: &Summary) -> String {
     let mut text = String::from(
         "Half of each contribution, in per cent of A_crit; they add up to the half-width of the interval. The bracket of \
-         the search, and what a refined simulation has shown, lie on one side of A_crit, the others on both. x3: the \
+         the search, and what a refined simulation has shown, lie on one side, the others on both. x3: the \
          error did not fall as its method predicts (formal order), so that it is taken 3 times instead of 1.25 times; \
          the bracket is taken once.",
     );
@@ -262,10 +269,7 @@ pub(super) fn contributions(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<S
             point.sign.as_str().to_owned(),
         ];
         row.extend(point.axes.iter().map(ToString::to_string));
-        row.push(match (point.err_low_g, point.err_high_g) {
-            (Some(low), Some(high)) => per_cent(0.5 * (low + high)),
-            _ => String::new(),
-        });
+        row.push(point.uncertainty_g.map_or(String::new(), per_cent));
         row.extend(names.iter().map(|name| {
             let contribution = point.contributions.iter().find(|(known, _)| known == name);
             contribution.map_or(String::new(), |(_, contribution)| {
@@ -317,8 +321,9 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
     header.extend(
         [
             "A_crit (G)",
-            "A_fail (G)",
             "uncertainty (G)",
+            "survived (G)",
+            "failed (G)",
             "first touch (G)",
             "runs",
             "status",
@@ -337,10 +342,11 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
             ];
             row.extend(point.axes.iter().map(ToString::to_string));
             row.extend([
-                bounded(point.a_crit_g, point.status == Status::AboveRange, '>'),
-                bounded(point.a_fail_g, point.status == Status::BelowRange, '<'),
+                critical_words(point),
                 uncertainty_words(point),
-                point.onset_g.map_or(String::new(), |v| format!("{v:.1}")),
+                tenths(point.survived_g),
+                tenths(point.failed_g),
+                tenths(point.onset_g),
                 point.runs.to_string(),
                 point.status.as_str().to_owned(),
                 flags(point, ", "),
@@ -351,20 +357,26 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
     (header, rows)
 }
 
-/// Both ends of the uncertainty interval, G; empty where it is not known.
-pub(super) fn uncertainty_words(row: &PointSummary) -> String {
-    match (row.err_low_g, row.err_high_g) {
-        (Some(low), Some(high)) => format!("-{low:.1} +{high:.1}"),
-        _ => String::new(),
-    }
+/// The reported critical shock or its bound, G; empty where neither is known.
+fn critical_words(row: &PointSummary) -> String {
+    let sign = match row.status {
+        Status::Ok => "",
+        Status::AboveRange => "> ",
+        Status::BelowRange => "< ",
+        Status::Undecided | Status::Open => return String::new(),
+    };
+    row.known_g()
+        .map_or(String::new(), |value| format!("{sign}{value:.1}"))
 }
 
-fn bounded(value: Option<f64>, bound: bool, sign: char) -> String {
-    match value {
-        None => String::new(),
-        Some(value) if bound => format!("{sign} {value:.1}"),
-        Some(value) => format!("{value:.1}"),
-    }
+/// Half-width of the uncertainty interval, G; empty where it is not known.
+pub(super) fn uncertainty_words(row: &PointSummary) -> String {
+    row.uncertainty_g
+        .map_or(String::new(), |half| format!("+-{half:.1}"))
+}
+
+fn tenths(value: Option<f64>) -> String {
+    value.map_or(String::new(), |value| format!("{value:.1}"))
 }
 
 fn flags(point: &PointSummary, between: &str) -> String {

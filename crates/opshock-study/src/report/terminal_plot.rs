@@ -19,7 +19,7 @@ pub fn terminal_plot(summary: &Summary) -> String {
     let values: Vec<f64> = summary
         .points
         .iter()
-        .filter_map(|point| known(point.a_crit_g.or(point.a_fail_g)))
+        .filter_map(|point| known(point.known_g()))
         .collect();
     let low = values.iter().copied().fold(f64::INFINITY, f64::min) / 1.1;
     let high = values.iter().copied().fold(0.0, f64::max) * 1.1;
@@ -36,11 +36,13 @@ pub fn terminal_plot(summary: &Summary) -> String {
         }
         let mut grid = vec![vec![' '; COLUMNS]; ROWS];
         for point in summary.points.iter().filter(|point| point.sign == sign) {
-            let (value, bound) = match (known(point.a_crit_g), known(point.a_fail_g)) {
-                (Some(value), None) => (value, Some('^')),
-                (Some(value), Some(_)) => (value, None),
-                (None, Some(value)) => (value, Some('v')),
-                (None, None) => continue,
+            let Some(value) = known(point.known_g()) else {
+                continue;
+            };
+            let bound = match (point.survived_g, point.failed_g) {
+                (Some(_), None) => Some('^'),
+                (None, Some(_)) => Some('v'),
+                _ => None,
             };
             let name = series_name(summary, point);
             let letter = names.iter().position(|other| *other == name);

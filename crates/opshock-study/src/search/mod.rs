@@ -1,7 +1,7 @@
 //! Search for the critical amplitude: names the next amplitude and takes its verdict, without physics and files.
 //!
 //! Failure need not be monotone in the amplitude, so every verdict is kept as evidence and the answer is read from it:
-//! `A_fail` is the lowest failing amplitude in the evidence, `A_crit` the highest surviving one below it. Amplitudes
+//! the bracket is the lowest failing amplitude in the evidence and the highest surviving one below it. Amplitudes
 //! are points of a fixed logarithmic grid ([`amplitude_grid`]). The [`order`] of the points decides which answers a
 //! point starts from; [`point`] is the search of one point and [`campaign`] that of all of them. All are state machines
 //! that name the next probe and take its verdict: the same verdicts give the same probes and the same answer, whatever

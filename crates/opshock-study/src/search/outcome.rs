@@ -10,9 +10,9 @@ use super::probe::UndecidedCause;
 pub enum Status {
     /// Bracketed.
     Ok,
-    /// No failure up to the highest amplitude of the range: `a_crit_g` is that bound.
+    /// No failure up to the highest amplitude of the range: `survived_g` is that bound.
     AboveRange,
-    /// Fails at the lowest amplitude of the range already: `a_fail_g` is that bound.
+    /// Fails at the lowest amplitude of the range already: `failed_g` is that bound.
     BelowRange,
     /// Runs without a verdict left no bracket.
     Undecided,

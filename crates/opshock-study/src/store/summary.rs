@@ -1,7 +1,7 @@
 //! Table of a study's critical shocks as rows: the source of tables, curves and JSON.
 //!
 //! The JSON is `{"study", "digest", "points": [{"ramp", "pulse_ms", "sign", ...axes, "a_crit_g",
-//! "a_fail_g", "err_low_g", "err_high_g", "contributions", "levels", "onset_g", "runs", "status", "flags",
+//! "uncertainty_g", "survived_g", "failed_g", "contributions", "levels", "onset_g", "runs", "status", "flags",
 //! "brackets_g", "scanned_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
 //! null. Nothing in it depends on the machine, the number of threads or the time of day, so that
 //! equal results are equal bytes.
@@ -62,9 +62,9 @@ pub const CONTRIBUTIONS: [&str; 10] = [
 /// One source of a row's uncertainty interval, G.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contribution {
-    /// Below the reported value, G.
+    /// Below the highest survivor, G.
     pub low_g: f64,
-    /// Above the reported value, G.
+    /// Above the highest survivor, G.
     pub high_g: f64,
     /// Safety factor in both: 1 for a bound, 1.25 where the formal order was observed, else 3.
     pub factor: f64,
@@ -72,8 +72,9 @@ pub struct Contribution {
 
 /// Critical shock of one point.
 ///
-/// The interval is `[a_crit_g - err_low_g, a_crit_g + err_high_g]`; an error that was not computed is absent.
-/// `a_fail_g` is the lowest failing amplitude in the evidence, `a_crit_g` the highest surviving one below it.
+/// The reported value `a_crit_g` is the middle of the uncertainty interval, of half-width `uncertainty_g`, or of the bracket
+/// where there is no interval. `failed_g` is the lowest failing amplitude in the evidence, `survived_g` the highest surviving
+/// one below it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointSummary {
     /// Name of the ramp model.
@@ -84,15 +85,15 @@ pub struct PointSummary {
     pub sign: Sign,
     /// Values of the study's further axes, in the order of [`Summary::axes`].
     pub axes: Vec<AxisValue>,
-    /// Highest survivor below the lowest failure, G.
+    /// Critical shock as it is reported, G; `None` unless bracketed.
     pub a_crit_g: Option<f64>,
+    /// Half-width of the uncertainty interval, G; `None` where it was not computed.
+    pub uncertainty_g: Option<f64>,
+    /// Highest survivor below the lowest failure, G.
+    pub survived_g: Option<f64>,
     /// Lowest failure, G.
-    pub a_fail_g: Option<f64>,
-    /// Uncertainty interval below `a_crit_g`, G.
-    pub err_low_g: Option<f64>,
-    /// Uncertainty interval above `a_crit_g`, G.
-    pub err_high_g: Option<f64>,
-    /// Contributions to the interval, by name; they add up.
+    pub failed_g: Option<f64>,
+    /// Contributions to the interval, by name; they add up, below and above `survived_g`.
     pub contributions: Vec<(String, Contribution)>,
     /// Refinement levels of this answer beyond the study's resolution; empty: none.
     pub levels: String,
@@ -108,7 +109,7 @@ pub struct PointSummary {
     pub brackets_g: Vec<[f64; 2]>,
     /// Lower end of what was searched: below it the no-ramp answer or nothing is known, G.
     pub scanned_from_g: Option<f64>,
-    /// Largest untested step between survivors from there to `a_crit_g`, per cent.
+    /// Largest untested step between survivors from there to `survived_g`, per cent.
     pub largest_gap_pct: Option<f64>,
 }
 
@@ -116,32 +117,29 @@ impl PointSummary {
     /// The critical shock, or the bound that is known of it, G.
     pub fn known_g(&self) -> Option<f64> {
         match self.status {
-            Status::BelowRange => self.a_fail_g,
-            _ => self.a_crit_g,
+            Status::Ok => self.a_crit_g,
+            Status::BelowRange => self.failed_g,
+            Status::AboveRange | Status::Undecided | Status::Open => self.survived_g,
         }
     }
 
     /// Where the search has the critical shock, G.
     pub fn bracket_g(&self) -> Option<[f64; 2]> {
         match self.status {
-            Status::Ok => Some([self.a_crit_g?, self.a_fail_g?]),
-            Status::AboveRange => Some([self.a_crit_g?, f64::INFINITY]),
-            Status::BelowRange => Some([0.0, self.a_fail_g?]),
+            Status::Ok => Some([self.survived_g?, self.failed_g?]),
+            Status::AboveRange => Some([self.survived_g?, f64::INFINITY]),
+            Status::BelowRange => Some([0.0, self.failed_g?]),
             Status::Undecided | Status::Open => None,
         }
     }
 
-    /// Uncertainty interval, never narrower than the bracket, G; a bound has its bracket alone.
+    /// Uncertainty interval, G; a bound has its bracket alone.
     pub fn interval_g(&self) -> Option<[f64; 2]> {
-        let [low, high] = self.bracket_g()?;
         if self.status != Status::Ok {
-            return Some([low, high]);
+            return self.bracket_g();
         }
-        let a_crit_g = self.a_crit_g?;
-        Some([
-            low.min(a_crit_g - self.err_low_g?),
-            high.max(a_crit_g + self.err_high_g?),
-        ])
+        let (middle_g, half_g) = (self.a_crit_g?, self.uncertainty_g?);
+        Some([middle_g - half_g, middle_g + half_g])
     }
 }
 
@@ -242,9 +240,9 @@ impl Serialize for Row<'_> {
             map.serialize_entry(name, value)?;
         }
         map.serialize_entry("a_crit_g", &point.a_crit_g)?;
-        map.serialize_entry("a_fail_g", &point.a_fail_g)?;
-        map.serialize_entry("err_low_g", &point.err_low_g)?;
-        map.serialize_entry("err_high_g", &point.err_high_g)?;
+        map.serialize_entry("uncertainty_g", &point.uncertainty_g)?;
+        map.serialize_entry("survived_g", &point.survived_g)?;
+        map.serialize_entry("failed_g", &point.failed_g)?;
         map.serialize_entry("contributions", &Contributions(&point.contributions))?;
         map.serialize_entry("levels", &point.levels)?;
         map.serialize_entry("onset_g", &point.onset_g)?;
@@ -304,10 +302,10 @@ mod tests {
                 pulse_ms: 0.5,
                 sign: Sign::Minus,
                 axes: vec![AxisValue::Number(60.0)],
-                a_crit_g: Some(2000.0),
-                a_fail_g: None,
-                err_low_g: None,
-                err_high_g: None,
+                a_crit_g: None,
+                uncertainty_g: None,
+                survived_g: Some(2000.0),
+                failed_g: None,
                 contributions: vec![],
                 levels: String::new(),
                 onset_g: None,
@@ -322,7 +320,7 @@ mod tests {
         };
         let text = serde_json::to_string(&summary).expect("serialises");
         assert!(text.starts_with(
-            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":2000.0,"a_fail_g":null,"err_low_g":null,"err_high_g":null,"contributions":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
+            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":null,"uncertainty_g":null,"survived_g":2000.0,"failed_g":null,"contributions":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
         ), "{text}");
     }
 }

@@ -105,6 +105,6 @@ fn settings(refine: &AddedPointsSettings) -> AddedPoints {
 
 /// Middle of the bracket of a row that has one.
 fn answer_g(row: &PointSummary) -> Option<f64> {
-    let (low, high) = row.a_crit_g.zip(row.a_fail_g)?;
+    let (low, high) = row.survived_g.zip(row.failed_g)?;
     (row.status == Status::Ok).then(|| (low * high).sqrt())
 }

@@ -456,13 +456,13 @@ impl<'a> Run<'a> {
         points.dedup();
         for point in points {
             let row = self.registry.row(point);
-            let bracket = (row.a_crit_g, row.a_fail_g);
+            let bracket = (row.survived_g, row.failed_g);
             if bracket != self.brackets[point] {
                 self.brackets[point] = bracket;
                 self.tell(Event::Bracket {
                     point,
-                    a_crit_g: row.a_crit_g,
-                    a_fail_g: row.a_fail_g,
+                    survived_g: row.survived_g,
+                    failed_g: row.failed_g,
                     runs: row.runs,
                 });
             }

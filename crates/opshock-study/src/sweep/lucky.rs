@@ -46,6 +46,6 @@ fn is_below_answer(row: &PointSummary, failure_g: Option<f64>, amplitude_g: f64)
     match (row.status, failure_g) {
         (Status::Open, _) => false,
         (_, Some(failure_g)) => amplitude_g < failure_g * (1.0 - 1e-9),
-        (_, None) => row.a_crit_g.is_some(),
+        (_, None) => row.survived_g.is_some(),
     }
 }

@@ -7,10 +7,11 @@ use crate::store::summary::{Contribution, PointSummary};
 
 /// Row of a point.
 ///
-/// The answer lies between the highest survivor, which is reported, and the lowest failure above it: the bracket adds
-/// nothing below the reported value and its width above. The bracket alone is no error: without an uncertainty
-/// interval, or where it has no other contribution, the row has none. After adaptive refinement both are those of the
-/// refined parameters; brackets and scan remain those of the study's resolution.
+/// The critical shock lies between the highest survivor and the lowest failure above it: the bracket adds nothing to the
+/// interval below the survivor, and its width above. Reported is the middle of the interval. The bracket alone is no error:
+/// without an uncertainty interval, or where it has no other contribution, the row has none and reports the middle of the
+/// bracket. After adaptive refinement both are those of the refined parameters; brackets and scan remain those of the
+/// study's resolution.
 pub(super) fn row(
     point: &SweepPoint,
     findings: &Findings,
@@ -20,7 +21,8 @@ pub(super) fn row(
 ) -> PointSummary {
     let amplitude = |node: i32| grid.amplitude_g(node);
     let fine = grid.finer(SUBDIVISIONS);
-    let (a_crit_g, a_fail_g) = match (findings.status, uncertainty) {
+    let is_found = findings.status == Status::Ok;
+    let (survived_g, failed_g) = match (findings.status, uncertainty) {
         (Status::Ok, Some((answer, _))) => (
             Some(fine.amplitude_g(answer.survivor)),
             Some(fine.amplitude_g(answer.failure)),
@@ -30,27 +32,33 @@ pub(super) fn row(
             findings.failure.map(amplitude),
         ),
     };
-    let contributions = match (findings.status, uncertainty, a_crit_g, a_fail_g) {
-        (Status::Ok, Some((answer, _)), Some(a_crit_g), Some(a_fail_g)) => {
-            contributions(&answer.uncertainty, a_crit_g, a_fail_g)
+    let contributions = match (findings.status, uncertainty, survived_g, failed_g) {
+        (Status::Ok, Some((answer, _)), Some(survived_g), Some(failed_g)) => {
+            contributions(&answer.uncertainty, survived_g, failed_g)
         }
         _ => Vec::new(),
     };
-    let sum = |of: fn(&Contribution) -> f64| {
-        (!contributions.is_empty()).then(|| {
-            contributions
-                .iter()
-                .map(|(_, contribution)| of(contribution))
-                .sum()
-        })
+    let sum = |of: fn(&Contribution) -> f64| -> f64 {
+        let parts = contributions.iter().map(|(_, part)| of(part));
+        parts.sum()
     };
+    let interval_g = survived_g
+        .filter(|_| !contributions.is_empty())
+        .map(|from_g| {
+            [
+                from_g - sum(|part| part.low_g),
+                from_g + sum(|part| part.high_g),
+            ]
+        });
+    let bracket_g = survived_g.zip(failed_g).map(<[f64; 2]>::from);
+    let reported_g = interval_g.or(bracket_g).filter(|_| is_found);
     let mut flags = findings.flags.clone();
     let mut levels = String::new();
     if let Some((answer, _)) = uncertainty {
         flags.extend(&answer.uncertainty.flags);
         levels = answer.levels.label();
         // The ramp takes the answer without ramp only below first touch.
-        if let (Some(crit_g), Some(onset_g)) = (a_crit_g, onset_g)
+        if let (Some(crit_g), Some(onset_g)) = (survived_g, onset_g)
             && flags.contains(&Flag::NoTouch)
             && crit_g > onset_g
         {
@@ -65,10 +73,10 @@ pub(super) fn row(
         pulse_ms: point.coordinates.pulse_ms,
         sign: point.coordinates.sign,
         axes: point.axes.clone(),
-        a_crit_g,
-        a_fail_g,
-        err_low_g: sum(|contribution| contribution.low_g),
-        err_high_g: sum(|contribution| contribution.high_g),
+        a_crit_g: reported_g.map(|[low_g, high_g]| f64::midpoint(low_g, high_g)),
+        uncertainty_g: interval_g.map(|[low_g, high_g]| 0.5 * (high_g - low_g)),
+        survived_g,
+        failed_g,
         contributions,
         levels,
         onset_g,
@@ -103,8 +111,8 @@ pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
 /// not known.
 fn contributions(
     uncertainty: &Uncertainty,
-    a_crit_g: f64,
-    a_fail_g: f64,
+    survived_g: f64,
+    failed_g: f64,
 ) -> Vec<(String, Contribution)> {
     let others: Vec<_> = uncertainty
         .contributions
@@ -116,13 +124,13 @@ fn contributions(
     }
     let search = Contribution {
         low_g: 0.0,
-        high_g: a_fail_g - a_crit_g,
+        high_g: failed_g - survived_g,
         factor: 1.0,
     };
     let others = others.into_iter().map(|contribution| {
         let part_g = Contribution {
-            low_g: contribution.low * a_crit_g,
-            high_g: contribution.high * a_crit_g,
+            low_g: contribution.low * survived_g,
+            high_g: contribution.high * survived_g,
             factor: contribution.factor,
         };
         (contribution.name.to_owned(), part_g)

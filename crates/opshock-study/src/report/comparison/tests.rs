@@ -4,16 +4,16 @@ use super::*;
 use crate::search::Sign;
 use crate::store::summary::Totals;
 
-fn row(a_crit_g: f64, a_fail_g: f64, err_g: Option<f64>, axes: Vec<AxisValue>) -> PointSummary {
+fn row(survived_g: f64, failed_g: f64, half_g: Option<f64>, axes: Vec<AxisValue>) -> PointSummary {
     PointSummary {
         ramp: "rigid".into(),
         pulse_ms: 1.0,
         sign: Sign::Plus,
         axes,
-        a_crit_g: Some(a_crit_g),
-        a_fail_g: Some(a_fail_g),
-        err_low_g: err_g,
-        err_high_g: err_g,
+        a_crit_g: Some(f64::midpoint(survived_g, failed_g)),
+        uncertainty_g: half_g,
+        survived_g: Some(survived_g),
+        failed_g: Some(failed_g),
         contributions: vec![],
         levels: String::new(),
         onset_g: None,
@@ -53,7 +53,7 @@ fn significance_asks_brackets_first_and_uncertainty_then() {
         (200.0, Significance::BeyondUncertainties),
     ] {
         let mut above = at(bound, 0.0, None);
-        (above.status, above.a_fail_g) = (Status::AboveRange, None);
+        (above.status, above.failed_g) = (Status::AboveRange, None);
         assert_eq!(of(&above), (expected, expected), "{bound}");
     }
     let mut undecided = at(100.0, 101.0, Some(4.0));

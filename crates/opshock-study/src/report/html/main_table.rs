@@ -80,9 +80,10 @@ pub(super) fn flags(point: &PointSummary) -> String {
 /// The number a cell sorts by, where its text is not one.
 fn sort_value(point: &PointSummary, column: usize, words: usize) -> Option<f64> {
     match column.checked_sub(words)? {
-        0 => point.a_crit_g,
-        1 => point.a_fail_g,
-        2 => point.err_high_g,
+        0 => point.known_g(),
+        1 => point.uncertainty_g,
+        2 => point.survived_g,
+        3 => point.failed_g,
         _ => None,
     }
 }

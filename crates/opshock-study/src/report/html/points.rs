@@ -33,13 +33,14 @@ fn facts(point: &PointSummary) -> String {
     };
     let grams = |value: Option<f64>| value.map_or("not known".to_owned(), |v| format!("{v:.1} G"));
     entry("critical shock", grams(point.a_crit_g));
-    entry("lowest failure", grams(point.a_fail_g));
-    if let (Some(low), Some(high)) = (point.err_low_g, point.err_high_g) {
+    if let Some(half) = point.uncertainty_g {
         entry(
-            "uncertainty interval",
-            format!("\u{2212}{low:.1} +{high:.1} G"),
+            "half-width of the uncertainty interval",
+            format!("{half:.1} G"),
         );
     }
+    entry("highest survivor", grams(point.survived_g));
+    entry("lowest failure", grams(point.failed_g));
     if let Some(onset) = point.onset_g {
         entry("first touch of the ramp", format!("{onset:.1} G"));
     }

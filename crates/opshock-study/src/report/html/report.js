@@ -248,9 +248,9 @@
       const known = p => p.status === "above_range" ? null : p.crit;
       plot.line(own.map(([, p]) => [p.x, known(p)]), paint, DASHES[line.style % 4]).setAttribute("transform", `translate(${dx} 0)`);
       for (const [row, p] of own) {
-        const below = p.crit === null, y = below ? p.fail : p.crit, bound = { above_range: 1, below_range: -1 }[p.status] ?? 0;
-        if (!bound && !below && p.low !== null && p.high !== null)
-          plot.line([[p.x, Math.max(p.crit - p.low, 1e-3)], [p.x, p.crit + p.high]], paint).setAttribute("transform", `translate(${dx} 0)`);
+        const y = p.crit, bound = { above_range: 1, below_range: -1 }[p.status] ?? 0;
+        if (!bound && p.half !== null)
+          plot.line([[p.x, Math.max(p.crit - p.half, 1e-3)], [p.x, p.crit + p.half]], paint).setAttribute("transform", `translate(${dx} 0)`);
         plot.mark(p.x, y, { colour: paint, open: p.reserved, point: row, style: line.style, dx, bound,
           note: `${panel.worst ? "lowest: " : ""}${p.name}: ${bound > 0 ? "more than " : bound ? "less than " : ""}${number(y)} G` });
       }
@@ -356,13 +356,13 @@
         html("td", { class: "n" }, line, x && y ? `${((y / x - 1) * 100).toFixed(1)} %` : "");
       };
       row("critical shock (G)", p => p.crit);
-      row("lowest failure (G)", p => p.fail);
-      row("uncertainty below (G)", p => p.low);
-      row("uncertainty above (G)", p => p.high);
+      row("half-width of the uncertainty interval (G)", p => p.half);
+      row("highest survivor (G)", p => p.survived);
+      row("lowest failure (G)", p => p.failed);
       row("first touch (G)", p => p.touch);
-      const both = [a, b].every(p => p.crit !== null && p.low !== null && p.high !== null);
+      const both = [a, b].every(p => p.crit !== null && p.half !== null);
       if (both) {
-        const apart = a.crit + a.high < b.crit - b.low || b.crit + b.high < a.crit - a.low;
+        const apart = Math.abs(a.crit - b.crit) > a.half + b.half;
         html("p", {}, into, apart ? "The uncertainty intervals do not overlap: the difference is beyond them." : "The uncertainty intervals overlap: the difference is not beyond them.");
       }
     };

@@ -24,10 +24,17 @@ pub(super) fn section(summary: &Summary) -> String {
 /// For paper: the status and flags that rows have.
 pub(super) fn of_rows(summary: &Summary) -> String {
     let flags = terms::flags_of(&summary.points);
-    let mut shown: Vec<&Term> = ["a_crit_g", "a_fail_g", "err_low_g", "onset_g", "sign"]
-        .into_iter()
-        .filter_map(|column| terms::find(Kind::Column, column))
-        .collect();
+    let mut shown: Vec<&Term> = [
+        "a_crit_g",
+        "uncertainty_g",
+        "survived_g",
+        "failed_g",
+        "onset_g",
+        "sign",
+    ]
+    .into_iter()
+    .filter_map(|column| terms::find(Kind::Column, column))
+    .collect();
     let statuses = Status::ALL.into_iter();
     let has = |status: &Status| summary.points.iter().any(|point| point.status == *status);
     shown.extend(statuses.filter(has).map(terms::of_status));
@@ -52,8 +59,6 @@ pub(super) fn list(words: &[&Term]) -> String {
 fn is_on_page(summary: &Summary, term: &Term) -> bool {
     let mut points = summary.points.iter();
     match term.kind {
-        // Both ends of the interval are one column.
-        Kind::Column => term.name != "err_high_g",
         Kind::Status => points.any(|point| point.status.as_str() == term.name),
         Kind::Reservation | Kind::Note => {
             points.any(|point| point.flags.iter().any(|flag| flag.as_str() == term.name))
@@ -64,6 +69,6 @@ fn is_on_page(summary: &Summary, term: &Term) -> bool {
                 .iter()
                 .any(|(name, _)| name == term.name)
         }),
-        Kind::Sign | Kind::Section | Kind::Word => true,
+        Kind::Column | Kind::Sign | Kind::Section | Kind::Word => true,
     }
 }

@@ -10,9 +10,9 @@ use crate::search::outcome::Flag;
 pub struct Contribution {
     /// `search`, or the name of a discretisation parameter or of a group of them.
     pub name: &'static str,
-    /// Below the reported value, as a share of it.
+    /// Below the highest survivor, as a share of it.
     pub low: f64,
-    /// Above the reported value, as a share of it.
+    /// Above the highest survivor, as a share of it.
     pub high: f64,
     /// Safety factor in it: 1 for a certain bound.
     pub factor: f64,
@@ -52,12 +52,21 @@ impl Uncertainty {
         self.flags.extend(&other.flags);
     }
 
-    /// Half-width of the interval over the reported value: what is compared with the target uncertainty.
+    /// Half-width of the interval, as a share of the highest survivor; those of contributions add up.
     pub fn half_length(&self) -> f64 {
-        0.5 * self
-            .contributions
-            .iter()
-            .map(|contribution| contribution.low + contribution.high)
-            .sum::<f64>()
+        let parts = self.contributions.iter();
+        0.5 * parts.map(|part| part.low + part.high).sum::<f64>()
+    }
+
+    /// Half-width of the interval over its middle, which is the reported value: what is compared with the target.
+    pub fn relative(&self) -> f64 {
+        self.relative_with(0.0)
+    }
+
+    /// The same with a share `more` above.
+    pub(super) fn relative_with(&self, more: f64) -> f64 {
+        let parts = self.contributions.iter();
+        let beyond = more + parts.map(|part| part.high - part.low).sum::<f64>();
+        (self.half_length() + 0.5 * more) / (1.0 + 0.5 * beyond)
     }
 }

@@ -178,16 +178,17 @@ fn narrow_film(
 
 /// Halves the bracket of the scene itself, to one grid step if need be, if that alone meets the target, until it does.
 fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
+    let mut others = Uncertainty::default();
+    pieces.iter().for_each(|piece| others.extend(piece));
     let target = walk.input.target;
-    let others: f64 = pieces.iter().map(Uncertainty::half_length).sum();
-    if others + 0.5 * walk.share(1) > target {
+    if others.relative_with(walk.share(1)) > target {
         return Ok(());
     }
     loop {
         let (low, high) = bracket(walk);
         let from = rebracketing::Bracket { low, high };
         let nodes = high - low;
-        if nodes <= 1 || others + 0.5 * walk.share(nodes) <= target {
+        if nodes <= 1 || others.relative_with(walk.share(nodes)) <= target {
             return Ok(());
         }
         if rebracketing::narrowed(walk, Levels::NONE, from, nodes / 2)?.is_none() {
@@ -202,7 +203,7 @@ pub(super) fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Uncertainty {
     for piece in pieces {
         uncertainty.extend(piece);
     }
-    if !walk.input.discretisations.is_empty() && uncertainty.half_length() > walk.input.target {
+    if !walk.input.discretisations.is_empty() && uncertainty.relative() > walk.input.target {
         uncertainty.flags.insert(Flag::TargetNotMet);
     }
     if fails_below(walk) {

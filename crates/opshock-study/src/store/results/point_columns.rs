@@ -22,27 +22,27 @@ pub(super) fn point_columns(summary: &Summary) -> Vec<Column> {
         numbers(
             "a_crit_g",
             "G",
-            "highest surviving amplitude below the lowest failing one",
+            "critical shock: middle of the uncertainty interval, or of the bracket without one",
             rows,
             |row| row.a_crit_g,
         ),
-        numbers("a_fail_g", "G", "lowest failing amplitude", rows, |row| {
-            row.a_fail_g
+        numbers(
+            "uncertainty_g",
+            "G",
+            "half-width of the uncertainty interval",
+            rows,
+            |row| row.uncertainty_g,
+        ),
+        numbers(
+            "survived_g",
+            "G",
+            "highest surviving amplitude below the lowest failing one",
+            rows,
+            |row| row.survived_g,
+        ),
+        numbers("failed_g", "G", "lowest failing amplitude", rows, |row| {
+            row.failed_g
         }),
-        numbers(
-            "err_low_g",
-            "G",
-            "uncertainty of a_crit_g below it",
-            rows,
-            |row| row.err_low_g,
-        ),
-        numbers(
-            "err_high_g",
-            "G",
-            "uncertainty of a_crit_g above it",
-            rows,
-            |row| row.err_high_g,
-        ),
         texts(
             "levels",
             "discretisation parameters refined beyond the study's for this answer, in steps",
@@ -90,7 +90,7 @@ pub(super) fn point_columns(summary: &Summary) -> Vec<Column> {
         numbers(
             "largest_gap_pct",
             "%",
-            "largest step between survivors from there to a_crit_g",
+            "largest step between survivors from there to survived_g",
             rows,
             |row| row.largest_gap_pct,
         ),
@@ -106,14 +106,14 @@ pub(super) fn point_columns(summary: &Summary) -> Vec<Column> {
             numbers(
                 &format!("err_{name}_low_g"),
                 "G",
-                format!("contribution of {name} to the uncertainty below a_crit_g"),
+                format!("contribution of {name} to the uncertainty below survived_g"),
                 rows,
                 contribution(|contribution| contribution.low_g),
             ),
             numbers(
                 &format!("err_{name}_high_g"),
                 "G",
-                format!("contribution of {name} to the uncertainty above a_crit_g"),
+                format!("contribution of {name} to the uncertainty above survived_g"),
                 rows,
                 contribution(|contribution| contribution.high_g),
             ),

@@ -11,7 +11,7 @@ use crate::store::record::{PointDigest, Record, RunMachine, RunRecord, StoredTou
 use crate::store::summary::Summary;
 
 /// Number of the format of `results.h5`; raised when an older reader would go wrong.
-pub const RESULTS_FORMAT: u32 = 3;
+pub const RESULTS_FORMAT: u32 = 4;
 
 /// A simulation of the canonical sequence of a point.
 #[derive(Clone, Debug, PartialEq)]

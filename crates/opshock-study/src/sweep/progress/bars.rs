@@ -95,11 +95,11 @@ impl Progress for Bars {
             Event::PointStarted { point } => state.show(*point, ""),
             Event::Bracket {
                 point,
-                a_crit_g,
-                a_fail_g,
+                survived_g,
+                failed_g,
                 runs,
             } => {
-                let text = format!("{:<22} {runs:>3} runs", bracket(*a_crit_g, *a_fail_g));
+                let text = format!("{:<22} {runs:>3} runs", bracket(*survived_g, *failed_g));
                 state.show(*point, &text);
             }
             Event::PointDone {

@@ -95,9 +95,9 @@ pub enum Event {
         /// Place in the study.
         point: usize,
         /// Highest survivor below the lowest failure, G.
-        a_crit_g: Option<f64>,
+        survived_g: Option<f64>,
         /// Lowest failure, G.
-        a_fail_g: Option<f64>,
+        failed_g: Option<f64>,
         /// Canonical simulations so far.
         runs: u64,
     },

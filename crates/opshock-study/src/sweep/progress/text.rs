@@ -7,11 +7,11 @@ use crate::sweep::spread::Spread;
 
 /// `331.2 to 334.5 G`, `above 2000 G`, `below 20 G`.
 pub(super) fn answer(summary: &PointSummary) -> String {
-    bracket(summary.a_crit_g, summary.a_fail_g)
+    bracket(summary.survived_g, summary.failed_g)
 }
 
-pub(super) fn bracket(a_crit_g: Option<f64>, a_fail_g: Option<f64>) -> String {
-    match (a_crit_g, a_fail_g) {
+pub(super) fn bracket(survived_g: Option<f64>, failed_g: Option<f64>) -> String {
+    match (survived_g, failed_g) {
         (Some(low), Some(high)) => format!("{} to {} G", short(low), short(high)),
         (Some(low), None) => format!("above {} G", short(low)),
         (None, Some(high)) => format!("below {} G", short(high)),
