@@ -154,9 +154,7 @@ impl Log {
 
     fn open() -> Log {
         let text = std::fs::read_to_string(Log::path()).unwrap_or_default();
-        let lines = text
-            .lines()
-            .filter(|line| !line.starts_with(['#', 'r', 'p']) || line.starts_with("rigid"));
+        let lines = text.lines().skip_while(|line| *line != HEADER).skip(1);
         let one = |line: &str| {
             let cells: Vec<&str> = line.split(',').collect();
             let numbers: Vec<f64> = cells[4..]

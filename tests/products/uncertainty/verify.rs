@@ -40,7 +40,7 @@ pub(super) fn truth(
     fails: &mut dyn FnMut(f64) -> Option<bool>,
 ) -> Option<Truth> {
     let (mut low, mut high) = (None, None);
-    let (mut at, mut stride) = (from_g, 1.0 + 2.0 * share);
+    let (mut at, mut factor) = (from_g, 1.0 + 2.0 * share);
     if let Some(known) = known {
         (low, high) = (Some(known.low_g), Some(known.high_g));
     }
@@ -50,12 +50,12 @@ pub(super) fn truth(
                 return Some(Truth { low_g, high_g });
             }
             (Some(low), Some(high)) => at = f64::sqrt(low * high),
-            (Some(low), None) => at = low * stride,
-            (None, Some(high)) => at = high / stride,
+            (Some(low), None) => at = low * factor,
+            (None, Some(high)) => at = high / factor,
             (None, None) => {}
         }
         if low.is_some() != high.is_some() {
-            stride *= stride;
+            factor *= factor;
         }
         if (at / from_g).ln().abs() > 4_f64.ln() {
             return None;

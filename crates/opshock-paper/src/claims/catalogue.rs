@@ -404,7 +404,7 @@ pub const CLAIMS: &[Claim] = &[
         "rigid: critical shocks of both signs are very close",
         "largest difference of the signs",
         "%",
-        (0.0, 10.0),
+        (NO_LOWER, 10.0),
         critical::signs_rigid,
     ),
     of_table(
@@ -412,7 +412,7 @@ pub const CLAIMS: &[Claim] = &[
         "deformable: critical shocks of both signs are very close",
         "largest difference of the signs",
         "%",
-        (0.0, 10.0),
+        (NO_LOWER, 10.0),
         critical::signs_deformable,
     ),
     of_table(

@@ -154,17 +154,8 @@ pub fn meanings(summary: &Summary) -> Vec<String> {
 
 fn legend(summary: &Summary) -> String {
     let mut text = String::from("\n");
-    for column in [
-        "a_crit_g",
-        "uncertainty_g",
-        "survived_g",
-        "failed_g",
-        "onset_g",
-        "sign",
-    ] {
-        if let Some(term) = terms::find(Kind::Column, column) {
-            text.push_str(&format!("- {}: {}\n", term.shown, term.text));
-        }
+    for term in terms::legend_columns() {
+        text.push_str(&format!("- {}: {}\n", term.shown, term.text));
     }
     for line in meanings(summary) {
         text.push_str(&format!("- {line}\n"));

@@ -171,6 +171,20 @@ pub fn find(kind: Kind, name: &str) -> Option<&'static Term> {
         .find(|term| term.kind == kind && term.name == name)
 }
 
+/// The columns that the legend of a table explains.
+pub(super) fn legend_columns() -> impl Iterator<Item = &'static Term> {
+    [
+        "a_crit_g",
+        "uncertainty_g",
+        "survived_g",
+        "failed_g",
+        "onset_g",
+        "sign",
+    ]
+    .into_iter()
+    .filter_map(|column| find(Kind::Column, column))
+}
+
 /// The meaning of a column of the table, by its name in files or as people read it; a further axis is itself.
 pub fn of_column(name: &str) -> &'static str {
     let mut columns = TERMS.iter().filter(|term| term.kind == Kind::Column);

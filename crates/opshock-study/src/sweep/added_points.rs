@@ -56,7 +56,7 @@ pub fn next_round(study: &Study, summary: &Summary) -> Option<Study> {
         .zip(&summary.points)
         .map(|(point, row)| Answered {
             at: point.coordinates.clone(),
-            answer_g: answer_g(row),
+            answer_g: row.a_crit_g,
         })
         .collect();
     let wanted = added_points::wanted(&refine, &answered);
@@ -80,7 +80,7 @@ pub fn crossings<'a>(study: &Study, summary: &'a Summary) -> Vec<Crossed<'a>> {
         .iter()
         .map(|row| Answered {
             at: super::rows::coordinates(row),
-            answer_g: answer_g(row),
+            answer_g: row.a_crit_g,
         })
         .collect();
     let rows = |(low, high): (usize, usize)| (&summary.points[low], &summary.points[high]);
@@ -101,10 +101,4 @@ fn settings(refine: &AddedPointsSettings) -> AddedPoints {
         closest: refine.closest_pct / 100.0,
         most_points: refine.max_points,
     }
-}
-
-/// Middle of the bracket of a row that has one.
-fn answer_g(row: &PointSummary) -> Option<f64> {
-    let (low, high) = row.survived_g.zip(row.failed_g)?;
-    (row.status == Status::Ok).then(|| (low * high).sqrt())
 }

@@ -24,17 +24,7 @@ pub(super) fn section(summary: &Summary) -> String {
 /// For paper: the status and flags that rows have.
 pub(super) fn of_rows(summary: &Summary) -> String {
     let flags = terms::flags_of(&summary.points);
-    let mut shown: Vec<&Term> = [
-        "a_crit_g",
-        "uncertainty_g",
-        "survived_g",
-        "failed_g",
-        "onset_g",
-        "sign",
-    ]
-    .into_iter()
-    .filter_map(|column| terms::find(Kind::Column, column))
-    .collect();
+    let mut shown: Vec<&Term> = terms::legend_columns().collect();
     let statuses = Status::ALL.into_iter();
     let has = |status: &Status| summary.points.iter().any(|point| point.status == *status);
     shown.extend(statuses.filter(has).map(terms::of_status));
