@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 pub(super) fn section(summary: &Summary) -> String {
     let (header, rows) = table::readable(summary);
     let words = 3 + summary.axes.len();
-    let numeric = |column: usize| column == 1 || (words..words + 5).contains(&column);
+    let numeric = |column: usize| column == 1 || (words..words + 6).contains(&column);
     let mut text = String::from(
         "<p class=\"screen\">A heading says on hover what its column is, and sorts by it when clicked; flags say theirs too. \
          Shaded rows have a reservation. <a href=\"#words\">All words</a>.</p>\n\
@@ -36,7 +36,7 @@ pub(super) fn section(summary: &Summary) -> String {
             let class = if numeric(column) { " class=\"n\"" } else { "" };
             let value = sort_value(point, column, words)
                 .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
-            let cell = escaped(cell);
+            let cell = escaped(&cell.replace("+-", "\u{b1}"));
             let _ = match column {
                 0 => write!(
                     text,

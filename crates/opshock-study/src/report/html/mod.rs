@@ -195,7 +195,7 @@ fn choices(answer: &Answer<'_>) -> String {
     for (header, rows) in answer.tables() {
         text.push_str(&accuracy::plain_table(&header, &rows, header.len()));
     }
-    text
+    text.replace("+-", "\u{b1}")
 }
 
 /// Effects simulated for each ramp, those left out, and the rules that apply.
