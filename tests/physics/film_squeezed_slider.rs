@@ -2,14 +2,11 @@
 //! the error of the same film under quasi-static compression, at a fixed attitude.
 
 use nalgebra::{Matrix3, Vector3};
-use opshock_solver::air_bearing::steady::{fixed_attitude, fly_from};
+use opshock_solver::air_bearing::steady::fixed_attitude;
 use opshock_solver::air_bearing::{Attitude, Film};
-use opshock_solver::quantity::{GRAM_FORCE_N, STANDARD_GRAVITY_M_PER_S2 as G};
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::scene::Scene;
-use opshock_solver::simulation::quasi_static::{Other, quasi_static_clearance};
-use opshock_solver::simulation::{
-    Bearing, Model, Outcome, Request, Scope, Verdict, Workspace, simulate,
-};
+use opshock_solver::simulation::{Model, Outcome, Request, Scope, Verdict, Workspace, simulate};
 use opshock_tests::scenes::scene;
 
 /// Figure 13 without a ramp, 1.5 ms, on about `cells` film cells; the compression lies within 2 ms.
@@ -94,76 +91,4 @@ fn grid_error_of_a_slow_squeeze_is_that_of_the_held_film() {
             "{cells}: not at {expected_g}"
         );
     }
-}
-
-/// At the attitude of the smallest clearance, quasi-static films of 500 and of 2000 cells give the clearance that
-/// the shock itself leaves on them. Extrapolated from every cell cut in two it is that from every cell cut in
-/// three, whose error of second order is a ninth.
-#[test]
-fn held_films_tell_what_other_grids_leave_of_the_clearance() {
-    let own = squeezed(1000);
-    let bearing = Bearing::build(&own, None).expect("flies");
-    let film = &*bearing.film;
-    let amplitude_g = 500.0;
-    let run = shaken(&own, amplitude_g);
-    let (q, own_nm) = (
-        run.lowest.expect("a head"),
-        1e9 * run.min_clearance_m.expect("a head"),
-    );
-    let held_nm = |other: Other| {
-        let held = quasi_static_clearance(&own, &bearing, &q, other).expect("held");
-        1e9 * held.min_clearance_m
-    };
-    for cells in [500, 2000] {
-        let shaken = shaken(&squeezed(cells), amplitude_g);
-        let shaken_nm = 1e9 * shaken.min_clearance_m.expect("a head");
-        let reported_nm = held_nm(Other::Cells(cells));
-        let (reported, moved) = (reported_nm - own_nm, shaken_nm - own_nm);
-        assert!(
-            (reported / moved - 1.0).abs() < 0.2,
-            "{cells}: {reported} {moved} nm"
-        );
-    }
-    let lines = film
-        .lines_m()
-        .map(|lines| super::film_flight::cut(lines, 3));
-    let third = own.film_on([&lines[0], &lines[1]]).expect("film");
-    let carried = force(film, &q);
-    let third = fly_from(&third, carried.into(), &q).expect("flies");
-    let by_third = 9.0 / 8.0 * (1e9 * third.min_clearance_m - own_nm);
-    let by_half = held_nm(Other::Continued) - own_nm;
-    assert!(
-        (by_half / by_third - 1.0).abs() < 0.1,
-        "{by_half} {by_third} nm"
-    );
-}
-
-/// Twice the gram load with the disk's roll, as 1 ms into that shock: halved and divided by three, all
-/// cells of the layout of 2000 take the error of the clearance down with the second power of their size:
-/// 0.6083, 0.5995 and 0.5975 nm.
-#[test]
-fn squeezed_clearance_converges_with_the_formal_order_on_nested_grids() {
-    let own = squeezed(2000);
-    let film = own.film().expect("film");
-    let lines = film.lines_m().map(<[f64]>::to_vec);
-    let load = [1.94 * GRAM_FORCE_N, 3.7e-7, -2.0e-7];
-    let tilted = Attitude {
-        centre_height_m: 0.0,
-        pitch_rad: 127e-6,
-        roll_rad: 13e-6,
-    };
-    let start = Attitude {
-        centre_height_m: 0.6e-9 - film.min_clearance(&tilted).value_m,
-        ..tilted
-    };
-    let clearance_nm = |cuts: usize| {
-        let [x, y] = [&lines[0], &lines[1]].map(|lines| super::film_flight::cut(lines, cuts));
-        let film = own.film_on([&x, &y]).expect("film");
-        let flight = fly_from(&film, load, &start).expect("flies");
-        flight.min_clearance_m * 1e9
-    };
-    let [whole, half, third] = [1, 2, 3].map(clearance_nm);
-    // Errors of e, e/4 and e/9.
-    let observed = (whole - half) / (half - third);
-    assert!((observed / 5.4 - 1.0).abs() < 0.3, "{observed}");
 }

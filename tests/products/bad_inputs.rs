@@ -275,8 +275,8 @@ fn a_sweep_that_does_not_fit_into_the_memory_is_refused_before_it_starts() {
         ];
         Done::of(folder.path(), &asked)
     };
-    // Quasi-static films on 40 000 cells take 0.4 GB a worker; one refinement may make it 160 000, which take 3.2 GB.
-    for (gigabytes, refinements) in [("1.2", "0"), ("0.01", "0"), ("9.5", "1")] {
+    // Films of twice the cells, 20 000, take 0.14 GB a worker; one refinement may make it 80 000, which take 1.1 GB.
+    for (gigabytes, refinements) in [("0.4", "0"), ("0.01", "0"), ("3.3", "1")] {
         let refused = sweep(gigabytes, refinements);
         assert_eq!(refused.code, 3, "{}", refused.stderr);
         assert_eq!(refused.errors()[0]["code"], "E186");

@@ -167,6 +167,7 @@ fn a_sweep_in_full_gives_the_planned_critical_shocks() {
             "pulse.window_ms=1",
             "search.tolerance_pct=20",
             "search.monotonicity_scan=off",
+            "search.max_refinements=0",
             "resolution.film_cells=200",
             "resolution.disk_cut_khz=10",
         ] {

@@ -337,6 +337,7 @@ fn a_small_sweep_resumes_to_the_same_bytes_and_reports() {
             "search.tolerance_pct=20",
             "--set",
             "search.monotonicity_scan=off",
+            "--max-refinements=0",
         ];
         Done::of(place, &[&arguments[..], &WIDTHS, &COARSE, more].concat())
     };

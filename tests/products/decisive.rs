@@ -84,7 +84,6 @@ fn input(decides: bool) -> SweepInput {
                 discretisations: vec![Discretisation::FilmGrid],
                 film_halvings: 2,
                 mesh_halvings: 0,
-                holds_films: false,
                 target: 0.01,
                 refinements: 3,
             });

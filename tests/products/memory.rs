@@ -2,7 +2,7 @@
 
 use super::cli::{Done, OPSHOCK, opshock, study};
 use opshock_solver::scene::plan::Plan;
-use opshock_study::search::uncertainty::most_film_steps;
+use opshock_study::search::uncertainty::finest;
 use opshock_study::study::memory::Demand;
 use opshock_study::study::{Choice, Ramp, SetArg, Sign, Study};
 use opshock_tests::program::program;
@@ -130,20 +130,25 @@ fn the_estimate_of_a_sweep_holds_against_its_peak() {
             ],
         ),
         (
-            "films held still",
+            "finer corrections",
             [
                 "pulse.widths_ms=[1.0]",
                 "ramp.models=[\"none\"]",
                 "pulse.window_ms=3",
-                "search.uncertainty=true",
+                "search.max_refinements=0",
                 "search.tolerance_pct=10",
                 "resolution.film_correction_cells=1500",
             ],
         ),
     ] {
         let study = read(&sets);
-        let finer = f64::from(most_film_steps(study.search.max_refinements)).exp2();
-        let demand = Demand::sweep(&study, finer);
+        let demand = Demand::sweep(
+            &study,
+            match study.search.uncertainty {
+                true => finest(study.search.max_refinements),
+                false => [1.0; 2],
+            },
+        );
         judge(
             what,
             &["sweep", "--store", "s.opshock", "--quiet", "-j1"],
@@ -153,7 +158,7 @@ fn the_estimate_of_a_sweep_holds_against_its_peak() {
     }
 }
 
-/// A defect-correction grid is cut in four; an uncertainty cuts one of twice its cells: 8 times, where 4 were assumed.
+/// A defect-correction grid is cut in four.
 #[test]
 fn the_correction_counts_every_cell_it_builds() {
     let scene = |cells: usize, reference: usize| {
@@ -163,8 +168,6 @@ fn the_correction_counts_every_cell_it_builds() {
         ];
         read(&[&sets[0], &sets[1]])
     };
-    let film = |study: &Study| Demand::sweep(study, 1.0).film;
-    assert_eq!(film(&scene(300, 1000)), film(&scene(8000 / 4, 0)));
     let run = |study: &Study| {
         let plan: Plan = study.plan();
         Demand::run(&study.points[0].scene, &plan, false).film

@@ -22,6 +22,7 @@ const SMALL: &[&str] = &[
     "ramp.models=[\"none\", \"rigid\"]",
     "pulse.window_ms=0.8",
     "search.tolerance_pct=5",
+    "search.max_refinements=1",
     "resolution.preset=\"coarse\"",
     "resolution.film_cells=200",
     "resolution.disk_cut_khz=10",

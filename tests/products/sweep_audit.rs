@@ -13,6 +13,7 @@ const SMALL: &[&str] = &[
     "pulse.window_ms=0.8",
     "search.tolerance_pct=20",
     "resolution.preset=\"coarse\"",
+    "search.max_refinements=0",
     "resolution.film_cells=100",
     "resolution.disk_cut_khz=10",
     "output.keep_histories=\"none\"",

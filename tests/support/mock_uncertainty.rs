@@ -55,7 +55,7 @@ impl DiscretisationLaw {
 pub struct UncertaintyLaw {
     /// Critical amplitude with every discretisation parameter infinitely fine, G.
     pub exact_g: f64,
-    discretisations: [DiscretisationLaw; 6],
+    discretisations: [DiscretisationLaw; 7],
     /// Clearance lost per relative growth of the amplitude, m; `None`: survival ends abruptly.
     slope_m: Option<f64>,
     /// Curvature of the clearance over its slope.
@@ -136,7 +136,6 @@ pub fn laws_study(n: usize) -> SweepInput {
             discretisations: Discretisation::ALL.to_vec(),
             film_halvings: 3,
             mesh_halvings: 0,
-            holds_films: false,
             target: 0.01,
             refinements: 0,
         });

@@ -213,7 +213,6 @@ fn structure(seed: u64, known: Known<'_>) -> Line {
         discretisations: vec![Discretisation::DiskModes, Discretisation::StructureStep],
         film_halvings: 0,
         mesh_halvings: 0,
-        holds_films: false,
         target: 0.05,
         refinements: 0,
     });

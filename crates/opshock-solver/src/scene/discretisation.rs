@@ -7,6 +7,7 @@
 //! | discretisation parameter | one level finer | error falls by | because |
 //! |---|---|---|---|
 //! | `film_grid` | twice the cells | 2 | second order in the spacing |
+//! | `film_correction` | twice the cells of the defect-correction grid | 2 | as the film's grid, or faster |
 //! | `disk_modes` | twice the cut frequency | 2 | what a point contact excites falls with 1/f |
 //! | `suspension_modes` | twice the modes | 4 | clamped beam, f ~ n² |
 //! | `structure_step` | half the step | 2 | contact begins and ends on steps |
@@ -17,16 +18,14 @@
 //! A ramp enters a scene as oscillators. Whoever computes them from a geometry computes them from another mesh too;
 //! [`Scene::at_levels`](super::Scene::at_levels) leaves them as they are, and `ramp_mesh` is not in
 //! [`Discretisation::ALL`]. Oscillators that the study itself gives are part of the model and are not refined.
-//!
-//! [`Discretisation::QuasiStaticFilm`] is not a parameter of a scene. It stands for the smallest clearance on another grid of
-//! a quasi-static film (fixed attitude, the lowest of the shock; [`crate::simulation::quasi_static`]): at level 1 every cell is
-//! cut in two and the result extrapolated to infinitely many cells; at level −1 the film has half the cells.
 
 /// A discretisation parameter, which trades time for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Discretisation {
     /// Cells of the film.
     FilmGrid,
+    /// Cells of the grid that the film's defect correction is sampled on.
+    FilmCorrection,
     /// Modes of the disk: cut frequency, harmonics and radial elements together.
     DiskModes,
     /// Modes of the suspension.
@@ -39,37 +38,35 @@ pub enum Discretisation {
     CouplingTolerance,
     /// Elements of the solid that the ramp's oscillators were made of.
     RampMesh,
-    /// Grid of the quasi-static film at the fixed attitude where the slider came closest.
-    QuasiStaticFilm,
 }
 
 /// All that can be refined; the parameters of a scene come first.
 const EVERY: [Discretisation; 8] = [
     Discretisation::FilmGrid,
+    Discretisation::FilmCorrection,
     Discretisation::DiskModes,
     Discretisation::SuspensionModes,
     Discretisation::StructureStep,
     Discretisation::HeadTolerance,
     Discretisation::CouplingTolerance,
     Discretisation::RampMesh,
-    Discretisation::QuasiStaticFilm,
 ];
 
 impl Discretisation {
     /// Every discretisation parameter of a scene.
-    pub const ALL: [Discretisation; 6] = *EVERY.first_chunk().expect("fewer than there are");
+    pub const ALL: [Discretisation; 7] = *EVERY.first_chunk().expect("fewer than there are");
 
     /// Its name in tables and labels.
     pub const fn as_str(self) -> &'static str {
         match self {
             Discretisation::FilmGrid => "film_grid",
+            Discretisation::FilmCorrection => "film_correction",
             Discretisation::DiskModes => "disk_modes",
             Discretisation::SuspensionModes => "suspension_modes",
             Discretisation::StructureStep => "structure_step",
             Discretisation::HeadTolerance => "head_tolerance",
             Discretisation::CouplingTolerance => "coupling_tolerance",
             Discretisation::RampMesh => "ramp_mesh",
-            Discretisation::QuasiStaticFilm => "quasi_static_film",
         }
     }
 
@@ -84,10 +81,10 @@ impl Discretisation {
     pub const fn formal_ratio(self) -> f64 {
         match self {
             Discretisation::FilmGrid
+            | Discretisation::FilmCorrection
             | Discretisation::DiskModes
             | Discretisation::StructureStep
-            | Discretisation::RampMesh
-            | Discretisation::QuasiStaticFilm => 2.0,
+            | Discretisation::RampMesh => 2.0,
             Discretisation::SuspensionModes | Discretisation::HeadTolerance => 4.0,
             Discretisation::CouplingTolerance => 8.0,
         }

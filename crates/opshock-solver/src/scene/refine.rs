@@ -63,7 +63,8 @@ impl Scene {
     }
 
     /// The discretisation parameters whose refinement can change this scene's results. Without a ramp nothing excites
-    /// what the disk's modes and the structure's step resolve, and a value of the model is not refined.
+    /// what the disk's modes and the structure's step resolve. Without defect correction it has no grid. A value of the
+    /// model is not refined.
     pub fn discretisations(&self) -> Vec<Discretisation> {
         let has_ramp = !self.ramp.model.is_absent();
         Discretisation::ALL
@@ -74,6 +75,10 @@ impl Scene {
                         discretisation,
                         Discretisation::DiskModes | Discretisation::StructureStep
                     )
+            })
+            .filter(|discretisation| {
+                self.film_resolution.correction_cells > 0
+                    || *discretisation != Discretisation::FilmCorrection
             })
             .filter(|discretisation| !self.not_refined.contains(discretisation))
             .collect()
@@ -95,6 +100,11 @@ impl Scene {
         };
         let film = power(2.0, Discretisation::FilmGrid);
         scene.film_resolution.cells = scaled(self.film_resolution.cells, film, 16);
+        let correction = &mut scene.film_resolution.correction_cells;
+        if *correction > 0 {
+            let factor = power(2.0, Discretisation::FilmCorrection);
+            *correction = scaled(*correction, factor, 16);
+        }
         let disk = power(2.0, Discretisation::DiskModes);
         scene.disk_resolution.cut_hz *= disk;
         // Frequencies of a plate grow with the square of its wave numbers.

@@ -11,7 +11,6 @@
 mod critical;
 mod model;
 mod outcome;
-pub mod quasi_static;
 mod run;
 
 pub use crate::head::HeadState;

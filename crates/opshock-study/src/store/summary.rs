@@ -46,17 +46,18 @@ impl std::fmt::Display for AxisValue {
 /// Names of the contributions of uncertainty intervals, in the order in which they are listed.
 ///
 /// `structure` and `head` stand for all discretisation parameters of disk and ramp, and of the head, changed together.
-pub const CONTRIBUTIONS: [&str; 10] = [
+pub const CONTRIBUTIONS: [&str; 11] = [
     "search",
-    "film_grid",
-    "ramp_mesh",
+    "head",
+    "head_tolerance",
+    "coupling_tolerance",
+    "suspension_modes",
     "structure",
     "disk_modes",
     "structure_step",
-    "head",
-    "suspension_modes",
-    "head_tolerance",
-    "coupling_tolerance",
+    "ramp_mesh",
+    "film_correction",
+    "film_grid",
 ];
 
 /// One source of a row's uncertainty interval, G.

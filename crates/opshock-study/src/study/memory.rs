@@ -86,25 +86,17 @@ impl Demand {
         }
     }
 
-    /// A whole sweep: windows may be doubled, points refined to films of `finer` times the cells, and quasi-static
-    /// films computed on still finer grids.
-    pub fn sweep(study: &Study, finer: f64) -> Demand {
+    /// A whole sweep: windows may be doubled, and uncertainty intervals run films and defect-correction grids of `finer` times
+    /// the cells.
+    pub fn sweep(study: &Study, finer: [f64; 2]) -> Demand {
         let search = &study.search;
         let mut all = Demand::models(study);
         let mut longest: f64 = 0.0;
         for point in &study.points {
             let film = &point.scene.film_resolution;
-            let (cells, reference) = (finer * film.cells as f64, film.correction_cells as f64);
-            all.film = all.film.max(film_bytes(cells));
-            if search.uncertainty {
-                // Twice the cells of the defect-correction grid, or the film's own, with every cell cut in four.
-                let held = if reference > 0.0 {
-                    8.0 * reference
-                } else {
-                    4.0 * cells
-                };
-                all.film = all.film.max(film_bytes(held));
-            }
+            let [cells, reference] = [film.cells, film.correction_cells].map(|cells| cells as f64);
+            let films = film_bytes(finer[0] * cells).max(reference_bytes(finer[1] * reference));
+            all.film = all.film.max(films);
             let (n, model) = unit_response(&point.scene);
             longest = longest.max(model);
             // A model of the doubled window in the making.

@@ -45,6 +45,12 @@ pub struct Forecast {
     pub core_h: Spread,
     /// Hours with these threads.
     pub wall_h: Spread,
+    /// Core-hours of a sweep that refines no point, if this one may.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unrefined_core_h: Option<Spread>,
+    /// Hours of such a sweep with these threads.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unrefined_wall_h: Option<Spread>,
     /// Threads.
     pub threads: usize,
     /// Bytes of the store in the end.
@@ -105,7 +111,7 @@ pub fn forecast(
 ) -> Forecast {
     let valid = |digest| input.points.iter().any(|point| point.digest == digest);
     let reused_runs = loaded.runs.keys().filter(|key| valid(key.point)).count() as u64;
-    let mut registry = Registry::new(input, loaded);
+    let mut registry = Registry::new(input, loaded.clone());
     registry.absorb_all();
     let touch = |point: usize| {
         let known = registry.campaign().touch(point);
@@ -127,6 +133,12 @@ pub fn forecast(
         }
     }
     let left = remainder(input, &registry, &touches, &pace, threads);
+    let unrefined = input.without_refinement().map(|plain| {
+        let mut registry = Registry::new(&plain, loaded);
+        registry.absorb_all();
+        remainder(&plain, &registry, &touches, &pace, threads)
+    });
+    let hours = |seconds: Spread| seconds.scaled(1.0 / 3600.0);
     let answered = (0..input.points.len()).filter(|&point| registry.is_final(point));
     let histories = match input.keep_histories {
         KeepHistories::None => 0.0,
@@ -145,8 +157,10 @@ pub fn forecast(
         uncertainty_runs: left.uncertainty_runs,
         runs: left.runs,
         seconds_per_run: pace.plain_s().clone(),
-        core_h: left.core_s.scaled(1.0 / 3600.0),
-        wall_h: left.wall_s.scaled(1.0 / 3600.0),
+        core_h: hours(left.core_s),
+        wall_h: hours(left.wall_s),
+        unrefined_core_h: unrefined.as_ref().map(|left| hours(left.core_s)),
+        unrefined_wall_h: unrefined.as_ref().map(|left| hours(left.wall_s)),
         threads,
         disk_bytes: disk as u64,
     }

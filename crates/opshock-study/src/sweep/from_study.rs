@@ -151,7 +151,6 @@ fn uncertainty_plan(point: &Point, refinements: u8) -> UncertaintyPlan {
             Some(ramp) => ramp.halvings(MOST_STEPS + 1),
             None => 0,
         },
-        holds_films: true,
         target: point.target_uncertainty,
         refinements,
     }

@@ -18,8 +18,6 @@ pub struct UncertaintyPlan {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved.
     pub mesh_halvings: i8,
-    /// Quasi-static films at the lowest attitude of a shock can be computed ([`Discretisation::QuasiStaticFilm`]).
-    pub holds_films: bool,
     /// Target uncertainty, a share.
     pub target: f64,
     /// Largest number of adaptive refinements of the point.
@@ -64,6 +62,20 @@ pub struct SweepInput {
 }
 
 impl SweepInput {
+    /// The same study without refinement; `None` where none may be refined.
+    pub fn without_refinement(&self) -> Option<SweepInput> {
+        let mut plain = self.clone();
+        let plans = plain
+            .points
+            .iter_mut()
+            .filter_map(|point| point.uncertainty.as_mut());
+        let refined: Vec<&mut UncertaintyPlan> =
+            plans.filter(|plan| plan.refinements > 0).collect();
+        let may = !refined.is_empty();
+        refined.into_iter().for_each(|plan| plan.refinements = 0);
+        may.then_some(plain)
+    }
+
     /// Names of the points, as messages show them.
     pub fn labels(&self) -> Vec<PointLabel> {
         self.points

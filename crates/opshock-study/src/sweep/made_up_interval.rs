@@ -24,10 +24,10 @@ fn median_error(discretisation: Discretisation, ramp: Ramp, target: f64) -> f64 
         Discretisation::DiskModes => (0.05 / target).powf(0.75),
         Discretisation::StructureStep | Discretisation::RampMesh => 0.4,
         Discretisation::HeadTolerance if has_ramp => 0.25,
-        Discretisation::HeadTolerance
+        Discretisation::FilmCorrection
+        | Discretisation::HeadTolerance
         | Discretisation::SuspensionModes
         | Discretisation::CouplingTolerance => 0.05,
-        Discretisation::QuasiStaticFilm => 0.0,
     }
 }
 
@@ -37,8 +37,6 @@ const OWN: f64 = 0.9;
 /// Share of discretisation parameters whose error has no order, and its largest alternating part.
 const DISORDERED: f64 = 0.3;
 const DISORDER: f64 = 0.6;
-/// What a quasi-static film misses of the error that it stands for, a standard deviation.
-const MISSED: f64 = 0.2;
 
 /// Common factors of the errors of a study's points, one of many possible.
 pub(super) struct Errors(Vec<(Discretisation, f64)>);
@@ -76,7 +74,6 @@ impl OwnError {
 pub(super) struct MadeUpInterval<'a> {
     input: &'a UncertaintyInput,
     errors: Vec<OwnError>,
-    missed: f64,
     /// Critical amplitude of the scene as it is, grid steps.
     critical: f64,
     /// Highest survivor and lowest failure known at some levels.
@@ -128,7 +125,6 @@ impl<'a> MadeUpInterval<'a> {
         MadeUpInterval {
             input,
             errors,
-            missed: 1.0 + MISSED * random.normal(),
             critical: f64::from(input.survivor) + inside * width,
             known: bounds,
         }
@@ -136,19 +132,10 @@ impl<'a> MadeUpInterval<'a> {
 
     /// Critical amplitude at some levels, grid steps.
     fn critical(&self, levels: Levels) -> f64 {
-        let held = levels.of(Discretisation::QuasiStaticFilm);
         let change: f64 = self
             .errors
             .iter()
-            .map(|error| {
-                let level = levels.of(error.discretisation);
-                let changed = match (error.discretisation, held) {
-                    (Discretisation::FilmGrid, 1..) => error.at(level) * (1.0 - self.missed),
-                    (Discretisation::FilmGrid, ..=-1) => self.missed * error.at(level + held),
-                    _ => error.at(level),
-                };
-                changed - error.at(0)
-            })
+            .map(|error| error.at(levels.of(error.discretisation)) - error.at(0))
             .sum();
         let steps = f64::from(self.input.grid.steps_per_octave);
         let critical = self.critical + steps * (1.0 + change.clamp(-0.5, 1.0)).log2();
@@ -186,10 +173,9 @@ impl<'a> MadeUpInterval<'a> {
     pub(super) fn seen(&self, ask: Ask) -> Seen {
         let critical = self.critical(ask.levels);
         let node = f64::from(ask.index);
-        let is_held = ask.levels.of(Discretisation::QuasiStaticFilm) != 0;
         let margin = self.margin(node + self.critical - critical);
         Seen {
-            verdict: if is_held || node <= critical {
+            verdict: if node <= critical {
                 AmplitudeVerdict::Survives
             } else {
                 AmplitudeVerdict::Fails

@@ -26,7 +26,6 @@ mod pace;
 pub mod physics;
 mod probed;
 pub mod progress;
-mod quasi_static;
 mod registry;
 mod remainder;
 mod replay;

@@ -19,7 +19,6 @@ use opshock_solver::simulation::{
 
 use super::latest::Latest;
 use super::probed::{not_built, probe_result};
-use super::quasi_static::{Lowest, quasi_static};
 use super::simulator::{Onset, Simulator};
 use super::structure_run_cache::{Counts, StructureRunCache};
 use crate::identity;
@@ -55,33 +54,8 @@ impl Slot {
 /// times and some by both signs; kept for all scenes they would fill the memory.
 const REFINED: usize = 24;
 
-/// Survivors whose lowest attitude is kept: many times those of the points that two threads work on.
-const MOST_LOWEST: usize = 4096;
-
 /// Memory of the kept final states, bytes: some hundred on 1000 cells. A search needs one of its last survivors.
 const MOST_END_BYTES: usize = 4 << 20;
-
-/// Identity of one shock of a study, independent of the amplitude grid that its amplitude was taken from.
-#[derive(Clone, Copy, PartialEq)]
-struct Shake {
-    point: usize,
-    levels: Levels,
-    window_factor: u8,
-    retry: Retry,
-    amplitude_bits: u64,
-}
-
-impl Shake {
-    fn of(point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Shake {
-        Shake {
-            point,
-            levels: probe.levels,
-            window_factor: probe.window_factor,
-            retry: probe.retry,
-            amplitude_bits: amplitude_m_per_s2.to_bits(),
-        }
-    }
-}
 
 /// Runs the physics for the points of a study.
 pub struct Physics {
@@ -98,8 +72,6 @@ pub struct Physics {
     /// Structures built so far.
     structures: AtomicU64,
     workspaces: Mutex<Vec<Workspace>>,
-    /// Attitudes of recent survivors at their smallest clearance.
-    lowest: Mutex<Latest<Shake, Lowest>>,
     /// Final states of recent survivors, by point and bits of the signed amplitude: the doubled window continues them.
     ends: Mutex<Latest<(usize, u64), HeadState>>,
 }
@@ -168,7 +140,6 @@ impl Physics {
             shared_structures,
             structures: AtomicU64::new(0),
             workspaces: Mutex::new(Vec::new()),
-            lowest: Mutex::new(Latest::new(MOST_LOWEST)),
             ends: Mutex::new(Latest::new(MOST_END_BYTES)),
         }
     }
@@ -316,42 +287,15 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 impl Simulator for Physics {
     fn simulate(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> ProbeResult {
-        let steps = probe.levels.of(Discretisation::QuasiStaticFilm);
-        let own = Probe {
-            levels: probe
-                .levels
-                .changed(Discretisation::QuasiStaticFilm, -steps),
-            ..probe
-        };
-        let model = match self.model_for(point, own) {
+        let model = match self.model_for(point, probe) {
             Err(error) => return not_built(&error),
             Ok(model) => model,
         };
-        let key = Shake::of(point, own, amplitude_m_per_s2);
-        let shake = || {
-            let request = Request {
-                amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
-                record: false,
-            };
-            let outcome = self.run(&model, &request, (point, own));
-            if let Some(lowest) = Lowest::of(&outcome).filter(|_| self.plan.shares_parts) {
-                lock(&self.lowest).keep(key, lowest, 1);
-            }
-            outcome
+        let request = Request {
+            amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
+            record: false,
         };
-        if steps == 0 {
-            return probe_result(&shake());
-        }
-        let known = lock(&self.lowest).get(&key).copied();
-        if let Some(lowest) = known {
-            return quasi_static(&model, lowest, steps);
-        }
-        let outcome = shake();
-        match Lowest::of(&outcome) {
-            Some(lowest) => quasi_static(&model, lowest, steps),
-            // A failing run has no clearance to correct.
-            None => probe_result(&outcome),
-        }
+        probe_result(&self.run(&model, &request, (point, probe)))
     }
 
     fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {

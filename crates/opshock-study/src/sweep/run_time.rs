@@ -17,8 +17,7 @@
 //! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n; 0.8 |
 //! | n | refinement level of the time step of disk and ramp | |
 //!
-//! A quasi-static film takes 0.9 units of those without ramp, one of 2^-n of the cells 0.45 x 2^-n; a unit with a ramp is 2.1
-//! of those without. The factors were read off the film solves and times of 56 studies of one drive (`opshock new`) with clearances
+//! The factors were read off the film solves and times of 56 studies of one drive (`opshock new`) with clearances
 //! of 60 to 140 um at the presets coarse and standard, of Fig. 13 and of its variants: tuned numbers, not physics.
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
@@ -55,12 +54,6 @@ impl Kind {
             return 1.0;
         }
         let level = |discretisation| i32::from(self.levels.of(discretisation));
-        match level(Discretisation::QuasiStaticFilm) {
-            // A film at rest, extrapolated from twice the cells, or one of fewer cells.
-            1.. => return 0.9 / of_none(self.ramp),
-            steps @ ..=-1 => return 0.45 / of_none(self.ramp) * 0.5_f64.powi(-steps),
-            0 => {}
-        }
         let (head, structure) = match self.ramp {
             Ramp::None => (0.87, 0.0),
             Ramp::Rigid | Ramp::Deformable => (0.78, 0.09),

@@ -30,6 +30,9 @@ pub(super) struct GlobalArgs {
     /// Take a key, a section or an entry of a list away from the study; may be repeated
     #[arg(long, global = true, value_name = "KEY")]
     pub(super) unset: Vec<String>,
+    /// Times that a point may be refined to meet its target uncertainty; 0 for a first look: search.max_refinements
+    #[arg(long, global = true, value_name = "N")]
+    pub(super) max_refinements: Option<u8>,
     /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
     #[arg(long, global = true, value_name = "DIR")]
     pub(super) store: Option<PathBuf>,

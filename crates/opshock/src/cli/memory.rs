@@ -1,7 +1,7 @@
 //! Checks that what a command is about to do fits into the memory of this machine.
 
 use super::failure::Failure;
-use opshock_study::search::uncertainty::most_film_steps;
+use opshock_study::search::uncertainty::finest;
 use opshock_study::study::Study;
 use opshock_study::study::memory::Demand;
 use std::path::Path;
@@ -17,12 +17,11 @@ pub fn check(what: &str, demand: Demand, workers: usize) -> Result<(), Failure> 
 /// What a sweep needs, including the finest film grids to which its points may be refined.
 pub fn of_sweep(study: &Study) -> Demand {
     let search = &study.search;
-    let refinements = if search.uncertainty {
-        search.max_refinements
-    } else {
-        0
+    let finer = match search.uncertainty {
+        true => finest(search.max_refinements),
+        false => [1.0; 2],
     };
-    Demand::sweep(study, f64::from(most_film_steps(refinements)).exp2())
+    Demand::sweep(study, finer)
 }
 
 /// What Linux says is available, or what a control group or a limit of this process leaves if that is less; without

@@ -182,6 +182,10 @@ fn as_text(name: &str, plan: &Plan) -> String {
             forecast.threads
         ),
     );
+    if let Some(unrefined) = forecast.unrefined_wall_h {
+        let time = hours(unrefined);
+        line("  unrefined", format!("{time}, with --max-refinements 0"));
+    }
     line(
         "disk",
         format!("{:.1} MB at most", forecast.disk_bytes as f64 * 1e-6),

@@ -21,7 +21,10 @@ use std::path::Path;
 pub fn sets(global: &GlobalArgs) -> Result<Vec<SetArg>, SetSyntaxError> {
     let set = global.set.iter().map(|argument| SetArg::parse(argument));
     let unset = global.unset.iter().map(|key| SetArg::unset(key));
-    set.chain(unset).collect()
+    let refinements = global
+        .max_refinements
+        .map(|most| SetArg::parse(&format!("search.max_refinements={most}")));
+    set.chain(unset).chain(refinements).collect()
 }
 
 /// Reads a study with the `--set` arguments laid over it, and prints its warnings and notes.

@@ -42,8 +42,6 @@ pub struct UncertaintyInput {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved; 0 where there are none.
     pub mesh_halvings: i8,
-    /// Quasi-static films at the lowest attitude of a shock can be computed ([`Discretisation::QuasiStaticFilm`]).
-    pub holds_films: bool,
     /// Target uncertainty, a share.
     pub target: f64,
 }

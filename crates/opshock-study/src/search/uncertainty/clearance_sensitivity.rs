@@ -7,9 +7,7 @@
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, SUBDIVISIONS, Seen};
-use super::judge::{self, Estimate};
-use super::limits::Limits;
-use super::rebracketing::{self, DEEP};
+use super::pieces::DEEP;
 use super::walk::Walk;
 use crate::search::evidence::AmplitudeVerdict;
 
@@ -124,153 +122,39 @@ impl Reference {
             (below.h_min_m - at.h_min_m) / walk.share(at.index - below.index)
         };
         let slope_m = slope_m(lower).min(slope_m(next));
-        if clearance(walk.see(walk.surrogate(), at.index)?, at.t_min_s).is_none() {
-            return Ok(None);
-        }
         let survivor = |known: &Known| Survivor {
             index: known.index,
             own_m: known.h_min_m,
         };
-        Ok((slope_m > 0.0).then_some(Reference {
+        // By this slope the touch lies near, where the lowest failure is.
+        Ok((at.h_min_m < REACH * slope_m).then_some(Reference {
             event_s: at.t_min_s,
             at: [survivor(&at), survivor(lower)],
             slope_m,
         }))
     }
 
-    /// Clearance at the event of a changed scene.
-    fn see(&self, walk: &mut Walk<'_>, levels: Levels, index: i32) -> Result<Option<f64>, Ask> {
-        Ok(clearance(walk.see(levels, index)?, self.event_s))
-    }
-
-    /// Error of the film's grid from quasi-static films at a fixed attitude, if their estimate from a quarter of the
-    /// cells leaves room for the other contributions with the bracket halved once. Else from half and a quarter of the
-    /// cells; where that is not little, from quasi-static films or twice the cells. All at the survivor, or below it
-    /// where another grid fails there. Where twice the cells fail at both, their own answer is bracketed.
-    pub(super) fn film(
+    /// Change of the answer from the scene at `from` to that at `to`, as a share: at the survivor, or below it where one of
+    /// them fails there. `None` where both do not survive the event, or the change is too large.
+    pub(super) fn change(
         &self,
         walk: &mut Walk<'_>,
-        limits: Limits,
-    ) -> Result<Option<Estimate>, Ask> {
-        const FILM: [Discretisation; 1] = [Discretisation::FilmGrid];
-        let slope_m = self.slope_m;
-        let mut coarse_only = None;
-        // One run of the scene itself halves the bracket.
-        let room = limits.room + 0.25 * walk.share(walk.input.failure - walk.input.survivor);
+        from: Levels,
+        to: Levels,
+    ) -> Result<Option<f64>, Ask> {
         for at in self.at {
-            let Some(quarter_m) = self.see(walk, walk.surrogate(), at.index)? else {
+            let Some(to_m) = clearance(walk.see(to, at.index)?, self.event_s) else {
                 continue;
             };
-            let by_quarter = self.held(walk, at, (2, quarter_m))?;
-            if let Some(held) = by_quarter.filter(|held| held.half_length() <= room) {
-                return Ok(Some(held));
-            }
-            let both = (quarter_m - at.own_m) / slope_m;
-            let half = judge::coarser(Levels::NONE, &FILM);
-            let Some(half_m) = self.see(walk, half, at.index)? else {
-                continue;
+            let from_m = match from.is_none() {
+                true => Some(at.own_m),
+                false => clearance(walk.see(from, at.index)?, self.event_s),
             };
-            let near = (half_m - at.own_m) / slope_m;
-            if near.abs().max(both.abs()) > REACH {
-                continue;
+            let change = from_m.map(|from_m| (to_m - from_m) / self.slope_m);
+            if let Some(change) = change.filter(|change| change.abs() <= REACH) {
+                return Ok(Some(change));
             }
-            let estimate = judge::two_coarser(&FILM, near, both - near);
-            // Corrected films may agree although their common defect-correction grid errs; quasi-static films show that
-            // error.
-            let is_little = |error: &Estimate| error.error() <= limits.little;
-            if is_little(&estimate) && by_quarter.as_ref().is_none_or(is_little) {
-                return Ok(Some(estimate));
-            }
-            let held = self.held(walk, at, (1, half_m))?;
-            if let Some(held) = held.filter(|held| held.error() <= estimate.error()) {
-                return Ok(Some(held));
-            }
-            let double = judge::finer(Levels::NONE, &FILM);
-            let fine = self
-                .see(walk, double, at.index)?
-                .map(|double_m| (at.own_m - double_m) / slope_m)
-                .filter(|fine| fine.abs() <= REACH);
-            if let Some(fine) = fine {
-                return Ok(Some(judge::with_finer(&FILM, near, fine)));
-            }
-            coarse_only = coarse_only.or(Some((near, estimate)));
         }
-        match coarse_only {
-            Some((near, estimate)) => match rebracketing::double(walk)? {
-                Some(fine) => Ok(Some(judge::with_finer(&FILM, near, fine))),
-                None => Ok(Some(estimate.unconfirmed())),
-            },
-            None => Ok(None),
-        }
-    }
-
-    /// Error of the film's grid from quasi-static films at a fixed attitude. Their prediction for the cells halved
-    /// `halvings` times at `at`, against the `coarse_m` simulated there, shows how far their estimate is to be trusted.
-    fn held(
-        &self,
-        walk: &mut Walk<'_>,
-        at: Survivor,
-        (halvings, coarse_m): (i8, f64),
-    ) -> Result<Option<Estimate>, Ask> {
-        if !walk.input.holds_films {
-            return Ok(None);
-        }
-        let on = |steps: i8| Levels::NONE.changed(Discretisation::QuasiStaticFilm, steps);
-        let Some(expected_m) = self.see(walk, on(-halvings), at.index)? else {
-            return Ok(None);
-        };
-        let [upper, _] = self.at;
-        let Some(continued_m) = self.see(walk, on(1), upper.index)? else {
-            return Ok(None);
-        };
-        let fine = (upper.own_m - continued_m) / self.slope_m;
-        let missed = (coarse_m - expected_m) / self.slope_m;
-        let is_near = fine.abs().max(missed.abs()) <= REACH;
-        // Films with errors e and r e differ by (r - 1) e.
-        let rise = Discretisation::FilmGrid
-            .formal_ratio()
-            .powi(i32::from(halvings));
-        Ok(is_near.then(|| judge::held(fine, missed / (rise - 1.0))))
-    }
-
-    /// Error of other discretisation parameters coarsened together by one step on the surrogate, and refined by one
-    /// where that is neither little nor within the room: at the survivor, or below it where changed scenes fail there.
-    pub(super) fn discretisations(
-        &self,
-        walk: &mut Walk<'_>,
-        discretisations: &[Discretisation],
-        limits: Limits,
-    ) -> Result<Option<Estimate>, Ask> {
-        let (surrogate, slope_m) = (walk.surrogate(), self.slope_m);
-        let mut coarse_only = None;
-        for at in self.at {
-            let coarse = judge::coarser(surrogate, discretisations);
-            let Some(coarse_m) = self.see(walk, coarse, at.index)? else {
-                continue;
-            };
-            let Some(surrogate_m) = self.see(walk, surrogate, at.index)? else {
-                continue;
-            };
-            let near = (coarse_m - surrogate_m) / slope_m;
-            if near.abs() > REACH {
-                continue;
-            }
-            let estimate = judge::one_step(discretisations, near);
-            let is_enough = estimate.error() <= limits.little.max(limits.room);
-            // What needed a finer run at the first survivor needs one at the second.
-            if coarse_only.is_none() && is_enough || !walk.has_finer(discretisations) {
-                return Ok(coarse_only.or(Some(estimate)));
-            }
-            let finer = judge::finer(surrogate, discretisations);
-            let fine = self
-                .see(walk, finer, at.index)?
-                .map(|finer_m| (surrogate_m - finer_m) / slope_m)
-                .filter(|fine| fine.abs() <= REACH);
-            if let Some(fine) = fine {
-                return Ok(Some(judge::with_finer(discretisations, near, fine)));
-            }
-            coarse_only = coarse_only.or(Some(estimate));
-        }
-        Ok(coarse_only)
+        Ok(None)
     }
 }

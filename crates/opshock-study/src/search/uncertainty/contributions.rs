@@ -42,7 +42,9 @@ impl Uncertainty {
             high: above,
             factor: estimate.factor,
         });
-        if estimate.factor == judge::FACTOR_NO_ORDER && !estimate.is_negligible(target) {
+        if estimate.factor == judge::FACTOR_NO_ORDER
+            && estimate.error() > judge::NEGLIGIBLE * target
+        {
             self.flags.insert(Flag::SafetyFactor3);
         }
     }

@@ -1,24 +1,17 @@
 //! Error estimates from the differences between refinement levels of a discretisation parameter.
-//!
-//! Every parameter is coarsened by one step first: the runs are cheaper than those of the search. Where that changes
-//! the answer noticeably, one step finer says more: coarse parameters, as those of a cheap scene, gain more by a step
-//! than their formal order, so that coarser runs make a large error look small.
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
-use crate::search::amplitude_grid::AmplitudeGrid;
+use super::change::Change;
 
-/// Safety factor on an error whose order is the formal one.
+/// Safety factor on an error whose order is the formal one, and on a bound by equal brackets.
 pub(super) const FACTOR_FORMAL_ORDER: f64 = 1.25;
 /// Factor on any other.
 pub(super) const FACTOR_NO_ORDER: f64 = 3.0;
 /// Share of the target below which a contribution is not evaluated more closely.
 pub(super) const NEGLIGIBLE: f64 = 0.25;
-/// An observed ratio is taken for the formal one within half an order of refinement by two.
+/// An observed ratio is taken for the formal one, or a larger one, down to half an order of refinement by two.
 const HALF_ORDER: f64 = std::f64::consts::SQRT_2;
-/// Relative error of the estimate from quasi-static films: of the slope of the clearance, which is measured over some
-/// per cent, and of the extrapolation of the grid.
-const CONTINUED: f64 = 0.1;
 /// Slowest ratio that is believed.
 const SLOWEST: f64 = 1.25;
 
@@ -45,12 +38,6 @@ impl Estimate {
         below.max(above)
     }
 
-    /// Half of what it adds to an interval.
-    pub(super) fn half_length(self) -> f64 {
-        let [below, above] = self.errors();
-        0.5 * (below + above)
-    }
-
     /// A finer scene was simulated and gave no answer: an order shown by coarser ones is disregarded.
     #[must_use]
     pub(super) fn unconfirmed(self) -> Estimate {
@@ -60,23 +47,8 @@ impl Estimate {
         }
     }
 
-    /// The change that was observed may lie either way.
-    #[must_use]
-    pub(super) fn either_way(self) -> Estimate {
-        let [below, above] = self.known;
-        Estimate {
-            known: [below.max(above); 2],
-            ..self
-        }
-    }
-
-    /// Too little to matter.
-    pub(super) fn is_negligible(self, target: f64) -> bool {
-        self.error() <= NEGLIGIBLE * target
-    }
-
     /// An error without any certain change.
-    pub(super) fn unseen(share: f64, factor: f64) -> Estimate {
+    fn unseen(share: f64, factor: f64) -> Estimate {
         Estimate {
             known: [0.0; 2],
             share,
@@ -85,25 +57,10 @@ impl Estimate {
     }
 }
 
-/// The change `fine` of the scene's answer relative to a finer one's, downwards and upwards from the scene's.
-fn seen(fine: f64) -> [f64; 2] {
-    [fine.max(0.0), (-fine).max(0.0)]
-}
-
-fn is_formal(observed: f64, formal: f64) -> bool {
-    observed > formal / HALF_ORDER && observed < formal * HALF_ORDER
-}
-
-/// These levels with some discretisation parameters coarsened by one step.
-pub(super) fn coarser(levels: Levels, discretisations: &[Discretisation]) -> Levels {
+/// These levels with some discretisation parameters refined by so many steps each.
+pub(super) fn refined(levels: Levels, discretisations: &[Discretisation], steps: i8) -> Levels {
     let turn =
-        |levels: Levels, &discretisation: &Discretisation| levels.changed(discretisation, -1);
-    discretisations.iter().fold(levels, turn)
-}
-
-/// These levels with some discretisation parameters refined by one step.
-pub(super) fn finer(levels: Levels, discretisations: &[Discretisation]) -> Levels {
-    let turn = |levels: Levels, &discretisation: &Discretisation| levels.changed(discretisation, 1);
+        |levels: Levels, &discretisation: &Discretisation| levels.changed(discretisation, steps);
     discretisations.iter().fold(levels, turn)
 }
 
@@ -115,89 +72,76 @@ fn slowest(discretisations: &[Discretisation]) -> f64 {
     ratios.fold(f64::INFINITY, f64::min)
 }
 
-/// Error of discretisation parameters changed together by one step, from the change of the answer. No order was
-/// observed; the slowest formal one is used.
-pub(super) fn one_step(discretisations: &[Discretisation], change: f64) -> Estimate {
-    Estimate::unseen(
-        change.abs() / (slowest(discretisations) - 1.0),
-        FACTOR_NO_ORDER,
-    )
+/// Error of discretisation parameters changed together, from the change of the answer one step coarser. No order was
+/// observed; the slowest formal one is used. Equal brackets bound the change; their factor covers parameters of a group
+/// whose effects on the answer cancel.
+pub(super) fn one_step(discretisations: &[Discretisation], near: Change) -> Estimate {
+    let factor = match near.is_equal {
+        true => FACTOR_FORMAL_ORDER,
+        false => FACTOR_NO_ORDER,
+    };
+    Estimate::unseen(near.size() / (slowest(discretisations) - 1.0), factor)
 }
 
-/// Error from two steps coarser: `near` is level -1 minus the scene, `far` level -2 minus level -1. Without an order,
-/// the larger of both estimates at the formal one.
-pub(super) fn two_coarser(discretisations: &[Discretisation], near: f64, far: f64) -> Estimate {
+/// Error from two steps coarser: `near` and `far` are the changes one and two steps coarser. The larger of both estimates at
+/// the formal order, or at a slower one that was observed.
+pub(super) fn two_coarser(
+    discretisations: &[Discretisation],
+    near: Change,
+    far: Change,
+) -> Estimate {
     let formal = slowest(discretisations);
-    let observed = far / near;
-    if is_formal(observed, formal) {
-        return Estimate::unseen(
-            near.abs() / (observed.min(formal) - 1.0),
-            FACTOR_FORMAL_ORDER,
-        );
+    let observed = (far.share - near.share) / near.share;
+    let two = far.size() / (formal * formal - 1.0);
+    if !near.is_equal && observed > formal / HALF_ORDER {
+        let one = near.size() / (observed.min(formal) - 1.0);
+        return Estimate::unseen(one.max(two), FACTOR_FORMAL_ORDER);
     }
-    let (one, two) = (near.abs(), (near + far).abs());
-    let share = (one / (formal - 1.0)).max(two / (formal * formal - 1.0));
-    Estimate::unseen(share, FACTOR_NO_ORDER)
+    let one = one_step(discretisations, near);
+    Estimate {
+        share: one.share.max(two),
+        ..one
+    }
 }
 
-/// Error from a step coarser and a step finer: `near` is level -1 minus the scene, `fine` the scene minus level +1. The
-/// latter is observed; what level +1 still lacks follows from the order. An order above the formal one is not assumed
+/// Error from the finest answer, which lies `finest` from the scene's and `finer` from that a step coarser, and where it has
+/// an answer from the one before that, `near` from the latter. What the finest one changes is observed, up to the
+/// brackets it was observed with; what it still lacks follows from the order. An order above the formal one is not assumed
 /// to last, and one below it leaves more than the formal one.
-pub(super) fn with_finer(discretisations: &[Discretisation], near: f64, fine: f64) -> Estimate {
+pub(super) fn with_finer(
+    discretisations: &[Discretisation],
+    near: Option<Change>,
+    finer: Change,
+    finest: Change,
+) -> Estimate {
     let formal = slowest(discretisations);
-    let observed = near / fine;
-    let (share, factor) = if observed > formal / HALF_ORDER {
-        (
-            fine.abs() / (observed.min(formal) - 1.0),
-            FACTOR_FORMAL_ORDER,
-        )
-    } else {
-        let left = fine.abs().max(near.abs() / formal) / (formal - 1.0);
-        let slow = match observed > 1.0 {
-            true => fine.abs() / (observed.max(SLOWEST) - 1.0),
+    let size = finer.size();
+    let known = match finest.is_equal {
+        true => [finest.size(); 2],
+        false => [-finest.share, finest.share].map(|share| match share > 0.0 {
+            true => finest.size(),
             false => 0.0,
-        };
-        (
-            left.max(slow * FACTOR_FORMAL_ORDER / FACTOR_NO_ORDER),
-            FACTOR_NO_ORDER,
-        )
+        }),
+    };
+    let (share, factor) = match near.map(|near| (near.size(), -near.share / finer.share)) {
+        None => (size / (formal - 1.0), FACTOR_NO_ORDER),
+        Some((_, observed)) if finer.is_equal || observed > formal / HALF_ORDER => {
+            let observed = if finer.is_equal { formal } else { observed };
+            (size / (observed.min(formal) - 1.0), FACTOR_FORMAL_ORDER)
+        }
+        Some((near, observed)) => {
+            let left = size.max(near / formal) / (formal - 1.0);
+            let slow = match observed > 1.0 {
+                true => size / (observed.max(SLOWEST) - 1.0),
+                false => 0.0,
+            };
+            let share = left.max(slow * FACTOR_FORMAL_ORDER / FACTOR_NO_ORDER);
+            (share, FACTOR_NO_ORDER)
+        }
     };
     Estimate {
-        known: seen(fine),
+        known,
         share,
         factor,
-    }
-}
-
-/// Error from a quasi-static film: `fine` is the scene minus the film extrapolated to infinitely many cells, and
-/// `missed` the error of the quasi-static prediction for half or a quarter of the cells. Films with errors e and 2 e
-/// differ by e, so the error itself may be wrong by as much; [`CONTINUED`] of it is added.
-pub(super) fn held(fine: f64, missed: f64) -> Estimate {
-    Estimate {
-        known: seen(fine),
-        share: missed.abs() + CONTINUED * fine.abs(),
-        factor: FACTOR_FORMAL_ORDER,
-    }
-}
-
-/// Error from one step finer alone: the change is certain, and no order was observed.
-pub(super) fn finer_alone(discretisations: &[Discretisation], fine: f64) -> Estimate {
-    Estimate {
-        known: seen(fine),
-        share: fine.abs() / (slowest(discretisations) - 1.0),
-        factor: FACTOR_NO_ORDER,
-    }
-}
-
-/// Bound from verdicts that agree with the reference's at both ends of its bracket of `nodes` steps: the answer moved
-/// by less. The factor [`FACTOR_FORMAL_ORDER`] covers parameters of a group whose effects on the answer cancel.
-pub(super) fn agreement(
-    grid: &AmplitudeGrid,
-    nodes: i32,
-    discretisations: &[Discretisation],
-) -> Estimate {
-    Estimate {
-        factor: FACTOR_FORMAL_ORDER,
-        ..one_step(discretisations, f64::from(nodes) * grid.step())
     }
 }

@@ -1,44 +1,47 @@
 //! Uncertainty interval of a critical shock: contributions of the search and of each discretisation parameter.
 //!
-//! The search contributes its bracket. Of every discretisation parameter
-//! ([`Discretisation`](opshock_solver::scene::discretisation::Discretisation)) the change of the critical amplitude A
-//! when it is coarsened by one step gives, by its formal order, the error that is left; a factor of safety times that
-//! error is its contribution. Where the error is more than a quarter of the target (or of the half-width so far, if that
-//! is larger) and more than what the target leaves, the parameter is refined by one step as well.
+//! The search contributes its bracket. A discretisation parameter
+//! ([`Discretisation`](opshock_solver::scene::discretisation::Discretisation)) contributes the error e that it leaves in
+//! the critical amplitude A, times a factor of safety (Roache 1994, J. Fluids Eng. 116, 405). With A(-1), A(0), A(1) the
+//! answers one step coarser, as the scene is, and one step finer, and r the ratio by which a step divides the error:
 //!
-//! The film's grid is estimated by itself. The others are changed in three groups, each as a whole: modes and time step of
-//! disk and ramp; modes and tolerances of the head; the finite-element mesh that a ramp's modes were computed on. A parameter
-//! is changed alone only where its group gives no estimate: no verdict, or an answer too far away. The effect of a group
-//! hardly depends on the film, so that these runs take one of a quarter, an eighth or half of the cells whose
-//! own answer is near enough.
+//! | answers | e | factor |
+//! |---|---|---|
+//! | coarser alone | \|A(-1) - A(0)\| / (r - 1) | 3 |
+//! | coarser, in the same bracket | width / (r - 1) | 1.25 |
+//! | coarser and finer | \|A(0) - A(1)\|, known, on its own side; and \|A(0) - A(1)\| / (r - 1) | 1 and 1.25 |
+//! | the same, r not observed | the same known part; the larger of that and \|A(-1) - A(0)\| / r, over r - 1 | 1 and 3 |
 //!
-//! A run is converted to a change δA of the critical amplitude in one of two ways:
+//! The ratio r is the observed one, at most the formal one; it is not observed where the changes differ in sign or fall by less
+//! than r / √2. Of two brackets the largest distance counts. The scene is coarsened first, since that is cheap. It is refined by
+//! a step, or two, while the contribution is more than a quarter of the target uncertainty (`pieces`, `judge`); with A(2) the
+//! known part is \|A(0) - A(2)\|, and e follows from the last two.
+//!
+//! The parameters are changed in groups, each as a whole: tolerances of the head; modes of the suspension; modes and time step
+//! of disk and ramp; the mesh of a ramp; the grid of the film's defect correction; the film's grid. A parameter is changed
+//! alone only where its group has no answer. The effect of all but the last hardly depends on the film, so that these runs
+//! take a quarter of the cells, or half, if the answer there is near. The film's grid is evaluated last, from the scene
+//! itself: on half and a quarter of the cells, and on twice the cells where that is more than the others leave.
+//!
+//! The change of A between two scenes is measured in one of two ways (`change`):
 //!
 //! * *clearance sensitivity* (`clearance_sensitivity`): δA = δh / |dh/dA|, with h the smallest clearance of survivors just
-//!   below A and δh its change, a run a group. It holds where h falls steadily to zero as the amplitude grows, at the
-//!   instant at which the lowest failure touches.
+//!   below A and δh its change, by a run. It holds where h falls steadily to zero as the amplitude grows, at the instant at
+//!   which the lowest failure touches.
 //! * *re-bracketing* (`rebracketing`): elsewhere, as where the dimple opens and survival ends abruptly, the critical
 //!   amplitude of the changed scene is searched for.
 //!
-//! The factor of safety is 1.25 where changes fall at the formal order or faster, and for bounds by equal brackets and by
-//! quasi-static films; 3 elsewhere (Roache 1994, J. Fluids Eng. 116, 405). The change seen on refining moves the bound on
-//! its own side by its size; the factor acts, on both sides, on the error that is estimated to be left in the refined run.
-//! Contributions add up, below and above the answer; none makes another smaller.
-//!
-//! Where the clearance sensitivity holds, the error of the film's grid is read off films under a slider held at the
-//! attitude of the smallest clearance
-//! ([`Discretisation::QuasiStaticFilm`](opshock_solver::scene::discretisation::Discretisation::QuasiStaticFilm)). Shocks on
-//! a quarter of the cells, or half, test that reading: what it misses of them is added. Where that is too much, the
-//! film's grid is coarsened and refined like any other parameter.
+//! Contributions add up, below and above the answer; none makes another smaller. Where they exceed the target, the largest
+//! are refined and the answer is bracketed anew (`refinement`).
 //!
 //! [`answer`] is a function of finished runs. Called with more runs it goes further, and it asks for the next run that it
 //! lacks: always the same runs in the same order, whatever the number of threads.
 
 mod ask;
+mod change;
 mod clearance_sensitivity;
 mod contributions;
 mod judge;
-mod limits;
 mod pieces;
 mod rebracketing;
 mod refinement;
@@ -48,4 +51,4 @@ mod walk;
 
 pub use self::ask::{Ask, Known, Progress, SUBDIVISIONS, Seen, UncertaintyInput};
 pub use self::contributions::{Contribution, Uncertainty};
-pub use self::refinement::{Answer, MOST_STEPS, answer, most_film_steps};
+pub use self::refinement::{Answer, MOST_STEPS, answer, finest};

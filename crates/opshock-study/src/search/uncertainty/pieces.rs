@@ -1,179 +1,109 @@
-//! Contribution of each source of error to the uncertainty interval: search, film grid, groups of discretisation
+//! Contribution of each source of error to the uncertainty interval: search, film grid, groups of other discretisation
 //! parameters.
-
-use std::collections::BTreeSet;
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::Ask;
+use super::change::{Change, Measure, Start};
+use super::clearance_sensitivity::Reference;
 use super::contributions::{Contribution, Uncertainty};
-use super::limits::Limits;
+use super::judge::{self, Estimate};
+use super::rebracketing;
 use super::walk::{Walk, bracket, fails_below};
-use super::{clearance_sensitivity, rebracketing};
 use crate::search::outcome::Flag;
 
-/// Discretisation parameters that are first changed together.
+/// Discretisation parameters that are changed together.
 pub(super) struct Group {
     /// Name of their common contribution.
     pub(super) name: &'static str,
     pub(super) discretisations: &'static [Discretisation],
 }
 
-pub(super) const GROUPS: [Group; 3] = [
+/// In the order in which they are evaluated. With the head's tolerances coarsened, comparisons of the structure cost half as
+/// much. The film's grid comes last: only as much of its error is evaluated closely as the others leave.
+pub(super) const GROUPS: [Group; 6] = [
+    Group {
+        name: "head",
+        discretisations: &[
+            Discretisation::HeadTolerance,
+            Discretisation::CouplingTolerance,
+        ],
+    },
+    // Alone: more of them cost little, where smaller tolerances cost steps.
+    Group {
+        name: "suspension_modes",
+        discretisations: &[Discretisation::SuspensionModes],
+    },
+    Group {
+        name: "structure",
+        discretisations: &[Discretisation::DiskModes, Discretisation::StructureStep],
+    },
     // Alone: its order differs from the others', and only some studies have it.
     Group {
         name: "ramp_mesh",
         discretisations: &[Discretisation::RampMesh],
     },
     Group {
-        name: "structure",
-        discretisations: &[Discretisation::DiskModes, Discretisation::StructureStep],
+        name: "film_correction",
+        discretisations: &[Discretisation::FilmCorrection],
     },
-    // Coarsened together with the structure, they may fail where none of them does alone.
     Group {
-        name: "head",
-        discretisations: &[
-            Discretisation::SuspensionModes,
-            Discretisation::HeadTolerance,
-            Discretisation::CouplingTolerance,
-        ],
+        name: "film_grid",
+        discretisations: &FILM,
     },
 ];
+const FILM: [Discretisation; 1] = [Discretisation::FilmGrid];
+
+/// Share of the target to which brackets of changed scenes are narrowed; twice that on the scene's own film.
+const GRAIN: f64 = 1.0 / 16.0;
+/// Steps by which parameters other than the film's grid are refined for an estimate.
+pub(super) const MOST_FINER: i8 = 2;
+/// Possible halvings of the film from which on coarser films can show its error: a film of fewer cells, and coarser ones
+/// with it, may have another flying state than finer ones, or none.
+pub(super) const DEEP: i8 = 3;
 
 /// The contribution of the bracket alone.
-fn search_part(walk: &Walk<'_>) -> Uncertainty {
-    let (survivor, failure) = bracket(walk);
-    let search = Contribution {
+fn search_part(walk: &Walk<'_>) -> Contribution {
+    let found = bracket(walk);
+    Contribution {
         name: "search",
         low: 0.0,
-        high: walk.share(failure - survivor),
+        high: walk.share(found.high - found.low),
         factor: 1.0,
-    };
-    Uncertainty {
-        contributions: vec![search],
-        flags: BTreeSet::new(),
     }
 }
 
-/// What each source of error contributes: the film's grid, then [`GROUPS`].
-pub(super) type Pieces = [Uncertainty; 1 + GROUPS.len()];
+/// What each group contributes.
+pub(super) type Pieces = [Uncertainty; GROUPS.len()];
 
-/// Evaluates every source that is not `kept` from before.
+/// Evaluates every group that is not `kept` from before.
 pub(super) fn pieces(
     walk: &mut Walk<'_>,
-    kept: [Option<Uncertainty>; 1 + GROUPS.len()],
+    kept: [Option<Uncertainty>; GROUPS.len()],
 ) -> Result<Pieces, Ask> {
     let input = walk.input;
-    let margin = match input.discretisations.is_empty() {
-        true => None,
-        false => clearance_sensitivity::Reference::find(walk)?,
-    };
-    let [film, groups @ ..] = kept;
-    let (mut surrogate, mut agreed) = (None, None);
-    let mut sum = search_part(walk);
-    let film = match film {
-        Some(film) => film,
-        None => {
-            let mut film = Uncertainty::default();
-            if input.discretisations.contains(&Discretisation::FilmGrid) {
-                let by_clearance = match &margin {
-                    Some(reference) => reference.film(walk, Limits::of(walk, &sum, 0.0))?,
-                    None => None,
-                };
-                let found = match by_clearance {
-                    Some(_) => rebracketing::Film {
-                        estimate: by_clearance,
-                        ..Default::default()
-                    },
-                    None => {
-                        let limits = Limits::of(walk, &sum, 0.0);
-                        rebracketing::film(walk, limits)?
-                    }
-                };
-                (surrogate, agreed) = (found.surrogate, found.agreed);
-                film.add(
-                    Discretisation::FilmGrid.as_str(),
-                    found.estimate,
-                    input.target,
-                );
-            }
-            film
-        }
-    };
-    // What further halving would take off the contributions of film and bracket is room for the others.
-    let spare = match agreed {
-        Some(both) if rebracketing::may_go_on(both) => {
-            sum = search_part(walk);
-            sum.half_length() + film.half_length() - least_by_half(walk, both)
-        }
-        _ => 0.0,
-    };
-    sum.extend(&film);
-    let mut found = [
-        film,
-        Uncertainty::default(),
-        Uncertainty::default(),
-        Uncertainty::default(),
-    ];
-    // The head first: with its parameters coarsened, comparisons of the structure cost half as much.
-    for (place, (group, kept)) in GROUPS.iter().zip(groups).enumerate().rev() {
-        let piece = match kept {
-            Some(piece) => piece,
-            None => group.look(walk, margin.as_ref(), &mut surrogate, (&sum, spare))?,
-        };
-        sum.extend(&piece);
-        found[place + 1] = piece;
+    if input.discretisations.is_empty() {
+        return Ok(Pieces::default());
     }
-    if let Some(both) = agreed.filter(|&both| rebracketing::may_go_on(both)) {
-        found[0] = narrow_film(walk, &found, both)?;
+    let reference = Reference::find(walk)?;
+    let measure = Measure {
+        reference: reference.as_ref(),
+        grain: input.grid.steps_within(GRAIN * input.target).max(1),
+    };
+    let mut found = kept;
+    let mut start = None;
+    for (place, group) in GROUPS.iter().enumerate() {
+        if found[place].is_none() {
+            let known = found.iter().flatten().map(Uncertainty::half_length);
+            // The bracket can be narrowed to one grid step.
+            let room = input.target - known.sum::<f64>() - walk.share(1);
+            let piece = group.look(walk, &measure, &mut start, room)?;
+            found[place] = Some(piece);
+        }
     }
+    let found = found.map(Option::unwrap_or_default);
     narrow_bracket(walk, &found)?;
     Ok(found)
-}
-
-/// Least contribution of bracket and film together where half the cells agree with the scene.
-fn least_by_half(walk: &Walk<'_>, both: rebracketing::Bracket) -> f64 {
-    let one = rebracketing::Bracket {
-        high: both.low + 1,
-        ..both
-    };
-    0.5 * walk.share(1) + rebracketing::agreed(walk, one).error()
-}
-
-/// The film's contribution after further halvings of the bracket in which half the cells agree with the scene. They go
-/// on while the interval exceeds the target and halving can still bring it there.
-fn narrow_film(
-    walk: &mut Walk<'_>,
-    pieces: &Pieces,
-    mut both: rebracketing::Bracket,
-) -> Result<Uncertainty, Ask> {
-    let [mut film, groups @ ..] = pieces.clone();
-    let target = walk.input.target;
-    let others: f64 = groups.iter().map(Uncertainty::half_length).sum();
-    if others + least_by_half(walk, both) > target {
-        return Ok(film);
-    }
-    // One run of the scene itself may do what otherwise takes one run on each grid.
-    let (low, high) = bracket(walk);
-    let halved = 0.5 * walk.share((high - low) / 2);
-    if high - low > 1 && others + film.half_length() + halved <= target {
-        return Ok(film);
-    }
-    loop {
-        let half = others + search_part(walk).half_length() + film.half_length();
-        let own = rebracketing::own(walk);
-        let narrower = (both.high - both.low) / 2;
-        if half <= target || narrower < 1 {
-            return Ok(film);
-        }
-        match rebracketing::by_half(walk, own, narrower)? {
-            Some(now) if now != both => both = now,
-            _ => return Ok(film),
-        }
-        film = Uncertainty::default();
-        let estimate = rebracketing::agreed(walk, both);
-        film.add(Discretisation::FilmGrid.as_str(), Some(estimate), target);
-    }
 }
 
 /// Halves the bracket of the scene itself, to one grid step if need be, if that alone meets the target, until it does.
@@ -185,9 +115,8 @@ fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
         return Ok(());
     }
     loop {
-        let (low, high) = bracket(walk);
-        let from = rebracketing::Bracket { low, high };
-        let nodes = high - low;
+        let from = bracket(walk);
+        let nodes = from.high - from.low;
         if nodes <= 1 || others.relative_with(walk.share(nodes)) <= target {
             return Ok(());
         }
@@ -199,7 +128,8 @@ fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
 
 /// The interval that these contributions make.
 pub(super) fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Uncertainty {
-    let mut uncertainty = search_part(walk);
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.contributions.push(search_part(walk));
     for piece in pieces {
         uncertainty.extend(piece);
     }
@@ -213,58 +143,112 @@ pub(super) fn whole(walk: &Walk<'_>, pieces: &Pieces) -> Uncertainty {
 }
 
 impl Group {
-    /// The contribution of these parameters changed together, or of each alone where together they have no answer. The
-    /// interval has `sum` without it, of which `spare` can be halved away. `surrogate` is the cheaper scene found by
-    /// re-bracketing.
+    /// The contribution of these parameters changed together, or of each alone where together they have no answer. `start`
+    /// is the cheaper scene on which they are changed, `room` what the target leaves.
     fn look(
         &self,
         walk: &mut Walk<'_>,
-        margin: Option<&clearance_sensitivity::Reference>,
-        surrogate: &mut Option<rebracketing::Surrogate>,
-        (sum, spare): (&Uncertainty, f64),
+        measure: &Measure<'_>,
+        start: &mut Option<Start>,
+        room: f64,
     ) -> Result<Uncertainty, Ask> {
-        let limits = Limits::of(walk, sum, spare);
-        let mut changed = |walk: &mut Walk<'_>, discretisations: &[Discretisation]| {
-            let by_clearance = match margin {
-                Some(reference) => reference.discretisations(walk, discretisations, limits)?,
-                None => None,
-            };
-            if by_clearance.is_some() {
-                return Ok(by_clearance);
-            }
-            if surrogate.is_none() {
-                *surrogate = rebracketing::film(walk, limits)?.surrogate;
-            }
-            let (estimate, cheaper) =
-                rebracketing::discretisations(walk, discretisations, *surrogate, limits)?;
-            if discretisations.len() > 1 {
-                *surrogate = cheaper.or(*surrogate);
-            }
-            Ok(estimate)
-        };
+        let input = walk.input;
         let is_changed =
-            |discretisation: &Discretisation| walk.input.discretisations.contains(discretisation);
-        let discretisations: Vec<Discretisation> = self
-            .discretisations
-            .iter()
-            .copied()
-            .filter(is_changed)
-            .collect();
-        let target = walk.input.target;
+            |discretisation: &Discretisation| input.discretisations.contains(discretisation);
+        let own = self.discretisations.iter().copied().filter(is_changed);
+        let own: Vec<Discretisation> = own.collect();
         let mut uncertainty = Uncertainty::default();
-        let joint = match discretisations.len() {
-            0 => return Ok(uncertainty),
-            1 => None,
-            _ => changed(walk, &discretisations)?,
-        };
-        if joint.is_some() {
-            uncertainty.add(self.name, joint, target);
+        if own == FILM {
+            let error = film(walk, measure, room)?;
+            uncertainty.add(self.name, error, input.target);
             return Ok(uncertainty);
         }
-        for discretisation in discretisations {
-            let alone = changed(walk, &[discretisation])?;
-            uncertainty.add(discretisation.as_str(), alone, target);
+        if own.is_empty() {
+            return Ok(uncertainty);
+        }
+        let from = match *start {
+            Some(start) => start,
+            None => measure.surrogate(walk)?,
+        };
+        *start = Some(from);
+        let (joint, cheaper) = error(walk, measure, from, &own)?;
+        if joint.is_some() || own.len() == 1 {
+            if own.len() > 1 {
+                *start = cheaper.or(*start);
+            }
+            uncertainty.add(self.name, joint, input.target);
+            return Ok(uncertainty);
+        }
+        for discretisation in own {
+            let (alone, _) = error(walk, measure, from, &[discretisation])?;
+            uncertainty.add(discretisation.as_str(), alone, input.target);
         }
         Ok(uncertainty)
     }
+}
+
+/// Error of parameters other than the film's grid, coarsened together by one step from `start`, and refined by a step or two
+/// while it is not negligible: that costs less than refining the scene for an error that it does not have. With the coarsened
+/// scene, if its answer is near: other parameters may be changed on it.
+fn error(
+    walk: &mut Walk<'_>,
+    measure: &Measure<'_>,
+    start: Start,
+    discretisations: &[Discretisation],
+) -> Result<(Option<Estimate>, Option<Start>), Ask> {
+    let at = |steps| judge::refined(start.levels, discretisations, steps);
+    let (mut near, cheaper) = measure.change(walk, start, at(-1))?.unzip();
+    let cheaper = cheaper.flatten();
+    let mut estimate = near.map(|near| judge::one_step(discretisations, near));
+    // Parameters that have no answer together are changed one by one.
+    if near.is_none() && discretisations.len() > 1 {
+        return Ok((None, None));
+    }
+    let enough = judge::NEGLIGIBLE * walk.input.target;
+    let mut before = Change::NONE;
+    for steps in 1..=MOST_FINER {
+        let is_enough = estimate.is_some_and(|estimate| estimate.error() <= enough);
+        if is_enough || !walk.has_finer(discretisations, steps) {
+            break;
+        }
+        let Some((finest, _)) = measure.change(walk, start, at(steps))? else {
+            estimate = estimate.map(Estimate::unconfirmed);
+            break;
+        };
+        let finer = finest.since(before);
+        let found = judge::with_finer(discretisations, near, finer, finest);
+        estimate = Some(found);
+        near = Some(finer.reversed());
+        before = finest;
+    }
+    Ok((estimate, cheaper))
+}
+
+/// Error of the film's grid from half and a quarter of the cells; where that is more than negligible and more than the
+/// `room`, from half and twice the cells.
+fn film(walk: &mut Walk<'_>, measure: &Measure<'_>, room: f64) -> Result<Option<Estimate>, Ask> {
+    let start = walk.itself();
+    let measure = Measure {
+        grain: 2 * measure.grain,
+        ..*measure
+    };
+    let at = |steps| judge::refined(Levels::NONE, &FILM, steps);
+    let is_deep = walk.input.film_halvings >= DEEP;
+    let near = measure.change(walk, start, at(-1))?.map(|found| found.0);
+    let mut coarse = None;
+    if let (true, Some(near)) = (is_deep, near) {
+        let far = measure.change(walk, start, at(-2))?;
+        coarse = Some(match far {
+            Some((far, _)) => judge::two_coarser(&FILM, near, far),
+            None => judge::one_step(&FILM, near).unconfirmed(),
+        });
+    }
+    let enough = room.max(judge::NEGLIGIBLE * walk.input.target);
+    if coarse.is_some_and(|coarse| coarse.error() <= enough) {
+        return Ok(coarse);
+    }
+    Ok(match measure.change(walk, start, at(1))? {
+        Some((finer, _)) => Some(judge::with_finer(&FILM, near, finer, finer)),
+        None => coarse.map(Estimate::unconfirmed),
+    })
 }

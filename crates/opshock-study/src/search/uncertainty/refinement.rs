@@ -1,19 +1,17 @@
 //! Adaptive refinement: where an interval exceeds the target uncertainty, the discretisation parameters with the
 //! largest contributions are refined and the answer is bracketed anew.
 //!
-//! A refinement keeps the contributions of unchanged parameters. Evaluated again, around the new answer, are those of
-//! changed parameters, and large ones of parameters at maximum refinement, which were not evaluated closely while
-//! others had left no room. It ends when the interval meets the target, after the last refinement allowed, or when
-//! every parameter that contributes is at its maximum: [`MOST_STEPS`] above the study, the film's [`MOST_FILM_STEPS`].
-//! A ramp's mesh is refined only while a mesh of half its element size can be made to estimate its error. Where it is
-//! too coarse beyond that, no other parameter is refined in vain.
+//! A refinement keeps the contributions of unchanged parameters. It ends when the interval meets the target, after the
+//! last refinement allowed, or when every parameter that contributes is at its maximum: [`MOST_STEPS`] above the study. A
+//! ramp's mesh is refined only while a mesh of half its element size can be made to estimate its error.
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, Progress, SUBDIVISIONS, Seen, UncertaintyInput};
-use super::contributions::{Contribution, Uncertainty};
-use super::pieces::{self, GROUPS, Pieces};
-use super::rebracketing::{self, Bracket};
+use super::change::FARTHEST;
+use super::contributions::Uncertainty;
+use super::pieces::{self, GROUPS, MOST_FINER, Pieces};
+use super::rebracketing;
 use super::walk::{self, Walk};
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::outcome::Flag;
@@ -21,21 +19,22 @@ use crate::search::probe::Retry;
 
 /// Largest number of steps by which a discretisation parameter is refined beyond the study.
 pub const MOST_STEPS: i8 = 3;
-/// The same for the film's grid. Films compressed to small heights converge late: their error is known only where three
-/// grids, the coarsest of a quarter of the cells, agree.
-const MOST_FILM_STEPS: i8 = MOST_STEPS + 1;
 /// Contributions above this share of the target are refined: film, structure and head are three sources.
 const REFINE_ABOVE: f64 = 1.0 / 3.0;
 /// Width to which a refined answer is bracketed, grid steps: a quarter of the search's tolerance.
 const WIDTH: i32 = SUBDIVISIONS / 4;
 
-/// Most steps by which so many refinements refine the film's grid: two with the first, then one each.
-pub fn most_film_steps(refinements: u8) -> i8 {
-    match i8::try_from(refinements) {
+/// Largest factors on the cells of the film and of its defect-correction grid in the runs of an interval, with so many
+/// refinements allowed: by two steps with the first, then one each, and finer ones for the estimate.
+pub fn finest(refinements: u8) -> [f64; 2] {
+    let steps = match i8::try_from(refinements) {
         Ok(0) => 0,
-        Ok(refinements) => refinements.saturating_add(1).min(MOST_FILM_STEPS),
-        Err(_) => MOST_FILM_STEPS,
-    }
+        Ok(refinements) => refinements.saturating_add(1),
+        Err(_) => MOST_STEPS,
+    };
+    let film = steps.min(MOST_STEPS) + 1;
+    let correction = (steps + MOST_FINER).min(walk::FINEST_CORRECTION);
+    [film, correction].map(|steps| f64::from(steps).exp2())
 }
 
 /// A critical shock with its interval.
@@ -84,19 +83,15 @@ fn refined(
         let pieces = pieces::pieces(&mut walk, kept)?;
         let uncertainty = pieces::whole(&walk, &pieces);
         let exceeds = uncertainty.flags.contains(&Flag::TargetNotMet);
-        (at.survivor, at.failure) = walk::bracket(&walk);
+        let found = walk::bracket(&walk);
+        (at.survivor, at.failure) = (found.low, found.high);
         if !exceeds || refinements == 0 {
             return Ok(Answer::of(&at, uncertainty));
         }
-        let changed = match left {
-            0 => Vec::new(),
+        let finer = match left {
+            0 => Levels::NONE,
             _ => to_refine(&at, &uncertainty),
         };
-        let finer = changed
-            .iter()
-            .fold(Levels::NONE, |levels, &(discretisation, steps)| {
-                levels.changed(discretisation, steps)
-            });
         if finer.is_none() {
             return Ok(Answer::of(&at, at_limit(uncertainty)));
         }
@@ -109,7 +104,7 @@ fn refined(
             return Ok(Answer::of(&at, at_limit(uncertainty)));
         };
         at = next;
-        kept = contributions_to_keep(&at, &pieces, &changed);
+        kept = unchanged(pieces, finer);
     }
     unreachable!("the last round returns")
 }
@@ -131,93 +126,47 @@ fn at_limit(mut uncertainty: Uncertainty) -> Uncertainty {
     uncertainty
 }
 
-/// Largest level of a discretisation parameter. A mesh without a finer one to compare is not refined: three times the
-/// estimate from a coarser mesh is no less than the estimate from both for the mesh before.
+/// Largest level of a discretisation parameter. A mesh, or a grid of the correction, without a finer one to compare is not
+/// refined: three times the estimate from a coarser one is no less than the estimate from both for the one before.
 fn limit(at: &UncertaintyInput, discretisation: Discretisation) -> i8 {
     match discretisation {
         Discretisation::RampMesh => MOST_STEPS.min(at.mesh_halvings - 1),
-        Discretisation::FilmGrid => MOST_FILM_STEPS,
+        Discretisation::FilmCorrection => walk::FINEST_CORRECTION - 1,
         _ => MOST_STEPS,
     }
 }
 
-/// Parameters to refine, with the steps that their contributions call for: those above the share [`REFINE_ABOVE`], or the
-/// largest. A parameter at its maximum is not refined. Where none is left, the largest of the others without which the
-/// interval would meet the target; possibly none.
-fn to_refine(at: &UncertaintyInput, uncertainty: &Uncertainty) -> Vec<(Discretisation, i8)> {
+/// Parameters to refine, with their steps: those that contribute more than the share [`REFINE_ABOVE`] of the target, or else
+/// the largest. A parameter at its maximum is not refined; none is where those at their maximum exceed the target.
+fn to_refine(at: &UncertaintyInput, uncertainty: &Uncertainty) -> Levels {
     let most = REFINE_ABOVE * at.target;
-    let is_last_mesh = at.base.of(Discretisation::RampMesh) >= limit(at, Discretisation::RampMesh);
-    let stays = |contribution: &&Contribution| {
-        contribution.name == Discretisation::RampMesh.as_str() && is_last_mesh
-    };
-    let mesh = uncertainty.contributions.iter().find(stays);
-    if mesh.is_some_and(|contribution| 0.5 * (contribution.low + contribution.high) > at.target) {
-        return Vec::new();
-    }
-    let discretisations = |name: &str| -> Vec<Discretisation> {
+    let finer = |name: &str, half: f64| -> Levels {
         let group = GROUPS.iter().find(|group| group.name == name);
         let alone = Discretisation::from_word(name);
-        let all = group.map_or_else(
-            || alone.into_iter().collect(),
-            |g| g.discretisations.to_vec(),
-        );
-        all.into_iter()
-            .filter(|discretisation| at.discretisations.contains(discretisation))
-            .filter(|discretisation| !(*discretisation == Discretisation::RampMesh && is_last_mesh))
-            .collect()
-    };
-    let mut contributions: Vec<(f64, Vec<Discretisation>)> = uncertainty
-        .contributions
-        .iter()
-        .map(|contribution| {
-            (
-                0.5 * (contribution.low + contribution.high),
-                discretisations(contribution.name),
-            )
-        })
-        .filter(|(_, discretisations)| !discretisations.is_empty())
-        .collect();
-    contributions.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let steps = |half: f64, discretisations: &[Discretisation]| -> Vec<(Discretisation, i8)> {
-        let of = |&discretisation: &Discretisation| {
+        let own = group.map_or(alone.as_slice(), |group| group.discretisations);
+        let own = own.iter().filter(|one| at.discretisations.contains(one));
+        own.fold(Levels::NONE, |levels, &discretisation| {
             let level = at.base.of(discretisation);
             // At high levels a step is expensive and may not reduce the error by its formal order.
-            let called = if level == 0 && half > most * discretisation.formal_ratio() {
-                2
-            } else {
-                1
-            };
-            (
-                discretisation,
-                called.min(limit(at, discretisation) - level),
-            )
-        };
-        discretisations
-            .iter()
-            .map(of)
-            .filter(|(_, by)| *by > 0)
-            .collect()
+            let is_far = level == 0 && half > most * discretisation.formal_ratio();
+            let steps = (1 + i8::from(is_far)).min(limit(at, discretisation) - level);
+            levels.changed(discretisation, steps.max(0))
+        })
     };
-    let counts = contributions
-        .iter()
-        .filter(|(half, _)| *half > most)
-        .count()
-        .max(1);
-    let counts = counts.min(contributions.len());
-    let (counting, others) = contributions.split_at(counts);
-    let changed: Vec<_> = counting
-        .iter()
-        .flat_map(|(half, discretisations)| steps(*half, discretisations))
-        .collect();
-    if !changed.is_empty() {
-        return changed;
+    let contributions = uncertainty.contributions.iter().map(|one| {
+        let half = 0.5 * (one.low + one.high);
+        (half, finer(one.name, half))
+    });
+    let (left, mut contributions): (Vec<_>, Vec<_>) =
+        contributions.partition(|(_, levels)| levels.is_none());
+    if left.iter().map(|(half, _)| half).sum::<f64>() > at.target {
+        return Levels::NONE;
     }
-    let excess = uncertainty.half_length() - at.target;
-    let bought = others.iter().filter(|(half, _)| *half > excess);
-    bought
-        .map(|(half, discretisations)| steps(*half, discretisations))
-        .find(|changed| !changed.is_empty())
-        .unwrap_or_default()
+    contributions.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let above = contributions.iter().filter(|(half, _)| *half > most);
+    let chosen = above.count().max(1);
+    let chosen = contributions.iter().take(chosen);
+    chosen.fold(Levels::NONE, |levels, one| levels.plus(one.1))
 }
 
 /// The answer of a refined scene, beginning at the one before. `None` without verdicts.
@@ -226,12 +175,14 @@ fn bracketed(
     lookup: &dyn Fn(Ask) -> Option<Seen>,
     log: &mut Vec<Ask>,
 ) -> Result<Option<UncertaintyInput>, Ask> {
-    let from = Bracket {
-        low: at.survivor,
-        high: at.failure,
-    };
     let mut walk = Walk::new(&at, lookup, log);
-    let Some(found) = rebracketing::located(&mut walk, from, WIDTH)? else {
+    let from = walk.itself().bracket;
+    let located = rebracketing::locate(&mut walk, Levels::NONE, from, WIDTH, FARTHEST)?;
+    let found = match located {
+        Some(found) => rebracketing::narrowed(&mut walk, Levels::NONE, found, WIDTH)?,
+        None => None,
+    };
+    let Some(found) = found else {
         return Ok(None);
     };
     let t_fail_s = walk.see(Levels::NONE, found.high)?.t_min_s;
@@ -263,30 +214,13 @@ fn bracketed(
     Ok(Some(at))
 }
 
-/// Contributions of unchanged parameters, except large ones at maximum refinement, which are evaluated more closely.
-fn contributions_to_keep(
-    at: &UncertaintyInput,
-    pieces: &Pieces,
-    changed: &[(Discretisation, i8)],
-) -> [Option<Uncertainty>; 1 + GROUPS.len()] {
-    let is_changed = |discretisations: &[Discretisation]| {
-        changed
-            .iter()
-            .any(|(discretisation, _)| discretisations.contains(discretisation))
-    };
-    let is_at_limit = |discretisations: &[Discretisation]| {
-        let mut own = discretisations
-            .iter()
-            .filter(|discretisation| at.discretisations.contains(discretisation));
-        own.all(|&discretisation| at.base.of(discretisation) >= limit(at, discretisation))
-    };
-    std::array::from_fn(|place| {
-        let discretisations = match place {
-            0 => &[Discretisation::FilmGrid][..],
-            _ => GROUPS[place - 1].discretisations,
-        };
-        let counts = pieces[place].half_length() > REFINE_ABOVE * at.target;
-        let again = is_changed(discretisations) || counts && is_at_limit(discretisations);
-        (!again).then(|| pieces[place].clone())
+/// Contributions of the groups of which nothing is refined.
+fn unchanged(pieces: Pieces, finer: Levels) -> [Option<Uncertainty>; GROUPS.len()] {
+    let mut place = 0;
+    pieces.map(|piece| {
+        let mut own = GROUPS[place].discretisations.iter();
+        place += 1;
+        let is_unchanged = own.all(|&discretisation| finer.of(discretisation) == 0);
+        is_unchanged.then_some(piece)
     })
 }

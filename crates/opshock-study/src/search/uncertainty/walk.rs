@@ -1,9 +1,14 @@
 //! The sequence of runs that an uncertainty interval requests, and the bracket of the scene itself that they leave.
 
 use super::ask::{Ask, Seen, UncertaintyInput};
+use super::change::Start;
+use super::rebracketing::Bracket;
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::probe::Retry;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
+
+/// Largest refinement level of the defect-correction grid. Beyond it sampling takes longer than many shocks.
+pub(super) const FINEST_CORRECTION: i8 = 3;
 
 /// Requests runs in order; the first that is not known ends the walk.
 pub(super) struct Walk<'a> {
@@ -42,35 +47,38 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The film on which the other discretisation parameters are compared.
-    pub(super) fn surrogate(&self) -> Levels {
-        Levels::NONE.changed(Discretisation::FilmGrid, -self.input.film_halvings.min(2))
+    /// The scene as it is.
+    pub(super) fn itself(&self) -> Start {
+        Start {
+            levels: Levels::NONE,
+            bracket: Bracket {
+                low: self.input.survivor,
+                high: self.input.failure,
+            },
+        }
     }
 
-    /// A scene with these discretisation parameters refined by one step can be made.
-    pub(super) fn has_finer(&self, discretisations: &[Discretisation]) -> bool {
-        !discretisations.contains(&Discretisation::RampMesh)
-            || self.input.base.of(Discretisation::RampMesh) < self.input.mesh_halvings
-    }
-
-    /// Whole grid steps in a share.
-    pub(super) fn nodes(&self, share: f64) -> i32 {
-        self.input.grid.steps_within(share)
+    /// A scene with these discretisation parameters refined by so many steps can be made.
+    pub(super) fn has_finer(&self, discretisations: &[Discretisation], steps: i8) -> bool {
+        let mut own = discretisations.iter();
+        own.all(|&discretisation| {
+            let level = self.input.base.of(discretisation) + steps;
+            match discretisation {
+                Discretisation::RampMesh => level <= self.input.mesh_halvings,
+                Discretisation::FilmCorrection => level <= FINEST_CORRECTION,
+                _ => true,
+            }
+        })
     }
 
     /// Ratio of amplitudes `nodes` grid steps apart, minus one.
     pub(super) fn share(&self, nodes: i32) -> f64 {
-        self.share_of(f64::from(nodes))
-    }
-
-    /// The same for a distance between grid points.
-    pub(super) fn share_of(&self, nodes: f64) -> f64 {
-        (nodes / f64::from(self.input.grid.steps_per_octave)).exp2() - 1.0
+        (f64::from(nodes) / f64::from(self.input.grid.steps_per_octave)).exp2() - 1.0
     }
 }
 
 /// The bracket of the scene itself, narrowed by the runs requested on the way.
-pub(super) fn bracket(walk: &Walk<'_>) -> (i32, i32) {
+pub(super) fn bracket(walk: &Walk<'_>) -> Bracket {
     let input = walk.input;
     let mut inside: Vec<(i32, AmplitudeVerdict)> = walk
         .log
@@ -80,12 +88,12 @@ pub(super) fn bracket(walk: &Walk<'_>) -> (i32, i32) {
         .filter_map(|&ask| Some((ask.index, (walk.lookup)(ask)?.verdict)))
         .collect();
     inside.sort_by_key(|one| one.0);
-    let mut ends = (input.survivor, input.failure);
+    let mut ends = walk.itself().bracket;
     for (index, verdict) in inside {
         match verdict {
-            AmplitudeVerdict::Survives => ends.0 = index,
+            AmplitudeVerdict::Survives => ends.low = index,
             AmplitudeVerdict::Fails => {
-                ends.1 = index;
+                ends.high = index;
                 break;
             }
             AmplitudeVerdict::Undecided => {}

@@ -295,7 +295,6 @@ pub(in crate::sweep) fn interval_input(
         discretisations: plan.discretisations.clone(),
         film_halvings: plan.film_halvings,
         mesh_halvings: plan.mesh_halvings,
-        holds_films: plan.holds_films,
         target: plan.target,
     })
 }

@@ -5,35 +5,34 @@ use super::*;
 #[test]
 fn a_discretisation_of_formal_order_gives_its_error_times_the_narrow_factor() {
     // Film 1 %, modes -1 %, by clearance sensitivity: the laws are linear in 1/A, not in A, hence 5 %.
-    let law = Law::formal([0.01, -0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let law = Law::formal([0.01, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (uncertainty, _, _) = law.uncertainty();
     let film = contribution(&uncertainty, "film_grid");
     assert_eq!(film.factor, 1.25);
     // One step finer shows half of it for certain, one-sided: 0.5 % + 1.25 * 0.5 %, and 1.25 * 0.5 % on the other side.
+    // Twice the cells fail at the highest survivor: read at the next one, the order comes out 7 % lower.
     assert!(
-        (larger(film) / (1.125 * 0.01) - 1.0).abs() < 0.05,
+        (larger(film) / (1.125 * 0.01) - 1.0).abs() < 0.10,
         "{film:?}"
     );
-    assert!((film.high / (0.625 * 0.01) - 1.0).abs() < 0.05, "{film:?}");
+    assert!((film.high / (0.625 * 0.01) - 1.0).abs() < 0.15, "{film:?}");
     let modes = contribution(&uncertainty, "structure");
     assert_eq!(modes.factor, 1.25);
-    assert!(
-        (modes.high / (1.125 * 0.01) - 1.0).abs() < 0.10,
-        "{modes:?}"
-    );
-    assert!((modes.low / (0.625 * 0.01) - 1.0).abs() < 0.10, "{modes:?}");
+    // Two steps finer show three quarters: 0.75 % + 1.25 * 0.25 %, and 1.25 * 0.25 % on the other side.
+    assert!((modes.high / 0.010625 - 1.0).abs() < 0.05, "{modes:?}");
+    assert!((modes.low / 0.003125 - 1.0).abs() < 0.05, "{modes:?}");
     assert!(!uncertainty.flags.contains(&Flag::ContributionMissing));
     assert!(uncertainty.flags.contains(&Flag::TargetNotMet));
 }
 
 #[test]
 fn an_abrupt_end_of_survival_is_read_from_verdicts() {
-    let law = Law::formal([0.01, -0.01, 0.0, 0.0, 0.0, 0.0], None);
+    let law = Law::formal([0.01, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0], None);
     let (uncertainty, _, _) = law.uncertainty();
-    // Brackets of 1/16 % and of a quarter of a distance leave a third of the contributions unresolved.
+    // Brackets of 1/8 % and of a quarter of a distance leave a third of the contributions unresolved.
     let film = contribution(&uncertainty, "film_grid");
     assert!(
-        (0.8..1.4).contains(&(film.high / (1.25 * 0.01))),
+        (0.9..1.4).contains(&(larger(film) / (1.125 * 0.01))),
         "{film:?}"
     );
     let modes = contribution(&uncertainty, "structure");
@@ -46,38 +45,47 @@ fn an_abrupt_end_of_survival_is_read_from_verdicts() {
 
 #[test]
 fn disorder_is_marked_and_carries_the_wide_factor() {
-    // A step divides the error by 1.3 instead of 2: three times the observed change remains.
-    let mut law = Law::formal([0.0, 0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    // A step divides the error by 1.3 instead of 2: three times the change of the second one remains.
+    let mut law = Law::formal([0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     law.ratios[Discretisation::DiskModes as usize] = 1.3;
     let (uncertainty, _, _) = law.uncertainty();
     let modes = contribution(&uncertainty, "structure");
     assert_eq!(modes.factor, 3.0);
-    assert!(modes.high > 0.0099, "{modes:?}");
+    assert!(modes.low > 0.0099, "{modes:?}");
     law.errors[Discretisation::DiskModes as usize] = 0.5;
     let (uncertainty, _, _) = law.uncertainty();
     assert!(uncertainty.flags.contains(&Flag::SafetyFactor3));
 }
 
 #[test]
-fn discretisations_that_move_nothing_cost_two_runs_a_group() {
-    let (uncertainty, _, by_clearance) = Law::formal([0.0; 6], Some(1e-7)).uncertainty();
+fn discretisations_that_move_nothing_cost_a_run_or_two_a_group() {
+    let (uncertainty, _, by_clearance) = Law::formal([0.0; 7], Some(1e-7)).uncertainty();
     let names: Vec<&str> = uncertainty
         .contributions
         .iter()
         .map(|contribution| contribution.name)
         .collect();
-    assert_eq!(names, ["search", "film_grid", "structure", "head"]);
-    assert_eq!(by_clearance, 1 + 1 + 2);
-    let (uncertainty, _, by_rebracketing) = Law::formal([0.0; 6], None).uncertainty();
-    assert_eq!(uncertainty.contributions.len(), 4);
-    // Two coarse films of at most six runs each.
-    assert!(by_rebracketing <= 12 + 4, "{by_rebracketing}");
+    let expected = [
+        "head",
+        "suspension_modes",
+        "structure",
+        "film_correction",
+        "film_grid",
+    ];
+    assert_eq!(names[0], "search");
+    assert_eq!(names[1..], expected);
+    // A quarter of the cells, which the film's grid needs too, half of them, and a run for each of the others.
+    assert_eq!(by_clearance, 2 + 4);
+    let (_, _, by_rebracketing) = Law::formal([0.0; 7], None).uncertainty();
+    // The scene is bracketed to 1/8 %, a quarter of the cells to 1/16 %, by three and four runs between the ends; half the
+    // cells and each of the others answer at both ends.
+    assert_eq!(by_rebracketing, 3 + (2 + 4) + 2 * 5);
 }
 
 #[test]
 fn discretisations_against_each_other_do_not_hide() {
     // Together they change the answer by a tenth of what each does.
-    let law = Law::formal([0.0, 0.02, 0.0, -0.018, 0.0, 0.0], None);
+    let law = Law::formal([0.0, 0.0, 0.02, 0.0, -0.018, 0.0, 0.0], None);
     let (uncertainty, reported_g, _) = law.uncertainty();
     let truth = law.exact_g / reported_g - 1.0;
     let half = uncertainty.half_length();
@@ -93,7 +101,7 @@ fn discretisations_against_each_other_do_not_hide() {
 
 #[test]
 fn what_cannot_be_read_is_said() {
-    let law = Law::formal([0.0; 6], Some(1e-7));
+    let law = Law::formal([0.0; 7], Some(1e-7));
     let search = AmplitudeGrid::for_tolerance(0.01).expect("amplitude grid");
     let input = UncertaintyInput {
         base: Levels::NONE,
@@ -105,7 +113,6 @@ fn what_cannot_be_read_is_said() {
         discretisations: Discretisation::ALL.to_vec(),
         film_halvings: 3,
         mesh_halvings: 0,
-        holds_films: false,
         target: 0.01,
     };
     let undecided = Seen {
@@ -121,7 +128,7 @@ fn what_cannot_be_read_is_said() {
 
 #[test]
 fn a_uncertainty_asks_the_same_runs_whether_it_knows_many_or_few() {
-    let law = Law::formal([0.01, 0.004, 0.002, 0.0, -0.003, 0.0], None);
+    let law = Law::formal([0.01, 0.0, 0.004, 0.002, 0.0, -0.003, 0.0], None);
     let grid = AmplitudeGrid::for_tolerance(0.01)
         .expect("amplitude grid")
         .finer(SUBDIVISIONS);
@@ -141,7 +148,6 @@ fn a_uncertainty_asks_the_same_runs_whether_it_knows_many_or_few() {
         discretisations: Discretisation::ALL.to_vec(),
         film_halvings: 3,
         mesh_halvings: 0,
-        holds_films: false,
         target: 0.01,
     };
     let (whole, _) = uncertainty(&input, &|ask| Some(law.see(grid, ask)));
@@ -163,7 +169,7 @@ fn a_uncertainty_asks_the_same_runs_whether_it_knows_many_or_few() {
 /// are, survival ends abruptly, and no run is requested.
 #[test]
 fn a_slope_is_asked_for_where_a_touch_grows_late() {
-    let law = Law::formal([0.002, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let law = Law::formal([0.002, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (mut input, _) = law.input(3);
     let grid = input.grid;
     let highest = input.survivors[2];
@@ -195,7 +201,7 @@ fn a_slope_is_asked_for_where_a_touch_grows_late() {
 /// The scene survives at its bracket's lower end and fails where a slope is evaluated, one per cent below.
 #[test]
 fn a_failure_met_below_the_answer_is_said() {
-    let law = Law::formal([0.002, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
+    let law = Law::formal([0.002, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let (mut input, _) = law.input(3);
     let grid = input.grid;
     let highest = input.survivors[2];
@@ -225,7 +231,7 @@ fn errors_below_what_brackets_resolve_are_covered() {
     for error in 0..=10 {
         for phase in 0..48 {
             let mut law = Law::formal(
-                [0.25 * f64::from(error) * node, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [0.25 * f64::from(error) * node, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
                 None,
             );
             law.exact_g *= 1.0 + f64::from(phase) * node / 3.0;
@@ -257,40 +263,5 @@ fn errors_below_what_brackets_resolve_are_covered() {
                 );
             }
         }
-    }
-}
-
-/// Brackets of further contributions are a 16th of the interval's length, an eighth where it exceeds 10 % in any case.
-#[test]
-fn contributions_to_an_interval_above_target_in_any_case_are_bracketed_half_as_closely() {
-    let (mut input, _) = Law::formal([0.0; 6], None).input(3);
-    input.target = 0.1;
-    let (lookup, mut log) = (|_: Ask| None, Vec::new());
-    let walk = Walk::new(&input, &lookup, &mut log);
-    let grain = |half: f64, spare: f64| {
-        let contribution = Contribution {
-            name: "search",
-            low: half,
-            high: half,
-            factor: 1.0,
-        };
-        let sum = Uncertainty {
-            contributions: vec![contribution],
-            ..Uncertainty::default()
-        };
-        walk.share(Limits::of(&walk, &sum, spare).grain) / (2.0 * half)
-    };
-    let step = walk.share(1);
-    for (half, spare, expected) in [
-        (0.05, 0.0, 1.0 / 16.0),
-        (0.2, 0.0, 1.0 / 8.0),
-        (0.2, 0.15, 1.0 / 16.0),
-    ] {
-        let found = grain(half, spare);
-        let slack = step / (2.0 * half);
-        assert!(
-            found <= expected * 1.01 && found > expected - 1.01 * slack,
-            "{found}, not {expected}"
-        );
     }
 }
