@@ -101,7 +101,9 @@ impl Measure<'_> {
         start: Start,
         levels: Levels,
     ) -> Result<Option<(Change, Option<Start>)>, Ask> {
+        // A bracket that is known already says more than a clearance.
         if let Some(reference) = self.reference
+            && !rebracketing::is_known(walk, levels)
             && let Some(share) = reference.change(walk, start.levels, levels)?
         {
             let change = Change {

@@ -64,24 +64,36 @@ pub(super) fn locate(
     }
 }
 
-/// Known verdicts of a changed scene at `from` or beyond, where they lead away from there.
-fn seen_about(walk: &Walk<'_>, levels: Levels, from: Bracket) -> (Option<i32>, Option<i32>) {
+/// A survivor and a failure of a changed scene are known.
+pub(super) fn is_known(walk: &Walk<'_>, levels: Levels) -> bool {
+    let mut both = [AmplitudeVerdict::Survives, AmplitudeVerdict::Fails].into_iter();
+    both.all(|verdict| known(walk, levels, verdict).next().is_some())
+}
+
+/// Grid points of a changed scene with a verdict.
+fn known<'w>(
+    walk: &'w Walk<'_>,
+    levels: Levels,
+    verdict: AmplitudeVerdict,
+) -> impl Iterator<Item = i32> + use<'w> {
     let levels = walk.input.base.plus(levels);
-    let at = |verdict: AmplitudeVerdict| {
-        walk.log
-            .iter()
-            .filter(move |ask| ask.levels == levels && ask.retry == Retry::None)
-            .filter(move |&&ask| (walk.lookup)(ask).is_some_and(|seen| seen.verdict == verdict))
-            .map(|ask| ask.index)
-    };
-    let low = at(AmplitudeVerdict::Survives)
-        .filter(|&index| index >= from.low)
-        .max();
-    let high = at(AmplitudeVerdict::Fails)
-        .filter(|&index| index <= from.high)
-        .min();
+    walk.log
+        .iter()
+        .filter(move |ask| ask.levels == levels && ask.retry == Retry::None)
+        .filter(move |&&ask| (walk.lookup)(ask).is_some_and(|seen| seen.verdict == verdict))
+        .map(|ask| ask.index)
+}
+
+/// Known verdicts of a changed scene at `from` or beyond, where they lead away from there, and next to these.
+fn seen_about(walk: &Walk<'_>, levels: Levels, from: Bracket) -> (Option<i32>, Option<i32>) {
+    let survivors = || known(walk, levels, AmplitudeVerdict::Survives);
+    let failures = || known(walk, levels, AmplitudeVerdict::Fails);
+    let low = survivors().filter(|&index| index >= from.low).max();
+    let high = failures().filter(|&index| index <= from.high).min();
     match (low, high) {
         (Some(low), Some(high)) if low >= high => (None, None),
+        (Some(low), None) => (Some(low), failures().filter(|&index| index > low).min()),
+        (None, Some(high)) => (survivors().filter(|&index| index < high).max(), Some(high)),
         found => found,
     }
 }
