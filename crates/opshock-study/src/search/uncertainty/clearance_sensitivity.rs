@@ -7,8 +7,7 @@
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, SUBDIVISIONS, Seen};
-use super::pieces::DEEP;
-use super::walk::Walk;
+use super::walk::{DEEP, Walk};
 use crate::search::evidence::AmplitudeVerdict;
 
 /// Largest time between two instants of one event, s: half a period of the slider on its film and gimbal.

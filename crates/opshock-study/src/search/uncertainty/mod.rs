@@ -23,7 +23,7 @@
 //! take a quarter of the cells, or half, if the answer there is near. The film's grid is evaluated last, from the scene
 //! itself: on half and a quarter of the cells, and on twice the cells where that is more than the others leave.
 //!
-//! The change of A between two scenes is measured in one of two ways (`change`):
+//! The change of A between two scenes is measured in one of two ways (`measure`):
 //!
 //! * *clearance sensitivity* (`clearance_sensitivity`): δA = δh / |dh/dA|, with h the smallest clearance of survivors just
 //!   below A and δh its change, by a run. It holds where h falls steadily to zero as the amplitude grows, at the instant at
@@ -42,6 +42,7 @@ mod change;
 mod clearance_sensitivity;
 mod contributions;
 mod judge;
+mod measure;
 mod pieces;
 mod rebracketing;
 mod refinement;

@@ -4,12 +4,13 @@
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::Ask;
-use super::change::{Change, Measure, Start};
+use super::change::Change;
 use super::clearance_sensitivity::Reference;
 use super::contributions::{Contribution, Uncertainty};
 use super::judge::{self, Estimate};
+use super::measure::Measure;
 use super::rebracketing;
-use super::walk::{Walk, bracket, fails_below};
+use super::walk::{DEEP, Start, Walk, bracket, fails_below};
 use crate::search::outcome::Flag;
 
 /// Discretisation parameters that are changed together.
@@ -58,9 +59,6 @@ const FILM: [Discretisation; 1] = [Discretisation::FilmGrid];
 const GRAIN: f64 = 1.0 / 16.0;
 /// Steps by which parameters other than the film's grid are refined for an estimate.
 pub(super) const MOST_FINER: i8 = 2;
-/// Possible halvings of the film from which on coarser films can show its error: a film of fewer cells, and coarser ones
-/// with it, may have another flying state than finer ones, or none.
-pub(super) const DEEP: i8 = 3;
 
 /// The contribution of the bracket alone.
 fn search_part(walk: &Walk<'_>) -> Contribution {

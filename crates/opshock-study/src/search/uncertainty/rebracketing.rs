@@ -3,7 +3,7 @@
 use opshock_solver::scene::discretisation::Levels;
 
 use super::ask::Ask;
-use super::walk::Walk;
+use super::walk::{Bracket, Walk};
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::probe::Retry;
 
@@ -11,13 +11,6 @@ use crate::search::probe::Retry;
 const GROWTH: i32 = 2;
 /// A bracket need not be narrower than its distance over this number: a large shift is known well enough.
 const DISTANCE_OVER: i32 = 4;
-
-/// Survivor and failure of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Bracket {
-    pub low: i32,
-    pub high: i32,
-}
 
 /// Brackets the changed scene's answer beginning at `from`, to `nodes` grid steps or a part of its distance. `None`
 /// without verdicts or farther away than the share `farthest`.

@@ -8,8 +8,8 @@
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, Progress, SUBDIVISIONS, Seen, UncertaintyInput};
-use super::change::FARTHEST;
 use super::contributions::Uncertainty;
+use super::measure::FARTHEST;
 use super::pieces::{self, GROUPS, MOST_FINER, Pieces};
 use super::rebracketing;
 use super::walk::{self, Walk};

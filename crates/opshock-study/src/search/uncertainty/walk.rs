@@ -1,14 +1,30 @@
 //! The sequence of runs that an uncertainty interval requests, and the bracket of the scene itself that they leave.
 
 use super::ask::{Ask, Seen, UncertaintyInput};
-use super::change::Start;
-use super::rebracketing::Bracket;
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::probe::Retry;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 /// Largest refinement level of the defect-correction grid. Beyond it sampling takes longer than many shocks.
 pub(super) const FINEST_CORRECTION: i8 = 3;
+
+/// Possible halvings of the film from which on coarser films can show its error: a film of fewer cells, and coarser ones
+/// with it, may have another flying state than finer ones, or none.
+pub(super) const DEEP: i8 = 3;
+
+/// Survivor and failure of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Bracket {
+    pub low: i32,
+    pub high: i32,
+}
+
+/// A scene from which changes are measured, with its bracket or a guess of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    pub levels: Levels,
+    pub bracket: Bracket,
+}
 
 /// Requests runs in order; the first that is not known ends the walk.
 pub(super) struct Walk<'a> {
