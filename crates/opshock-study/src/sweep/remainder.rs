@@ -1,6 +1,6 @@
 //! What is left of a sweep: runs and seconds, as the range of many made-up ends.
 //!
-//! Each end finishes the searches and the uncertainty intervals from what is known, with refinement, quasi-static films
+//! Each end finishes the searches and the uncertainty intervals from what is known, with refinement
 //! and doubled windows, by the code that asks for the real runs. Two things are learnt on the way: the time of each kind
 //! of run (`pace`), and by how much real intervals cost more than made-up ones of the same points, by ramp model.
 
