@@ -73,13 +73,15 @@ impl Forecast {
         }
         self.added_points = points;
         let share = points as f64 / open as f64;
-        for spread in [
+        let all = [
             &mut self.search_runs,
             &mut self.uncertainty_runs,
             &mut self.runs,
             &mut self.core_h,
             &mut self.wall_h,
-        ] {
+        ];
+        let unrefined = [&mut self.unrefined_core_h, &mut self.unrefined_wall_h];
+        for spread in all.into_iter().chain(unrefined.into_iter().flatten()) {
             spread.max *= 1.0 + share;
         }
         self.disk_bytes = (self.disk_bytes as f64 * (1.0 + share)) as u64;

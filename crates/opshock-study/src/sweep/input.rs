@@ -65,14 +65,15 @@ impl SweepInput {
     /// The same study without refinement; `None` where none may be refined.
     pub fn without_refinement(&self) -> Option<SweepInput> {
         let mut plain = self.clone();
-        let plans = plain
+        let mut may = false;
+        for plan in plain
             .points
             .iter_mut()
-            .filter_map(|point| point.uncertainty.as_mut());
-        let refined: Vec<&mut UncertaintyPlan> =
-            plans.filter(|plan| plan.refinements > 0).collect();
-        let may = !refined.is_empty();
-        refined.into_iter().for_each(|plan| plan.refinements = 0);
+            .filter_map(|point| point.uncertainty.as_mut())
+        {
+            may |= plan.refinements > 0;
+            plan.refinements = 0;
+        }
         may.then_some(plain)
     }
 

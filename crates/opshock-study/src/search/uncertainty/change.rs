@@ -12,20 +12,13 @@ pub(super) struct Change {
 }
 
 impl Change {
-    /// No change.
-    pub(super) const NONE: Change = Change {
-        share: 0.0,
-        resolution: 0.0,
-        is_equal: false,
-    };
-
     /// The change from `before` to this one, both from the same scene.
     pub(super) fn since(self, before: Change) -> Change {
         Change {
             share: self.share - before.share,
             resolution: self.resolution.max(before.resolution),
-            is_equal: self.is_equal && before == Change::NONE
-                || self == before && self.resolution > 0.0,
+            // Brackets have a resolution, clearances none.
+            is_equal: self == before && self.resolution > 0.0,
         }
     }
 

@@ -8,8 +8,6 @@ use super::clearance_sensitivity::Reference;
 use super::rebracketing;
 use super::walk::{Start, Walk};
 
-/// Farthest distance at which the answer of a changed scene is looked for, as a share.
-pub(super) const FARTHEST: f64 = 1.0;
 /// Largest distance of the answer on a coarser film for other parameters to be changed there, as a share: one farther off
 /// belongs to another failure.
 const NEAR: f64 = 0.05;
@@ -26,7 +24,8 @@ pub(super) struct Measure<'r> {
 }
 
 impl Measure<'_> {
-    /// The scene on the coarsest film, of a quarter or half of the cells, whose answer is near; else the scene itself.
+    /// The scene on the coarsest film, of a quarter or half of the cells, whose answer is near or can be told by clearances;
+    /// else the scene itself.
     pub(super) fn surrogate(&self, walk: &mut Walk<'_>) -> Result<Start, Ask> {
         let own = walk.itself();
         for halvings in (1..=walk.input.film_halvings.min(2)).rev() {
@@ -65,17 +64,15 @@ impl Measure<'_> {
             return Ok(Some((change, None)));
         }
         let base = match start.levels.is_none() {
-            true => Some(start.bracket),
-            false => rebracketing::locate(walk, start.levels, start.bracket, self.grain, FARTHEST)?,
-        };
-        let base = match base {
-            Some(base) => rebracketing::narrowed(walk, start.levels, base, self.grain)?,
-            None => None,
+            true => rebracketing::narrowed(walk, start.levels, start.bracket, self.grain)?,
+            false => rebracketing::located(walk, start.levels, start.bracket, self.grain)?,
         };
         let Some(base) = base else {
             return Ok(None);
         };
-        let Some(found) = rebracketing::locate(walk, levels, base, self.grain, FARTHEST)? else {
+        let Some(found) =
+            rebracketing::locate(walk, levels, base, self.grain, rebracketing::FARTHEST)?
+        else {
             return Ok(None);
         };
         let (low, high) = (found.low - base.low, found.high - base.high);

@@ -203,7 +203,7 @@ fn error(
         return Ok((None, None));
     }
     let enough = judge::NEGLIGIBLE * walk.input.target;
-    let mut before = Change::NONE;
+    let mut before: Option<Change> = None;
     for steps in 1..=MOST_FINER {
         let is_enough = estimate.is_some_and(|estimate| estimate.error() <= enough);
         if is_enough || !walk.has_finer(discretisations, steps) {
@@ -213,11 +213,10 @@ fn error(
             estimate = estimate.map(Estimate::unconfirmed);
             break;
         };
-        let finer = finest.since(before);
-        let found = judge::with_finer(discretisations, near, finer, finest);
-        estimate = Some(found);
+        let finer = before.map_or(finest, |before| finest.since(before));
+        estimate = Some(judge::with_finer(discretisations, near, finer, finest));
         near = Some(finer.reversed());
-        before = finest;
+        before = Some(finest);
     }
     Ok((estimate, cheaper))
 }

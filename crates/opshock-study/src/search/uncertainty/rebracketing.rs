@@ -7,6 +7,8 @@ use super::walk::{Bracket, Walk};
 use crate::search::evidence::AmplitudeVerdict;
 use crate::search::probe::Retry;
 
+/// Farthest distance at which the answer of a changed scene is looked for, as a share.
+pub(super) const FARTHEST: f64 = 1.0;
 /// Growth of the step while it is looked for; what is passed over is halved afterwards.
 const GROWTH: i32 = 2;
 /// A bracket need not be narrower than its distance over this number: a large shift is known well enough.
@@ -88,6 +90,19 @@ fn seen_about(walk: &Walk<'_>, levels: Levels, from: Bracket) -> (Option<i32>, O
         (Some(low), None) => (Some(low), failures().filter(|&index| index > low).min()),
         (None, Some(high)) => (survivors().filter(|&index| index < high).max(), Some(high)),
         found => found,
+    }
+}
+
+/// Brackets the changed scene's answer beginning at `from`, to `nodes` grid steps whatever its distance.
+pub(super) fn located(
+    walk: &mut Walk<'_>,
+    levels: Levels,
+    from: Bracket,
+    nodes: i32,
+) -> Result<Option<Bracket>, Ask> {
+    match locate(walk, levels, from, nodes, FARTHEST)? {
+        Some(found) => narrowed(walk, levels, found, nodes),
+        None => Ok(None),
     }
 }
 

@@ -9,7 +9,6 @@ use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, Progress, SUBDIVISIONS, Seen, UncertaintyInput};
 use super::contributions::Uncertainty;
-use super::measure::FARTHEST;
 use super::pieces::{self, GROUPS, MOST_FINER, Pieces};
 use super::rebracketing;
 use super::walk::{self, Walk};
@@ -27,12 +26,12 @@ const WIDTH: i32 = SUBDIVISIONS / 4;
 /// Largest factors on the cells of the film and of its defect-correction grid in the runs of an interval, with so many
 /// refinements allowed: by two steps with the first, then one each, and finer ones for the estimate.
 pub fn finest(refinements: u8) -> [f64; 2] {
-    let steps = match i8::try_from(refinements) {
-        Ok(0) => 0,
-        Ok(refinements) => refinements.saturating_add(1),
-        Err(_) => MOST_STEPS,
+    let steps = match refinements {
+        0 => 0,
+        1 => 2,
+        _ => MOST_STEPS,
     };
-    let film = steps.min(MOST_STEPS) + 1;
+    let film = steps + 1;
     let correction = (steps + MOST_FINER).min(walk::FINEST_CORRECTION);
     [film, correction].map(|steps| f64::from(steps).exp2())
 }
@@ -177,12 +176,7 @@ fn bracketed(
 ) -> Result<Option<UncertaintyInput>, Ask> {
     let mut walk = Walk::new(&at, lookup, log);
     let from = walk.itself().bracket;
-    let located = rebracketing::locate(&mut walk, Levels::NONE, from, WIDTH, FARTHEST)?;
-    let found = match located {
-        Some(found) => rebracketing::narrowed(&mut walk, Levels::NONE, found, WIDTH)?,
-        None => None,
-    };
-    let Some(found) = found else {
+    let Some(found) = rebracketing::located(&mut walk, Levels::NONE, from, WIDTH)? else {
         return Ok(None);
     };
     let t_fail_s = walk.see(Levels::NONE, found.high)?.t_min_s;
