@@ -359,4 +359,6 @@ fn the_truth_lies_inside_the_uncertainty_of_known_laws() {
 
 mod coverage;
 mod fig13_truths;
+mod random_drives;
+mod truths;
 mod verify;
