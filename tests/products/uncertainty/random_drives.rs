@@ -340,14 +340,3 @@ fn uncertainty_slow_truths_lie_inside_the_intervals_of_random_drives() {
         judge(&judged).hold();
     }
 }
-
-#[test]
-#[ignore]
-fn zz_print() {
-    for seed in seeds(0..3) {
-        for (k, v) in settings(seed, "standard") {
-            println!("--set '{k}={v}'");
-        }
-        println!("#");
-    }
-}

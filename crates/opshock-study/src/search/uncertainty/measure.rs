@@ -43,14 +43,13 @@ impl Measure<'_> {
         Ok(own)
     }
 
-    /// Change of the answer from `start` to the scene at `levels`; with its start if that is near: other parameters may be
-    /// changed from there. `None` without verdicts or too far away.
+    /// Change of the answer from `start` to the scene at `levels`; `None` without verdicts or too far away.
     pub(super) fn change(
         &self,
         walk: &mut Walk<'_>,
         start: Start,
         levels: Levels,
-    ) -> Result<Option<(Change, Option<Start>)>, Ask> {
+    ) -> Result<Option<Change>, Ask> {
         // A bracket that is known already says more than a clearance.
         if let Some(reference) = self.reference
             && !rebracketing::is_known(walk, levels)
@@ -61,7 +60,7 @@ impl Measure<'_> {
                 resolution: 0.0,
                 is_equal: false,
             };
-            return Ok(Some((change, None)));
+            return Ok(Some(change));
         }
         let base = match start.levels.is_none() {
             true => rebracketing::narrowed(walk, start.levels, start.bracket, self.grain)?,
@@ -79,15 +78,10 @@ impl Measure<'_> {
         let share = walk.share(if low.abs() > high.abs() { low } else { high });
         let [up, down] = [found.high - base.low, found.low - base.high];
         let most = walk.share(up).abs().max(walk.share(down).abs());
-        let change = Change {
+        Ok(Some(Change {
             share,
             resolution: most - share.abs(),
             is_equal: found == base,
-        };
-        let start = Start {
-            levels,
-            bracket: found,
-        };
-        Ok(Some((change, (most <= NEAR).then_some(start))))
+        }))
     }
 }

@@ -20,8 +20,8 @@ pub(super) struct Group {
     pub(super) discretisations: &'static [Discretisation],
 }
 
-/// In the order in which they are evaluated. With the head's tolerances coarsened, comparisons of the structure cost half as
-/// much. The film's grid comes last: only as much of its error is evaluated closely as the others leave.
+/// In the order in which they are evaluated. The film's grid comes last: only as much of its error is evaluated closely as the
+/// others leave.
 pub(super) const GROUPS: [Group; 6] = [
     Group {
         name: "head",
@@ -169,16 +169,13 @@ impl Group {
             None => measure.surrogate(walk)?,
         };
         *start = Some(from);
-        let (joint, cheaper) = error(walk, measure, from, &own)?;
+        let joint = error(walk, measure, from, &own)?;
         if joint.is_some() || own.len() == 1 {
-            if own.len() > 1 {
-                *start = cheaper.or(*start);
-            }
             uncertainty.add(self.name, joint, input.target);
             return Ok(uncertainty);
         }
         for discretisation in own {
-            let (alone, _) = error(walk, measure, from, &[discretisation])?;
+            let alone = error(walk, measure, from, &[discretisation])?;
             uncertainty.add(discretisation.as_str(), alone, input.target);
         }
         Ok(uncertainty)
@@ -186,21 +183,19 @@ impl Group {
 }
 
 /// Error of parameters other than the film's grid, coarsened together by one step from `start`, and refined by a step or two
-/// while it is not negligible: that costs less than refining the scene for an error that it does not have. With the coarsened
-/// scene, if its answer is near: other parameters may be changed on it.
+/// while it is not negligible: that costs less than refining the scene for an error that it does not have.
 fn error(
     walk: &mut Walk<'_>,
     measure: &Measure<'_>,
     start: Start,
     discretisations: &[Discretisation],
-) -> Result<(Option<Estimate>, Option<Start>), Ask> {
+) -> Result<Option<Estimate>, Ask> {
     let at = |steps| judge::refined(start.levels, discretisations, steps);
-    let (mut near, cheaper) = measure.change(walk, start, at(-1))?.unzip();
-    let cheaper = cheaper.flatten();
+    let mut near = measure.change(walk, start, at(-1))?;
     let mut estimate = near.map(|near| judge::one_step(discretisations, near));
     // Parameters that have no answer together are changed one by one.
     if near.is_none() && discretisations.len() > 1 {
-        return Ok((None, None));
+        return Ok(None);
     }
     let enough = judge::NEGLIGIBLE * walk.input.target;
     let mut before: Option<Change> = None;
@@ -209,7 +204,7 @@ fn error(
         if is_enough || !walk.has_finer(discretisations, steps) {
             break;
         }
-        let Some((finest, _)) = measure.change(walk, start, at(steps))? else {
+        let Some(finest) = measure.change(walk, start, at(steps))? else {
             estimate = estimate.map(Estimate::unconfirmed);
             break;
         };
@@ -218,7 +213,7 @@ fn error(
         near = Some(finer.reversed());
         before = Some(finest);
     }
-    Ok((estimate, cheaper))
+    Ok(estimate)
 }
 
 /// Error of the film's grid from half and a quarter of the cells; where that is more than negligible and more than the
@@ -231,12 +226,12 @@ fn film(walk: &mut Walk<'_>, measure: &Measure<'_>, room: f64) -> Result<Option<
     };
     let at = |steps| judge::refined(Levels::NONE, &FILM, steps);
     let is_deep = walk.input.film_halvings >= DEEP;
-    let near = measure.change(walk, start, at(-1))?.map(|found| found.0);
+    let near = measure.change(walk, start, at(-1))?;
     let mut coarse = None;
     if let (true, Some(near)) = (is_deep, near) {
         let far = measure.change(walk, start, at(-2))?;
         coarse = Some(match far {
-            Some((far, _)) => judge::two_coarser(&FILM, near, far),
+            Some(far) => judge::two_coarser(&FILM, near, far),
             None => judge::one_step(&FILM, near).unconfirmed(),
         });
     }
@@ -245,7 +240,7 @@ fn film(walk: &mut Walk<'_>, measure: &Measure<'_>, room: f64) -> Result<Option<
         return Ok(coarse);
     }
     Ok(match measure.change(walk, start, at(1))? {
-        Some((finer, _)) => Some(judge::with_finer(&FILM, near, finer, finer)),
+        Some(finer) => Some(judge::with_finer(&FILM, near, finer, finer)),
         None => coarse.map(Estimate::unconfirmed),
     })
 }
