@@ -135,8 +135,8 @@ verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against 
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture forecast_slow
 
 .PHONY: verify-uncertainty
-verify-uncertainty: bootstrap ## are independent critical shocks inside the uncertainty intervals of Fig. 13? (hours; goes on where it stopped; OPSHOCK_SEEDS=first..end for some rows)
-	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture uncertainty_slow
+verify-uncertainty: bootstrap ## are independent critical shocks inside the uncertainty intervals of Fig. 13 and of random drives? (hours; goes on where it stopped; OPSHOCK_SEEDS=first..end for some of them)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 uncertainty_slow
 
 .PHONY: verify-solid
 verify-solid: ## frequencies of finite elements of a ramp and a cantilever against CalculiX on the same mesh
