@@ -195,3 +195,11 @@ impl Log {
 pub(super) fn provenance_line() -> String {
     format!("# {}", provenance::program())
 }
+
+/// First eight bytes of a digest, as the tables name scenes.
+pub(super) fn scene_name(digest: &[u8]) -> String {
+    digest[..8]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}

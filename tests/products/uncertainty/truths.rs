@@ -1,11 +1,12 @@
 //! Critical shocks made independently of the uncertainty rules, and whether intervals contain them.
 //!
-//! A truth is searched for on uncorrected films of some 8000 and 16 000 cells, with all modes of the suspension, half the
-//! time step of disk and ramp, and tolerances of the head sixteen times smaller. The film's error halves from each film to
-//! the next (second order in the cell's length), so that the truth is 2 A - B with A and B the critical shocks on the finest
-//! film and the one before. Its own uncertainty is |A - B| plus half of both brackets. Where that is too much for an interval
-//! that meets its target, a third film of some 32 000 cells follows; where it is more than a fifth of an interval's half-width
-//! the truth is unusable for it.
+//! A truth is searched for from the middle of an interval outwards to the first bracket; failures far below it are not seen.
+//! It has uncorrected films of some 8000 and 16 000 cells, all modes of the suspension, half the time step of disk and ramp,
+//! and tolerances of the head sixteen times smaller. The film's error halves from each film to the next (second order in the
+//! cell's length), so that the truth is 2 A - B with A and B the critical shocks on the finest film and the one before. Its
+//! own uncertainty is |A - B| plus half of both brackets. Where that is too much for an interval that meets its target, a
+//! third film of some 32 000 cells follows; where it is more than a fifth of an interval's half-width the truth is unusable
+//! for it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -166,14 +167,6 @@ impl Truths {
         std::fs::create_dir_all(self.path.parent().expect("a folder")).expect("a folder");
         std::fs::write(&self.path, text).expect("written");
     }
-}
-
-/// First eight bytes of a digest, as the tables name scenes.
-pub(super) fn scene_name(digest: &[u8]) -> String {
-    digest[..8]
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
 }
 
 /// Calls `one` for every item, on all cores.

@@ -23,7 +23,7 @@ use opshock_study::sweep::{Onset, Physics, Simulator, SweepInput, UncertaintyPla
 use opshock_tests::mock_uncertainty::{LawSimulator, Random, laws_study};
 use opshock_tests::scenes::study;
 
-use super::coverage::{Covered, Line, Log, Truth};
+use super::coverage::{Covered, Line, Log, Truth, scene_name};
 use super::run;
 
 const LAWS: usize = 260;
@@ -278,8 +278,7 @@ fn line(
     known: Known<'_>,
     fails: &mut dyn FnMut(f64) -> Option<bool>,
 ) -> Line {
-    let digest = &input.points[0].digest.0[..8];
-    let scene: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let scene = scene_name(&input.points[0].digest.0);
     let covered = covered(row, known(&scene), fails);
     Line { scene, covered }
 }

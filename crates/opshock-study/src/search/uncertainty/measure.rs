@@ -24,7 +24,7 @@ pub(super) struct Measure<'r> {
 }
 
 impl Measure<'_> {
-    /// The scene on the coarsest film, of a quarter or half of the cells, whose answer is near or can be told by clearances;
+    /// The scene on the coarsest film, of a quarter or half of the cells, whose answer is near or follows from clearances;
     /// else the scene itself.
     pub(super) fn surrogate(&self, walk: &mut Walk<'_>) -> Result<Start, Ask> {
         let own = walk.itself();
