@@ -16,11 +16,12 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
 OR_OPEN := || test $$? -eq 4
+QUALIFY = $(OPSHOCK) qualify studies/qualify/study.toml -j $(JOBS) --spec
 
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
 	@$(MAKE) --no-print-directory study NAME=fig13
@@ -66,6 +67,12 @@ study: build ## run another study: make study NAME=drive-2.5in
 	@test -n "$(NAME)" || { echo "make study NAME=<folder under studies/>"; exit 2; }
 	$(OPSHOCK) sweep studies/$(NAME)/study.toml --store results/$(NAME)/$(NAME).opshock -j $(JOBS) $(OR_OPEN)
 	$(OPSHOCK) report results/$(NAME)/$(NAME).opshock --out results/$(NAME) $(OR_OPEN)
+
+.PHONY: qualify
+qualify: build ## a drive that passes a specification, one that fails, one that is undecided: results/qualify/ (5 minutes of two idle cores, resumes)
+	$(QUALIFY) studies/qualify/operating.toml --store results/qualify/passes.opshock --out results/qualify/passes
+	$(QUALIFY) studies/qualify/operating.toml --set ramp.clearance_um=60 --store results/qualify/fails.opshock --out results/qualify/fails || test $$? -eq 8
+	$(QUALIFY) studies/qualify/operating-433g.toml --store results/qualify/undecided.opshock --out results/qualify/undecided $(OR_OPEN)
 
 test: bootstrap ## every test (slow ones are in `make verify`)
 	cargo test --workspace --locked

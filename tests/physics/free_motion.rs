@@ -192,6 +192,42 @@ fn every_shape_agrees_with_its_own_table() {
     }
 }
 
+/// Velocity changes of unit pulses in closed form: 2T/pi, T/2, T, (1 - r)T, and of a table its trapezoids.
+#[test]
+fn the_integral_of_every_shape_is_its_closed_form() {
+    let (width_s, decay, frequency) = (7.3e-4, 900.0_f64, 2500.0_f64);
+    let omega = std::f64::consts::TAU * frequency;
+    let (sin, cos) = (omega * width_s).sin_cos();
+    let sine = (omega - (-decay * width_s).exp() * (decay * sin + omega * cos))
+        / (decay * decay + omega * omega);
+    let table = PulseShape::Table {
+        time_s: vec![0.0, 1e-4, 4e-4, width_s],
+        relative: vec![0.0, 1.0, -0.5, 0.0],
+    };
+    let shapes = [
+        (PulseShape::HalfSine, width_s * std::f64::consts::FRAC_2_PI),
+        (PulseShape::Haversine, 0.5 * width_s),
+        (PulseShape::Square, width_s),
+        (PulseShape::Trapezoid { rise_share: 0.2 }, 0.8 * width_s),
+        (
+            PulseShape::DampedSine {
+                frequency_hz: frequency,
+                decay_per_s: decay,
+            },
+            sine,
+        ),
+        (table, 0.5e-4 + 0.75e-4 - 0.25 * 3.3e-4),
+    ];
+    for (shape, expected) in shapes {
+        let pulse = Pulse { shape, width_s };
+        let found = pulse.integral_s().expect("a sound pulse");
+        assert!(
+            (found - expected).abs() < 1e-12 * width_s,
+            "{pulse:?}: {found}"
+        );
+    }
+}
+
 /// Hard cases B18, B17, A10: below touch all ramps give the same bits, and -A mirrors A.
 #[test]
 fn hard_b18_below_touch_every_ramp_gives_the_same_bits() {

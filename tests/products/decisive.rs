@@ -7,8 +7,10 @@ use std::time::Duration;
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
+use opshock_study::qualification::{PointVerdict, Verdict as Found};
 use opshock_study::report::answer::Answer;
 use opshock_study::report::comparison::Significance;
+use opshock_study::search::decisive::Question;
 use opshock_study::search::{Flag, MonotonicityScan, Probe, ProbeResult, Ramp, RunCost, Verdict};
 use opshock_study::store::{AxisValue, Loaded, Status, Summary, folder, load};
 use opshock_study::study::{SetArg, Study};
@@ -93,7 +95,7 @@ fn input(decides: bool) -> SweepInput {
     }
     input.axes = vec!["clearance_um".to_owned()];
     input.settings = settings(MonotonicityScan::Off);
-    input.decides = decides.then(|| vec![values]);
+    input.decides = decides.then(|| Question::BestValue(vec![values]));
     input
 }
 
@@ -299,6 +301,76 @@ fn the_forecast_leaves_out_what_the_sweep_leaves_out() {
     assert_eq!((left.max, answered), (0.0, 20));
 }
 
+/// 200 G are required and the film's grid adds 4 %: verdicts on 198 and 203 G need its refinement, and none of the others do.
+/// Where one point fails for certain, nothing needs it.
+#[test]
+fn a_required_amplitude_is_decided_by_refining_what_lies_near_it() {
+    let mut some = input(true);
+    some.decides = Some(Question::Survives(200.0));
+    let folder = tempfile::tempdir().expect("folder");
+    let none: [&str; 0] = [];
+    let cases = [
+        (
+            [230.0, 240.0, 203.0, 260.0, 255.0],
+            vec!["100"],
+            Found::Passes,
+        ),
+        (
+            [230.0, 240.0, 255.0, 198.0, 203.0],
+            vec!["120", "140"],
+            Found::Fails,
+        ),
+        (
+            [120.0, 240.0, 255.0, 198.0, 203.0],
+            none.to_vec(),
+            Found::Fails,
+        ),
+    ];
+    for (k, (worst_g, refined, verdict)) in cases.into_iter().enumerate() {
+        let end = run(
+            &some,
+            &law(&some, worst_g),
+            &folder.path().join(format!("{k}")),
+            1,
+        );
+        let found = intervals(&end.summary);
+        assert_eq!(found.len(), 20, "every bracket near 200 G has its interval");
+        let levels = found.iter().filter(|(_, levels)| !levels.is_empty());
+        let mut of: Vec<&str> = levels.map(|((um, ..), _)| um.as_str()).collect();
+        of.dedup();
+        assert_eq!(of, refined, "{found:?}");
+        let points = end.summary.points.iter();
+        let verdicts: Vec<Found> = points
+            .map(|row| PointVerdict::of(row, 200.0).verdict)
+            .collect();
+        assert_eq!(Found::of_all(verdicts.iter().copied()), verdict);
+        for ((row, point), found) in end.summary.points.iter().zip(&some.points).zip(verdicts) {
+            let AxisValue::Number(clearance_um) = point.axes[0] else {
+                unreachable!("clearances are numbers")
+            };
+            let place = CLEARANCES_UM.iter().position(|&um| um == clearance_um);
+            let is_longer = point.coordinates.pulse_ms > 1.0;
+            let truth_g = worst_g[place.expect("a clearance")] * if is_longer { 1.5 } else { 1.0 };
+            let truth = match truth_g > 200.0 {
+                true => Found::Passes,
+                false => Found::Fails,
+            };
+            // Undecided is what was not refined.
+            assert!(
+                found == truth || (found == Found::Undecided && k == 2),
+                "{row:?}"
+            );
+        }
+        let again = run(
+            &some,
+            &law(&some, worst_g),
+            &folder.path().join(format!("{k} again")),
+            2,
+        );
+        assert_eq!(again.summary, end.summary);
+    }
+}
+
 #[test]
 fn axes_to_choose_from_decide_and_without_any_the_worst_case() {
     let decides = |sets: &[&str]| {
@@ -311,7 +383,15 @@ fn axes_to_choose_from_decide_and_without_any_the_worst_case() {
     assert_eq!(decides(&["search.uncertainty_of=all"]), None);
     assert_eq!(decides(&[decisive, "search.uncertainty=false"]), None);
     let one = "ramp.models=[\"rigid\"]";
-    assert_eq!(decides(&[decisive, one]), Some(vec![vec![0; 6]]));
+    assert_eq!(
+        decides(&[decisive, one]),
+        Some(Question::BestValue(vec![vec![0; 6]]))
+    );
+    let required = "search.required_amplitude_g=400";
+    assert_eq!(
+        decides(&[decisive, one, required]),
+        Some(Question::Survives(400.0))
+    );
     let two = decides(&[
         decisive,
         "ramp.models=[\"rigid\", \"deformable\"]",
@@ -319,5 +399,11 @@ fn axes_to_choose_from_decide_and_without_any_the_worst_case() {
         "pulse.signs=[\"+\"]",
         "ramp.clearance_um=[60, 100]",
     ]);
-    assert_eq!(two, Some(vec![vec![0, 1, 0, 1], vec![0, 0, 1, 1]]));
+    assert_eq!(
+        two,
+        Some(Question::BestValue(vec![
+            vec![0, 1, 0, 1],
+            vec![0, 0, 1, 1]
+        ]))
+    );
 }

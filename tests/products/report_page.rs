@@ -11,7 +11,7 @@ use std::process::{Command, Output};
 const RAMPS: [&str; 3] = ["none", "rigid", "deformable"];
 const WIDTHS_MS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 
-fn chromium() -> PathBuf {
+pub fn chromium() -> PathBuf {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let names = ["chromium", "chromium-browser", "google-chrome"];
     let found = std::env::split_paths(&path)
@@ -190,14 +190,14 @@ addEventListener("load", () => {
 </script>"##;
 
 /// A page as wide as a phone: a browser's own window has a least width.
-const FRAME: &str = r##"<!doctype html><body style="margin:0"><iframe src="NAME" style="border:0;width:420px;height:4000px"></iframe>
+pub const FRAME: &str = r##"<!doctype html><body style="margin:0"><iframe src="NAME" style="border:0;width:420px;height:4000px"></iframe>
 <script>addEventListener("message", e => {
   if (document.getElementById("probe")) return;
   const pre = document.createElement("pre"); pre.id = "probe"; pre.textContent = e.data; document.body.append(pre);
 });</script></body>"##;
 
 /// Where the pictures are left to be looked at.
-fn pictures() -> PathBuf {
+pub fn pictures() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/report-pages");
     std::fs::create_dir_all(&folder).unwrap();
     folder

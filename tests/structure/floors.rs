@@ -80,6 +80,7 @@ const STUDY: &[(&str, u8)] = &[
     ("accuracy", 3),
     ("matching", 4),
     ("hard_cases", 4),
+    ("qualification", 4),
     ("report", 5),
 ];
 

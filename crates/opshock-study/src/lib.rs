@@ -5,6 +5,7 @@ pub mod hard_cases;
 pub mod identity;
 pub mod matching;
 pub mod provenance;
+pub mod qualification;
 pub mod record;
 pub mod report;
 pub mod search;

@@ -187,6 +187,24 @@ impl Pulse {
         })
     }
 
+    /// ∫ s dt over the width, s: times an amplitude it is the velocity change of the base.
+    ///
+    /// # Errors
+    /// As [`Pulse::stretches`].
+    pub fn integral_s(&self) -> Result<f64, PulseError> {
+        let stretches = self.stretches()?;
+        let over = stretches.iter().map(|stretch| {
+            let length_s = stretch.end_s - stretch.start_s;
+            let (phase, sigma) = (&stretch.phase, stretch.sigma_per_s);
+            let wave = match sigma.norm() {
+                0.0 => phase.wave.re * length_s,
+                _ => (phase.wave * ((sigma * length_s).exp() - 1.0) / sigma).re,
+            };
+            (phase.constant + 0.5 * phase.slope_per_s * length_s) * length_s + wave
+        });
+        Ok(over.sum())
+    }
+
     /// s(t); zero outside the pulse.
     pub fn value(&self, time_s: f64) -> f64 {
         if !(0.0..=self.width_s).contains(&time_s) {

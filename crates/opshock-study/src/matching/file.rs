@@ -4,13 +4,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::fields::{Faults, Fields};
 use super::observation::{Observation, Stage};
 use super::observed;
 use super::parameters;
 use super::prior::Parameter;
 use super::statements::Statements;
 use crate::study::source::{Origin, Source};
+use crate::study::table_fields::{Faults, Fields};
 use crate::study::text_file;
 use crate::study::tree;
 use crate::study::{SetArg, Study, StudyError, StudyErrors};

@@ -15,7 +15,6 @@ mod conflicts;
 mod contradiction;
 mod emulator;
 mod evaluations;
-mod fields;
 mod file;
 mod forecast;
 mod measured;

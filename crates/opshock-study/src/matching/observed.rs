@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::fields::{Faults, Fields};
 use super::measured::measured;
 use super::observation::{
     COLUMNS, Combination, Measure, Observation, Quantity, Scalar, ShockChoice, Stage,
 };
 use super::statements::Statements;
+use crate::study::table_fields::{Faults, Fields};
 use crate::study::tree::Value;
 use crate::study::{Ramp, Sign};
 

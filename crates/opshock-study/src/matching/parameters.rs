@@ -1,7 +1,7 @@
 //! Reads the parameters of a match file.
 
-use super::fields::{Faults, Fields, wrong_kind};
 use super::prior::{Distribution, Parameter};
+use crate::study::table_fields::{Faults, Fields, wrong_kind};
 use crate::study::tree::{Node, Value};
 use crate::study::{SetArg, Study, number_at};
 

@@ -18,6 +18,7 @@ mod match_tables;
 pub mod mode_shapes;
 mod outcome_map;
 mod pulse_figures;
+pub mod qualified;
 pub mod run_json;
 mod run_plots;
 mod run_text;

@@ -10,10 +10,26 @@
 //! interval begins below its upper end. A study without values to choose from has its worst case as its answer; the
 //! points that can be it are refined to the target.
 //!
+//! A study may instead ask whether every point survives a required amplitude. Then every point with a bracket within a
+//! factor [`FAR`] of it gets an interval, and those whose interval holds the amplitude are refined, unless another point fails it for certain.
+//!
 //! A round is a function of finished brackets and intervals of all points, so that the same answers always choose the same
 //! points.
 
 use std::collections::BTreeSet;
+
+/// A point whose bracket is farther than this factor from a required amplitude needs no uncertainty interval. The largest
+/// half-width of an interval is 27 % among the random drives of `results/uncertainty/drives.csv`.
+pub const FAR: f64 = 2.0;
+
+/// What the intervals are to decide.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Question {
+    /// Which value of each axis survives most: for each axis the number of the value of every point.
+    BestValue(Vec<Vec<usize>>),
+    /// Whether every point survives this amplitude, G.
+    Survives(f64),
+}
 
 /// What may still be done for the uncertainty of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,9 +62,48 @@ struct Rival {
 }
 
 /// The points of a round, by place: those that get an interval, or else those that are refined once more. None: the answer
-/// depends on no other run. `axes` has for each axis the number of the value of every point; `standings` is `None` where no
-/// critical shock is known.
-pub fn decisive(axes: &[Vec<usize>], standings: &[Option<Standing>]) -> Vec<usize> {
+/// depends on no other run. `standings` is `None` where no critical shock is known.
+pub fn decisive(question: &Question, standings: &[Option<Standing>]) -> Vec<usize> {
+    let (without, to_refine) = match question {
+        Question::BestValue(axes) => of_best_value(axes, standings),
+        Question::Survives(amplitude_g) => of_amplitude(*amplitude_g, standings),
+    };
+    let round = if without.is_empty() {
+        to_refine
+    } else {
+        without
+    };
+    round.into_iter().collect()
+}
+
+/// Points that have no interval, and points that may be refined and whose interval holds the amplitude: none of these where
+/// one point fails for certain.
+fn of_amplitude(
+    amplitude_g: f64,
+    standings: &[Option<Standing>],
+) -> (BTreeSet<usize>, BTreeSet<usize>) {
+    let places = |is_chosen: &dyn Fn(&Standing) -> bool| {
+        let places = standings.iter().enumerate();
+        let chosen = places.filter(|(_, at)| at.as_ref().is_some_and(is_chosen));
+        chosen.map(|(place, _)| place).collect()
+    };
+    let has_interval = |at: &Standing| at.further != Further::Interval;
+    let is_near =
+        |at: &Standing| at.range_g[0] < FAR * amplitude_g && amplitude_g < FAR * at.range_g[1];
+    let holds = |at: &Standing| at.range_g[0] < amplitude_g && amplitude_g < at.range_g[1];
+    let mut known = standings.iter().flatten();
+    let one_fails = known.any(|at| has_interval(at) && at.range_g[1] <= amplitude_g);
+    (
+        places(&|at| !has_interval(at) && is_near(at)),
+        places(&|at| !one_fails && at.further == Further::Refinement && holds(at)),
+    )
+}
+
+/// Points on which the best value of an axis depends: those without an interval, and those to be refined.
+fn of_best_value(
+    axes: &[Vec<usize>],
+    standings: &[Option<Standing>],
+) -> (BTreeSet<usize>, BTreeSet<usize>) {
     let (mut without, mut to_refine) = (BTreeSet::new(), BTreeSet::new());
     let may = |point: usize, further| standings[point].is_some_and(|at| at.further == further);
     let low_g = |point: usize| standings[point].map_or(f64::INFINITY, |at| at.range_g[0]);
@@ -83,12 +138,7 @@ pub fn decisive(axes: &[Vec<usize>], standings: &[Option<Standing>]) -> Vec<usiz
             to_refine.extend(both.filter(|&point| may(point, Further::Refinement)));
         }
     }
-    let round = if without.is_empty() {
-        to_refine
-    } else {
-        without
-    };
-    round.into_iter().collect()
+    (without, to_refine)
 }
 
 /// The values of an axis with a known worst case, best first; equal ones in their order.
@@ -133,6 +183,31 @@ mod tests {
         })
     }
 
+    fn best(axes: Vec<Vec<usize>>, standings: &[Option<Standing>]) -> Vec<usize> {
+        decisive(&Question::BestValue(axes), standings)
+    }
+
+    #[test]
+    fn a_required_amplitude_refines_the_points_whose_interval_holds_it() {
+        use Further::{Interval, Nothing, Refinement};
+        let question = Question::Survives(400.0);
+        let mut standings = [
+            at(700.0, 2.0, Interval),
+            at(405.0, 6.0, Refinement), // holds it
+            at(395.0, 5.1, Refinement), // holds it
+            at(404.0, 4.0, Refinement), // survives it: the amplitude is the lower end
+            at(401.0, 4.0, Nothing),
+            None,
+            at(810.0, 2.0, Interval), // beyond twice the amplitude
+        ];
+        assert_eq!(decisive(&question, &standings), [0]);
+        standings[0] = at(700.0, 2.0, Refinement);
+        assert_eq!(decisive(&question, &standings), [1, 2]);
+        // An upper end fails: no other point matters.
+        standings[2] = at(395.0, 5.0, Refinement);
+        assert_eq!(decisive(&question, &standings), [0_usize; 0]);
+    }
+
     #[test]
     fn brackets_choose_what_can_be_the_worst_case_of_the_best_the_next_and_what_reaches_the_best() {
         use Further::Interval;
@@ -149,13 +224,13 @@ mod tests {
             None,
         ];
         // 146.5 is next, 140 neither next nor within reach.
-        assert_eq!(decisive(&[axis], &standings), [4, 5, 7]);
+        assert_eq!(best(vec![axis], &standings), [4, 5, 7]);
     }
 
     #[test]
     fn only_overlapping_values_are_refined_and_of_the_best_only_the_points_that_overlap() {
         use Further::{Nothing, Refinement};
-        let axes = [vec![0, 0, 1, 1, 2]];
+        let axes = vec![vec![0, 0, 1, 1, 2]];
         let mut standings = [
             at(100.0, 4.0, Refinement), // the best
             at(103.0, 3.5, Refinement),
@@ -163,15 +238,15 @@ mod tests {
             at(99.0, 3.0, Refinement), // not the worst case of its value
             at(80.0, 9.0, Refinement), // does not reach the best
         ];
-        assert_eq!(decisive(&axes, &standings), [0, 2]);
+        assert_eq!(best(axes.clone(), &standings), [0, 2]);
         // What is left for a point that cannot be refined is left to the other side.
         standings[2] = at(95.0, 3.0, Nothing);
-        assert_eq!(decisive(&axes, &standings), [0]);
+        assert_eq!(best(axes.clone(), &standings), [0]);
         standings[0] = at(100.0, 1.0, Refinement);
-        assert_eq!(decisive(&axes, &standings), [0_usize; 0]);
+        assert_eq!(best(axes.clone(), &standings), [0_usize; 0]);
         // A wide interval of a point with a higher value may hold the worst case, too.
         standings[1] = at(103.0, 5.5, Refinement);
-        assert_eq!(decisive(&axes, &standings), [1]);
+        assert_eq!(best(axes.clone(), &standings), [1]);
     }
 
     #[test]
@@ -182,13 +257,13 @@ mod tests {
             at(103.0, 2.0, Interval),
             at(110.0, 2.0, Interval),
         ];
-        let axes = [vec![0; 3]];
-        assert_eq!(decisive(&axes, &standings), [0, 1]);
+        let axes = vec![vec![0; 3]];
+        assert_eq!(best(axes.clone(), &standings), [0, 1]);
         standings[0] = at(100.0, 9.0, Refinement);
         standings[1] = at(103.0, 2.5, Refinement);
-        assert_eq!(decisive(&axes, &standings), [0, 1]);
+        assert_eq!(best(axes.clone(), &standings), [0, 1]);
         standings[0] = at(97.0, 1.0, Refinement);
-        assert_eq!(decisive(&axes, &standings), [0]);
-        assert_eq!(decisive(&axes, &[None; 3]), [0_usize; 0]);
+        assert_eq!(best(axes.clone(), &standings), [0]);
+        assert_eq!(best(axes, &[None; 3]), [0_usize; 0]);
     }
 }

@@ -80,6 +80,8 @@ pub struct SearchSettings {
     pub uncertainty: bool,
     /// Of which points.
     pub uncertainty_of: UncertaintyOf,
+    /// Amplitude that every point must survive, g.
+    pub required_amplitude_g: Option<f64>,
     /// Times that a point which misses the target is refined.
     pub max_refinements: u8,
     /// How widths are added; `None`: not at all.
@@ -201,6 +203,7 @@ impl Study {
                 uncertainty_of: view
                     .get(&fields::SEARCH_UNCERTAINTY_OF)
                     .unwrap_or(UncertaintyOf::All),
+                required_amplitude_g: view.maybe_number(fields::SEARCH_REQUIRED_AMPLITUDE_G.path()),
                 max_refinements: view.get(&fields::SEARCH_MAX_REFINEMENTS),
                 added_points: added_points(&view),
             },

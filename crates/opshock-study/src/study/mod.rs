@@ -54,6 +54,7 @@ mod settings;
 pub mod source;
 pub(crate) mod suggest;
 mod surfaces;
+pub(crate) mod table_fields;
 pub mod text_file;
 pub(crate) mod tree;
 pub mod unit;

@@ -10,6 +10,7 @@ use serde_json::json;
 use super::input::{SweepInput, SweepPoint, UncertaintyPlan};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
+use crate::search::decisive::Question;
 use crate::search::uncertainty::MOST_STEPS;
 use crate::search::{AmplitudeGridError, Coordinates, SearchSettings, Sign};
 use crate::store::{PointDigest, StudyTexts};
@@ -49,7 +50,10 @@ impl SweepInput {
             },
             plan: plan_json(study),
             axes: study.axes.iter().map(|axis| axis.column.clone()).collect(),
-            decides: is_decisive.then(|| choices(study, &points)),
+            decides: is_decisive.then(|| match search.required_amplitude_g {
+                Some(amplitude_g) => Question::Survives(amplitude_g),
+                None => Question::BestValue(choices(study, &points)),
+            }),
             points,
             settings,
             start_s: study.start_s,

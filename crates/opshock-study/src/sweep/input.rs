@@ -5,6 +5,7 @@ use std::time::Duration;
 use opshock_solver::scene::discretisation::Discretisation;
 
 use super::progress::PointLabel;
+use crate::search::decisive::Question;
 use crate::search::{Coordinates, SearchSettings};
 use crate::store::{AxisValue, PointDigest, StudyTexts};
 use crate::study::KeepHistories;
@@ -48,9 +49,9 @@ pub struct SweepInput {
     pub axes: Vec<String>,
     /// Points in the study's order.
     pub points: Vec<SweepPoint>,
-    /// Intervals are made for the points alone on which the answer depends, by the values of these axes
-    /// ([`crate::search::decisive`]): for each axis the number of every point's value. `None`: for all points.
-    pub decides: Option<Vec<Vec<usize>>>,
+    /// Intervals are made for the points alone on which the answer to this question depends
+    /// ([`crate::search::decisive`]). `None`: for all points.
+    pub decides: Option<Question>,
     /// Search.
     pub settings: SearchSettings,
     /// Time between checkpoints.

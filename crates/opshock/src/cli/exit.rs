@@ -21,6 +21,8 @@ pub enum Exit {
     Store,
     /// Differences or checks beyond their limits.
     Difference,
+    /// What was required does not hold.
+    Failed,
     /// Ended by a signal, by its number.
     Signal(u8),
 }
@@ -37,6 +39,7 @@ impl Exit {
             Exit::Budget => 5,
             Exit::Store => 6,
             Exit::Difference => 7,
+            Exit::Failed => 8,
             Exit::Signal(number) => 128 + number,
         }
     }

@@ -26,6 +26,7 @@ mod modes;
 mod new;
 mod plan;
 mod pulse;
+mod qualify;
 mod report;
 mod responses;
 mod run;
@@ -64,7 +65,7 @@ use std::sync::atomic::AtomicBool;
     disable_version_flag = true,
     after_help = "Exit codes: 0 complete, 1 internal, 2 command line, 3 study invalid, 4 complete \
                   with open points, 5 ended by a budget, 6 store damaged, locked or newer, \
-                  7 differences beyond limits, 129/130/143 signals"
+                  7 differences beyond limits, 8 a requirement not met, 129/130/143 signals"
 )]
 struct Cli {
     #[command(flatten)]
@@ -85,6 +86,7 @@ enum Command {
     Pulse(pulse::PulseArgs),
     Sweep(sweep::SweepArgs),
     Match(matching::MatchArgs),
+    Qualify(qualify::QualifyArgs),
     Merge(merge::MergeArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
@@ -157,6 +159,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Merge(arguments) => merge::run(arguments, &cli.global, console),
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Match(arguments) => matching::run(arguments, &cli.global, console),
+        Command::Qualify(arguments) => qualify::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Claims(arguments) => claims::run(arguments, &cli.global, console),

@@ -223,6 +223,7 @@ impl Check<'_, '_> {
         }
         self.refine();
         self.decisive();
+        self.required();
         self.each_once(&fields::RAMP_MODELS, "ramp models");
         self.each_once(&fields::PULSE_SIGNS, "signs");
         if self.sound(&[fields::PULSE_WIDTHS_MS.path()]) {
@@ -290,6 +291,24 @@ impl Check<'_, '_> {
             );
             let fault = self.fault("E156", &[path], what);
             fault.allowed = "\"all\", or no search.added_points".to_string();
+        }
+    }
+
+    /// An amplitude that no search tries cannot be required.
+    fn required(&mut self) {
+        let path = fields::SEARCH_REQUIRED_AMPLITUDE_G.path();
+        let [low, high] = [
+            fields::SEARCH_AMPLITUDE_G_MIN.path(),
+            fields::SEARCH_AMPLITUDE_G_MAX.path(),
+        ];
+        if self.sound(&[path, low, high])
+            && let Some(required_g) = self.view.maybe_number(path)
+            && let ends = [low, high].map(|end| self.view.number(end))
+            && !(ends[0]..=ends[1]).contains(&required_g)
+        {
+            let what = format!("{required_g} G is outside of the searched amplitudes");
+            let fault = self.fault("E156", &[path, low, high], what);
+            fault.allowed = format!("{} to {}", ends[0], ends[1]);
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::searches::Registry;
 use super::stage::{Depth, UncertaintyStage};
-use crate::search::decisive::{Further, Standing, decisive};
+use crate::search::decisive::{Further, Question, Standing, decisive};
 use crate::store::summary::{Flag, PointSummary, Status};
 use crate::sweep::input::{SweepInput, SweepPoint};
 
@@ -56,16 +56,26 @@ pub(in crate::sweep) fn next_round(
     row: &dyn Fn(usize) -> PointSummary,
     depth: &dyn Fn(usize) -> Depth,
 ) -> Vec<usize> {
-    let Some(axes) = &input.decides else {
+    let Some(question) = &input.decides else {
         return Vec::new();
     };
     let rows: Vec<PointSummary> = (0..input.points.len()).map(row).collect();
     let round = |targets: f64| {
         let points = input.points.iter().zip(&rows).enumerate();
         let standings: Vec<Option<Standing>> = points
-            .map(|(place, (point, row))| standing(point, row, depth(place), targets))
+            .map(|(place, (point, row))| {
+                let mut at = standing(point, row, depth(place), targets)?;
+                // An interval that is not whole decides nothing.
+                let is_whole =
+                    row.uncertainty_g.is_some() && !row.flags.contains(&Flag::ContributionMissing);
+                let is_made = row.status == Status::Ok && at.further != Further::Interval;
+                if matches!(question, Question::Survives(_)) && is_made && !is_whole {
+                    at.range_g = [0.0, f64::INFINITY];
+                }
+                Some(at)
+            })
             .collect();
-        decisive(axes, &standings)
+        decisive(question, &standings)
     };
     let mut rounds = WIDENED_BY.into_iter().map(round);
     rounds.find(|round| !round.is_empty()).unwrap_or_default()

@@ -1,21 +1,21 @@
-//! Reads fields of a match file by name and kind; every fault is noted with its place.
+//! Reads the fields of a table of a match or specification file by name and kind; every fault is noted with its place.
 
-use crate::study::StudyError;
-use crate::study::suggest;
-use crate::study::tree::{Node, Value};
+use super::fault::StudyError;
+use super::suggest;
+use super::tree::{Node, Value};
 
-/// A table of a match file, and the faults found so far.
-pub(super) struct Fields<'a> {
+/// A table.
+pub(crate) struct Fields<'a> {
     node: &'a Node,
     path: String,
 }
 
 /// Faults found so far.
-pub(super) type Faults = Vec<StudyError>;
+pub(crate) type Faults = Vec<StudyError>;
 
 impl<'a> Fields<'a> {
     /// A table with no other fields than `names`.
-    pub(super) fn of(
+    pub(crate) fn of(
         node: &'a Node,
         path: &str,
         names: &[&str],
@@ -30,13 +30,8 @@ impl<'a> Fields<'a> {
                 continue;
             }
             let full = join(path, name);
-            let fault = StudyError::at(
-                "E110",
-                &member.key_place,
-                &full,
-                "unknown key of a match file",
-            )
-            .allowed(names.join(", "));
+            let fault = StudyError::at("E110", &member.key_place, &full, "unknown key")
+                .allowed(names.join(", "));
             faults.push(match suggest::nearest(name, names) {
                 Some(near) => fault.hint(format!("did you mean {near}?")),
                 None => fault,
@@ -49,17 +44,17 @@ impl<'a> Fields<'a> {
     }
 
     /// Dotted path of a field.
-    pub(super) fn path(&self, name: &str) -> String {
+    pub(crate) fn path(&self, name: &str) -> String {
         join(&self.path, name)
     }
 
     /// An optional field.
-    pub(super) fn get(&self, name: &str) -> Option<&'a Node> {
+    pub(crate) fn get(&self, name: &str) -> Option<&'a Node> {
         self.node.get(name)
     }
 
     /// The present ones of some fields.
-    pub(super) fn present<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
+    pub(crate) fn present<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
         names
             .iter()
             .copied()
@@ -68,12 +63,12 @@ impl<'a> Fields<'a> {
     }
 
     /// A fault of the table as a whole.
-    pub(super) fn fault(&self, code: &'static str, message: impl Into<String>) -> StudyError {
+    pub(crate) fn fault(&self, code: &'static str, message: impl Into<String>) -> StudyError {
         StudyError::at(code, &self.node.key_place, &self.path, message)
     }
 
     /// A fault of a field.
-    pub(super) fn fault_of(
+    pub(crate) fn fault_of(
         &self,
         code: &'static str,
         name: &str,
@@ -87,13 +82,13 @@ impl<'a> Fields<'a> {
     }
 
     /// Notes that a field is missing.
-    pub(super) fn missing(&self, name: &str, allowed: &str, faults: &mut Faults) {
+    pub(crate) fn missing(&self, name: &str, allowed: &str, faults: &mut Faults) {
         let fault = StudyError::at("E112", &self.node.key_place, &self.path(name), "is missing");
         faults.push(fault.allowed(allowed));
     }
 
     /// Text.
-    pub(super) fn text(&self, name: &str, faults: &mut Faults) -> Option<String> {
+    pub(crate) fn text(&self, name: &str, faults: &mut Faults) -> Option<String> {
         let node = self.get(name)?;
         match &node.value {
             Value::Text(text) => Some(text.clone()),
@@ -105,13 +100,13 @@ impl<'a> Fields<'a> {
     }
 
     /// A finite number.
-    pub(super) fn number(&self, name: &str, faults: &mut Faults) -> Option<f64> {
+    pub(crate) fn number(&self, name: &str, faults: &mut Faults) -> Option<f64> {
         let node = self.get(name)?;
         number(node, &self.path(name), faults)
     }
 
     /// A finite number that is not negative.
-    pub(super) fn positive(&self, name: &str, faults: &mut Faults) -> Option<f64> {
+    pub(crate) fn positive(&self, name: &str, faults: &mut Faults) -> Option<f64> {
         let value = self.number(name, faults)?;
         if value < 0.0 {
             faults.push(
@@ -124,7 +119,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A whole number in a range.
-    pub(super) fn count(
+    pub(crate) fn count(
         &self,
         name: &str,
         [least, most]: [u64; 2],
@@ -144,7 +139,7 @@ impl<'a> Fields<'a> {
     }
 
     /// true or false.
-    pub(super) fn flag(&self, name: &str, faults: &mut Faults) -> Option<bool> {
+    pub(crate) fn flag(&self, name: &str, faults: &mut Faults) -> Option<bool> {
         let node = self.get(name)?;
         match node.value {
             Value::Flag(flag) => Some(flag),
@@ -156,7 +151,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Entries of a list, each with its path.
-    pub(super) fn list(&self, name: &str, faults: &mut Faults) -> Vec<(&'a Node, String)> {
+    pub(crate) fn list(&self, name: &str, faults: &mut Faults) -> Vec<(&'a Node, String)> {
         let Some(node) = self.get(name) else {
             return Vec::new();
         };
@@ -176,7 +171,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A list of texts.
-    pub(super) fn texts(&self, name: &str, faults: &mut Faults) -> Vec<String> {
+    pub(crate) fn texts(&self, name: &str, faults: &mut Faults) -> Vec<String> {
         let mut texts = Vec::new();
         for (node, path) in self.list(name, faults) {
             match &node.value {
@@ -188,7 +183,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Two numbers, the first not above the second; `inf` only where an end may be open.
-    pub(super) fn range(&self, name: &str, is_open: bool, faults: &mut Faults) -> Option<[f64; 2]> {
+    pub(crate) fn range(&self, name: &str, is_open: bool, faults: &mut Faults) -> Option<[f64; 2]> {
         self.get(name)?;
         let entries = self.list(name, faults);
         let ends: Vec<f64> = entries
@@ -241,7 +236,7 @@ fn number(node: &Node, path: &str, faults: &mut Faults) -> Option<f64> {
     finite
 }
 
-pub(super) fn wrong_kind(node: &Node, path: &str, wanted: &str) -> StudyError {
+pub(crate) fn wrong_kind(node: &Node, path: &str, wanted: &str) -> StudyError {
     let message = format!("is {}, not {wanted}", node.value.kind());
     StudyError::at("E113", &node.place, path, message)
         .value(node.place.text())

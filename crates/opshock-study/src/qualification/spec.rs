@@ -1,0 +1,335 @@
+//! Reads specification files: amplitudes that a drive must survive, at which pulses, altitudes and clearances.
+//!
+//! A specification is TOML like a study and gives the same messages: all faults at once, each with its place.
+
+use std::path::Path;
+
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
+
+use crate::search::decisive::FAR;
+use crate::study::source::{Origin, Source};
+use crate::study::table_fields::{Faults, Fields, wrong_kind};
+use crate::study::text_file;
+use crate::study::tree::{self, Value};
+use crate::study::{SetArg, Study, StudyError, StudyErrors};
+
+const TOP: &[&str] = &["spec_format", "name", "source", "requirement"];
+const OF_REQUIREMENT: &[&str] = &[
+    "name",
+    "amplitude_g",
+    "margin_pct",
+    "widths_ms",
+    "signs",
+    "altitude_m",
+    "clearance_nm",
+    "set",
+];
+/// Keys of a requirement that are keys of the study.
+const OF_STUDY: [(&str, &str); 4] = [
+    ("widths_ms", "pulse.widths_ms"),
+    ("signs", "pulse.signs"),
+    ("altitude_m", "gas.altitude_m"),
+    ("clearance_nm", "failure.clearance_nm"),
+];
+/// Keys that a requirement sets by itself, and may not set otherwise.
+const OWN: [&str; 6] = [
+    "name",
+    "outputs",
+    "search.uncertainty",
+    "search.amplitude_g",
+    "search.required_amplitude_g",
+    "search.uncertainty_of",
+];
+/// Longest name of a requirement, bytes.
+const LONGEST_NAME: usize = 100;
+/// Longest name of a study.
+const MOST_LETTERS: usize = 200;
+/// Largest margin, per cent.
+const MOST_MARGIN_PCT: f64 = 1000.0;
+
+/// A specification that has passed every check.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// Name.
+    pub name: String,
+    /// Where its figures come from.
+    pub source: Option<String>,
+    /// The file as named.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+    /// Requirements, in the file's order.
+    pub requirements: Vec<Requirement>,
+}
+
+/// What a drive must survive.
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    /// Name, unlike those of the other requirements.
+    pub name: String,
+    /// Amplitude, G.
+    pub amplitude_g: f64,
+    /// Margin, per cent of the amplitude.
+    pub margin_pct: f64,
+    /// The study with the requirement's pulses, and its search about the required amplitude.
+    pub study: Study,
+}
+
+impl Requirement {
+    /// Amplitude that every point must survive: with the margin, G.
+    pub fn required_g(&self) -> f64 {
+        required_g(self.amplitude_g, self.margin_pct)
+    }
+
+    /// Smallest and largest velocity change of its pulses at the required amplitude, m/s.
+    pub fn velocity_changes_m_per_s(&self) -> [f64; 2] {
+        let peak_m_per_s2 = self.required_g() * STANDARD_GRAVITY_M_PER_S2;
+        let pulses = self.study.points.iter().map(|point| &point.scene.pulse);
+        let integrals_s = pulses.map(|pulse| pulse.integral_s().expect("a study's pulse is sound"));
+        integrals_s.fold([f64::INFINITY, 0.0], |[low, high], integral_s| {
+            let change = (peak_m_per_s2 * integral_s).abs();
+            [low.min(change), high.max(change)]
+        })
+    }
+}
+
+impl Spec {
+    /// Reads a specification, and makes a study of each of its requirements from the study file at `study`; `sets` are laid
+    /// over that study, and the requirement over them.
+    ///
+    /// # Errors
+    ///
+    /// Every fault of the specification, or of the study.
+    pub fn from_path(path: &Path, study: &Path, sets: &[SetArg]) -> Result<Spec, StudyErrors> {
+        // A fault of the study itself is no fault of every requirement.
+        let plain = Study::from_path(study, sets)?;
+        let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
+        let source = Source::new(path.display().to_string(), text.clone());
+        let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        let mut faults = Faults::new();
+        let Some(fields) = Fields::of(&root, "", TOP, &mut faults) else {
+            return Err(StudyErrors::new(faults));
+        };
+        if fields.count("spec_format", [1, 1], &mut faults).is_none()
+            && fields.get("spec_format").is_none()
+        {
+            fields.missing("spec_format", "1", &mut faults);
+        }
+        let name = required_text(&fields, "name", &mut faults);
+        let from = fields.text("source", &mut faults);
+        let entries = fields.list("requirement", &mut faults);
+        if entries.is_empty() && faults.is_empty() {
+            fields.missing("requirement", "[[requirement]], one or more", &mut faults);
+        }
+        let mut requirements: Vec<Requirement> = Vec::new();
+        for (node, path) in entries {
+            let Some(entry) = Fields::of(node, &path, OF_REQUIREMENT, &mut faults) else {
+                continue;
+            };
+            let Some(one) = requirement(&entry, (&plain, study, sets), &mut faults) else {
+                continue;
+            };
+            if requirements.iter().any(|other| other.name == one.name) {
+                let fault = entry.fault_of("E194", "name", "is the name of another requirement");
+                faults.push(fault.allowed("a name that no other requirement has"));
+            }
+            requirements.push(one);
+        }
+        match (name, faults.is_empty()) {
+            (Some(name), true) => Ok(Spec {
+                name,
+                source: from,
+                path: path.display().to_string(),
+                text,
+                requirements,
+            }),
+            _ => Err(StudyErrors::new(faults)),
+        }
+    }
+}
+
+/// Amplitude with its margin, G.
+fn required_g(amplitude_g: f64, margin_pct: f64) -> f64 {
+    amplitude_g + amplitude_g * margin_pct / 100.0
+}
+
+fn required_text(fields: &Fields<'_>, name: &str, faults: &mut Faults) -> Option<String> {
+    if fields.get(name).is_none() {
+        fields.missing(name, "a text", faults);
+    }
+    let text = fields.text(name, faults)?;
+    // The name of a requirement is that of the folder with its simulations, too.
+    let is_plain = !text.trim().is_empty()
+        && text.len() <= LONGEST_NAME
+        && !text.starts_with('.')
+        && !text.chars().any(|c| c == '/' || c == '"' || c.is_control());
+    if !is_plain {
+        let fault = fields.fault_of("E194", name, "is no name");
+        faults.push(fault.allowed(format!(
+            "text of 1 to {LONGEST_NAME} bytes that does not begin with a dot, without /, \" and control characters"
+        )));
+    }
+    is_plain.then_some(text)
+}
+
+/// A requirement and its study; `None` where it has a fault.
+fn requirement(
+    entry: &Fields<'_>,
+    (plain, file, sets): (&Study, &Path, &[SetArg]),
+    faults: &mut Faults,
+) -> Option<Requirement> {
+    let before = faults.len();
+    let name = required_text(entry, "name", faults);
+    if entry.get("amplitude_g").is_none() {
+        entry.missing("amplitude_g", "a number > 0, in G", faults);
+    }
+    let amplitude_g = entry.number("amplitude_g", faults);
+    if amplitude_g.is_some_and(|amplitude_g| amplitude_g <= 0.0) {
+        let fault = entry.fault_of("E130", "amplitude_g", "is not above zero");
+        faults.push(fault.allowed("a number > 0, in G"));
+    }
+    let margin_pct = match entry.get("margin_pct") {
+        Some(_) => entry.positive("margin_pct", faults),
+        None => Some(0.0),
+    };
+    if margin_pct.is_some_and(|margin_pct| margin_pct > MOST_MARGIN_PCT) {
+        let fault = entry.fault_of("E130", "margin_pct", "is out of range");
+        faults.push(fault.allowed(format!("0 to {MOST_MARGIN_PCT}, in per cent")));
+    }
+    let own = own_settings(entry, faults);
+    let (name, amplitude_g, margin_pct) = (name?, amplitude_g?, margin_pct?);
+    if faults.len() > before {
+        return None;
+    }
+    let required_g = required_g(amplitude_g, margin_pct);
+    let both: String = format!("{}, {name}", plain.name)
+        .chars()
+        .take(MOST_LETTERS)
+        .collect();
+    let searched = [
+        format!("name={both:?}"),
+        format!(
+            "search.amplitude_g={{ min = {:?}, max = {:?} }}",
+            plain.search.amplitude_min_g.min(required_g / FAR),
+            required_g * FAR
+        ),
+        format!("search.required_amplitude_g={required_g:?}"),
+        "outputs=[\"critical_shock\"]".to_owned(),
+        "search.uncertainty=true".to_owned(),
+        "search.uncertainty_of=\"decisive\"".to_owned(),
+    ];
+    let mut all = sets.to_vec();
+    // What the requirement sets replaces what the command line sets.
+    let mut lay = |argument: SetArg| {
+        all.retain(|known| !is_part_of(&known.key, &argument.key));
+        all.push(argument);
+    };
+    if plain.search.added_points.is_some() {
+        lay(SetArg::unset("search.added_points").expect("a key"));
+    }
+    let keys = own.iter().map(|(_, text)| text);
+    for text in keys.chain(&searched) {
+        lay(SetArg::parse(text).expect("a key and a value"));
+    }
+    match Study::from_path(file, &all) {
+        Ok(study) => Some(Requirement {
+            name,
+            amplitude_g,
+            margin_pct,
+            study,
+        }),
+        Err(refused) => {
+            faults.extend(refused.errors.into_iter().map(|fault| {
+                let place = own.iter().find(|(_, text)| {
+                    let key = text.split_once('=').map(|(key, _)| key);
+                    key == Some(fault.key.as_str())
+                });
+                refusal(entry, &name, place.map(|(name, _)| *name), fault)
+            }));
+            None
+        }
+    }
+}
+
+/// Whether a key is another one, or a key of that section.
+fn is_part_of(key: &str, whole: &str) -> bool {
+    let rest = key.strip_prefix(whole);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// A fault of the requirement's study, at the place of the requirement where that has the key.
+fn refusal(
+    entry: &Fields<'_>,
+    requirement: &str,
+    own: Option<&'static str>,
+    mut fault: StudyError,
+) -> StudyError {
+    match own {
+        Some(name) => {
+            let message = format!("the study refuses {}: {}", fault.key, fault.message);
+            entry
+                .fault_of("E194", name, message)
+                .allowed(fault.allowed.clone())
+                .hint(fault.hint.clone())
+        }
+        None => {
+            fault.message = format!("{} (with requirement {requirement:?})", fault.message);
+            fault
+        }
+    }
+}
+
+/// Settings of the study that a requirement names: which of its keys, and `KEY=VALUE`.
+fn own_settings(entry: &Fields<'_>, faults: &mut Faults) -> Vec<(&'static str, String)> {
+    let mut own = Vec::new();
+    for (name, key) in OF_STUDY {
+        let Some(node) = entry.get(name) else {
+            continue;
+        };
+        let values: &[_] = match &node.value {
+            Value::List(values) => values,
+            _ => std::slice::from_ref(node),
+        };
+        let is_word = name == "signs";
+        for value in values {
+            match &value.value {
+                Value::Text(_) if is_word => {}
+                Value::Float(_) | Value::Integer(_, 10) if !is_word => {}
+                _ => {
+                    let wanted = if is_word {
+                        "\"+\" or \"-\""
+                    } else {
+                        "a number"
+                    };
+                    faults.push(wrong_kind(value, &entry.path(name), wanted));
+                }
+            }
+        }
+        own.push((name, format!("{key}={}", node.place.text())));
+    }
+    let mut set = Vec::new();
+    for text in entry.texts("set", faults) {
+        let fault = |reason: String| entry.fault_of("E194", "set", reason);
+        match SetArg::parse(&text) {
+            Err(error) => {
+                faults.push(fault(error.reason).allowed("texts as of --set: \"section.key=VALUE\""))
+            }
+            Ok(argument) => {
+                let of_study = OF_STUDY.map(|(_, key)| key);
+                let mut own_keys = OWN.iter().copied().chain(of_study);
+                let clashes =
+                    |key: &str| is_part_of(&argument.key, key) || is_part_of(key, &argument.key);
+                if own_keys.any(clashes) || set.iter().any(|known: &String| clashes(known)) {
+                    let what = format!("{} is set by the requirement already", argument.key);
+                    faults.push(
+                        fault(what)
+                            .allowed("each key once, and none that the requirement sets itself"),
+                    );
+                }
+                set.push(argument.key);
+                own.push(("set", text));
+            }
+        }
+    }
+    own
+}
