@@ -90,9 +90,9 @@ fn a_requirement_is_the_study_with_its_own_pulses_and_a_search_about_its_amplitu
         let required_g = search.required_amplitude_g.expect("an amplitude");
         [search.amplitude_min_g, required_g, search.amplitude_max_g].map(f64::round)
     };
-    // From the study's own start, to twice what is required.
-    assert_eq!(search(first), [20.0, 440.0, 880.0]);
-    assert_eq!(search(second), [20.0, 250.0, 500.0]);
+    // From the study's own start, to four times what is required.
+    assert_eq!(search(first), [20.0, 440.0, 1760.0]);
+    assert_eq!(search(second), [20.0, 250.0, 1000.0]);
     assert!(first.study.search.added_points.is_none());
     // The requirement's widths and altitudes, both signs, the ramp of the command line.
     assert_eq!(first.study.widths_ms, [2.0]);
@@ -202,10 +202,10 @@ fn a_point_passes_or_fails_only_where_its_whole_interval_does() {
             Some(Open::Amplitude),
         ),
         (ok(370.0, half, &[Flag::UndecidedAmplitude]), fails, None),
-        // A bracket alone is no interval, and enough at half of what is required or less.
+        // A bracket alone is no interval, and enough at a quarter of what is required or less.
         (ok(430.0, None, &[]), undecided, Some(Open::NoInterval)),
-        (ok(210.0, None, &[]), undecided, Some(Open::NoInterval)),
-        (ok(190.0, None, &[]), fails, None),
+        (ok(105.0, None, &[]), undecided, Some(Open::NoInterval)),
+        (ok(95.0, None, &[]), fails, None),
         (
             row(
                 Status::AboveRange,
@@ -289,7 +289,7 @@ fn margins_reasons_and_counts_are_those_of_the_rows_in_every_file() {
              left undecided.",
             "The point that decides is rigid ramp, 2 ms, sign \u{2212}, gas.altitude_m = 0 at \"fast\": a critical shock of less than 126.0 G \
              where 250.0 G are required, a reserve of less than -49.6 % (-124.0 G).",
-            "The verdict on 1 point rests on a bound twice or half of what is required, without an uncertainty interval.",
+            "The verdict on 1 point rests on a bound of four times or a quarter of what is required, without an uncertainty interval.",
         ]
     );
     let json = json(&qualified);

@@ -24,7 +24,7 @@ use opshock_tests::scenes::study;
 use opshock_tests::seeded::{Seeded, seeds};
 
 use super::coverage::{provenance_line, scene_name};
-use super::truths::{Brackets, Judged, Truths, judge, on_all_cores, results, truths};
+use super::truths::{Brackets, Judged, Judgement, Truths, judge, on_all_cores, results, truths};
 
 /// Drives of the sample.
 const DRIVES: u64 = 40;
@@ -325,7 +325,7 @@ fn uncertainty_slow_truths_lie_inside_the_intervals_of_random_drives() {
         drives.into_inner().expect("whole"),
         log.into_inner().expect("whole"),
     );
-    for (preset, _) in PRESETS {
+    let judgements = PRESETS.map(|(preset, _)| {
         let of = drives.0.iter().filter(|((of, _), _)| of == preset);
         let of: Vec<_> = of.filter(|(_, one)| one.interval_g.is_some()).collect();
         let met = of.iter().filter(|(_, one)| one.is_met).count();
@@ -334,6 +334,7 @@ fn uncertainty_slow_truths_lie_inside_the_intervals_of_random_drives() {
             .into_iter()
             .filter_map(|((_, seed), one)| judged(&log, *seed, preset, one.interval_g?))
             .collect();
-        judge(&judged).hold();
-    }
+        judge(&judged)
+    });
+    judgements.map(Judgement::hold);
 }

@@ -2,7 +2,7 @@
 //! their critical shocks with uncertainty intervals become verdicts.
 //!
 //! A requirement names an amplitude A and a margin m: every point of the study with the requirement's pulses must survive
-//! (1 + m) A. The search ends at twice that amplitude. Every point with a bracket above half of it gets its uncertainty
+//! (1 + m) A. The search ends at four times that amplitude. Every point with a bracket above a quarter of it gets its uncertainty
 //! interval, and those whose interval holds the amplitude are refined (`search::decisive`).
 
 mod spec;

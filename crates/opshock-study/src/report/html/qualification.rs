@@ -135,14 +135,14 @@ fn points(tested: &Tested<'_>) -> String {
     let falls = changes.map(|change| change * change / (2.0 * STANDARD_GRAVITY_M_PER_S2));
     let mut text = format!(
         "<p>Required: {required_g:.1} G, a velocity change of {} m/s, as at the end of a free fall of {} m. In the pictures the line is the required amplitude, the bar where the critical shock may lie, an arrow \
-         where it lies beyond half or twice the required amplitude.</p>\n\
+         where it lies beyond a quarter or four times the required amplitude.</p>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>point</th><th>verdict</th><th>{}</th>\
          <th class=\"n\">critical shock</th><th class=\"n\">reserve</th><th>flags</th></tr></thead>\n<tbody>\n",
         span(changes),
         span(falls),
         explained(
             "picture",
-            "Critical shock over required amplitude, from 1/2 to 2"
+            "Critical shock over required amplitude, from 1/4 to 4"
         )
     );
     for (row, at) in tested.rows() {
@@ -211,7 +211,7 @@ fn basis(qualified: &Qualified<'_>) -> String {
          the required amplitude, and fails when it lies below. The reserve is the critical shock less what is required. The number after \
          \u{b1} is the half-width of the interval, a bound and no standard deviation: it has the bracket of the search and the errors of \
          the discretisation, not those of the model or of the drive's data. \u{201c}more than\u{201d} and \u{201c}less than\u{201d}: the \
-         point survives about twice the required amplitude, or fails at half of it or less, and no interval is made. Flags beside a verdict \
+         point survives about four times the required amplitude, or fails at a quarter of it or less, and no interval is made. Flags beside a verdict \
          do not change it unless its reason says so.</p>\n",
     );
     let mut rows = qualified.tested.iter().flat_map(|one| &one.summary.points);

@@ -141,7 +141,7 @@ impl Qualified<'_> {
         match bounds.count() {
             0 => {}
             count => sentences.push(format!(
-                "The verdict on {} rests on a bound twice or half of what is required, without an uncertainty interval.",
+                "The verdict on {} rests on a bound of four times or a quarter of what is required, without an uncertainty interval.",
                 counted(count, "point")
             )),
         }
