@@ -285,10 +285,9 @@ fn margins_reasons_and_counts_are_those_of_the_rows_in_every_file() {
     assert_eq!(
         sentences,
         [
-            "my <drive> fails \"operating shock\": 1 of 3 points does not survive what it asks, whatever the numerical uncertainty; 1 more \
-             left undecided.",
+            "my <drive> fails \"operating shock\": 1 of 3 points does not survive, the numerical uncertainty included; 1 more left undecided.",
             "The point that decides is rigid ramp, 2 ms, sign \u{2212}, gas.altitude_m = 0 at \"fast\": a critical shock of less than 126.0 G \
-             where 250.0 G are required, a reserve of less than -49.6 % (-124.0 G).",
+             where 250.0 G are required, a reserve of less than -124.0 G, -49.6 %.",
             "The verdict on 1 point rests on a bound of four times or a quarter of what is required, without an uncertainty interval.",
         ]
     );
@@ -311,10 +310,16 @@ fn margins_reasons_and_counts_are_those_of_the_rows_in_every_file() {
         ..qualified.clone()
     };
     assert_eq!(open.verdict(), Verdict::Undecided);
+    // 435 +- 11 G where 440 are required.
+    let said = &open.sentences()[1];
+    assert!(
+        said.ends_with("a reserve of -5.0 G, -1.1 % (-3.6 to +1.4 %)."),
+        "{said}"
+    );
     assert_eq!(
         open.sentences()[2..],
         [
-            "Undecided at \"400 G, 2 ms\", rigid ramp, 2 ms, sign \u{2212}, gas.altitude_m = 0: its uncertainty interval holds the required \
+            "Undecided at \"400 G, 2 ms\", rigid ramp, 2 ms, sign \u{2212}, gas.altitude_m = 0: its uncertainty interval contains the required \
           amplitude."
         ]
     );

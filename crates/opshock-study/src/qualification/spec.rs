@@ -5,6 +5,7 @@
 use std::path::Path;
 
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
+use opshock_solver::shock::PulseShape;
 
 use crate::search::decisive::FAR;
 use crate::study::source::{Origin, Source};
@@ -79,6 +80,20 @@ impl Requirement {
     /// Amplitude that every point must survive: with the margin, G.
     pub fn required_g(&self) -> f64 {
         required_g(self.amplitude_g, self.margin_pct)
+    }
+
+    /// Shape of its pulses, in words.
+    pub fn pulse_shape(&self) -> &'static str {
+        let first = self.study.points.first();
+        match first.map(|point| &point.scene.pulse.shape) {
+            Some(PulseShape::HalfSine) => "half-sine",
+            Some(PulseShape::Haversine) => "haversine",
+            Some(PulseShape::Square) => "square",
+            Some(PulseShape::Trapezoid { .. }) => "trapezoid",
+            Some(PulseShape::DampedSine { .. }) => "damped sine",
+            Some(PulseShape::Table { .. }) => "as sampled",
+            None => "none",
+        }
     }
 
     /// Smallest and largest velocity change of its pulses at the required amplitude, m/s.

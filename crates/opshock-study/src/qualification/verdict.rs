@@ -56,7 +56,7 @@ impl Open {
     /// In a sentence.
     pub const fn words(self) -> &'static str {
         match self {
-            Open::Interval => "its uncertainty interval holds the required amplitude",
+            Open::Interval => "its uncertainty interval contains the required amplitude",
             Open::Contribution => "a contribution to its uncertainty interval is missing",
             Open::Window => {
                 "its largest survivor does not survive a simulated time (pulse.window_ms) twice as long"

@@ -53,7 +53,8 @@ pub fn page(qualified: &Qualified<'_>) -> String {
     }
     let _ = write!(
         page,
-        "<p class=\"quiet\">Drive: {}. {} simulations. {}</p>\n</header>\n<main>\n\
+        "<p>Drive: {}. A point is one ramp model, pulse width and sign of the shock; a shock of sign + moves the disk towards the slider \
+         first. <a href=\"#basis\">What the verdicts rest on</a>.</p>\n<p class=\"quiet\">{} simulations. {}</p>\n</header>\n<main>\n\
          <section aria-labelledby=\"requirements\">\n<h2 id=\"requirements\">Requirements</h2>\n{}</section>\n",
         escaped(qualified.drive),
         qualified.runs(),
@@ -91,7 +92,7 @@ fn requirements(qualified: &Qualified<'_>) -> String {
         "amplitude (G)",
         "margin asked (%)",
         "required (G)",
-        "verdict",
+        "met?",
         "points that pass",
         "the point that decides",
         "its reserve",
@@ -132,9 +133,10 @@ fn points(tested: &Tested<'_>) -> String {
     let required_g = tested.requirement.required_g();
     let changes = tested.requirement.velocity_changes_m_per_s();
     // A fall that stops without rebound.
+    let shape = tested.requirement.pulse_shape();
     let falls = changes.map(|change| change * change / (2.0 * STANDARD_GRAVITY_M_PER_S2));
     let mut text = format!(
-        "<p>Required: {required_g:.1} G, a velocity change of {} m/s, as at the end of a free fall of {} m. In the pictures the line is the required amplitude, the bar where the critical shock may lie, an arrow \
+        "<p>Required: {required_g:.1} G, a velocity change of {} m/s, as at the end of a free fall of {} m. Shape of the pulse: {shape}. In the pictures the line is the required amplitude, the bar where the critical shock may lie, an arrow \
          where it lies beyond a quarter or four times the required amplitude.</p>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>point</th><th>verdict</th><th>{}</th>\
          <th class=\"n\">critical shock</th><th class=\"n\">reserve</th><th>flags</th></tr></thead>\n<tbody>\n",
@@ -206,13 +208,17 @@ fn picture(row: &PointSummary, at: &PointVerdict, required_g: f64) -> String {
 /// Rule of the verdicts, words, specification.
 fn basis(qualified: &Qualified<'_>) -> String {
     let mut text = String::from(
-        "<p>The critical shock is the largest amplitude up to which every simulated shock is survived: the slider does not touch the disk. A point (a \
-         ramp model, a pulse width, a sign) passes when the whole numerical uncertainty interval of its critical shock lies at or above \
-         the required amplitude, and fails when it lies below. The reserve is the critical shock less what is required. The number after \
-         \u{b1} is the half-width of the interval, a bound and no standard deviation: it has the bracket of the search and the errors of \
-         the discretisation, not those of the model or of the drive's data. \u{201c}more than\u{201d} and \u{201c}less than\u{201d}: the \
-         point survives about four times the required amplitude, or fails at a quarter of it or less, and no interval is made. Flags beside a verdict \
-         do not change it unless its reason says so.</p>\n",
+        "<p>The critical shock is the largest amplitude up to which every simulated shock is survived: the slider does not touch the disk. A point passes when the whole numerical uncertainty interval of its critical shock lies at or above \
+         the required amplitude, and fails when it lies below. The reserve is the critical shock less what is required; behind it, where \
+         that may lie. The number after \u{b1} is the half-width of the interval, an estimated bound and no standard deviation: it has the \
+         search's own tolerance and the errors of meshes and time steps.</p>\n\
+         <p>Points whose interval contains the required amplitude are refined, until they meet the target uncertainty; none is refined \
+         where another point fails already. A refined critical shock may lie anywhere in the interval it had. Where a verdict stays \
+         open: a smaller target (search.target_uncertainty_pct), a finer resolution preset, or a reserve in the design.</p>\n\
+         <p>Not covered: errors of the model and of the drive's data, tolerances of its parts, other pulse widths and shapes, other directions, \
+         damage without touch, and amplitudes between those simulated.</p>\n<p> \u{201c}more than\u{201d} and \u{201c}less than\u{201d}: the \
+         point survives about four times the required amplitude, or fails at a quarter of it or less, and no interval is made. A flag \
+         beside a verdict changes it only where the verdict names it as its reason.</p>\n",
     );
     let mut rows = qualified.tested.iter().flat_map(|one| &one.summary.points);
     let all: Vec<PointSummary> = rows.by_ref().cloned().collect();

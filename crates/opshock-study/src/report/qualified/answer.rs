@@ -80,17 +80,12 @@ impl Qualified<'_> {
         let (fails, undecided) = (of(Verdict::Fails), of(Verdict::Undecided));
         let what = match self.verdict() {
             Verdict::Passes => format!(
-                "every one of {} survives what {} {}, whatever the numerical uncertainty",
+                "every point survives, the numerical uncertainty included ({}, {})",
                 counted(points, "point"),
-                counted(self.tested.len(), "requirement"),
-                if self.tested.len() == 1 {
-                    "asks"
-                } else {
-                    "ask"
-                }
+                counted(self.tested.len(), "requirement")
             ),
             Verdict::Fails => format!(
-                "{fails} of {} {} not survive what it asks, whatever the numerical uncertainty{}",
+                "{fails} of {} {} not survive, the numerical uncertainty included{}",
                 counted(points, "point"),
                 if fails == 1 { "does" } else { "do" },
                 match undecided {
@@ -198,7 +193,7 @@ pub(in crate::report) fn critical_words(row: &PointSummary) -> String {
     }
 }
 
-/// Reserve in per cent of what is required and in G, or its bound.
+/// Reserve in G and in per cent of what is required, with the range of the interval, or its bound.
 pub(in crate::report) fn reserve_words(row: &PointSummary, at: &PointVerdict) -> String {
     let (Some(reserve), Some(known_g)) = (at.reserve, row.known_g()) else {
         return "unknown".to_owned();
@@ -209,6 +204,11 @@ pub(in crate::report) fn reserve_words(row: &PointSummary, at: &PointVerdict) ->
         Status::AboveRange => "more than ",
         Status::Undecided | Status::Open => return "unknown".to_owned(),
     };
-    let reserve_g = known_g * reserve / (1.0 + reserve);
-    format!("{bound}{:+.1} % ({reserve_g:+.1} G)", 100.0 * reserve)
+    let required_g = known_g / (1.0 + reserve);
+    let range = row.uncertainty_g.map_or(String::new(), |half_g| {
+        let [low, high] = [-half_g, half_g].map(|g| 100.0 * (reserve + g / required_g));
+        format!(" ({low:+.1} to {high:+.1} %)")
+    });
+    let reserve_g = known_g - required_g;
+    format!("{bound}{reserve_g:+.1} G, {:+.1} %{range}", 100.0 * reserve)
 }
