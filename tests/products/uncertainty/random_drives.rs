@@ -336,5 +336,7 @@ fn uncertainty_slow_truths_lie_inside_the_intervals_of_random_drives() {
             .collect();
         judge(&judged)
     });
-    judgements.map(Judgement::hold);
+    for judgement in judgements {
+        judgement.hold();
+    }
 }
