@@ -24,7 +24,7 @@ use opshock_tests::scenes::study;
 use opshock_tests::seeded::{Seeded, seeds};
 
 use super::coverage::{provenance_line, scene_name};
-use super::truths::{Brackets, Judged, Judgement, Truths, judge, on_all_cores, results, truths};
+use super::truths::{Brackets, Judged, Truths, judge, on_all_cores, results, truths};
 
 /// Drives of the sample.
 const DRIVES: u64 = 40;
