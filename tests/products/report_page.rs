@@ -203,9 +203,9 @@ pub fn pictures() -> PathBuf {
     folder
 }
 
-struct Page {
-    browser: PathBuf,
-    folder: tempfile::TempDir,
+pub struct Page {
+    pub browser: PathBuf,
+    pub folder: tempfile::TempDir,
 }
 
 impl Page {
@@ -234,12 +234,12 @@ impl Page {
         Page { browser, folder }
     }
 
-    fn at(&self, name: &str) -> PathBuf {
+    pub fn at(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
     /// Opens a file with more options; the browser ends by itself.
-    fn open(&self, file: &str, options: &[&str]) -> Output {
+    pub fn open(&self, file: &str, options: &[&str]) -> Output {
         let net_log = format!("--log-net-log={}", self.at("net.json").display());
         let profile = format!("--user-data-dir={}", self.at("profile").display());
         let output = Command::new(&self.browser)
@@ -293,7 +293,7 @@ impl Page {
         self.probe_in("probed.html", options)
     }
 
-    fn probe_in(&self, file: &str, options: &[&str]) -> Value {
+    pub fn probe_in(&self, file: &str, options: &[&str]) -> Value {
         let output = self.open(file, &[&["--dump-dom"], options].concat());
         self.assert_quiet(&output);
         let page = String::from_utf8(output.stdout).unwrap();

@@ -1,16 +1,14 @@
 //! The page of a qualification in a browser: fits 1400 and 420 pixels, light and dark, and two sheets of paper.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use opshock_study::qualification::Spec;
 use opshock_study::report::qualified::{Qualified, Tested, qualified_files};
 use opshock_study::search::{Flag, Sign};
 use opshock_study::store::summary::{PointSummary, Status, Summary, Totals};
 use opshock_study::study::Study;
-use serde_json::Value;
 
-use crate::report_page::{chromium, pictures};
+use crate::report_page::{FRAME, Page, chromium, pictures};
 
 const SPEC: &str = r#"
 spec_format = 1
@@ -119,51 +117,14 @@ const PROBE: &str = r#"<script>addEventListener("load", () => {
   document.body.append(pre); parent.postMessage(pre.textContent, "*");
 });</script></body>"#;
 
-struct Browser(PathBuf, tempfile::TempDir);
-
-impl Browser {
-    fn run(&self, file: &str, options: &[&str]) -> String {
-        let profile = format!(
-            "--user-data-dir={}",
-            self.1.path().join("profile").display()
-        );
-        let output = Command::new(&self.0)
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--hide-scrollbars",
-            ])
-            .args([
-                "--disable-dev-shm-usage",
-                "--virtual-time-budget=4000",
-                &profile,
-            ])
-            .args(options)
-            .arg(format!("file://{}", self.1.path().join(file).display()))
-            .output()
-            .expect("Chromium starts");
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        String::from_utf8_lossy(&output.stdout).into_owned()
-    }
-
-    fn probe(&self, file: &str, options: &[&str]) -> Value {
-        let page = self.run(file, &[&["--dump-dom"], options].concat());
-        let start = page.rfind("<pre id=\"probe\">").expect("the probe ran") + 16;
-        let end = start + page[start..].find("</pre>").expect("its end");
-        serde_json::from_str(&page[start..end]).expect("what the probe wrote down")
-    }
-}
-
 #[test]
 #[ignore = "needs Chromium: make verify-report"]
 fn report_page_of_a_qualification_fits_screens_and_two_sheets() {
-    let browser = Browser(chromium(), tempfile::tempdir().expect("a folder"));
-    let folder = browser.1.path();
+    let browser = Page {
+        browser: chromium(),
+        folder: tempfile::tempdir().expect("a folder"),
+    };
+    let folder = browser.folder.path();
     let html = page(folder);
     let policy = "style-src 'unsafe-inline'";
     assert!(html.contains(policy));
@@ -173,7 +134,7 @@ fn report_page_of_a_qualification_fits_screens_and_two_sheets() {
             "style-src 'unsafe-inline'; script-src 'unsafe-inline'",
         )
         .replace("</body>", PROBE);
-    let frame = crate::report_page::FRAME.replace("NAME", "probed.html");
+    let frame = FRAME.replace("NAME", "probed.html");
     for (name, text) in [
         ("page.html", &html),
         ("probed.html", &probed),
@@ -185,7 +146,7 @@ fn report_page_of_a_qualification_fits_screens_and_two_sheets() {
         let scheme = format!("--blink-settings=preferredColorScheme={scheme}");
         for (file, size) in [("probed.html", "1400,2000"), ("phone.html", "500,4000")] {
             let size = format!("--window-size={size}");
-            let found = browser.probe(file, &[&size, &scheme]);
+            let found = browser.probe_in(file, &[&size, &scheme]);
             assert_eq!(found["overflow"], 0, "{found}");
             assert_eq!(found["ground"], ground, "{found}");
             assert_ne!(found["ink"], ground, "{found}");
@@ -202,14 +163,14 @@ fn report_page_of_a_qualification_fits_screens_and_two_sheets() {
                 "{found}"
             );
             let shot = pictures().join(format!("qualification-{file}-{ground}.png"));
-            browser.run(
+            browser.open(
                 file,
                 &[&size, &scheme, &format!("--screenshot={}", shot.display())],
             );
         }
     }
     let pdf = pictures().join("qualification.pdf");
-    browser.run(
+    browser.open(
         "page.html",
         &[
             "--no-pdf-header-footer",

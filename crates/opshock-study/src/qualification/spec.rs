@@ -55,8 +55,6 @@ pub struct Spec {
     pub name: String,
     /// Where its figures come from.
     pub source: Option<String>,
-    /// The file as named.
-    pub path: String,
     /// Its text.
     pub text: String,
     /// Requirements, in the file's order.
@@ -154,7 +152,6 @@ impl Spec {
             (Some(name), true) => Ok(Spec {
                 name,
                 source: from,
-                path: path.display().to_string(),
                 text,
                 requirements,
             }),

@@ -93,7 +93,7 @@ impl PointVerdict {
         let (verdict, open) = match interval_g {
             None if row.status == Status::Ok => (Verdict::Undecided, Some(Open::NoInterval)),
             None => (Verdict::Undecided, Some(Open::NoAnswer)),
-            Some(_) if row.status == Status::Ok && has(Flag::ContributionMissing) => {
+            Some(_) if row.uncertainty_g.is_some() && !row.has_whole_interval() => {
                 (Verdict::Undecided, Some(Open::Contribution))
             }
             // The lower end survives, the upper end fails.

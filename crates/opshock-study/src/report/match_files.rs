@@ -9,6 +9,7 @@ use super::error::json;
 use super::html::text::escaped;
 use super::match_tables::{Table, maybe, summary, tables, words};
 use super::table::csv_line;
+use super::table::plain_markdown;
 use crate::matching::{BestOfEach, Known, MatchAnswer, MatchProblem, MatchingSet, Searched};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 
@@ -83,13 +84,7 @@ fn markdown(answer: &MatchAnswer, tables: &[Table], from: &str) -> String {
     let mut text = format!("# Match: {}\n\n{}\n", answer.name, summary(answer));
     for table in tables {
         let _ = write!(text, "\n## {}\n\n{}\n\n", table.title, table.words);
-        let line = |cells: &[String]| {
-            let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-            format!("| {} |\n", cells.join(" | "))
-        };
-        text += &line(&table.head);
-        text += &line(&vec!["---".to_owned(); table.head.len()]);
-        table.rows.iter().for_each(|row| text += &line(row));
+        text += &plain_markdown(&table.head, &table.rows);
     }
     let _ = write!(text, "\nWaves:\n\n");
     for wave in &answer.waves {

@@ -63,6 +63,17 @@ pub fn csv_line(cells: &[String]) -> String {
     quoted.join(",") + "\n"
 }
 
+/// A Markdown table of words.
+pub(super) fn plain_markdown(header: &[String], rows: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let rule = line(&vec!["---".to_owned(); header.len()]);
+    let rows: String = rows.iter().map(|row| line(row)).collect();
+    line(header) + &rule + &rows
+}
+
 /// Markdown table below its heading and the `answer` in words, with the meaning of columns and flags.
 pub fn markdown(summary: &Summary, answer: &str, provenance: &str) -> String {
     let (header, rows) = readable(summary);

@@ -134,6 +134,11 @@ impl PointSummary {
         }
     }
 
+    /// Whether it has an uncertainty interval with every contribution.
+    pub fn has_whole_interval(&self) -> bool {
+        self.uncertainty_g.is_some() && !self.flags.contains(&Flag::ContributionMissing)
+    }
+
     /// Uncertainty interval, G; a bound has its bracket alone.
     pub fn interval_g(&self) -> Option<[f64; 2]> {
         if self.status != Status::Ok {

@@ -19,10 +19,9 @@ pub use shock_film::ShockFilm;
 pub use source::ReportSource;
 
 use critical::drawn_with_keys;
-use text::escaped;
+use text::{escaped, head};
 
 use super::answer::Answer;
-use super::chart::colour;
 use super::coordinates;
 use super::critical_layout::Layout;
 use super::crossings;
@@ -39,20 +38,10 @@ pub fn html(source: &ReportSource<'_>) -> String {
     let summary = source.summary;
     let title = escaped(&summary.study);
     let layout = Layout::of(summary, source.x(), true);
-    let mut page = format!(
-        r##"<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
-<title>{title}</title>
-<style>
-{style}{dark}
-</style>
-</head>
-<body>
+    let mut page = head(&summary.study, true);
+    let _ = write!(
+        page,
+        r##"<body>
 <a class="skip" href="#table">to the table</a>
 <header>
 <h1>{title}</h1>
@@ -60,8 +49,6 @@ pub fn html(source: &ReportSource<'_>) -> String {
 <p class="quiet">{counts}. {program}, study {digest}</p>
 </header>
 "##,
-        style = include_str!("style.css"),
-        dark = colour::dark_style(),
         answer = escaped(&source.answer()),
         counts = escaped(&table::counts(summary)),
         program = escaped(source.program),

@@ -6,10 +6,9 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::accuracy::plain_table;
 use super::main_table::flags;
-use super::text::{escaped, explained};
+use super::text::{escaped, explained, head};
 use super::words;
 use crate::qualification::{PointVerdict, Verdict};
-use crate::report::chart::colour;
 use crate::report::coordinates;
 use crate::report::qualified::answer::{Qualified, Tested, critical_words, reserve_words};
 use crate::report::terms;
@@ -24,28 +23,16 @@ const HIGH: f64 = 18.0;
 pub fn page(qualified: &Qualified<'_>) -> String {
     let sentences = qualified.sentences();
     let (first, others) = sentences.split_first().expect("an answer has a sentence");
-    let mut page = format!(
-        r##"<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<title>{study}: {verdict}</title>
-<style>
-{style}{dark}
-</style>
-</head>
-<body class="qualification">
+    let verdict = qualified.verdict().as_str();
+    let mut page = head(&format!("{}: {verdict}", qualified.study), false);
+    let _ = write!(
+        page,
+        r##"<body>
 <header>
 <h1>{study}: <span class="{verdict}">{verdict}</span></h1>
 <p class="lead">{first}</p>
 "##,
         study = escaped(qualified.study),
-        verdict = qualified.verdict().as_str(),
-        style = include_str!("style.css"),
-        dark = colour::dark_style(),
         first = signed(first),
     );
     for sentence in others {
@@ -132,11 +119,12 @@ fn requirements(qualified: &Qualified<'_>) -> String {
 fn points(tested: &Tested<'_>) -> String {
     let required_g = tested.requirement.required_g();
     let changes = tested.requirement.velocity_changes_m_per_s();
-    // A fall that stops without rebound.
     let shape = tested.requirement.pulse_shape();
+    // A fall that stops without rebound.
     let falls = changes.map(|change| change * change / (2.0 * STANDARD_GRAVITY_M_PER_S2));
     let mut text = format!(
-        "<p>Required: {required_g:.1} G, a velocity change of {} m/s, as at the end of a free fall of {} m. Shape of the pulse: {shape}. In the pictures the line is the required amplitude, the bar where the critical shock may lie, an arrow \
+        "<p>Required: {required_g:.1} G, a velocity change of {} m/s, as at the end of a free fall of {} m. Shape of the pulse: {shape}. In the \
+         pictures the line is the required amplitude, the bar where the critical shock may lie, an arrow \
          where it lies beyond a quarter or four times the required amplitude.</p>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>point</th><th>verdict</th><th>{}</th>\
          <th class=\"n\">critical shock</th><th class=\"n\">reserve</th><th>flags</th></tr></thead>\n<tbody>\n",
@@ -208,7 +196,8 @@ fn picture(row: &PointSummary, at: &PointVerdict, required_g: f64) -> String {
 /// Rule of the verdicts, words, specification.
 fn basis(qualified: &Qualified<'_>) -> String {
     let mut text = String::from(
-        "<p>The critical shock is the largest amplitude up to which every simulated shock is survived: the slider does not touch the disk. A point passes when the whole numerical uncertainty interval of its critical shock lies at or above \
+        "<p>The critical shock is the largest amplitude up to which every simulated shock is survived: the slider does not touch \
+         the disk. A point passes when the whole numerical uncertainty interval of its critical shock lies at or above \
          the required amplitude, and fails when it lies below. The reserve is the critical shock less what is required; behind it, where \
          that may lie. The number after \u{b1} is the half-width of the interval, an estimated bound and no standard deviation: it has the \
          search's own tolerance and the errors of meshes and time steps.</p>\n\
@@ -216,12 +205,12 @@ fn basis(qualified: &Qualified<'_>) -> String {
          where another point fails already. A refined critical shock may lie anywhere in the interval it had. Where a verdict stays \
          open: a smaller target (search.target_uncertainty_pct), a finer resolution preset, or a reserve in the design.</p>\n\
          <p>Not covered: errors of the model and of the drive's data, tolerances of its parts, other pulse widths and shapes, other directions, \
-         damage without touch, and amplitudes between those simulated.</p>\n<p> \u{201c}more than\u{201d} and \u{201c}less than\u{201d}: the \
+         damage without touch, and amplitudes between those simulated.</p>\n<p>\u{201c}more than\u{201d} and \u{201c}less than\u{201d}: the \
          point survives about four times the required amplitude, or fails at a quarter of it or less, and no interval is made. A flag \
          beside a verdict changes it only where the verdict names it as its reason.</p>\n",
     );
-    let mut rows = qualified.tested.iter().flat_map(|one| &one.summary.points);
-    let all: Vec<PointSummary> = rows.by_ref().cloned().collect();
+    let rows = qualified.tested.iter().flat_map(|one| &one.summary.points);
+    let all: Vec<PointSummary> = rows.cloned().collect();
     let known = terms::flags_of(&all);
     if !known.is_empty() {
         text.push_str("<h3>Flags</h3>\n");

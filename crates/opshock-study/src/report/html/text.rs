@@ -1,4 +1,33 @@
-//! Escapes text, labels figures, explains words and makes links to what a page holds.
+//! Begins pages, escapes text, labels figures, explains words and makes links to what a page holds.
+
+use crate::report::chart::colour;
+
+/// The beginning of a page that needs no network and no other file; its policy lets no script run but its own, and none without `script`.
+pub(super) fn head(title: &str, script: bool) -> String {
+    format!(
+        r##"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'{script}">
+<title>{title}</title>
+<style>
+{style}{dark}
+</style>
+</head>
+"##,
+        script = if script {
+            "; script-src 'unsafe-inline'"
+        } else {
+            ""
+        },
+        title = escaped(title),
+        style = include_str!("style.css"),
+        dark = colour::dark_style(),
+    )
+}
 
 /// A figure with its label for those who do not see it.
 pub(super) fn figure(svg: &str, label: &str) -> String {

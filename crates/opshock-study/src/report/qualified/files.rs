@@ -7,7 +7,7 @@ use super::junit::junit;
 use crate::qualification::Verdict;
 use crate::report::coordinates;
 use crate::report::html::qualification::page;
-use crate::report::table::{aligned, csv_line};
+use crate::report::table::{aligned, csv_line, plain_markdown};
 
 /// Heading and a line for each requirement.
 fn rows(qualified: &Qualified<'_>) -> (Vec<String>, Vec<Vec<String>>) {
@@ -51,16 +51,7 @@ pub fn text(qualified: &Qualified<'_>) -> String {
 /// The same as Markdown, with the program and the specification.
 pub fn markdown(qualified: &Qualified<'_>) -> String {
     let (header, rows) = rows(qualified);
-    let line = |cells: &[String]| {
-        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-        format!("| {} |\n", cells.join(" | "))
-    };
-    let rule = vec!["---".to_owned(); header.len()];
-    let table: String = std::iter::once(&header)
-        .chain([&rule])
-        .chain(&rows)
-        .map(|row| line(row))
-        .collect();
+    let table = plain_markdown(&header, &rows);
     format!(
         "# {}: {}\n\n{}\n\n{table}\nDrive: {}. {} simulations. {}\n\n```toml\n{}\n```\n",
         qualified.study,

@@ -66,10 +66,9 @@ pub(in crate::sweep) fn next_round(
             .map(|(place, (point, row))| {
                 let mut at = standing(point, row, depth(place), targets)?;
                 // An interval that is not whole decides nothing.
-                let is_whole =
-                    row.uncertainty_g.is_some() && !row.flags.contains(&Flag::ContributionMissing);
                 let is_made = row.status == Status::Ok && at.further != Further::Interval;
-                if matches!(question, Question::Survives(_)) && is_made && !is_whole {
+                if matches!(question, Question::Survives(_)) && is_made && !row.has_whole_interval()
+                {
                     at.range_g = [0.0, f64::INFINITY];
                 }
                 Some(at)
