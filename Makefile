@@ -16,11 +16,12 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify yield paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
 OR_OPEN := || test $$? -eq 4
+YIELD = $(OPSHOCK) yield studies/yield/study.toml --spec studies/yield/operating.toml -j $(JOBS) --tolerances
 QUALIFY = $(OPSHOCK) qualify studies/qualify/study.toml -j $(JOBS) --spec
 
 fig13: build ## the paper's Fig. 13: sweep, table, report and plots in results/fig13/
@@ -73,6 +74,11 @@ qualify: build ## a drive that passes a specification, one that fails, one that 
 	$(QUALIFY) studies/qualify/operating.toml --store results/qualify/passes.opshock --out results/qualify/passes
 	$(QUALIFY) studies/qualify/operating.toml --set ramp.clearance_um=40 --store results/qualify/fails.opshock --out results/qualify/fails || test $$? -eq 8
 	$(QUALIFY) studies/qualify/operating-433g.toml --store results/qualify/undecided.opshock --out results/qualify/undecided $(OR_OPEN)
+
+.PHONY: yield
+yield: build ## share of drives with tolerances that survives a specification, for two lines of drives: results/yield/ (half an hour of two idle cores, resumes)
+	$(YIELD) studies/yield/tolerances.toml --store results/yield/tight.opshock --out results/yield/tight
+	$(YIELD) studies/yield/tolerances-wide.toml --store results/yield/loose.opshock --out results/yield/loose
 
 test: bootstrap ## every test (slow ones are in `make verify`)
 	cargo test --workspace --locked

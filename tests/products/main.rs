@@ -36,6 +36,7 @@ mod memory;
 mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
+mod population;
 mod qualify;
 mod real_sweep;
 mod report_answer;

@@ -75,13 +75,15 @@ const STUDY: &[(&str, u8)] = &[
     ("record", 0),
     ("search", 0),
     ("study", 1),
+    ("draws", 2),
     ("store", 2),
     ("sweep", 3),
     ("accuracy", 3),
     ("matching", 4),
     ("hard_cases", 4),
     ("qualification", 4),
-    ("report", 5),
+    ("population", 5),
+    ("report", 6),
 ];
 
 /// Module of the paper's crate, its layer.

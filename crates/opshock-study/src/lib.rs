@@ -1,9 +1,11 @@
 #![doc = include_str!("../README.md")]
 
 pub mod accuracy;
+pub mod draws;
 pub mod hard_cases;
 pub mod identity;
 pub mod matching;
+pub mod population;
 pub mod provenance;
 pub mod qualification;
 pub mod record;

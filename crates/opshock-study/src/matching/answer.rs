@@ -3,11 +3,11 @@
 use super::conflicts::{Conflict, groups};
 use super::file::MatchProblem;
 use super::observation::{Known, RULED_OUT};
-use super::prior::ParameterValue;
 use super::sample::Sample;
 use super::search::hull;
 use super::searched::{Ended, Searched, WaveReport};
-use super::share::Share;
+use crate::draws::ParameterValue;
+use crate::draws::Share;
 use serde::Serialize;
 use std::collections::HashSet;
 

@@ -4,7 +4,7 @@ use super::file::MatchProblem;
 use super::observation::Known;
 use super::sample::Sample;
 use super::searched::Searched;
-use super::share::Share;
+use crate::draws::Share;
 use serde::Serialize;
 
 /// Largest size of a group that is examined.

@@ -73,8 +73,8 @@ fn matrix(units: &[Vec<f64>]) -> Option<DenseMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::super::observation::{Known, Quantity, Stage};
-    use super::super::prior::draw;
     use super::*;
+    use crate::draws::draw;
 
     #[test]
     fn of_some_sets_that_which_is_going_to_lack_least_is_found() {

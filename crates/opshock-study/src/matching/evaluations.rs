@@ -4,7 +4,7 @@
 //! and the physics versions. So ranges of observations may change and nothing is simulated again.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use rayon::prelude::*;
 
@@ -12,9 +12,7 @@ use super::file::MatchProblem;
 use super::observation::{Known, Quantity, ShockChoice, Stage};
 use super::outputs::{self, Printed};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
-use crate::store::journal::{self, JournalHeader, JournalWriter};
-use crate::store::lock::StoreLock;
-use crate::store::{PointDigest, Record, StoreError};
+use crate::store::{NumberStore, PointDigest, StoreError};
 use crate::study::{Study, StudyErrors};
 
 /// An evaluation: stage, parameter set, and whether every discretisation parameter is refined.
@@ -24,22 +22,13 @@ pub(super) type Asked<'a> = (Stage, &'a [f64], bool);
 pub struct Evaluations<'a> {
     problem: &'a MatchProblem,
     printed: &'a dyn Printed,
-    store: Option<MatchStore>,
+    store: Option<NumberStore>,
     known: HashMap<PointDigest, Vec<Known>>,
     /// Numbers computed by this process.
     pub computed: u64,
     stop: &'a (dyn Fn() -> bool + Sync),
     /// Called with how many of how many parameter sets a stage has.
     progress: &'a dyn Fn(Stage, usize, usize),
-}
-
-/// A store of numbers, open for writing by this process alone.
-pub struct MatchStore {
-    journal: JournalWriter,
-    _lock: StoreLock,
-    read: HashMap<PointDigest, Vec<Known>>,
-    /// Messages about its state.
-    pub notes: Vec<String>,
 }
 
 /// Why there is no answer yet.
@@ -51,73 +40,13 @@ pub(super) enum Interrupted {
     Store(StoreError),
 }
 
-impl MatchStore {
-    /// Opens or makes the store in `folder`.
+impl MatchProblem {
+    /// Opens or makes the store of the match in `folder`.
     ///
     /// # Errors
-    /// E181 newer format, E183 not writable, E184 in use, E188 it belongs to another file.
-    pub fn open(folder: &Path, problem: &MatchProblem) -> Result<Self, StoreError> {
-        let unwritable = |source| StoreError::Unwritable {
-            path: folder.to_owned(),
-            source,
-        };
-        std::fs::create_dir_all(folder).map_err(unwritable)?;
-        let lock = StoreLock::take(folder)?;
-        crate::store::aside::clear(folder);
-        let path = folder.join("journal");
-        let content = journal::read(&path)?;
-        let header = header(folder, problem);
-        let mut notes = Vec::new();
-        let mut records = Vec::new();
-        if let Some(content) = content {
-            if let Some(found) = &content.header
-                && (found.digest != header.digest || found.file != header.file)
-            {
-                let file = found.file.as_ref().map(|file| file.display().to_string());
-                return Err(StoreError::OtherStudy {
-                    path: folder.to_owned(),
-                    found: file.unwrap_or_else(|| format!("\"{}\"", found.study)),
-                    wanted: problem.path.display().to_string(),
-                    differ: "the file".to_owned(),
-                    hint: "name another store",
-                });
-            }
-            for damage in content.damage.iter().filter(|damage| !damage.at_end) {
-                notes.push(format!(
-                    "{}: {} bytes at {} cannot be read; what they held is computed again",
-                    path.display(),
-                    damage.length,
-                    damage.offset
-                ));
-            }
-            records = content.records;
-        }
-        let journal = JournalWriter::create(&path, &header, &records)?;
-        let read = records.into_iter().filter_map(|record| match record {
-            Record::Numbers { key, numbers } => {
-                Some((key, numbers.into_iter().map(Known::from).collect()))
-            }
-            _ => None,
-        });
-        Ok(Self {
-            journal,
-            _lock: lock,
-            read: read.collect(),
-            notes,
-        })
-    }
-}
-
-fn header(folder: &Path, problem: &MatchProblem) -> JournalHeader {
-    let file = || -> Option<PathBuf> {
-        let own = std::fs::canonicalize(&problem.path).ok()?;
-        pathdiff::diff_paths(own, std::fs::canonicalize(folder).ok()?)
-    };
-    JournalHeader {
-        study: problem.name.clone(),
-        digest: "match 1".to_owned(),
-        file: file(),
-        resolved: problem.text.clone(),
+    /// As [`NumberStore::open`].
+    pub fn open_store(&self, folder: &Path) -> Result<NumberStore, StoreError> {
+        NumberStore::open(folder, "match 1", &self.name, &self.path, &self.text)
     }
 }
 
@@ -126,16 +55,19 @@ impl<'a> Evaluations<'a> {
     pub fn new(
         problem: &'a MatchProblem,
         printed: &'a dyn Printed,
-        mut store: Option<MatchStore>,
+        mut store: Option<NumberStore>,
         stop: &'a (dyn Fn() -> bool + Sync),
         progress: &'a dyn Fn(Stage, usize, usize),
     ) -> Self {
-        let known = store.as_mut().map(|store| std::mem::take(&mut store.read));
+        let known = store.as_mut().map(|store| std::mem::take(&mut store.known));
+        let known = known.unwrap_or_default().into_iter();
+        let known =
+            known.map(|(key, numbers)| (key, numbers.into_iter().map(Known::from).collect()));
         Self {
             problem,
             printed,
             store,
-            known: known.unwrap_or_default(),
+            known: known.collect(),
             computed: 0,
             stop,
             progress,
@@ -175,13 +107,12 @@ impl<'a> Evaluations<'a> {
                 .collect();
             let done: Vec<Computed> = numbers.into_iter().flatten().collect();
             if let Some(store) = &mut self.store {
-                let record = |one: &Computed| Record::Numbers {
-                    key: one.key,
-                    numbers: one.numbers.iter().map(|known| (*known).into()).collect(),
-                };
                 let lasting = done.iter().filter(|one| one.is_lasting);
-                let records: Vec<Record> = lasting.map(record).collect();
-                store.journal.append(&records).map_err(Interrupted::Store)?;
+                let new = lasting.map(|one| {
+                    let numbers = one.numbers.iter().map(|known| (*known).into());
+                    (one.key, numbers.collect())
+                });
+                store.append(new).map_err(Interrupted::Store)?;
             }
             self.computed += done.len() as u64;
             let is_whole = done.len() == part.len();

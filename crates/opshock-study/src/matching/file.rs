@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::observation::{Observation, Stage};
 use super::observed;
-use super::parameters;
-use super::prior::Parameter;
 use super::statements::Statements;
+use crate::draws::{self, Parameter};
 use crate::study::source::{Origin, Source};
 use crate::study::table_fields::{Faults, Fields};
 use crate::study::text_file;
@@ -146,7 +145,7 @@ impl MatchProblem {
         let effort = effort(&fields, &mut faults);
         let settings = settings(&fields, &mut faults);
         let parameters = match &study {
-            Some(study) => parameters::read(&fields, study, &mut faults),
+            Some(study) => draws::read(&fields, "parameter", study, &mut faults),
             None => Vec::new(),
         };
         let effort = Effort {

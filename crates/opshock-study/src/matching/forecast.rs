@@ -5,8 +5,8 @@ use std::time::Instant;
 use super::file::MatchProblem;
 use super::observation::Stage;
 use super::outputs::{self, Printed};
-use super::prior::draw;
 use super::refinement::population_size;
+use crate::draws::draw;
 use serde::Serialize;
 
 /// Parameter sets that are timed.

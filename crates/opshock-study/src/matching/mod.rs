@@ -21,27 +21,22 @@ mod measured;
 mod observation;
 mod observed;
 mod outputs;
-mod parameters;
-mod prior;
 mod refinement;
 mod sample;
 mod search;
 mod searched;
-mod share;
 mod statements;
 
 pub use answer::{BestOfEach, MatchAnswer, MatchingSet, Narrowing, ObservationRow, ParameterRow};
 pub use conflicts::Conflict;
-pub use evaluations::{Evaluations, MatchStore};
+pub use evaluations::Evaluations;
 pub use file::{Effort, MatchProblem, is_match_file};
 pub use forecast::{StageCost, forecast};
 pub use observation::{
     Combination, Known, Measure, Observation, Quantity, RULED_OUT, Scalar, ShockChoice, Stage,
 };
 pub use outputs::Printed;
-pub use prior::{Distribution, Parameter, ParameterValue};
 pub use sample::Sample;
 pub use search::search;
 pub use searched::{Ended, Searched, WaveReport};
-pub use share::Share;
 pub use statements::Statements;

@@ -4,9 +4,9 @@ use super::emulator::predicted;
 use super::evaluations::Interrupted;
 use super::file::MatchProblem;
 use super::observation::{Known, Observation, Stage};
-use super::prior::numbers;
 use super::sample::Sample;
 use super::search::{Run, reflected};
+use crate::draws::numbers;
 use rayon::prelude::*;
 
 /// Children from which a prediction chooses one.

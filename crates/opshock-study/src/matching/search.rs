@@ -3,9 +3,9 @@
 use super::evaluations::{Asked, Evaluations, Interrupted};
 use super::file::MatchProblem;
 use super::observation::{Known, Quantity, RULED_OUT, Stage};
-use super::prior::{draw, filling, numbers};
 use super::sample::{Sample, scales};
 use super::searched::{Ended, Searched, WaveReport};
+use crate::draws::{draw, filling, numbers};
 use crate::store::StoreError;
 
 /// Least number of sets from which a wave starts; the nearest where fewer are left.

@@ -70,6 +70,8 @@ pub struct Requirement {
     pub amplitude_g: f64,
     /// Margin, per cent of the amplitude.
     pub margin_pct: f64,
+    /// Keys of the study that it sets by itself.
+    pub sets: Vec<String>,
     /// The study with the requirement's pulses, and its search about the required amplitude.
     pub study: Study,
 }
@@ -248,6 +250,11 @@ fn requirement(
             name,
             amplitude_g,
             margin_pct,
+            sets: own
+                .iter()
+                .filter_map(|(_, text)| text.split_once('='))
+                .map(|(key, _)| key.to_owned())
+                .collect(),
             study,
         }),
         Err(refused) => {

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::matching::{MatchAnswer, MatchingSet, Share};
+use crate::draws::Share;
+use crate::matching::{MatchAnswer, MatchingSet};
 
 /// Conflicts and further measurements that tables show.
 const SHOWN: usize = 40;

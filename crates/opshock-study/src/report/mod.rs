@@ -17,6 +17,7 @@ mod match_files;
 mod match_tables;
 pub mod mode_shapes;
 mod outcome_map;
+pub mod populated;
 mod pulse_figures;
 pub mod qualified;
 pub mod run_json;

@@ -5,12 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::input::SweepInput;
 use super::registry::{Registry, uncertainty_asked};
-use super::run_time::{Kind, RunTime, of_none};
+use super::run_time::{Kind, RunTime, of_correction, of_none};
 use crate::search::{Ramp, Verdict};
 
 /// Runs as many as which the model counts against measured ones, of a kind and of all kinds together.
 const MODEL_RUNS: f64 = 2.0;
 const MODEL_RUNS_OF_ALL: f64 = 8.0;
+/// Measured over modelled time that counts at most.
+const MOST_OVER_MODEL: f64 = 3.0;
 /// Runs of a ramp model as many as which the unit by the runs of all ramp models counts.
 const UNIT_RUNS: f64 = 2.0;
 /// Standard deviation of the logarithm of a modelled time before anything was measured.
@@ -45,6 +47,8 @@ pub(super) struct Pace {
     plain_runs: BTreeMap<Ramp, f64>,
     of_kind: BTreeMap<Kind, Sums>,
     of_ramp: BTreeMap<Ramp, Sums>,
+    /// Refinement levels at which the film's defect correction has been sampled.
+    corrections: BTreeSet<i8>,
 }
 
 impl Pace {
@@ -68,9 +72,16 @@ impl Pace {
             }
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // The first run of a ramp model builds what the others share.
-        let mut built = BTreeSet::new();
-        all.retain(|(_, time, _)| !built.insert(time.kind.ramp));
+        // The first run of a ramp model, or with a new defect correction, builds what the others share.
+        let (mut built, mut corrections) = (BTreeSet::new(), BTreeSet::new());
+        all.retain(|(_, time, _)| {
+            let is_first = built.insert(time.kind.ramp);
+            let samples = time
+                .kind
+                .correction()
+                .map(|level| corrections.insert(level));
+            !is_first && samples != Some(true)
+        });
         let mut plain: BTreeMap<Ramp, Sums> = BTreeMap::new();
         for &(_, time, wall_s) in &all {
             if time.kind.is_plain() {
@@ -88,7 +99,10 @@ impl Pace {
                 runs: all.runs + one.runs,
             });
         let none_s = in_none.ratio(0.0, 0.0);
-        let mut pace = Pace::default();
+        let mut pace = Pace {
+            corrections,
+            ..Pace::default()
+        };
         for (&ramp, sums) in &plain {
             let of_all = none_s * of_none(ramp);
             pace.plain_s.insert(ramp, sums.ratio(UNIT_RUNS, of_all));
@@ -100,6 +114,8 @@ impl Pace {
                 continue;
             };
             let modelled_s = plain_s * time.units;
+            // A run that built its scene says little of the next one.
+            let wall_s = wall_s.min(MOST_OVER_MODEL * modelled_s);
             let of_kind = pace.of_kind.entry(kind).or_default();
             let of_ramp = (!kind.is_plain()).then(|| pace.of_ramp.entry(kind.ramp).or_default());
             for sums in [Some(of_kind), of_ramp].into_iter().flatten() {
@@ -133,6 +149,15 @@ impl Pace {
         let of_all = if kind.is_plain() { 1.0 } else { of_all };
         let ratio = sums(self.of_kind.get(&kind)).ratio(MODEL_RUNS, of_all);
         Some(plain_s * time.units * ratio)
+    }
+
+    /// Seconds of sampling the film's defect correction at levels that the sweep has not reached yet.
+    pub(super) fn corrections_s(&self, levels: &BTreeSet<i8>) -> f64 {
+        let Some((ramp, plain_s)) = self.plain_s.first_key_value() else {
+            return 0.0;
+        };
+        let units = levels.difference(&self.corrections).copied();
+        units.map(of_correction).sum::<f64>() * plain_s / of_none(*ramp)
     }
 
     /// Standard deviation of the logarithm of the time of a plain run.

@@ -98,6 +98,18 @@ impl Physics {
         Self::planned(study, Plan::new(&study.plan().outputs, Mode::Full))
     }
 
+    /// Takes the films and structures of `other`, which are built now if need be, for scenes that have the same.
+    #[must_use]
+    pub fn sharing(self, other: &Physics) -> Self {
+        for point in 0..other.points.len() {
+            // A scene that cannot be built has nothing to share.
+            let _ = other.model(point);
+        }
+        let models = lock(&other.shared_models).clone();
+        lock(&self.shared_models).extend(models);
+        self
+    }
+
     fn planned(study: &Study, plan: Plan) -> Self {
         let points = study.table_order().into_iter().map(|place| {
             let point = &study.points[place];

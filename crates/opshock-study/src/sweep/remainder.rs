@@ -4,7 +4,9 @@
 //! and doubled windows, by the code that asks for the real runs. Two things are learnt on the way: the time of each kind
 //! of run (`pace`), and by how much real intervals cost more than made-up ones of the same points, by ramp model.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use opshock_solver::scene::discretisation::Discretisation;
 
 use super::input::SweepInput;
 use super::made_up::{Ended, Random, ended};
@@ -35,6 +37,8 @@ const AHEAD: f64 = 1.9;
 const MOST_AHEAD: f64 = 2.0;
 /// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
 const MADE_UP_POINTS: f64 = 3.0;
+/// Real over made-up cost of an interval before any is finished: that of five studies that refine.
+const MODEL_RATIO: f64 = 0.75;
 /// Standard deviation of the logarithm of the real over the made-up cost of all intervals, before any is finished.
 const MODEL_SPREAD: f64 = 0.4;
 
@@ -59,6 +63,8 @@ struct Interval {
     /// Seconds and runs left.
     left_s: f64,
     runs: usize,
+    /// Refinement levels of the film's defect correction among them.
+    corrections: BTreeSet<i8>,
     /// Seconds of the finished interval, real and made up.
     finished_s: Option<[f64; 2]>,
     /// The critical shock with it.
@@ -161,7 +167,9 @@ fn one_end(
             .get(&one.ramp)
             .map_or(1.0, |factor| factor * one.left_s)
     });
-    let lefts: Vec<f64> = lefts.collect();
+    let corrections = intervals.iter().flat_map(|one| &one.corrections);
+    let sampled_s = pace.corrections_s(&corrections.copied().collect());
+    let lefts: Vec<f64> = std::iter::once(sampled_s).chain(lefts).collect();
     let asked: f64 = intervals
         .iter()
         .map(|one| one.runs as f64 * factors.get(&one.ramp).copied().unwrap_or(1.0))
@@ -251,7 +259,7 @@ fn factors(intervals: &[Interval], z: f64) -> BTreeMap<Ramp, f64> {
     let all = of_ramp.values().fold([0.0; 3], |sum, one| {
         std::array::from_fn(|place| sum[place] + one[place])
     });
-    let of_all = ratio(all, 1.0);
+    let of_all = ratio(all, MODEL_RATIO);
     let spread = MODEL_SPREAD / (1.0 + all[2] / MADE_UP_POINTS).sqrt();
     of_ramp
         .into_iter()
@@ -308,6 +316,7 @@ fn interval(
                 ramp,
                 left_s: 0.0,
                 runs: 0,
+                corrections: BTreeSet::new(),
                 finished_s: Some(finished_s),
                 answer: answer.map(|(answer, _)| answer.clone()),
             });
@@ -318,6 +327,7 @@ fn interval(
             ramp,
             left_s: all_s(&asks),
             runs: asks.len(),
+            corrections: corrections(&asks),
             finished_s: None,
             answer,
         });
@@ -339,9 +349,18 @@ fn interval(
         ramp,
         left_s: all_s(&asks),
         runs: asks.len(),
+        corrections: corrections(&asks),
         finished_s: None,
         answer,
     })
+}
+
+/// Levels at which these runs need the film's defect correction sampled anew.
+fn corrections(asks: &[(Ask, bool)]) -> BTreeSet<i8> {
+    let levels = asks
+        .iter()
+        .map(|(ask, _)| ask.levels.of(Discretisation::FilmCorrection));
+    levels.filter(|&level| level > 0).collect()
 }
 
 /// The point's interval is that of the same point without ramp.

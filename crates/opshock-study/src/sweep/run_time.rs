@@ -13,9 +13,11 @@
 //! | V | factor of a failure, which ends early | 1 for survivors; 0.2 without ramp, or with a rigid one and a positive pulse; else 0.6 up to 1 ms, 0.3 beyond |
 //! | A | factor of a survivor at the amplitude a below the critical one a_c | (a / a_c)^0.45 without ramp; with one 0.25 below the first touch a_t, above it 0.25 + 0.75 ((a - a_t) / (a_c - a_t))^0.5 |
 //! | h, s | shares of the head and of disk and ramp | 0.87, 0 without ramp; 0.78, 0.09 with one |
-//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.65, 0.28, 0.24; 2.4^n |
+//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.7, 0.42, 0.38; 3^n |
 //! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n; 0.8 |
 //! | n | refinement level of the time step of disk and ramp | |
+//!
+//! Sampling the defect correction of the film on 2^n times the cells takes 3 (4^n) units without ramp, once a study.
 //!
 //! The factors were read off the film solves and times of 56 studies of one drive (`opshock new`) with clearances
 //! of 60 to 140 um at the presets coarse and standard, of Fig. 13 and of its variants: tuned numbers, not physics.
@@ -48,6 +50,11 @@ impl Kind {
         self.levels.is_none() && self.window_factor == 1
     }
 
+    /// Refinement level of the film's defect correction, where that is sampled anew.
+    pub(super) fn correction(self) -> Option<i8> {
+        Some(self.levels.of(Discretisation::FilmCorrection)).filter(|&level| level > 0)
+    }
+
     /// Time of head, disk and ramp in units.
     fn relative(self) -> f64 {
         if self.is_plain() {
@@ -59,10 +66,10 @@ impl Kind {
             Ramp::Rigid | Ramp::Deformable => (0.78, 0.09),
         };
         let film = match level(Discretisation::FilmGrid) {
-            ..=-3 => 0.24,
-            -2 => 0.28,
-            -1 => 0.65,
-            finer => 2.4_f64.powi(finer),
+            ..=-3 => 0.38,
+            -2 => 0.42,
+            -1 => 0.7,
+            finer => 3.0_f64.powi(finer),
         };
         let tolerance = match level(Discretisation::HeadTolerance) {
             ..=-1 => 0.8,
@@ -78,6 +85,11 @@ pub(super) fn of_none(ramp: Ramp) -> f64 {
         Ramp::None => 1.0,
         Ramp::Rigid | Ramp::Deformable => 2.1,
     }
+}
+
+/// Units without ramp of sampling the defect correction of a film at a refinement level.
+pub(super) fn of_correction(level: i8) -> f64 {
+    3.0 * 4.0_f64.powi(i32::from(level))
 }
 
 /// Modelled time of a run.

@@ -13,8 +13,7 @@ use opshock_paper::claims::Paper;
 use opshock_solver::scene::Scene;
 use opshock_solver::simulation::Outcome;
 use opshock_study::matching::{
-    Ended, Evaluations, MatchAnswer, MatchProblem, MatchStore, Printed, Stage, WaveReport,
-    forecast, search,
+    Ended, Evaluations, MatchAnswer, MatchProblem, Printed, Stage, WaveReport, forecast, search,
 };
 use opshock_study::provenance;
 use opshock_study::report::{RunJson, STUDY_OF_A_MATCH, match_files, match_text};
@@ -49,7 +48,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?, &Paper)?;
     check_memory(&problem, global)?;
     let folder = stored::folder_of_study(&arguments.file, global);
-    let store = MatchStore::open(&folder, &problem)?;
+    let store = problem.open_store(&folder)?;
     for note in &store.notes {
         console.tell(&format!("warning: {note}"));
     }

@@ -25,6 +25,7 @@ mod mode_shapes;
 mod modes;
 mod new;
 mod plan;
+mod population;
 mod pulse;
 mod qualify;
 mod report;
@@ -87,6 +88,7 @@ enum Command {
     Sweep(sweep::SweepArgs),
     Match(matching::MatchArgs),
     Qualify(qualify::QualifyArgs),
+    Yield(population::YieldArgs),
     Merge(merge::MergeArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
@@ -160,6 +162,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Sweep(arguments) => sweep::run(arguments, &cli.global, console),
         Command::Match(arguments) => matching::run(arguments, &cli.global, console),
         Command::Qualify(arguments) => qualify::run(arguments, &cli.global, console),
+        Command::Yield(arguments) => population::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Claims(arguments) => claims::run(arguments, &cli.global, console),

@@ -9,6 +9,7 @@ mod critical;
 mod data;
 mod main_table;
 mod points;
+pub(super) mod population;
 pub(super) mod qualification;
 mod shock_film;
 mod source;

@@ -1,7 +1,7 @@
-//! Prior distributions of unknown parameters, and points of their ranges.
+//! Distributions of parameters of a study, and points of their ranges.
 //!
 //! A point is given by one number from 0 to 1 for every parameter, its cumulative probability: where these are
-//! uniform and independent, the values are draws of the prior.
+//! uniform and independent, the values are independent draws.
 
 use rand::{Rng as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -14,7 +14,7 @@ pub struct Parameter {
     pub name: String,
     /// Keys, each with the study's own value where values are relative to it.
     pub keys: Vec<(String, Option<f64>)>,
-    /// Its prior distribution.
+    /// Its distribution.
     pub distribution: Distribution,
     /// Probability that the keys are absent from the study, as for a hard contact.
     pub unset_share: f64,
@@ -25,7 +25,7 @@ pub struct Parameter {
     pub start: f64,
 }
 
-/// Prior distribution of a parameter.
+/// Distribution of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
     /// Uniform between two values.
@@ -164,7 +164,7 @@ impl Parameter {
     }
 }
 
-/// Draw number `index` of the prior: independent of all others.
+/// Draw number `index`: independent of all others.
 pub fn draw(seed: u64, index: u64, parameters: usize) -> Vec<f64> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(index);

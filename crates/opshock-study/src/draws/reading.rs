@@ -1,6 +1,6 @@
-//! Reads the parameters of a match file.
+//! Reads distributions of keys: the parameters of a match file, the tolerances of a tolerance file.
 
-use super::prior::{Distribution, Parameter};
+use super::parameter::{Distribution, Parameter};
 use crate::study::table_fields::{Faults, Fields, wrong_kind};
 use crate::study::tree::{Node, Value};
 use crate::study::{SetArg, Study, number_at};
@@ -19,14 +19,19 @@ const PARAMETER: &[&str] = &[
 ];
 const DISTRIBUTIONS: &[&str] = &["uniform", "log_uniform", "normal", "choices"];
 
-/// Reads every `[[parameter]]`; values relative to the study are those of `study`.
-pub(super) fn read(fields: &Fields<'_>, study: &Study, faults: &mut Faults) -> Vec<Parameter> {
+/// Reads every entry of the list `name`; values relative to the study are those of `study`.
+pub(crate) fn read(
+    fields: &Fields<'_>,
+    name: &str,
+    study: &Study,
+    faults: &mut Faults,
+) -> Vec<Parameter> {
     let resolved = study
         .resolved_toml()
         .parse::<toml::Table>()
         .unwrap_or_default();
     let mut parameters: Vec<Parameter> = Vec::new();
-    for (node, path) in fields.list("parameter", faults) {
+    for (node, path) in fields.list(name, faults) {
         let Some(table) = Fields::of(node, &path, PARAMETER, faults) else {
             continue;
         };

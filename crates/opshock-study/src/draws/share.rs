@@ -1,14 +1,14 @@
-//! Shares of the prior, with exact binomial intervals.
+//! Shares of independent draws, with exact binomial intervals.
 
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF as _};
 
-/// A share of the prior.
+/// A share of independent draws.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
     /// Draws that have the property.
     pub with: u64,
-    /// Independent draws of the prior.
+    /// All of them.
     pub of: u64,
     /// Ends of the exact binomial interval of 95 % (Clopper and Pearson 1934, Biometrika 26, 404); where no
     /// draw has the property, or all have it, it is one-sided, about 3/n wide.

@@ -1,0 +1,304 @@
+//! `opshock yield`: tolerance files, the share that survives, and the program from tolerances to its files and exit codes.
+
+use std::path::{Path, PathBuf};
+
+use opshock_study::draws::draw;
+use opshock_study::population::{Counts, Level, Levels, Tolerances, judge};
+use opshock_study::qualification::Verdict;
+use opshock_study::study::Study;
+use statrs::distribution::{ContinuousCDF as _, Normal};
+
+use crate::cli::{COARSE, Done};
+
+fn drive(folder: &Path) -> PathBuf {
+    let file = folder.join("drive.toml");
+    std::fs::write(&file, Study::example("my drive")).expect("written");
+    file
+}
+
+#[test]
+fn every_damaged_tolerance_file_gets_its_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let study = drive(folder.path());
+    let entries = std::fs::read_dir("bad_inputs/tolerances").expect("a folder");
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    files.sort();
+    assert!(files.len() >= 36, "{}", files.len());
+    insta::with_settings!({
+        snapshot_path => "../bad_inputs/tolerances/messages",
+        prepend_module_to_snapshot => false,
+        omit_expression => true,
+    }, {
+        for path in files {
+            let name = path.file_stem().expect("a name").to_str().expect("UTF-8");
+            let refused = Tolerances::from_path(&path, &study, &[]).expect_err(name);
+            let code = name.split('_').next().expect("a code").to_uppercase();
+            assert!(refused.errors.iter().any(|one| one.code == code), "{name}: {refused}");
+            insta::assert_snapshot!(name, refused.to_string());
+        }
+    });
+}
+
+const TOLERANCES: &str = r#"
+tolerances_format = 1
+name = "line 3"
+drives = 3000
+seed = 4
+parts = "parts.csv"
+
+[[tolerance]]
+name = "clearance"
+keys = ["ramp.clearance_um"]
+normal = { mean = 100.0, sd = 5.0, range = [85.0, 115.0] }
+source = "a drawing"
+
+[[tolerance]]
+name = "thickness"
+keys = ["disk.thickness_mm"]
+relative = true
+uniform = [0.98, 1.02]
+source = "a drawing"
+
+[[correlation]]
+between = ["clearance", "thickness"]
+coefficient = -0.5
+"#;
+
+#[test]
+fn drives_have_the_distributions_correlations_and_parts_of_the_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let study = drive(folder.path());
+    let file = folder.path().join("tolerances.toml");
+    std::fs::write(&file, TOLERANCES).expect("written");
+    let parts = "suspension.gram_load_gf,slider.surface.crown_nm\n2.4,10.0\n2.5,14.0\n2.7,9.0\n";
+    std::fs::write(folder.path().join("parts.csv"), parts).expect("written");
+    let tolerances = Tolerances::from_path(&file, &study, &[]).expect("tolerances");
+    let own = Study::from_path(&study, &[])
+        .expect("a study")
+        .resolved_toml();
+    let own: toml::Table = own.parse().expect("TOML");
+    let thickness_mm = own["disk"]["thickness_mm"].as_float().expect("a number");
+    let values: Vec<Vec<f64>> = (0..tolerances.drives)
+        .map(|index| {
+            let values = tolerances.values(&tolerances.draw(index)).into_iter();
+            let numbers = values.map(|(_, text)| text.expect("present").parse().expect("a number"));
+            numbers.collect()
+        })
+        .collect();
+    let n = values.len() as f64;
+    let mean = |of: &dyn Fn(&[f64]) -> f64| values.iter().map(|one| of(one)).sum::<f64>() / n;
+    // Each within five standard errors.
+    assert!((mean(&|v| v[0]) - 100.0).abs() < 5.0 * 5.0 / n.sqrt());
+    let sd = mean(&|v| (v[0] - 100.0).powi(2)).sqrt();
+    // Cut off at three standard deviations, a normal distribution keeps 0.98658 of its own.
+    assert!(
+        (sd / (0.986_58 * 5.0) - 1.0).abs() < 5.0 / (2.0 * n).sqrt(),
+        "{sd}"
+    );
+    let share = |v: &[f64]| (v[1] / thickness_mm - 1.0) / 0.02;
+    assert!(mean(&|v| share(v)).abs() < 5.0 / (3.0 * n).sqrt());
+    // Of a normal variable with a uniform one of the same copula: r sqrt(3 / pi).
+    let both = mean(&|v| (v[0] - 100.0) / sd * share(v) * 3_f64.sqrt());
+    let exact = -0.5 * (3.0 / std::f64::consts::PI).sqrt();
+    assert!((both - exact).abs() < 0.08, "{both} {exact}");
+    let is_part = |v: &[f64]| [[2.4, 10.0], [2.5, 14.0], [2.7, 9.0]].contains(&[v[2], v[3]]);
+    assert!(values.iter().all(|v| is_part(v)));
+    let first = mean(&|v| f64::from(u8::from(v[2] == 2.4)));
+    assert!((first - 1.0 / 3.0).abs() < 5.0 * (2.0 / 9.0 / n).sqrt());
+}
+
+/// A drive whose critical amplitude is known, and the numerical error of its verdicts.
+struct Mock {
+    /// Of the true critical amplitude over the required one, in octaves.
+    octaves: f64,
+    /// What the simulated one is off, octaves.
+    error: f64,
+    /// Half-width of the uncertainty interval, octaves.
+    half_width: f64,
+}
+
+impl Levels for Mock {
+    type Interrupted = std::convert::Infallible;
+
+    fn shock(&mut self, step: i32) -> Result<Level, Self::Interrupted> {
+        let at = f64::from(step) / 8.0;
+        Ok(match at < self.octaves + self.error {
+            true => Level::Survives(None),
+            false => Level::Fails,
+        })
+    }
+
+    fn interval(&mut self) -> Result<Verdict, Self::Interrupted> {
+        let found = self.octaves + self.error;
+        Ok(match () {
+            () if found - self.half_width > 0.0 => Verdict::Passes,
+            () if found + self.half_width < 0.0 => Verdict::Fails,
+            () => Verdict::Undecided,
+        })
+    }
+}
+
+#[test]
+fn stated_shares_hold_the_known_ones_of_300_populations() {
+    let normal = Normal::standard();
+    let mut held = 0;
+    for problem in 0..300_u64 {
+        let random = draw(77, problem, 4);
+        // From one in ten to one in a thousand that fails; drives enough for some to fail.
+        let fails = 10_f64.powf(-1.0 - 2.0 * random[0]);
+        let n = (10.0 / fails) as u64;
+        let spread = 0.1 + 0.3 * random[1];
+        let bias = 0.04 * (random[2] - 0.5);
+        let mean = -spread * normal.inverse_cdf(fails);
+        let verdicts = (0..n).map(|index| {
+            let own = draw(1000 + problem, index, 1)[0];
+            let mut drive = Mock {
+                octaves: mean + spread * normal.inverse_cdf(own.max(1e-16)),
+                error: bias,
+                half_width: 0.03,
+            };
+            let Ok(answer) = judge(&mut drive, false);
+            answer.verdict
+        });
+        let [low, high] = Counts::of(verdicts).survival;
+        held += u32::from((low..=high).contains(&(1.0 - fails)));
+    }
+    println!("{held} of 300");
+    assert!(held >= 276, "{held}");
+}
+
+const LINE: &str = r#"
+tolerances_format = 1
+name = "line 3"
+drives = 6
+fragility_drives = 2
+
+[[tolerance]]
+name = "clearance"
+keys = ["ramp.clearance_um"]
+choices = [60.0, 62.0, 125.0, 150.0]
+source = "a drawing"
+"#;
+
+const SPEC: &str = r#"
+spec_format = 1
+name = "operating shock"
+
+[[requirement]]
+name = "1 ms"
+amplitude_g = 220
+widths_ms = [1.0]
+signs = ["-"]
+"#;
+
+/// The files of a line of drives in a folder.
+fn line(folder: &Path) -> [String; 3] {
+    let tolerances = folder.join("tolerances.toml");
+    std::fs::write(&tolerances, LINE).expect("written");
+    let spec = folder.join("spec.toml");
+    std::fs::write(&spec, SPEC).expect("written");
+    [drive(folder), tolerances, spec].map(|path| path.display().to_string())
+}
+
+fn done(folder: &Path, files: &[String; 3], store: &str, more: &[&str]) -> Done {
+    let [study, tolerances, spec] = files.each_ref().map(String::as_str);
+    let mut all = vec!["yield", study, "--tolerances", tolerances, "--spec", spec];
+    all.extend([
+        "--store",
+        store,
+        "--json",
+        "--set",
+        "ramp.models=[\"rigid\"]",
+    ]);
+    all.extend([
+        "--set",
+        "pulse.widths_ms=[1.0]",
+        "--set",
+        "search.max_refinements=0",
+    ]);
+    all.extend(COARSE);
+    all.extend(more);
+    Done::of(folder, &all)
+}
+
+#[test]
+fn shards_threads_and_a_second_run_give_the_same_answer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = line(folder.path());
+    let store = |name: &str| folder.path().join(name).display().to_string();
+    let (whole, one, two, merged) = (store("whole"), store("one"), store("two"), store("merged"));
+    let out = store("out");
+    let first = done(folder.path(), &files, &whole, &["-j", "3", "--out", &out]);
+    assert_eq!(first.code, 0, "{}", first.stderr);
+    let answer = first.json();
+    let counts =
+        ["passing", "undecided", "failing"].map(|key| answer[key].as_u64().expect("a count"));
+    assert_eq!(counts.iter().sum::<u64>(), 6);
+    assert!(counts[0] > 0 && counts[2] > 0, "{counts:?}");
+    // All is there: nothing is simulated again, and the answer is the same.
+    let again = done(
+        folder.path(),
+        &files,
+        &whole,
+        &["-j", "1", "--at-least", "99.9"],
+    );
+    assert_eq!(
+        (again.code, &again.stdout),
+        (8, &first.stdout),
+        "{}",
+        again.stderr
+    );
+    for (part, store) in [("1/2", &one), ("2/2", &two)] {
+        let shard = done(folder.path(), &files, store, &["--shard", part]);
+        assert_eq!(
+            (shard.code, shard.stdout.as_str()),
+            (0, ""),
+            "{}",
+            shard.stderr
+        );
+    }
+    let united = done(
+        folder.path(),
+        &files,
+        &merged,
+        &["--reuse", &one, "--reuse", &two],
+    );
+    assert_eq!(
+        (united.code, &united.stdout),
+        (0, &first.stdout),
+        "{}",
+        united.stderr
+    );
+    // The worst drive is a study of its own that fails where the population says so.
+    let worst = &answer["worst"][0];
+    let study = format!("{out}/drive-{}.toml", worst["drive"]);
+    let fails_g = worst["bracket_g"][1]
+        .as_f64()
+        .expect("a failure")
+        .to_string();
+    let run = [
+        "run",
+        &study,
+        "--ramp",
+        "rigid",
+        "--pulse-ms",
+        "1",
+        "--sign",
+        "-",
+        "--amplitude-g",
+        &fails_g,
+        "--json",
+    ];
+    let run = Done::of(folder.path(), &run);
+    let run = run.json();
+    assert_eq!(run["verdict"], "fails", "{run}");
+    let csv = std::fs::read_to_string(format!("{out}/yield.csv")).expect("written");
+    assert_eq!(csv.lines().count(), 7);
+    assert!(
+        csv.starts_with("drive,verdict,1 ms,ramp.clearance_um\n"),
+        "{csv}"
+    );
+}
