@@ -16,7 +16,7 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify yield paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify yield worth paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
@@ -80,6 +80,10 @@ yield: build ## share of drives with tolerances that survives a specification, f
 	$(YIELD) studies/yield/tolerances.toml --store results/yield/tight.opshock --out results/yield/tight
 	$(YIELD) studies/yield/tolerances-wide.toml --store results/yield/loose.opshock --out results/yield/loose
 
+.PHONY: worth
+worth: build ## by how much each tolerance changes the critical shocks: results/worth/ (minutes, resumes)
+	$(OPSHOCK) worth studies/worth/study.toml -j $(JOBS) --tolerances studies/worth/tolerances.toml --store results/worth/pairs.opshock --out results/worth
+
 test: bootstrap ## every test (slow ones are in `make verify`)
 	cargo test --workspace --locked
 
@@ -101,7 +105,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast verify-uncertainty ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -142,6 +146,14 @@ verify-match: bootstrap ## planted truths that `opshock match` must keep (20 min
 
 verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
+
+.PHONY: verify-yield
+verify-yield: bootstrap ## verdicts on 40 drives by two shocks against those of their uncertainty intervals (5 minutes; OPSHOCK_SEEDS=first..end for others)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture yield_slow
+
+.PHONY: verify-worth
+verify-worth: bootstrap ## changes by tolerances at the preset coarse against those at standard, and their intervals against separate ones (15 minutes)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture worth_slow
 
 .PHONY: verify-forecast
 verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (13 to 21 minutes of two idle cores; OPSHOCK_SEEDS=first..end for others)

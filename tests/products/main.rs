@@ -61,3 +61,4 @@ mod sweep_sharing;
 mod sweep_trouble;
 mod uncertainty;
 mod vtk_series;
+mod worth;

@@ -1,14 +1,21 @@
 //! `opshock yield`: tolerance files, the share that survives, and the program from tolerances to its files and exit codes.
 
 use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::time::Duration;
 
 use opshock_study::draws::draw;
-use opshock_study::population::{Counts, Level, Levels, Tolerances, judge};
-use opshock_study::qualification::Verdict;
+use opshock_study::population::{
+    Counts, Level, Levels, Part, Population, Tolerances, judge, open_store,
+};
+use opshock_study::qualification::{RequirementVerdict, Spec, Verdict};
 use opshock_study::study::Study;
+use opshock_study::sweep::{Physics, Silent, StopFlag, SweepInput, SweepOptions, sweep};
+use opshock_tests::program::program;
+use opshock_tests::seeded::seeds;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
-use crate::cli::{COARSE, Done};
+use crate::cli::{COARSE, Done, OPSHOCK};
 
 fn drive(folder: &Path) -> PathBuf {
     let file = folder.join("drive.toml");
@@ -203,23 +210,22 @@ fn line(folder: &Path) -> [String; 3] {
     [drive(folder), tolerances, spec].map(|path| path.display().to_string())
 }
 
-fn done(folder: &Path, files: &[String; 3], store: &str, more: &[&str]) -> Done {
+fn arguments<'a>(files: &'a [String; 3], store: &'a str) -> Vec<&'a str> {
     let [study, tolerances, spec] = files.each_ref().map(String::as_str);
     let mut all = vec!["yield", study, "--tolerances", tolerances, "--spec", spec];
-    all.extend([
-        "--store",
-        store,
-        "--json",
-        "--set",
+    all.extend(["--store", store, "--json"]);
+    let sets = [
         "ramp.models=[\"rigid\"]",
-    ]);
-    all.extend([
-        "--set",
         "pulse.widths_ms=[1.0]",
-        "--set",
         "search.max_refinements=0",
-    ]);
+    ];
+    all.extend(sets.iter().flat_map(|set| ["--set", set]));
     all.extend(COARSE);
+    all
+}
+
+fn done(folder: &Path, files: &[String; 3], store: &str, more: &[&str]) -> Done {
+    let mut all = arguments(files, store);
     all.extend(more);
     Done::of(folder, &all)
 }
@@ -301,4 +307,112 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
         csv.starts_with("drive,verdict,1 ms,ramp.clearance_um\n"),
         "{csv}"
     );
+}
+
+#[test]
+fn a_killed_run_goes_on_and_gives_the_same_answer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = line(folder.path());
+    let store = |name: &str| folder.path().join(name).display().to_string();
+    let whole = done(folder.path(), &files, &store("whole"), &["-j", "2"]);
+    let killed = store("killed");
+    let journal = Path::new(&killed).join("journal");
+    let bytes = || std::fs::metadata(&journal).map_or(0, |found| found.len());
+    let mut before = 0;
+    for _ in 0..3 {
+        let mut command = program(OPSHOCK);
+        command.current_dir(folder.path());
+        command.args(arguments(&files, &killed)).args(["-j", "1"]);
+        let mut child = command
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("starts");
+        // Until another drive is on the disk, or all are.
+        while bytes() <= before && child.try_wait().expect("a state").is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        child.kill().expect("kills");
+        child.wait().expect("waits");
+        before = bytes();
+    }
+    let end = done(folder.path(), &files, &killed, &["-j", "2"]);
+    assert_eq!(
+        (end.code, &end.stdout),
+        (0, &whole.stdout),
+        "{}",
+        end.stderr
+    );
+    assert!(before > 0, "the killed runs left nothing");
+}
+
+/// Drives of the loose line that are compared.
+const COMPARED: std::ops::Range<u64> = 0..40;
+
+#[test]
+#[ignore = "slow: 40 drives with every interval, make verify-yield"]
+fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
+    let [study, file, spec] = ["study.toml", "tolerances-wide.toml", "operating.toml"]
+        .map(|name| Path::new("../studies/yield").join(name));
+    let tolerances = Tolerances::from_path(&file, &study, &[]).expect("tolerances");
+    let nominal = Spec::from_path(&spec, &study, &[]).expect("a specification");
+    let nominal = nominal.requirements.iter();
+    let nominal: Vec<Physics> = nominal.map(|one| Physics::of(&one.study)).collect();
+    let range = seeds(COMPARED);
+    let mut few = tolerances;
+    (few.drives, few.fragility_drives) = (range.end, 0);
+    let population = Population {
+        tolerances: &few,
+        spec: &spec,
+        study: &study,
+        nominal: &nominal,
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut store = open_store(folder.path(), &few).expect("a store");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+    let pool = pool.expect("threads");
+    let all = Part { number: 1, of: 1 };
+    let stop = StopFlag::default();
+    let drives = population.simulate(&mut store, all, &pool, &stop, &mut |_, _| {});
+    let drives = drives.unwrap_or_else(|why| panic!("{why:?}"));
+    // Verdict by two shocks, and by the interval: passes, undecided, fails.
+    let mut counts = [[0; 3]; 3];
+    let column = |verdict: Verdict| match verdict {
+        Verdict::Passes => 0,
+        Verdict::Undecided => 1,
+        Verdict::Fails => 2,
+    };
+    for drive in &drives[range.start as usize..] {
+        let sets = few.arguments(&few.draw(drive.index));
+        let spec = Spec::from_path(&spec, &study, &sets).expect("a specification");
+        for (requirement, points) in spec.requirements.iter().zip(&drive.requirements) {
+            let input = SweepInput::of(&requirement.study).expect("input");
+            let physics = Physics::of(&requirement.study);
+            let folder = tempfile::tempdir().expect("a folder");
+            let options = SweepOptions::with_threads(2);
+            let end = sweep(&input, &physics, folder.path(), &options, &Silent).expect("sweeps");
+            let found = RequirementVerdict::of(&end.summary, requirement.required_g());
+            for ((point, by_interval), row) in
+                points.iter().zip(&found.points).zip(&end.summary.points)
+            {
+                if point.by_interval {
+                    continue;
+                }
+                counts[column(point.verdict)][column(by_interval.verdict)] += 1;
+                if point.verdict != by_interval.verdict {
+                    println!(
+                        "drive {}, {}: {} by two shocks, {} by its interval, {:?} +- {:?} G",
+                        drive.index + 1,
+                        row.sign,
+                        point.verdict.as_str(),
+                        by_interval.verdict.as_str(),
+                        row.a_crit_g,
+                        row.uncertainty_g
+                    );
+                }
+            }
+        }
+    }
+    println!("by two shocks (passes, undecided, fails) against the interval: {counts:?}");
+    assert_eq!([counts[0][2], counts[2][0]], [0, 0]);
 }

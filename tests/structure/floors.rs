@@ -83,7 +83,8 @@ const STUDY: &[(&str, u8)] = &[
     ("hard_cases", 4),
     ("qualification", 4),
     ("population", 5),
-    ("report", 6),
+    ("worth", 6),
+    ("report", 7),
 ];
 
 /// Module of the paper's crate, its layer.

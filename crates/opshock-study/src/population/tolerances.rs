@@ -206,11 +206,7 @@ impl Tolerances {
         let mut all = self.sets.clone();
         for (key, text) in self.values(drawn) {
             all.retain(|known| known.key != key);
-            let argument = match text {
-                Some(text) => SetArg::parse(&format!("{key}={text}")),
-                None => SetArg::unset(&key),
-            };
-            all.push(argument.expect("keys are checked when read"));
+            all.push(setting(&key, text));
         }
         all
     }
@@ -222,6 +218,44 @@ impl Tolerances {
     /// The study's faults, such as parts that do not fit one another.
     pub fn study_of(&self, drawn: &[f64]) -> Result<Study, StudyErrors> {
         Study::from_path(&self.study, &self.arguments(drawn))
+    }
+
+    /// The study with one tolerance at both of its `ends` (cumulative probabilities), and its own values of everything else.
+    ///
+    /// # Errors
+    ///
+    /// The study's faults; a tolerance of a key that is an axis of the study.
+    pub fn studies_at(
+        &self,
+        nominal: &Study,
+        place: usize,
+        ends: [f64; 2],
+    ) -> Result<[Study; 2], StudyErrors> {
+        let parameter = &self.parameters[place];
+        let study = |end: f64| {
+            let mut all = self.sets.clone();
+            for (key, text) in parameter.settings(end) {
+                all.retain(|known| known.key != key);
+                all.push(setting(&key, text));
+            }
+            Study::from_path(&self.study, &all)
+        };
+        let [low, high] = ends.map(study);
+        let both = [low?, high?];
+        let labels = |study: &Study| -> Vec<String> {
+            let points = study.table_order().into_iter();
+            points.map(|point| study.points[point].label()).collect()
+        };
+        if both.iter().any(|study| labels(study) != labels(nominal)) {
+            let file = self.path.display().to_string();
+            let message = format!(
+                "tolerance {:?} has a key that is an axis of the study",
+                parameter.name
+            );
+            let fault = StudyError::in_file("E195", &file, message);
+            return Err(fault.allowed("keys with one value in the study").into());
+        }
+        Ok(both)
     }
 
     /// Each tolerance's ends must be values that the study can have, with all others in the middle; and each part.
@@ -267,6 +301,15 @@ impl Tolerances {
             }
         }
     }
+}
+
+/// The argument that sets a key, or takes it away.
+fn setting(key: &str, text: Option<String>) -> SetArg {
+    let argument = match text {
+        Some(text) => SetArg::parse(&format!("{key}={text}")),
+        None => SetArg::unset(key),
+    };
+    argument.expect("keys are checked when read")
 }
 
 /// Whether a key is another one, or a key of that section.

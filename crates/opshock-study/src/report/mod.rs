@@ -28,6 +28,7 @@ pub mod savings;
 pub mod table;
 mod terminal_plot;
 pub mod terms;
+pub mod valued;
 pub mod vtk_files;
 mod vtu;
 

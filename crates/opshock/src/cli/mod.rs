@@ -42,6 +42,7 @@ mod study_file;
 mod sweep;
 mod terminal;
 mod thresholds;
+mod worth;
 
 pub use exit::Exit;
 
@@ -89,6 +90,7 @@ enum Command {
     Match(matching::MatchArgs),
     Qualify(qualify::QualifyArgs),
     Yield(population::YieldArgs),
+    Worth(worth::WorthArgs),
     Merge(merge::MergeArgs),
     Report(report::ReportArgs),
     Figures(figures::FiguresArgs),
@@ -163,6 +165,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Match(arguments) => matching::run(arguments, &cli.global, console),
         Command::Qualify(arguments) => qualify::run(arguments, &cli.global, console),
         Command::Yield(arguments) => population::run(arguments, &cli.global, console),
+        Command::Worth(arguments) => worth::run(arguments, &cli.global, console),
         Command::Report(arguments) => report::run(arguments, &cli.global, console),
         Command::Figures(arguments) => figures::run(arguments, &cli.global, console),
         Command::Claims(arguments) => claims::run(arguments, &cli.global, console),

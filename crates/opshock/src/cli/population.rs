@@ -30,7 +30,7 @@ pub struct YieldArgs {
     /// Specification file: amplitudes, pulses, margins
     #[arg(long, value_name = "FILE")]
     spec: PathBuf,
-    /// Folder for yield.html, .md, .csv, .json, fragility.svg, .png, and the worst drives as studies
+    /// Folder for yield.html, .md, .csv, .json, .svg, .png, and the worst drives as studies
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Share that must survive, per cent: exit code 0 when it is shown, 8 when it is disproved, 4 when neither is

@@ -15,6 +15,7 @@ mod shock_film;
 mod source;
 pub(super) mod text;
 mod words;
+pub(super) mod worth;
 
 pub use shock_film::ShockFilm;
 pub use source::ReportSource;

@@ -88,7 +88,7 @@ pub fn json(populated: &Populated<'_>) -> serde_json::Value {
     value
 }
 
-/// `yield.md`, `.csv`, `.json`, `.html`, `fragility.svg` and `.png`, and `drive-N.toml` for each of the worst drives.
+/// `yield.md`, `.csv`, `.json`, `.html`, `yield.svg` and `.png`, and `drive-N.toml` for each of the worst drives.
 ///
 /// # Errors
 ///
@@ -103,8 +103,8 @@ pub fn populated_files(populated: &Populated<'_>) -> Result<Vec<(String, Vec<u8>
         ("yield.html".to_owned(), page(populated).into_bytes()),
     ];
     if figure.panels.iter().any(|panel| !panel.series.is_empty()) {
-        files.push(("fragility.svg".to_owned(), figure.svg().into_bytes()));
-        files.push(("fragility.png".to_owned(), figure.png()?));
+        files.push(("yield.svg".to_owned(), figure.svg().into_bytes()));
+        files.push(("yield.png".to_owned(), figure.png()?));
     }
     for one in &populated.answer.worst {
         let drawn = populated.tolerances.draw(one.drive - 1);

@@ -1,0 +1,244 @@
+//! A pair of critical shocks, at two values of a key, each at the resolution of the scene and one step coarser in everything.
+//!
+//! With A(x, l) the critical amplitude at value x and refinement level l, the change across the tolerance is
+//! D(l) = A(x₊, l) - A(x₋, l). Its numerical error is the change of D by refinement, not that of A: what both values share
+//! cancels. With D(0), D(-1) and the slowest formal ratio r = 2 of the discretisation parameters
+//!
+//! ```text
+//! D = D(0) ± (w₀ + F (|D(0) - D(-1)| + w₀ + w₋₁) / (r - 1)),   F = 3
+//! ```
+//!
+//! where w are the half-widths of the brackets, and F the factor of safety where no order is observed (Roache 1994, J. Fluids
+//! Eng. 116, 405). D is the whole change between the two values, so that no error of a difference quotient comes in.
+
+/// Neighbouring amplitudes of the brackets are this share apart.
+pub const FINENESS: f64 = 2.5e-4;
+/// Factor of safety.
+const FACTOR: f64 = 3.0;
+/// Slowest formal ratio by which a refinement step divides an error.
+const RATIO: f64 = 2.0;
+/// First stride of a search, and the farthest from its start, in steps: a factor of about 2.7.
+const STRIDE: i32 = 16;
+const FARTHEST: i32 = 4000;
+
+/// Value of the key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The lower one.
+    Low,
+    /// The higher one.
+    High,
+}
+
+/// Whether shocks of the pair are survived.
+pub trait Shaken {
+    /// Why there is no answer, as after a stop.
+    type Interrupted;
+
+    /// At a step of the amplitude grid, on the scene as it is or a step coarser; `None` without verdict.
+    fn survives(
+        &mut self,
+        end: End,
+        is_coarser: bool,
+        step: i32,
+    ) -> Result<Option<bool>, Self::Interrupted>;
+}
+
+/// Neighbouring steps of which the lower is survived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bracket {
+    /// Step that is survived.
+    pub survives: i32,
+    /// Step that fails.
+    pub fails: i32,
+}
+
+/// Brackets of a pair; those that could not be found are missing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pair {
+    /// At the lower value.
+    pub low: Option<Bracket>,
+    /// At the higher value.
+    pub high: Option<Bracket>,
+    /// At the lower value, a step coarser.
+    pub coarser_low: Option<Bracket>,
+    /// At the higher value, a step coarser.
+    pub coarser_high: Option<Bracket>,
+}
+
+/// Middle and half-width of a bracket in G, with the amplitude of a step.
+fn middle(bracket: Bracket, amplitude_g: &dyn Fn(i32) -> f64) -> [f64; 2] {
+    let [low, high] = [bracket.survives, bracket.fails].map(amplitude_g);
+    [0.5 * (low + high), 0.5 * (high - low)]
+}
+
+impl Pair {
+    /// Critical shocks at both values, G.
+    pub fn critical_g(&self, amplitude_g: &dyn Fn(i32) -> f64) -> [Option<f64>; 2] {
+        [self.low, self.high].map(|bracket| Some(middle(bracket?, amplitude_g)[0]))
+    }
+
+    /// Change from the lower to the higher value and its half-width, G.
+    pub fn change_g(&self, amplitude_g: &dyn Fn(i32) -> f64) -> Option<[f64; 2]> {
+        let difference = |low: Option<Bracket>, high: Option<Bracket>| {
+            let [low, high] = [middle(low?, amplitude_g), middle(high?, amplitude_g)];
+            Some([high[0] - low[0], high[1] + low[1]])
+        };
+        let [change, width] = difference(self.low, self.high)?;
+        let [coarser, coarser_width] = difference(self.coarser_low, self.coarser_high)?;
+        let moved = (change - coarser).abs() + width + coarser_width;
+        Some([change, width + FACTOR * moved / (RATIO - 1.0)])
+    }
+}
+
+/// Brackets of a pair, sought from the step `start`.
+///
+/// # Errors
+/// Where a verdict has none to give.
+pub fn find<S: Shaken>(shaken: &mut S, start: i32) -> Result<Pair, S::Interrupted> {
+    let mut pair = Pair {
+        low: bracket(shaken, End::Low, false, start)?,
+        high: bracket(shaken, End::High, false, start)?,
+        ..Pair::default()
+    };
+    if let (Some(low), Some(high)) = (pair.low, pair.high) {
+        pair.coarser_low = bracket(shaken, End::Low, true, low.survives)?;
+        pair.coarser_high = bracket(shaken, End::High, true, high.survives)?;
+    }
+    Ok(pair)
+}
+
+/// Neighbours around the verdicts' change that is met first, in growing strides from `start`.
+fn bracket<S: Shaken>(
+    shaken: &mut S,
+    end: End,
+    is_coarser: bool,
+    start: i32,
+) -> Result<Option<Bracket>, S::Interrupted> {
+    let (mut survives, mut fails) = (None, None);
+    let (mut step, mut stride) = (start, STRIDE);
+    let (mut low, mut high) = loop {
+        match shaken.survives(end, is_coarser, step)? {
+            None => return Ok(None),
+            Some(true) => survives = Some(step),
+            Some(false) => fails = Some(step),
+        }
+        step = match (survives, fails) {
+            (Some(low), Some(high)) => break (low, high),
+            (Some(low), None) => low + stride,
+            (None, Some(high)) => high - stride,
+            (None, None) => return Ok(None),
+        };
+        if (step - start).abs() > FARTHEST {
+            return Ok(None);
+        }
+        stride *= 2;
+    };
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        match shaken.survives(end, is_coarser, middle)? {
+            None => return Ok(None),
+            Some(true) => low = middle,
+            Some(false) => high = middle,
+        }
+    }
+    Ok(Some(Bracket {
+        survives: low,
+        fails: high,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draws::draw;
+
+    /// Critical amplitudes (G) with an error of a size of its own that halves with each level, in part without order, and
+    /// changes with the value.
+    struct Law {
+        critical_g: [f64; 2],
+        error: f64,
+        /// Change of that error between the values, as a share of it.
+        drift: f64,
+        disorder: f64,
+        shocks: u32,
+    }
+
+    fn amplitude_g(step: i32) -> f64 {
+        (f64::from(step) * FINENESS).exp()
+    }
+
+    impl Law {
+        fn at(&self, end: End, level: i32) -> f64 {
+            let (exact_g, sign) = match end {
+                End::Low => (self.critical_g[0], -1.0),
+                End::High => (self.critical_g[1], 1.0),
+            };
+            let flip = if level % 2 == 0 { 1.0 } else { -1.0 };
+            let size = self.error * 0.5_f64.powi(level) * (1.0 + self.disorder * flip);
+            exact_g * (1.0 + size * (1.0 + sign * self.drift))
+        }
+    }
+
+    impl Shaken for Law {
+        type Interrupted = std::convert::Infallible;
+
+        fn survives(
+            &mut self,
+            end: End,
+            is_coarser: bool,
+            step: i32,
+        ) -> Result<Option<bool>, Self::Interrupted> {
+            self.shocks += 1;
+            let level = if is_coarser { -1 } else { 0 };
+            Ok(Some(amplitude_g(step) <= self.at(end, level)))
+        }
+    }
+
+    #[test]
+    fn changes_hold_those_of_100_known_laws_and_are_narrower_than_separate_intervals() {
+        let (mut held, mut narrower) = (0, Vec::new());
+        for index in 0..100 {
+            let random = draw(41, index, 6);
+            let mean_g = 150.0 + 500.0 * random[0];
+            let change_g = 0.2 * mean_g * (random[1] - 0.5);
+            let mut law = Law {
+                critical_g: [mean_g - 0.5 * change_g, mean_g + 0.5 * change_g],
+                error: 0.04 * (random[2] - 0.5),
+                drift: 0.4 * (random[3] - 0.5),
+                disorder: if random[4] < 0.3 {
+                    0.6 * random[5]
+                } else {
+                    0.0
+                },
+                shocks: 0,
+            };
+            let start = ((mean_g * 1.05).ln() / FINENESS) as i32;
+            let Ok(pair) = find(&mut law, start);
+            assert!(law.shocks <= 60, "{}", law.shocks);
+            let [found_g, half_g] = pair.change_g(&amplitude_g).expect("a change");
+            held += u32::from((found_g - change_g).abs() <= half_g);
+            // Separate intervals by the same answers and factor.
+            let of = |end| FACTOR * (law.at(end, 0) - law.at(end, -1)).abs();
+            narrower.push((of(End::Low) + of(End::High)) / half_g);
+        }
+        narrower.sort_by(f64::total_cmp);
+        println!("{held} of 100, {} times narrower", narrower[50]);
+        assert!(held >= 89, "{held}");
+        assert!(narrower[50] >= 3.0, "{}", narrower[50]);
+    }
+
+    #[test]
+    fn a_critical_shock_out_of_reach_leaves_the_change_open() {
+        let mut law = Law {
+            critical_g: [100.0, 5000.0],
+            error: 0.0,
+            drift: 0.0,
+            disorder: 0.0,
+            shocks: 0,
+        };
+        let Ok(pair) = find(&mut law, (110_f64.ln() / FINENESS) as i32);
+        assert!(pair.low.is_some() && pair.high.is_none());
+        assert_eq!(pair.change_g(&amplitude_g), None);
+    }
+}

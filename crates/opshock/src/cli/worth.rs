@@ -1,0 +1,154 @@
+//! `opshock worth`: by how much does a tolerance change the critical shock? Run again, it resumes.
+
+use super::console::Console;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::global::GlobalArgs;
+use super::{memory, mode_shapes, stored, study_file, sweep};
+use anyhow::Context as _;
+use clap::Args;
+use opshock_study::population::{Interrupted, Tolerances};
+use opshock_study::provenance;
+use opshock_study::report::valued::{self, Valued};
+use opshock_study::store::aside;
+use opshock_study::store::summary::Status;
+use opshock_study::study::{SetArg, Study};
+use opshock_study::sweep::{
+    Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep as sweep_study,
+};
+use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Find out by how much each tolerance changes the critical shocks of a study; run again, it resumes
+#[derive(Args, Debug)]
+pub struct WorthArgs {
+    /// Study file
+    study: PathBuf,
+    /// Tolerance file: distributions of keys
+    #[arg(long, value_name = "FILE")]
+    tolerances: PathBuf,
+    /// Folder for worth.html, .md, .csv and .json
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Start nothing new after this time, save and end with exit code 5, as 7h30m
+    #[arg(long, value_name = "TIME", value_parser = sweep::duration)]
+    budget: Option<Duration>,
+}
+
+/// Time between two lines of progress.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+/// Settings laid over the study: the pairs have uncertainties of their own.
+const SETS: [&str; 2] = ["search.uncertainty=false", "outputs=[\"critical_shock\"]"];
+
+/// Runs the command.
+pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
+    let out = arguments.out.as_deref();
+    out.map_or(Ok(()), |out| mode_shapes::check_folder("--out", out))?;
+    let study = study_file::read(&arguments.study, global, console)?;
+    let mut sets = study_file::sets(global)?;
+    for text in SETS {
+        let argument = SetArg::parse(text).context("a setting")?;
+        sets.retain(|known| known.key != argument.key);
+        sets.push(argument);
+    }
+    let nominal = Study::from_path(&arguments.study, &sets)?;
+    let tolerances = Tolerances::from_path(&arguments.tolerances, &arguments.study, &sets)?;
+    study_file::refuse_unaccepted(&nominal, global)?;
+    memory::of_sweep(&nominal).check("the sweep", global.threads(), memory::available_bytes())?;
+    let places = 0..tolerances.parameters.len();
+    let ends = places.map(|place| tolerances.studies_at(&nominal, place, ENDS));
+    let ends: Vec<[Study; 2]> = ends.collect::<Result<_, _>>()?;
+    let folder = match &global.store {
+        Some(folder) => folder.clone(),
+        None => stored::folder_of_study(&arguments.study, global).with_extension("worth"),
+    };
+    let mut store = open_store(&folder, &tolerances)?;
+    for note in &store.notes {
+        console.tell(&format!("warning: {note}"));
+    }
+    let stop = StopFlag::default();
+    stop.listen().context("cannot listen to signals")?;
+    let began = Instant::now();
+    let stopped = || {
+        console.tell(
+            "saved, without an answer, and nothing written into --out; run the same command again to go on",
+        );
+        let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
+        signal.map_or(Exit::Budget, Exit::Signal)
+    };
+    // Where the pairs begin: the critical shocks of the study itself.
+    let input = SweepInput::of(&nominal).context("the study has no amplitudes to search")?;
+    let options = SweepOptions {
+        stop: stop.clone(),
+        budget: arguments.budget,
+        ..SweepOptions::with_threads(global.threads())
+    };
+    let kind = match console.quiet {
+        true => ProgressKind::Warnings,
+        false => global.progress.into(),
+    };
+    let progress = kind.start(&nominal.name);
+    let physics = Physics::of(&nominal);
+    let critical = folder.join("critical");
+    let end = sweep_study(&input, &physics, &critical, &options, progress.as_ref())?;
+    if end.ending != Ending::Complete {
+        return Ok(stopped());
+    }
+    let rows = end.summary.points.iter();
+    let starts_g = rows.map(|row| row.survived_g.filter(|_| row.status == Status::Ok));
+    let starts_g: Vec<Option<f64>> = starts_g.collect();
+    let mut last_line = began;
+    let mut told = |done: u64, of: u64| {
+        if arguments
+            .budget
+            .is_some_and(|budget| began.elapsed() >= budget)
+        {
+            stop.ask();
+        }
+        if last_line.elapsed() >= BETWEEN_LINES && !console.quiet {
+            last_line = Instant::now();
+            console.tell(&format!(
+                "{done} of {of} pairs, {} s",
+                began.elapsed().as_secs()
+            ));
+        }
+    };
+    let worth = Worth {
+        ends: &ends,
+        nominal: &nominal,
+        starts_g: &starts_g,
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(global.threads());
+    let pool = pool.build().context("cannot start threads")?;
+    let pairs = match worth.simulate(&mut store, &pool, &stop, &mut told) {
+        Ok(pairs) => pairs,
+        Err(Interrupted::Store(error)) => return Err(error.into()),
+        Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),
+    };
+    let answer = WorthAnswer::of(&tolerances, &nominal, &pairs);
+    let valued = Valued {
+        study: &study.name,
+        drive: &format!("{}{}", arguments.study.display(), sweep::settings(global)),
+        program: &provenance::program(),
+        tolerances: &tolerances.text,
+        answer: &answer,
+    };
+    if let Some(out) = out {
+        for path in aside::write_all(out, valued::valued_files(&valued))? {
+            console.tell(&format!("wrote {}", path.display()));
+        }
+    }
+    if console.json {
+        console.result_json(&valued::json(&valued))?;
+    } else {
+        console.result(&valued::text(&valued))?;
+    }
+    let is_open = |row: &opshock_study::worth::WorthRow| {
+        row.changes.iter().any(|change| change.change_g.is_none())
+    };
+    Ok(match answer.rows.iter().any(is_open) {
+        true => Exit::Open,
+        false => Exit::Complete,
+    })
+}
