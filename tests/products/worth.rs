@@ -4,7 +4,6 @@ use std::path::Path;
 
 use opshock_study::population::Tolerances;
 use opshock_study::search::AmplitudeGrid;
-use opshock_study::store::summary::Status;
 use opshock_study::study::{SetArg, Study};
 use opshock_study::sweep::{Physics, Silent, StopFlag, SweepInput, SweepOptions, sweep};
 use opshock_study::worth::{ENDS, FINENESS, Pair, Worth, open_store};
@@ -101,30 +100,15 @@ fn pairs(preset: &str) -> (Tolerances, Vec<[Study; 2]>, Vec<Vec<Pair>>) {
     });
     let ends: Vec<[Study; 2]> = ends.collect();
     let folder = tempfile::tempdir().expect("a folder");
-    let input = SweepInput::of(&nominal).expect("input");
     let options = SweepOptions::with_threads(2);
-    let physics = Physics::of(&nominal);
-    let found = sweep(
-        &input,
-        &physics,
-        &folder.path().join("critical"),
-        &options,
-        &Silent,
-    );
-    let found = found.expect("sweeps").summary;
-    let starts = found.points.iter();
-    let starts: Vec<Option<f64>> = starts
-        .map(|row| row.survived_g.filter(|_| row.status == Status::Ok))
-        .collect();
+    let worth = Worth::new(&nominal, &ends);
+    let starts = worth.starts(folder.path(), &options, &Silent);
+    let starts = starts.unwrap_or_else(|why| panic!("{why:?}"));
     let mut store = open_store(folder.path(), &tolerances).expect("a store");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
-    let worth = Worth {
-        ends: &ends,
-        nominal: &nominal,
-        starts_g: &starts,
-    };
     let stop = StopFlag::default();
-    let found = worth.simulate(&mut store, &pool.expect("threads"), &stop, &mut |_, _| {});
+    let pool = pool.expect("threads");
+    let found = worth.simulate(&starts, &mut store, &pool, &stop, &mut |_, _| {});
     (
         tolerances,
         ends.clone(),

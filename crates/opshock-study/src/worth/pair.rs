@@ -91,14 +91,14 @@ impl Pair {
     }
 }
 
-/// Brackets of a pair, sought from the step `start`.
+/// Brackets of a pair, sought from a step at the lower and at the higher value.
 ///
 /// # Errors
 /// Where a verdict has none to give.
-pub fn find<S: Shaken>(shaken: &mut S, start: i32) -> Result<Pair, S::Interrupted> {
+pub fn find<S: Shaken>(shaken: &mut S, starts: [i32; 2]) -> Result<Pair, S::Interrupted> {
     let mut pair = Pair {
-        low: bracket(shaken, End::Low, false, start)?,
-        high: bracket(shaken, End::High, false, start)?,
+        low: bracket(shaken, End::Low, false, starts[0])?,
+        high: bracket(shaken, End::High, false, starts[1])?,
         ..Pair::default()
     };
     if let (Some(low), Some(high)) = (pair.low, pair.high) {
@@ -214,7 +214,7 @@ mod tests {
                 shocks: 0,
             };
             let start = ((mean_g * 1.05).ln() / FINENESS) as i32;
-            let Ok(pair) = find(&mut law, start);
+            let Ok(pair) = find(&mut law, [start; 2]);
             assert!(law.shocks <= 60, "{}", law.shocks);
             let [found_g, half_g] = pair.change_g(&amplitude_g).expect("a change");
             held += u32::from((found_g - change_g).abs() <= half_g);
@@ -237,7 +237,7 @@ mod tests {
             disorder: 0.0,
             shocks: 0,
         };
-        let Ok(pair) = find(&mut law, (110_f64.ln() / FINENESS) as i32);
+        let Ok(pair) = find(&mut law, [(110_f64.ln() / FINENESS) as i32; 2]);
         assert!(pair.low.is_some() && pair.high.is_none());
         assert_eq!(pair.change_g(&amplitude_g), None);
     }

@@ -12,22 +12,27 @@ use super::pair::{Bracket, End, FINENESS, Pair, Shaken, find};
 use crate::population::{Interrupted, Tolerances};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::{AmplitudeGrid, Probe, Verdict};
+use crate::store::summary::Status;
 use crate::store::{NumberStore, Numbers, PointDigest, StoreError};
 use crate::study::{Point, Study};
-use crate::sweep::{Physics, Simulator as _, StopFlag};
+use crate::sweep::{
+    Ending, Physics, Progress, Simulator as _, StopFlag, SweepInput, SweepOptions, sweep,
+};
 
 /// Cumulative probabilities of the two values: one standard deviation of a normal distribution either way.
 pub const ENDS: [f64; 2] = [0.158_655_253_931_457, 0.841_344_746_068_543];
 
 /// Pairs to be simulated.
 pub struct Worth<'a> {
-    /// The tolerances, each with its studies at both values.
-    pub ends: &'a [[Study; 2]],
-    /// The study itself: what the pairs have in common with it is built once.
-    pub nominal: &'a Study,
-    /// Amplitudes from which critical shocks are sought, by point in the order of tables, G; without one a point has no pair.
-    pub starts_g: &'a [Option<f64>],
+    nominal: &'a Study,
+    /// By tolerance, at both values.
+    ends: &'a [[Study; 2]],
+    physics: Vec<[Physics; 2]>,
 }
+
+/// Amplitudes from which critical shocks are sought, G: by tolerance, value, and point in the order of tables. A point without one
+/// has no pair.
+pub type Starts = Vec<[Vec<Option<f64>>; 2]>;
 
 /// Opens or makes the store of pairs in `folder`.
 ///
@@ -43,7 +48,51 @@ pub(super) fn grid() -> AmplitudeGrid {
     AmplitudeGrid::for_tolerance(FINENESS).expect("a tolerance of a grid")
 }
 
-impl Worth<'_> {
+impl<'a> Worth<'a> {
+    /// Of a study, and of its studies at both values of every tolerance ([`Tolerances::studies_at`]); what they have in common
+    /// is built once.
+    pub fn new(nominal: &'a Study, ends: &'a [[Study; 2]]) -> Self {
+        let own = Physics::of(nominal);
+        let of_study = |study: &Study| Physics::of(study).sharing(&own);
+        let physics = ends.iter().map(|ends| ends.each_ref().map(of_study));
+        Self {
+            nominal,
+            ends,
+            physics: physics.collect(),
+        }
+    }
+
+    /// Critical shocks of every study, with the scan for earlier failures of any sweep; each in a store of its own in `folder`.
+    ///
+    /// # Errors
+    /// A stop, or a store that cannot be written. What was finished is kept.
+    pub fn starts(
+        &self,
+        folder: &Path,
+        options: &SweepOptions,
+        progress: &dyn Progress,
+    ) -> Result<Starts, Interrupted> {
+        let one = |tolerance: usize, end: usize| {
+            let study = &self.ends[tolerance][end];
+            // The command has checked the amplitudes of the study itself.
+            let input = SweepInput::of(study).map_err(|_| Interrupted::Stopped)?;
+            let name = format!("{}-{}", tolerance + 1, ["low", "high"][end]);
+            let physics = &self.physics[tolerance][end];
+            let swept = sweep(&input, physics, &folder.join(name), options, progress);
+            let swept = swept.map_err(Interrupted::Store)?;
+            if swept.ending != Ending::Complete {
+                return Err(Interrupted::Stopped);
+            }
+            let rows = swept.summary.points.into_iter();
+            Ok(rows
+                .map(|row| row.survived_g.filter(|_| row.status == Status::Ok))
+                .collect())
+        };
+        (0..self.ends.len())
+            .map(|tolerance| Ok([one(tolerance, 0)?, one(tolerance, 1)?]))
+            .collect()
+    }
+
     /// The pairs by tolerance and point; those that the store lacks are simulated by the threads of `pool`.
     /// `progress` is told how many of how many are there.
     ///
@@ -51,21 +100,13 @@ impl Worth<'_> {
     /// A stop, or a store that cannot be written. What was finished is kept.
     pub fn simulate(
         &self,
+        starts: &Starts,
         store: &mut NumberStore,
         pool: &rayon::ThreadPool,
         stop: &StopFlag,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Vec<Vec<Pair>>, Interrupted> {
-        let nominal = Physics::of(self.nominal);
-        let physics: Vec<[Physics; 2]> = self
-            .ends
-            .iter()
-            .map(|ends| {
-                ends.each_ref()
-                    .map(|study| Physics::of(study).sharing(&nominal))
-            })
-            .collect();
-        let n_points = self.starts_g.len();
+        let n_points = self.nominal.points.len();
         let tasks: Vec<(usize, usize)> = (0..self.ends.len())
             .flat_map(|tolerance| (0..n_points).map(move |point| (tolerance, point)))
             .collect();
@@ -77,7 +118,7 @@ impl Worth<'_> {
             scope.spawn(|| {
                 let one = |sender: &mut crossbeam_channel::Sender<_>, task: &(usize, usize)| {
                     if !is_over.load(Ordering::Relaxed) && !stop.is_asked() {
-                        let found = self.pair(*task, &physics[task.0], known, stop);
+                        let found = self.pair(*task, &starts[task.0], known, stop);
                         // The receiver goes only when all is over.
                         let _ = sender.send((*task, found));
                     }
@@ -115,30 +156,31 @@ impl Worth<'_> {
     fn pair(
         &self,
         (tolerance, place): (usize, usize),
-        physics: &[Physics; 2],
+        starts: &[Vec<Option<f64>>; 2],
         known: &HashMap<PointDigest, Numbers>,
         stop: &StopFlag,
     ) -> Result<(Pair, Option<(PointDigest, Numbers)>), Interrupted> {
-        let Some(start_g) = self.starts_g[place] else {
+        let [Some(low_g), Some(high_g)] = starts.each_ref().map(|of_points| of_points[place])
+        else {
             return Ok((Pair::default(), None));
         };
         let points = self.ends[tolerance].each_ref().map(|study| {
             let order = study.table_order();
             &study.points[order[place]]
         });
-        let start = grid().nearest(start_g);
-        let key = key(self.nominal, points, start);
+        let starts = [low_g, high_g].map(|start_g| grid().nearest(start_g));
+        let key = key(self.nominal, points, starts);
         if let Some(pair) = known.get(&key).and_then(decode) {
             return Ok((pair, None));
         }
         let mut simulated = Simulated {
-            physics,
+            physics: &self.physics[tolerance],
             place,
             sign: points[0].sign.factor(),
             has_mesh: points[0].remeshed.is_some(),
             stop,
         };
-        let pair = find(&mut simulated, start)?;
+        let pair = find(&mut simulated, starts)?;
         Ok((pair, Some((key, encode(&pair)))))
     }
 }
@@ -188,9 +230,9 @@ impl Shaken for Simulated<'_> {
 }
 
 /// Content of everything that a pair depends on.
-fn key(nominal: &Study, points: [&Point; 2], start: i32) -> PointDigest {
+fn key(nominal: &Study, points: [&Point; 2], starts: [i32; 2]) -> PointDigest {
     let mut hasher = blake3::Hasher::new();
-    let versions = format!("opshock worth 1 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {start}");
+    let versions = format!("opshock worth 1 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {starts:?}");
     hasher.update(versions.as_bytes());
     // Effects and outputs of the study.
     hasher.update(&nominal.digest);

@@ -11,11 +11,8 @@ use opshock_study::population::{Interrupted, Tolerances};
 use opshock_study::provenance;
 use opshock_study::report::valued::{self, Valued};
 use opshock_study::store::aside;
-use opshock_study::store::summary::Status;
 use opshock_study::study::{SetArg, Study};
-use opshock_study::sweep::{
-    Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions, sweep as sweep_study,
-};
+use opshock_study::sweep::{ProgressKind, StopFlag, SweepInput, SweepOptions};
 use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -77,8 +74,8 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
         let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
         signal.map_or(Exit::Budget, Exit::Signal)
     };
-    // Where the pairs begin: the critical shocks of the study itself.
-    let input = SweepInput::of(&nominal).context("the study has no amplitudes to search")?;
+    // Where the pairs begin: critical shocks as a sweep finds them.
+    SweepInput::of(&nominal).context("the study has no amplitudes to search")?;
     let options = SweepOptions {
         stop: stop.clone(),
         budget: arguments.budget,
@@ -89,15 +86,12 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
         false => global.progress.into(),
     };
     let progress = kind.start(&nominal.name);
-    let physics = Physics::of(&nominal);
-    let critical = folder.join("critical");
-    let end = sweep_study(&input, &physics, &critical, &options, progress.as_ref())?;
-    if end.ending != Ending::Complete {
-        return Ok(stopped());
-    }
-    let rows = end.summary.points.iter();
-    let starts_g = rows.map(|row| row.survived_g.filter(|_| row.status == Status::Ok));
-    let starts_g: Vec<Option<f64>> = starts_g.collect();
+    let worth = Worth::new(&nominal, &ends);
+    let starts = match worth.starts(&folder.join("critical"), &options, progress.as_ref()) {
+        Ok(starts) => starts,
+        Err(Interrupted::Store(error)) => return Err(error.into()),
+        Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),
+    };
     let mut last_line = began;
     let mut told = |done: u64, of: u64| {
         if arguments
@@ -114,14 +108,9 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
             ));
         }
     };
-    let worth = Worth {
-        ends: &ends,
-        nominal: &nominal,
-        starts_g: &starts_g,
-    };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(global.threads());
     let pool = pool.build().context("cannot start threads")?;
-    let pairs = match worth.simulate(&mut store, &pool, &stop, &mut told) {
+    let pairs = match worth.simulate(&starts, &mut store, &pool, &stop, &mut told) {
         Ok(pairs) => pairs,
         Err(Interrupted::Store(error)) => return Err(error.into()),
         Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),
