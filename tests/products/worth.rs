@@ -5,7 +5,9 @@ use std::path::Path;
 use opshock_study::population::Tolerances;
 use opshock_study::search::AmplitudeGrid;
 use opshock_study::study::{SetArg, Study};
-use opshock_study::sweep::{Physics, Silent, StopFlag, SweepInput, SweepOptions, sweep};
+use opshock_study::sweep::{
+    Physics, ProgressKind, Silent, StopFlag, SweepInput, SweepOptions, sweep,
+};
 use opshock_study::worth::{ENDS, FINENESS, Pair, Worth, open_store};
 
 use crate::cli::{COARSE, Done};
@@ -102,7 +104,7 @@ fn pairs(preset: &str) -> (Tolerances, Vec<[Study; 2]>, Vec<Vec<Pair>>) {
     let folder = tempfile::tempdir().expect("a folder");
     let options = SweepOptions::with_threads(2);
     let worth = Worth::new(&nominal, &ends);
-    let starts = worth.starts(folder.path(), &options, &Silent);
+    let starts = worth.starts(folder.path(), &options, ProgressKind::Warnings);
     let starts = starts.unwrap_or_else(|why| panic!("{why:?}"));
     let mut store = open_store(folder.path(), &tolerances).expect("a store");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();

@@ -1,4 +1,4 @@
-//! What each tolerance is worth: the change of every critical shock across it, the largest first.
+//! What each tolerance is worth: the change of every critical shock across it, the largest certain one first.
 
 use serde::Serialize;
 
@@ -36,16 +36,24 @@ pub struct WorthRow {
 }
 
 impl WorthRow {
-    /// The change that is largest.
+    /// The change of which most is certain: the end of its interval that is nearer to 0 is farthest from it.
     pub fn largest(&self) -> Option<&Change> {
         let known = self
             .changes
             .iter()
             .filter(|change| change.change_g.is_some());
-        known.max_by(|a, b| {
-            let size = |change: &Change| change.change_g.unwrap_or(0.0).abs();
-            size(a).total_cmp(&size(b))
-        })
+        known.max_by(|a, b| a.certain_g().total_cmp(&b.certain_g()))
+    }
+
+    fn certain_g(&self) -> f64 {
+        self.largest().map_or(f64::NEG_INFINITY, Change::certain_g)
+    }
+}
+
+impl Change {
+    /// The least that it may be, either way, G; below 0 where its interval holds 0.
+    fn certain_g(&self) -> f64 {
+        self.change_g.unwrap_or(0.0).abs() - self.uncertainty_g.unwrap_or(0.0)
     }
 }
 
@@ -54,7 +62,7 @@ impl WorthRow {
 pub struct WorthAnswer {
     /// Name of the tolerance file.
     pub name: String,
-    /// By tolerance, the largest change first.
+    /// By tolerance, the one with the largest certain change first.
     pub rows: Vec<WorthRow>,
 }
 
@@ -93,13 +101,7 @@ impl WorthAnswer {
                 }
             })
             .collect();
-        let size = |row: &WorthRow| {
-            row.largest()
-                .and_then(|change| change.change_g)
-                .unwrap_or(0.0)
-                .abs()
-        };
-        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        rows.sort_by(|a, b| b.certain_g().total_cmp(&a.certain_g()));
         WorthAnswer {
             name: tolerances.name.clone(),
             rows,

@@ -16,7 +16,7 @@ use crate::store::summary::Status;
 use crate::store::{NumberStore, Numbers, PointDigest, StoreError};
 use crate::study::{Point, Study};
 use crate::sweep::{
-    Ending, Physics, Progress, Simulator as _, StopFlag, SweepInput, SweepOptions, sweep,
+    Ending, Physics, ProgressKind, Simulator as _, StopFlag, SweepInput, SweepOptions, sweep,
 };
 
 /// Cumulative probabilities of the two values: one standard deviation of a normal distribution either way.
@@ -70,7 +70,7 @@ impl<'a> Worth<'a> {
         &self,
         folder: &Path,
         options: &SweepOptions,
-        progress: &dyn Progress,
+        progress: ProgressKind,
     ) -> Result<Starts, Interrupted> {
         let one = |tolerance: usize, end: usize| {
             let study = &self.ends[tolerance][end];
@@ -78,7 +78,14 @@ impl<'a> Worth<'a> {
             let input = SweepInput::of(study).map_err(|_| Interrupted::Stopped)?;
             let name = format!("{}-{}", tolerance + 1, ["low", "high"][end]);
             let physics = &self.physics[tolerance][end];
-            let swept = sweep(&input, physics, &folder.join(name), options, progress);
+            let progress = progress.start(&name);
+            let swept = sweep(
+                &input,
+                physics,
+                &folder.join(&name),
+                options,
+                progress.as_ref(),
+            );
             let swept = swept.map_err(Interrupted::Store)?;
             if swept.ending != Ending::Complete {
                 return Err(Interrupted::Stopped);

@@ -85,9 +85,8 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
         true => ProgressKind::Warnings,
         false => global.progress.into(),
     };
-    let progress = kind.start(&nominal.name);
     let worth = Worth::new(&nominal, &ends);
-    let starts = match worth.starts(&folder.join("critical"), &options, progress.as_ref()) {
+    let starts = match worth.starts(&folder.join("critical"), &options, kind) {
         Ok(starts) => starts,
         Err(Interrupted::Store(error)) => return Err(error.into()),
         Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),

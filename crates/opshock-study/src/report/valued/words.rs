@@ -72,7 +72,7 @@ impl Valued<'_> {
             "tolerance",
             "from",
             "to",
-            "largest change (G)",
+            "largest certain change (G)",
             "per unit of the key (G)",
             "at",
             "points with a change",
