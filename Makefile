@@ -148,7 +148,7 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-yield
-verify-yield: bootstrap ## verdicts on 40 drives by two shocks against those of their uncertainty intervals (5 minutes; OPSHOCK_SEEDS=first..end for others)
+verify-yield: bootstrap ## verdicts on 40 drives by two shocks against those of their uncertainty intervals (20 minutes; OPSHOCK_SEEDS=first..end for others)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture yield_slow
 
 .PHONY: verify-worth

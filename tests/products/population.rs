@@ -10,7 +10,7 @@ use opshock_study::population::{
 };
 use opshock_study::qualification::{RequirementVerdict, Spec, Verdict};
 use opshock_study::study::Study;
-use opshock_study::sweep::{Physics, Silent, StopFlag, SweepInput, SweepOptions, sweep};
+use opshock_study::sweep::{Physics, Silent, SweepInput, SweepOptions, Until, sweep};
 use opshock_tests::program::program;
 use opshock_tests::seeded::seeds;
 use statrs::distribution::{ContinuousCDF as _, Normal};
@@ -237,8 +237,14 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
     let store = |name: &str| folder.path().join(name).display().to_string();
     let (whole, one, two, merged) = (store("whole"), store("one"), store("two"), store("merged"));
     let out = store("out");
+    // Of a former answer, and somebody's own.
+    std::fs::create_dir(&out).expect("a folder");
+    let old = ["drive-7.toml", "drive-8.toml"].map(|name| Path::new(&out).join(name));
+    std::fs::write(&old[0], "# opshock yield: drive 7 of").expect("written");
+    std::fs::write(&old[1], "# drive 8").expect("written");
     let first = done(folder.path(), &files, &whole, &["-j", "3", "--out", &out]);
     assert_eq!(first.code, 0, "{}", first.stderr);
+    assert_eq!(old.each_ref().map(|path| path.exists()), [false, true]);
     let answer = first.json();
     let counts =
         ["passing", "undecided", "failing"].map(|key| answer[key].as_u64().expect("a count"));
@@ -249,7 +255,7 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
         folder.path(),
         &files,
         &whole,
-        &["-j", "1", "--at-least", "99.9"],
+        &["-j", "1", "--at-least", "99.9", "--budget", "0s"],
     );
     assert_eq!(
         (again.code, &again.stdout),
@@ -257,6 +263,9 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
         "{}",
         again.stderr
     );
+    // A part of the drives has no answer to be judged.
+    let judged = ["--shard", "1/2", "--at-least", "90"];
+    assert_eq!(done(folder.path(), &files, &one, &judged).code, 2);
     for (part, store) in [("1/2", &one), ("2/2", &two)] {
         let shard = done(folder.path(), &files, store, &["--shard", part]);
         assert_eq!(
@@ -369,11 +378,8 @@ fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let mut store = open_store(folder.path(), &few).expect("a store");
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
-    let pool = pool.expect("threads");
     let all = Part { number: 1, of: 1 };
-    let stop = StopFlag::default();
-    let drives = population.simulate(&mut store, all, &pool, &stop, &mut |_, _| {});
+    let drives = population.simulate(&mut store, all, 2, &Until::default(), |_, _| {});
     let drives = drives.unwrap_or_else(|why| panic!("{why:?}"));
     // Verdict by two shocks, and by the interval: passes, undecided, fails.
     let mut counts = [[0; 3]; 3];

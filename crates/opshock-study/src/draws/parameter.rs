@@ -129,6 +129,23 @@ impl Parameter {
         }
     }
 
+    /// Probabilities that give its extreme values, the absent one, and every choice.
+    pub fn extremes(&self) -> Vec<f64> {
+        let of_values = match &self.distribution {
+            Distribution::Choices(list) => {
+                let n = list.len() as f64;
+                (0..list.len())
+                    .map(|place| (place as f64 + 0.5) / n)
+                    .collect()
+            }
+            _ => vec![0.0, 1.0],
+        };
+        let present = of_values.into_iter();
+        let present = present.map(|p| self.unset_share + (1.0 - self.unset_share) * p);
+        let absent = (self.unset_share > 0.0).then_some(0.0);
+        absent.into_iter().chain(present).collect()
+    }
+
     /// The middle of the probabilities that give the same choice; a number's probability is unchanged.
     pub fn middle_of_choice(&self, probability: f64) -> f64 {
         match self.choices().len() {

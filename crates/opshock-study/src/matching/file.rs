@@ -8,7 +8,6 @@ use super::observation::{Observation, Stage};
 use super::observed;
 use super::statements::Statements;
 use crate::draws::{self, Parameter};
-use crate::study::source::{Origin, Source};
 use crate::study::table_fields::{Faults, Fields};
 use crate::study::text_file;
 use crate::study::tree;
@@ -99,9 +98,7 @@ impl MatchProblem {
         sets: &[SetArg],
         statements: &'static dyn Statements,
     ) -> Result<Self, StudyErrors> {
-        let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
-        let source = Source::new(path.display().to_string(), text.clone());
-        let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        let (text, root) = tree::read(path)?;
         let mut faults = Faults::new();
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         let Some(fields) = Fields::of(&root, "", TOP, &mut faults) else {

@@ -1,9 +1,11 @@
 //! Answer of a population: shares that survive, fragility, sensitivities, the worst drives.
 
+use std::cmp::Ordering;
+
 use serde::Serialize;
 
 use super::fragility::Fragility;
-use super::level::{CONFIRMED, LevelAnswer};
+use super::level::LevelAnswer;
 use super::sensitivity::Sensitivity;
 use super::tolerances::Tolerances;
 use crate::draws::Share;
@@ -36,26 +38,35 @@ impl DriveAnswer {
         Verdict::of_all((0..self.requirements.len()).map(|place| self.verdict(place)))
     }
 
-    /// Rank of a point among all: lower is worse.
-    fn rank(point: &LevelAnswer) -> (i32, f64) {
+    /// Rank of a point among all, lower is worse: points that fail, the lowest amplitude first; undecided ones; points that pass
+    /// by their interval, which are near the required amplitude; others, all of which survive the same two amplitudes. Within
+    /// these by their clearance.
+    fn rank(point: &LevelAnswer) -> Rank {
         let clearance_m = point.clearance_m.unwrap_or(0.0);
-        match point.verdict {
-            Verdict::Fails => (point.fails.unwrap_or(0), 0.0),
-            Verdict::Undecided => (1, clearance_m),
-            // All that pass survive the same amplitude: the smallest clearance there is worst.
-            Verdict::Passes => (CONFIRMED, clearance_m),
+        match (point.verdict, point.by_interval) {
+            (Verdict::Fails, _) => (0, point.fails.unwrap_or(0), clearance_m),
+            (Verdict::Undecided, _) => (1, 0, clearance_m),
+            (Verdict::Passes, true) => (2, 0, clearance_m),
+            (Verdict::Passes, false) => (3, 0, clearance_m),
         }
     }
 
     /// Requirement and point with the lowest rank.
-    fn worst(&self) -> Option<(usize, usize, (i32, f64))> {
+    fn worst(&self) -> Option<(usize, usize, Rank)> {
         let requirements = self.requirements.iter().enumerate();
         let points = requirements.flat_map(|(requirement, points)| {
             let points = points.iter().enumerate();
             points.map(move |(point, answer)| (requirement, point, Self::rank(answer)))
         });
-        points.min_by(|a, b| a.2.0.cmp(&b.2.0).then(a.2.1.total_cmp(&b.2.1)))
+        points.min_by(|a, b| compared(a.2, b.2))
     }
+}
+
+/// Group by verdict, step of the lowest failure, clearance in m.
+type Rank = (u8, i32, f64);
+
+fn compared(a: Rank, b: Rank) -> Ordering {
+    (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
 }
 
 /// Drives by verdict, and the share that survives.
@@ -119,8 +130,10 @@ pub struct WorstDrive {
     pub requirement: String,
     /// The point that is worst for it.
     pub point: String,
-    /// What it survives and where it fails, G.
+    /// Highest amplitude tested and survived, and lowest one that fails where that was sought, G.
     pub bracket_g: [Option<f64>; 2],
+    /// Smallest clearance at the higher survivor of the two amplitudes of its verdict, m.
+    pub clearance_m: Option<f64>,
     /// Values by key; an absent key has none.
     pub values: Vec<(String, Option<String>)>,
 }
@@ -240,11 +253,7 @@ fn worst(tolerances: &Tolerances, spec: &Spec, drives: &[DriveAnswer]) -> Vec<Wo
         .iter()
         .filter_map(|drive| Some((drive, drive.worst()?)))
         .collect();
-    ranked.sort_by(|(a, (.., x)), (b, (.., y))| {
-        x.0.cmp(&y.0)
-            .then(x.1.total_cmp(&y.1))
-            .then(a.index.cmp(&b.index))
-    });
+    ranked.sort_by(|(a, (.., x)), (b, (.., y))| compared(*x, *y).then(a.index.cmp(&b.index)));
     ranked.truncate(LISTED);
     let listed = ranked.into_iter().map(|(drive, (place, point, _))| {
         let requirement = &spec.requirements[place];
@@ -257,6 +266,7 @@ fn worst(tolerances: &Tolerances, spec: &Spec, drives: &[DriveAnswer]) -> Vec<Wo
             requirement: requirement.name.clone(),
             point: requirement.study.points[study_point].label(),
             bracket_g: [answer.survives, answer.fails].map(|step| step.map(amplitude_g)),
+            clearance_m: answer.clearance_m,
             values: tolerances.values(&tolerances.draw(drive.index)),
         }
     });
@@ -266,6 +276,33 @@ fn worst(tolerances: &Tolerances, spec: &Spec, drives: &[DriveAnswer]) -> Vec<Wo
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_worst_point_of_a_drive_is_one_of_its_own_verdict() {
+        let point = |verdict, by_interval, fails, clearance_nm: f64| LevelAnswer {
+            verdict,
+            by_interval,
+            survives: None,
+            fails,
+            clearance_m: Some(1e-9 * clearance_nm),
+        };
+        let fails = |step| point(Verdict::Fails, false, Some(step), 0.0);
+        let undecided = point(Verdict::Undecided, true, Some(0), 0.1);
+        let near = point(Verdict::Passes, true, Some(2), 9.0);
+        let far = |clearance_nm| point(Verdict::Passes, false, None, clearance_nm);
+        let worst = |points: &[LevelAnswer]| {
+            let drive = DriveAnswer {
+                index: 0,
+                requirements: vec![points.to_vec()],
+            };
+            drive.worst().map(|(_, point, _)| point)
+        };
+        // Failing above the required amplitude, as an interval may say, is worse than undecided.
+        assert_eq!(worst(&[undecided, fails(1), near]), Some(1));
+        assert_eq!(worst(&[fails(-2), fails(-16), undecided]), Some(1));
+        assert_eq!(worst(&[far(0.5), near, far(1.0)]), Some(1));
+        assert_eq!(worst(&[far(0.5), far(0.2), far(1.0)]), Some(1));
+    }
 
     #[test]
     fn undecided_drives_count_both_ways() {

@@ -4,9 +4,9 @@
 //! A_k = A 2^(k/8),   k = -16 to 16,   A the required amplitude
 //! ```
 //!
-//! A point that survives A and A_2 passes, one that fails at A and A_-2 fails: a factor of 1.19 is more than the numerical
-//! error of a verdict at any preset. Between them the uncertainty interval of the critical shock decides, as in a
-//! qualification.
+//! A point that survives A and A_2 passes, one that fails at A and A_-2 fails, both at the study's resolution and window: two
+//! shocks, a factor of 1.19 apart, and no bound on their numerical error. Of any other point the uncertainty interval of the
+//! critical shock decides, as in a qualification. `docs/results/verify-yield.txt` compares both.
 
 use crate::qualification::Verdict;
 
@@ -96,14 +96,14 @@ impl<L: Levels> Known<'_, L> {
         surviving.max_by_key(|(step, _)| *step)
     }
 
-    /// Looks for a survivor below the lowest failure and a failure above the highest survivor, in growing strides, then
+    /// Looks for a survivor below the lowest failure and a failure above the highest survivor, in growing steps, then
     /// halves to neighbours. An outcome without verdict ends the search.
     fn bracket(&mut self) -> Result<(), L::Interrupted> {
-        let mut stride = CONFIRMED;
+        let mut further = CONFIRMED;
         while self.highest_survivor().is_none() || self.lowest_failure().is_none() {
             let next = match (self.highest_survivor(), self.lowest_failure()) {
-                (Some((survivor, _)), None) => survivor + stride,
-                (None, Some(failure)) => failure - stride,
+                (Some((survivor, _)), None) => survivor + further,
+                (None, Some(failure)) => failure - further,
                 _ => return Ok(()),
             };
             let next = next.clamp(-FARTHEST, FARTHEST);
@@ -111,7 +111,7 @@ impl<L: Levels> Known<'_, L> {
             if is_known || self.at(next)? == Level::Undecided {
                 return Ok(());
             }
-            stride *= 2;
+            further *= 2;
         }
         while let (Some((survivor, _)), Some(failure)) =
             (self.highest_survivor(), self.lowest_failure())

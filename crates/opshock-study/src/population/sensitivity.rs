@@ -43,8 +43,8 @@ pub struct Sensitivity {
     pub first_order: f64,
     /// Its 95 % interval (bootstrap percentiles).
     pub interval: [f64; 2],
-    /// It can be told apart from chance.
-    pub is_told_apart: bool,
+    /// Its index exceeds 95 % of those of random permutations.
+    pub is_significant: bool,
 }
 
 impl Sensitivity {
@@ -95,7 +95,7 @@ impl Sensitivity {
             },
             first_order: first_order.max(0.0),
             interval: reflected,
-            is_told_apart: first_order > limit,
+            is_significant: first_order > limit,
         }
     }
 }
@@ -153,14 +153,14 @@ mod tests {
                 (found.first_order - exact).abs() < 0.01,
                 "{place}: {found:?}"
             );
-            assert!(found.is_told_apart);
+            assert!(found.is_significant);
         }
         let none = of(&drawn, &fails, 2);
-        assert!(none.first_order < 0.001 && !none.is_told_apart, "{none:?}");
+        assert!(none.first_order < 0.001 && !none.is_significant, "{none:?}");
     }
 
     #[test]
-    fn intervals_hold_the_index_and_a_tolerance_without_effect_is_rarely_told_apart() {
+    fn intervals_hold_the_index_and_a_tolerance_without_effect_is_rarely_significant() {
         let (mut held, mut told) = (0, 0);
         for sample in 0..100_u64 {
             let drawn: Vec<Vec<f64>> = (0..500).map(|index| draw(100 + sample, index, 2)).collect();
@@ -169,7 +169,7 @@ mod tests {
             let exact = 5.0 / 9.0 - 4.0 / 2400.0 * 16.0 / 3.0;
             held += u32::from((own.interval[0]..=own.interval[1]).contains(&exact));
             let idle: Vec<f64> = (0..500).map(|index| draw(sample, index, 1)[0]).collect();
-            told += u32::from(Sensitivity::of("y", 1, &idle, &fails).is_told_apart);
+            told += u32::from(Sensitivity::of("y", 1, &idle, &fails).is_significant);
         }
         // 95 and 5 are meant; of 100, these bounds are crossed once in a thousand times.
         assert!(held >= 87, "{held}");

@@ -3,12 +3,10 @@
 //! A point's answer depends on its scene, the settings of the search and the required amplitude alone, so that the
 //! number of threads, the order and a kill change nothing, and shards of a population merge into the whole.
 
-use std::collections::HashMap;
+use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use opshock_solver::quantity::m_per_s2_from_g;
-use rayon::prelude::*;
 
 use super::answer::DriveAnswer;
 use super::level::{Level, LevelAnswer, Levels, amplitude_g, judge};
@@ -16,10 +14,10 @@ use super::tolerances::Tolerances;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::qualification::{PointVerdict, Requirement, Spec, Verdict};
 use crate::search::{Probe, Verdict as Outcome};
-use crate::store::{NumberStore, Numbers, PointDigest, StoreError};
+use crate::store::{Answered, Known, NumberStore, Numbers, PointDigest, StoreError};
 use crate::study::{Point, SetArg, Study, StudyErrors};
 use crate::sweep::{
-    Ending, Physics, Silent, Simulator as _, StopFlag, SweepInput, SweepOptions, sweep,
+    Ending, Physics, Silent, Simulator as _, SweepInput, SweepOptions, Until, sweep,
 };
 
 /// A population to be simulated.
@@ -53,6 +51,12 @@ pub enum Interrupted {
     Store(StoreError),
     /// The study refuses a drive, by number from 1 and values.
     Refused(u64, String, StudyErrors),
+}
+
+impl From<StoreError> for Interrupted {
+    fn from(error: StoreError) -> Self {
+        Self::Store(error)
+    }
 }
 
 /// Opens or makes the store of a population in `folder`.
@@ -93,8 +97,8 @@ impl Population<'_> {
         index < self.tolerances.fragility_drives
     }
 
-    /// Answers of the drives of `part`, or of all, in their order: those that the store lacks are simulated by the threads
-    /// of `pool`. `progress` is told how many of how many are there.
+    /// Answers of the drives of `part`, or of all, in their order: those that the store lacks are simulated by `threads`.
+    /// `progress` gets how many of how many are there.
     ///
     /// # Errors
     /// A stop, a drive that the study refuses, a store that cannot be written. What was finished is kept.
@@ -102,72 +106,37 @@ impl Population<'_> {
         &self,
         store: &mut NumberStore,
         part: Part,
-        pool: &rayon::ThreadPool,
-        stop: &StopFlag,
-        progress: &mut dyn FnMut(u64, u64),
+        threads: usize,
+        until: &Until,
+        mut progress: impl FnMut(usize, usize),
     ) -> Result<Vec<DriveAnswer>, Interrupted> {
         let indices: Vec<u64> = (part.number - 1..self.tolerances.drives)
             .step_by(part.of as usize)
             .collect();
-        let known = &store.known.clone();
-        let is_over = &AtomicBool::new(false);
-        let folder = &store.folder.join("intervals");
-        let (sender, receiver) = crossbeam_channel::unbounded();
-        let (mut answers, mut failure) = (HashMap::new(), None);
-        std::thread::scope(|scope| {
-            scope.spawn(|| {
-                let one = |sender: &mut crossbeam_channel::Sender<_>, index: &u64| {
-                    if !is_over.load(Ordering::Relaxed) && !stop.is_asked() {
-                        // The receiver goes only when all is over.
-                        let _ = sender.send(self.answer(*index, known, folder, stop));
-                    }
-                };
-                pool.install(|| {
-                    indices
-                        .par_iter()
-                        .with_max_len(1)
-                        .for_each_with(sender, one)
-                });
-            });
-            for of_drive in receiver {
-                match of_drive.and_then(|(answer, new)| {
-                    store.append(new).map_err(Interrupted::Store)?;
-                    Ok(answer)
-                }) {
-                    Ok(answer) => {
-                        answers.insert(answer.index, answer);
-                        progress(answers.len() as u64, indices.len() as u64);
-                    }
-                    Err(why) => {
-                        is_over.store(true, Ordering::Relaxed);
-                        // A refusal says more than the stop that follows it.
-                        failure.get_or_insert(why);
-                    }
-                }
-            }
-        });
-        if let Some(why) = failure {
-            return Err(why);
-        }
-        let all = indices.iter().map(|index| answers.remove(index));
-        all.collect::<Option<_>>().ok_or(Interrupted::Stopped)
+        let folder = store.folder.join("intervals");
+        store.answers(
+            indices.len(),
+            threads,
+            |task, known| self.answer(indices[task], known, &folder, until),
+            |done| progress(done, indices.len()),
+        )
     }
 
     /// Answers of a drive, and those that are new.
     fn answer(
         &self,
         index: u64,
-        known: &HashMap<PointDigest, Numbers>,
+        known: &Known,
         folder: &Path,
-        stop: &StopFlag,
-    ) -> Result<(DriveAnswer, Vec<(PointDigest, Numbers)>), Interrupted> {
+        until: &Until,
+    ) -> Result<Answered<DriveAnswer>, Interrupted> {
         let drive = self.drive(index)?;
         let is_bracketed = self.is_bracketed(drive.index);
         let mut new = Vec::new();
         let mut requirements = Vec::new();
         for (requirement, nominal) in drive.requirements.iter().zip(self.nominal) {
             let order = requirement.study.table_order();
-            let physics = Physics::of(&requirement.study).sharing(nominal);
+            let physics = LazyCell::new(|| Physics::of(&requirement.study).sharing(nominal));
             let mut points = Vec::new();
             for (place, &point) in order.iter().enumerate() {
                 let key = key(requirement, &requirement.study.points[point], is_bracketed);
@@ -180,9 +149,10 @@ impl Population<'_> {
                     point: &requirement.study.points[point],
                     place,
                     physics: &physics,
+                    nominal,
                     // Drives of equal content must not wait for one another.
                     folder: folder.join(format!("{}-{}", index + 1, &key.hex()[..16])),
-                    stop,
+                    until,
                 };
                 let answer = judge(&mut simulated, is_bracketed)?;
                 new.push((key, encode(&answer)));
@@ -190,13 +160,11 @@ impl Population<'_> {
             }
             requirements.push(points);
         }
-        Ok((
-            DriveAnswer {
-                index,
-                requirements,
-            },
-            new,
-        ))
+        let answer = DriveAnswer {
+            index,
+            requirements,
+        };
+        Ok((answer, new))
     }
 }
 
@@ -206,16 +174,17 @@ struct Simulated<'a> {
     point: &'a Point,
     place: usize,
     physics: &'a Physics,
+    nominal: &'a Physics,
     /// Folder of the store of its uncertainty interval, as long as that is made.
     folder: PathBuf,
-    stop: &'a StopFlag,
+    until: &'a Until,
 }
 
 impl Levels for Simulated<'_> {
     type Interrupted = Interrupted;
 
     fn shock(&mut self, step: i32) -> Result<Level, Interrupted> {
-        if self.stop.is_asked() {
+        if self.until.is_over() {
             return Err(Interrupted::Stopped);
         }
         let amplitude_g = amplitude_g(self.requirement.required_g(), step);
@@ -242,12 +211,13 @@ impl Levels for Simulated<'_> {
             return Ok(Verdict::Undecided);
         };
         let options = SweepOptions {
-            stop: self.stop.clone(),
+            stop: self.until.stop.clone(),
+            budget: self.until.left(),
             ..SweepOptions::with_threads(1)
         };
-        let physics = Physics::of(&study);
+        let physics = Physics::of(&study).sharing(self.nominal);
         let end = sweep(&input, &physics, &self.folder, &options, &Silent);
-        let end = end.map_err(Interrupted::Store)?;
+        let end = end?;
         if end.ending != Ending::Complete {
             return Err(Interrupted::Stopped);
         }

@@ -8,11 +8,9 @@ use super::correlation::Correlation;
 use super::parts::Parts;
 use crate::draws::{self, Parameter, draw};
 use crate::qualification::Spec;
-use crate::study::source::{Origin, Source};
 use crate::study::table_fields::{Faults, Fields};
-use crate::study::text_file;
 use crate::study::tree;
-use crate::study::{SetArg, Study, StudyError, StudyErrors};
+use crate::study::{SetArg, Study, StudyError, StudyErrors, is_within};
 
 const TOP: &[&str] = &[
     "tolerances_format",
@@ -64,12 +62,10 @@ impl Tolerances {
     ///
     /// # Errors
     ///
-    /// Every fault of the file, of the study, or of a study with a value at an end of its tolerance.
+    /// Every fault of the file, of the study, or of a study with an extreme value of a tolerance, or with a part.
     pub fn from_path(path: &Path, study: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
         let plain = Study::from_path(study, sets)?;
-        let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
-        let source = Source::new(path.display().to_string(), text.clone());
-        let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        let (text, root) = tree::read(path)?;
         let mut faults = Faults::new();
         let Some(fields) = Fields::of(&root, "", TOP, &mut faults) else {
             return Err(StudyErrors::new(faults));
@@ -121,7 +117,7 @@ impl Tolerances {
             study: study.to_path_buf(),
             sets: sets.to_vec(),
         };
-        all.check_ends(&fields, &mut faults);
+        all.check_values(&fields, &plain, &mut faults);
         match faults.is_empty() {
             true => Ok(all),
             false => Err(StudyErrors::new(faults)),
@@ -137,7 +133,7 @@ impl Tolerances {
         let file = self.path.display().to_string();
         let clashes = spec.requirements.iter().flat_map(|requirement| {
             let keys = self.keys();
-            let set = |key: &&str| requirement.sets.iter().any(|one| is_part_of(key, one));
+            let set = |key: &&str| requirement.sets.iter().any(|one| is_within(key, one));
             let both = keys.into_iter().filter(set).map(str::to_owned);
             both.map(move |key| (key, &requirement.name))
         });
@@ -203,12 +199,7 @@ impl Tolerances {
 
     /// Settings of a drive: those of the command line, and its own over them.
     pub fn arguments(&self, drawn: &[f64]) -> Vec<SetArg> {
-        let mut all = self.sets.clone();
-        for (key, text) in self.values(drawn) {
-            all.retain(|known| known.key != key);
-            all.push(setting(&key, text));
-        }
-        all
+        self.over_sets(self.values(drawn))
     }
 
     /// The study of a drive.
@@ -224,80 +215,93 @@ impl Tolerances {
     ///
     /// # Errors
     ///
-    /// The study's faults; a tolerance of a key that is an axis of the study.
-    pub fn studies_at(
-        &self,
-        nominal: &Study,
-        place: usize,
-        ends: [f64; 2],
-    ) -> Result<[Study; 2], StudyErrors> {
-        let parameter = &self.parameters[place];
-        let study = |end: f64| {
-            let mut all = self.sets.clone();
-            for (key, text) in parameter.settings(end) {
-                all.retain(|known| known.key != key);
-                all.push(setting(&key, text));
-            }
-            Study::from_path(&self.study, &all)
-        };
+    /// The study's faults.
+    pub fn studies_at(&self, place: usize, ends: [f64; 2]) -> Result<[Study; 2], StudyErrors> {
+        let settings = |end| self.parameters[place].settings(end);
+        let study = |end| Study::from_path(&self.study, &self.over_sets(settings(end)));
         let [low, high] = ends.map(study);
-        let both = [low?, high?];
+        Ok([low?, high?])
+    }
+
+    /// The arguments of the command line, with settings over them.
+    fn over_sets(&self, settings: Vec<(String, Option<String>)>) -> Vec<SetArg> {
+        let mut all = self.sets.clone();
+        for (key, text) in settings {
+            all.retain(|known| known.key != key);
+            all.push(setting(&key, text));
+        }
+        all
+    }
+
+    /// The study must accept the extreme values and choices of each tolerance, and each part, with all others in the middle;
+    /// none of their keys may be an axis of it.
+    fn check_values(&self, fields: &Fields<'_>, plain: &Study, faults: &mut Faults) {
+        let middle = vec![0.5; self.parameters.len() + usize::from(self.parts.is_some())];
+        let one_value = || "keys with one value in the study".to_owned();
         let labels = |study: &Study| -> Vec<String> {
             let points = study.table_order().into_iter();
             points.map(|point| study.points[point].label()).collect()
         };
-        if both.iter().any(|study| labels(study) != labels(nominal)) {
-            let file = self.path.display().to_string();
-            let message = format!(
-                "tolerance {:?} has a key that is an axis of the study",
-                parameter.name
-            );
-            let fault = StudyError::in_file("E195", &file, message);
-            return Err(fault.allowed("keys with one value in the study").into());
-        }
-        Ok(both)
-    }
-
-    /// Each tolerance's ends must be values that the study can have, with all others in the middle; and each part.
-    fn check_ends(&self, fields: &Fields<'_>, faults: &mut Faults) {
-        let middle = vec![0.5; self.parameters.len() + usize::from(self.parts.is_some())];
-        // A fault of another key is none of this tolerance's, or of this part's.
+        // Words of the fault and what is valid. A fault of another key is none of this tolerance's, or of this part's.
         let refused = |place: usize, p: f64, keys: &[&str]| {
             let mut unit = middle.clone();
             unit[place] = p;
-            let refused = self.study_of(&unit).err()?;
-            let errors = refused.errors.into_iter();
-            let mut own = errors.filter(|fault| keys.contains(&fault.key.as_str()));
-            own.next()
+            match self.study_of(&unit) {
+                Ok(study) => (labels(&study) != labels(plain)).then(|| {
+                    let message = "changes the points of the study".to_owned();
+                    (message, one_value())
+                }),
+                Err(refused) => {
+                    let mut errors = refused.errors.into_iter();
+                    let own = errors.find(|fault| keys.contains(&fault.key.as_str()))?;
+                    let message = format!(
+                        "the study refuses {} {}: {}",
+                        own.key, own.value, own.message
+                    );
+                    Some((message, own.allowed.to_string()))
+                }
+            }
         };
-        for (place, parameter) in self.parameters.iter().enumerate() {
-            let keys: Vec<&str> = parameter.keys.iter().map(|(key, _)| key.as_str()).collect();
-            let ends = [0.0, parameter.unset_share, 1.0].into_iter();
-            if let Some(own) = ends.filter_map(|end| refused(place, end, &keys)).next() {
-                let message = format!(
-                    "the study refuses {} {} at an end of tolerance {:?}: {}",
-                    own.key, own.value, parameter.name, own.message
-                );
-                let fault = fields.fault_of("E195", "tolerance", message);
-                faults.push(fault.value(&parameter.name).allowed(own.allowed));
+        let own_keys = self.parameters.iter().map(|one| {
+            let keys = one.keys.iter().map(|(key, _)| key.as_str());
+            (one.name.as_str(), "tolerance", keys.collect::<Vec<_>>())
+        });
+        let of_parts = self.parts.iter().map(|parts| {
+            let keys = parts.keys.iter().map(String::as_str);
+            ("", "parts", keys.collect::<Vec<_>>())
+        });
+        let all: Vec<_> = own_keys.chain(of_parts).collect();
+        for (name, entry, keys) in &all {
+            let is_axis = |key: &&&str| {
+                **key == "ramp.models" || plain.axes.iter().any(|axis| axis.path == **key)
+            };
+            if let Some(key) = keys.iter().find(is_axis) {
+                let fault =
+                    fields.fault_of("E195", entry, format!("{key} is an axis of the study"));
+                faults.push(fault.value(*name).allowed(one_value()));
             }
         }
-        let Some(parts) = &self.parts else {
+        if !faults.is_empty() {
             return;
-        };
-        let keys: Vec<&str> = parts.keys.iter().map(String::as_str).collect();
-        for row in 0..parts.rows.len() {
-            let p = (row as f64 + 0.5) / parts.rows.len() as f64;
-            if let Some(own) = refused(self.parameters.len(), p, &keys) {
-                let message = format!(
-                    "the study refuses part {} of the file: {}: {}",
-                    row + 1,
-                    own.key,
-                    own.message
-                );
-                let fault = fields.fault_of("E195", "parts", message);
-                faults.push(fault.allowed(own.allowed));
-                return;
+        }
+        let extremes = self.parameters.iter().map(Parameter::extremes);
+        let rows = self.parts.iter().map(|parts| {
+            let n = parts.rows.len() as f64;
+            (0..parts.rows.len())
+                .map(|row| (row as f64 + 0.5) / n)
+                .collect()
+        });
+        let probabilities: Vec<Vec<f64>> = extremes.chain(rows).collect();
+        for (place, (name, entry, keys)) in all.iter().enumerate() {
+            let of_entry = probabilities[place].iter().enumerate();
+            let first = of_entry.filter_map(|(at, p)| Some((at, refused(place, *p, keys)?)));
+            if let Some((at, (message, allowed))) = first.take(1).next() {
+                let of = match *entry {
+                    "parts" => format!("part {} of the file", at + 1),
+                    _ => format!("tolerance {name:?}"),
+                };
+                let fault = fields.fault_of("E195", entry, format!("{of}: {message}"));
+                faults.push(fault.value(*name).allowed(allowed));
             }
         }
     }
@@ -310,12 +314,6 @@ fn setting(key: &str, text: Option<String>) -> SetArg {
         None => SetArg::unset(key),
     };
     argument.expect("keys are checked when read")
-}
-
-/// Whether a key is another one, or a key of that section.
-fn is_part_of(key: &str, whole: &str) -> bool {
-    let rest = key.strip_prefix(whole);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 fn parts(fields: &Fields<'_>, path: &Path, faults: &mut Faults) -> Option<Parts> {
@@ -344,7 +342,7 @@ fn refuse_keys(
     });
     let named = own.iter().map(|key| ("tolerance", *key));
     for (name, key) in named.chain(measured.iter().map(|key| ("parts", *key))) {
-        if NOT_OF_DRIVE.iter().any(|section| is_part_of(key, section)) {
+        if NOT_OF_DRIVE.iter().any(|section| is_within(key, section)) {
             let fault = fields.fault_of("E195", name, format!("{key} is no property of a drive"));
             faults.push(
                 fault

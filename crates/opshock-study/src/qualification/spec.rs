@@ -8,11 +8,9 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::shock::PulseShape;
 
 use crate::search::decisive::FAR;
-use crate::study::source::{Origin, Source};
 use crate::study::table_fields::{Faults, Fields, wrong_kind};
-use crate::study::text_file;
 use crate::study::tree::{self, Value};
-use crate::study::{SetArg, Study, StudyError, StudyErrors};
+use crate::study::{SetArg, Study, StudyError, StudyErrors, is_within};
 
 const TOP: &[&str] = &["spec_format", "name", "source", "requirement"];
 const OF_REQUIREMENT: &[&str] = &[
@@ -118,9 +116,7 @@ impl Spec {
     pub fn from_path(path: &Path, study: &Path, sets: &[SetArg]) -> Result<Spec, StudyErrors> {
         // A fault of the study itself is no fault of every requirement.
         let plain = Study::from_path(study, sets)?;
-        let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
-        let source = Source::new(path.display().to_string(), text.clone());
-        let root = tree::parse(&source, Origin::File).map_err(StudyErrors::new)?;
+        let (text, root) = tree::read(path)?;
         let mut faults = Faults::new();
         let Some(fields) = Fields::of(&root, "", TOP, &mut faults) else {
             return Err(StudyErrors::new(faults));
@@ -235,7 +231,7 @@ fn requirement(
     let mut all = sets.to_vec();
     // What the requirement sets replaces what the command line sets.
     let mut lay = |argument: SetArg| {
-        all.retain(|known| !is_part_of(&known.key, &argument.key));
+        all.retain(|known| !is_within(&known.key, &argument.key));
         all.push(argument);
     };
     if plain.search.added_points.is_some() {
@@ -268,12 +264,6 @@ fn requirement(
             None
         }
     }
-}
-
-/// Whether a key is another one, or a key of that section.
-fn is_part_of(key: &str, whole: &str) -> bool {
-    let rest = key.strip_prefix(whole);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// A fault of the requirement's study, at the place of the requirement where that has the key.
@@ -337,7 +327,7 @@ fn own_settings(entry: &Fields<'_>, faults: &mut Faults) -> Vec<(&'static str, S
                 let of_study = OF_STUDY.map(|(_, key)| key);
                 let mut own_keys = OWN.iter().copied().chain(of_study);
                 let clashes =
-                    |key: &str| is_part_of(&argument.key, key) || is_part_of(key, &argument.key);
+                    |key: &str| is_within(&argument.key, key) || is_within(key, &argument.key);
                 if own_keys.any(clashes) || set.iter().any(|known: &String| clashes(known)) {
                     let what = format!("{} is set by the requirement already", argument.key);
                     faults.push(

@@ -53,6 +53,37 @@ pub fn write_all(
     Ok(written)
 }
 
+/// Removes from `folder` what a former answer wrote and this one did not: files that are not among `written` and begin as
+/// `beginning` of their name says. `keep`, such as the study itself, stays.
+///
+/// # Errors
+///
+/// E183: a file cannot be read or removed.
+pub fn remove_former(
+    folder: &Path,
+    written: &[PathBuf],
+    keep: &Path,
+    beginning: impl Fn(&str) -> Option<&'static str>,
+) -> Result<(), StoreError> {
+    let keep = std::fs::canonicalize(keep).ok();
+    for path in list(folder).map_err(|source| unwritable(folder, source))? {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let Some(beginning) = name.and_then(&beginning) else {
+            continue;
+        };
+        let is_kept = written.contains(&path) || std::fs::canonicalize(&path).ok() == keep;
+        if is_kept || !path.is_file() {
+            continue;
+        }
+        // A file of this name that no answer wrote is somebody's own.
+        let text = std::fs::read(&path).map_err(|source| unwritable(&path, source))?;
+        if text.starts_with(beginning.as_bytes()) {
+            std::fs::remove_file(&path).map_err(|source| unwritable(&path, source))?;
+        }
+    }
+    Ok(())
+}
+
 /// A synced file beside `path`, with the permissions that any new file has; it removes itself when
 /// it gets no name.
 fn aside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::TempPath> {

@@ -25,7 +25,7 @@ pub mod summary;
 pub use audit::{Audit, Difference};
 pub use error::StoreError;
 pub use folder::{Loaded, Store, load};
-pub use numbers::{NumberStore, Numbers};
+pub use numbers::{Answered, Known, NumberStore, Numbers};
 pub use owner::{Owner, StudyTexts};
 pub use record::{PointDigest, Record, RunKey, RunMachine, RunRecord, StoredTouch, TouchRecord};
 pub use results::{PointKeep, Results, RunRow, Session};

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::aside;
 use super::error::StoreError;
@@ -13,6 +14,12 @@ use super::record::{PointDigest, Record};
 /// Numbers of one key: not computed, none, or a number.
 pub type Numbers = Vec<Option<Option<f64>>>;
 
+/// Numbers by the content of what they were computed from.
+pub type Known = HashMap<PointDigest, Numbers>;
+
+/// A task's answer, and the numbers it computed for it.
+pub type Answered<T> = (T, Vec<(PointDigest, Numbers)>);
+
 /// A store of numbers, open for writing by this process alone.
 pub struct NumberStore {
     /// Its folder.
@@ -20,7 +27,7 @@ pub struct NumberStore {
     journal: JournalWriter,
     _lock: StoreLock,
     /// What it holds, by content.
-    pub known: HashMap<PointDigest, Numbers>,
+    pub known: Known,
     /// Messages about its state.
     pub notes: Vec<String>,
 }
@@ -116,14 +123,92 @@ impl NumberStore {
         &mut self,
         new: impl IntoIterator<Item = (PointDigest, Numbers)>,
     ) -> Result<(), StoreError> {
-        let new = new.into_iter();
-        let records: Vec<Record> = new
-            .map(|(key, numbers)| Record::Numbers { key, numbers })
-            .collect();
-        self.journal.append(&records)?;
+        let records = append(&mut self.journal, new)?;
         self.known.extend(numbers(records));
         Ok(())
     }
+
+    /// Answers of tasks number 0 to `n - 1`, in this order. Each of `threads` takes the lowest number that none has taken; what
+    /// a task computed is kept as soon as it is done. `progress` gets the number of tasks done.
+    ///
+    /// Threads of their own: those of a rayon pool begin further tasks while one of them waits for a sweep.
+    ///
+    /// # Errors
+    /// The journal cannot be written, else that of the lowest number among the tasks that were begun; none is begun after an
+    /// error.
+    pub fn answers<T: Send, E: Send + From<StoreError>>(
+        &mut self,
+        n: usize,
+        threads: usize,
+        answer: impl Fn(usize, &Known) -> Result<Answered<T>, E> + Sync,
+        mut progress: impl FnMut(usize),
+    ) -> Result<Vec<T>, E> {
+        let (known, journal) = (&self.known, &mut self.journal);
+        let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let (sender, receiver) = crossbeam_channel::unbounded();
+        let (mut done, mut failed, mut unwritten, mut computed) =
+            (Vec::new(), Vec::new(), None, Vec::new());
+        std::thread::scope(|scope| {
+            for _ in 0..threads.clamp(1, n.max(1)) {
+                let (sender, next, is_over, answer) = (sender.clone(), &next, &is_over, &answer);
+                scope.spawn(move || {
+                    while !is_over.load(Ordering::SeqCst) {
+                        let task = next.fetch_add(1, Ordering::SeqCst);
+                        if task >= n {
+                            break;
+                        }
+                        let found = answer(task, known);
+                        if found.is_err() {
+                            is_over.store(true, Ordering::SeqCst);
+                        }
+                        // The receiver goes only when all is over.
+                        let _ = sender.send((task, found));
+                    }
+                });
+            }
+            drop(sender);
+            for (task, found) in receiver {
+                match found {
+                    Ok((answer, new)) => match append(journal, new) {
+                        Ok(records) => {
+                            computed.extend(records);
+                            done.push((task, answer));
+                            progress(done.len());
+                        }
+                        Err(error) => {
+                            is_over.store(true, Ordering::SeqCst);
+                            unwritten.get_or_insert(error);
+                        }
+                    },
+                    Err(error) => failed.push((task, error)),
+                }
+            }
+        });
+        self.known.extend(numbers(computed));
+        if let Some(error) = unwritten {
+            return Err(error.into());
+        }
+        if let Some((_, error)) = failed.into_iter().min_by_key(|(task, _)| *task) {
+            return Err(error);
+        }
+        done.sort_by_key(|(task, _)| *task);
+        Ok(done.into_iter().map(|(_, answer)| answer).collect())
+    }
+}
+
+/// Writes numbers into a journal.
+fn append(
+    journal: &mut JournalWriter,
+    new: impl IntoIterator<Item = (PointDigest, Numbers)>,
+) -> Result<Vec<Record>, StoreError> {
+    let new = new.into_iter();
+    let records: Vec<Record> = new
+        .map(|(key, numbers)| Record::Numbers { key, numbers })
+        .collect();
+    if !records.is_empty() {
+        journal.append(&records)?;
+    }
+    Ok(records)
 }
 
 /// What the records hold.

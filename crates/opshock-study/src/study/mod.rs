@@ -71,7 +71,7 @@ pub use ramp_remeshed::RemeshedRamp;
 pub use recorded::MeasuredPulse;
 pub use resolved::{digest_of, number_at};
 pub use select::{Choice, ChoiceError, FreeAxis, Shot};
-pub use set_arg::{SetArg, SetSyntaxError};
+pub use set_arg::{SetArg, SetSyntaxError, is_within};
 pub use words::{
     Effects, Faces, KeepHistories, LeftOut, UncertaintyOf, coupling_word, preset_word,
 };

@@ -33,6 +33,12 @@ pub struct SetSyntaxError {
     pub reason: String,
 }
 
+/// Whether a key is another one, or a key of that section.
+pub fn is_within(key: &str, whole: &str) -> bool {
+    let rest = key.strip_prefix(whole);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 impl SetArg {
     /// Splits `section.key=VALUE` at its first `=`.
     ///

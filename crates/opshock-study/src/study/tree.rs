@@ -1,10 +1,11 @@
 //! Parses a TOML text into a tree of values with their places in the text.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
-use super::fault::StudyError;
+use super::fault::{StudyError, StudyErrors};
 use super::source::{Origin, Place, Source};
 use super::text_file;
 
@@ -64,6 +65,17 @@ impl Node {
             _ => None,
         }
     }
+}
+
+/// Reads a TOML file: its text, and its tree.
+///
+/// # Errors
+/// As [`text_file::read_text`] and [`parse`].
+pub(crate) fn read(path: &Path) -> Result<(String, Node), StudyErrors> {
+    let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
+    let source = Source::new(path.display().to_string(), text.clone());
+    let root = parse(&source, Origin::File).map_err(StudyErrors::new)?;
+    Ok((text, root))
 }
 
 /// Parses a whole TOML text.

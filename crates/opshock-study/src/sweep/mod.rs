@@ -50,6 +50,6 @@ pub use progress::{Estimate, Event, PointLabel, Progress, ProgressKind, Silent};
 pub use replay::{replay, stored};
 pub use shard::Shard;
 pub use simulator::{Onset, Simulator};
-pub use stop::StopFlag;
+pub use stop::{StopFlag, Until};
 pub use structure_run_cache::Counts;
 pub use unkept::unkept;

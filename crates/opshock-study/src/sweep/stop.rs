@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// Request to stop a sweep. Clones share the same request.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +53,35 @@ impl StopFlag {
             signal_hook::flag::register(signal, Arc::clone(&self.asked))?;
         }
         Ok(())
+    }
+}
+
+/// When nothing new begins: after a request to stop, or when the time is over.
+#[derive(Clone, Debug, Default)]
+pub struct Until {
+    /// The request.
+    pub stop: StopFlag,
+    /// When the time is over, if it ever is.
+    pub end: Option<Instant>,
+}
+
+impl Until {
+    /// From now on, for a time.
+    pub fn after(budget: Option<Duration>, stop: StopFlag) -> Self {
+        // A time beyond what the clock can tell is no bound.
+        let end = budget.and_then(|budget| Instant::now().checked_add(budget));
+        Self { stop, end }
+    }
+
+    /// Nothing new begins.
+    pub fn is_over(&self) -> bool {
+        self.stop.is_asked() || self.left().is_some_and(|left| left.is_zero())
+    }
+
+    /// Time left.
+    pub fn left(&self) -> Option<Duration> {
+        let left = |end: Instant| end.saturating_duration_since(Instant::now());
+        self.end.map(left)
     }
 }
 

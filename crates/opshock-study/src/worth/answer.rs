@@ -19,7 +19,7 @@ pub struct Change {
     /// Half-width of its interval, G.
     pub uncertainty_g: Option<f64>,
     /// The interval does not hold 0.
-    pub is_told_apart: bool,
+    pub excludes_zero: bool,
 }
 
 /// What one tolerance is worth.
@@ -89,7 +89,7 @@ impl WorthAnswer {
                         critical_g: pair.critical_g(&amplitude_g),
                         change_g: found.map(|[change_g, _]| change_g),
                         uncertainty_g: found.map(|[_, half_g]| half_g),
-                        is_told_apart: found
+                        excludes_zero: found
                             .is_some_and(|[change_g, half_g]| change_g.abs() > half_g),
                     }
                 });

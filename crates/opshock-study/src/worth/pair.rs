@@ -17,8 +17,8 @@ pub const FINENESS: f64 = 2.5e-4;
 const FACTOR: f64 = 3.0;
 /// Slowest formal ratio by which a refinement step divides an error.
 const RATIO: f64 = 2.0;
-/// First stride of a search, and the farthest from its start, in steps: a factor of about 2.7.
-const STRIDE: i32 = 16;
+/// First step of a search beyond its start, and the farthest from it, in steps of the grid: a factor of about 2.7.
+const FIRST_STEPS: i32 = 16;
 const FARTHEST: i32 = 4000;
 
 /// Value of the key.
@@ -91,32 +91,32 @@ impl Pair {
     }
 }
 
-/// Brackets of a pair, sought from a step at the lower and at the higher value.
+/// Brackets of a pair, sought within those that are known at the lower and at the higher value.
 ///
 /// # Errors
 /// Where a verdict has none to give.
-pub fn find<S: Shaken>(shaken: &mut S, starts: [i32; 2]) -> Result<Pair, S::Interrupted> {
+pub fn find<S: Shaken>(shaken: &mut S, starts: [Bracket; 2]) -> Result<Pair, S::Interrupted> {
     let mut pair = Pair {
         low: bracket(shaken, End::Low, false, starts[0])?,
         high: bracket(shaken, End::High, false, starts[1])?,
         ..Pair::default()
     };
     if let (Some(low), Some(high)) = (pair.low, pair.high) {
-        pair.coarser_low = bracket(shaken, End::Low, true, low.survives)?;
-        pair.coarser_high = bracket(shaken, End::High, true, high.survives)?;
+        pair.coarser_low = bracket(shaken, End::Low, true, low)?;
+        pair.coarser_high = bracket(shaken, End::High, true, high)?;
     }
     Ok(pair)
 }
 
-/// Neighbours around the verdicts' change that is met first, in growing strides from `start`.
+/// Neighbours within `start`, whose ends are simulated first; where an end has the other verdict, beyond it in growing steps.
 fn bracket<S: Shaken>(
     shaken: &mut S,
     end: End,
     is_coarser: bool,
-    start: i32,
+    start: Bracket,
 ) -> Result<Option<Bracket>, S::Interrupted> {
     let (mut survives, mut fails) = (None, None);
-    let (mut step, mut stride) = (start, STRIDE);
+    let (mut step, mut further) = (start.survives, FIRST_STEPS);
     let (mut low, mut high) = loop {
         match shaken.survives(end, is_coarser, step)? {
             None => return Ok(None),
@@ -125,14 +125,18 @@ fn bracket<S: Shaken>(
         }
         step = match (survives, fails) {
             (Some(low), Some(high)) => break (low, high),
-            (Some(low), None) => low + stride,
-            (None, Some(high)) => high - stride,
+            (Some(low), None) if low < start.fails => start.fails,
+            (Some(low), None) => low + further,
+            (None, Some(high)) => high - further,
             (None, None) => return Ok(None),
         };
-        if (step - start).abs() > FARTHEST {
+        if (step - start.survives).abs() > FARTHEST {
             return Ok(None);
         }
-        stride *= 2;
+        // The other end of the start is no step beyond it.
+        if step != start.fails {
+            further *= 2;
+        }
     };
     while high - low > 1 {
         let middle = low + (high - low) / 2;
@@ -166,6 +170,14 @@ mod tests {
 
     fn amplitude_g(step: i32) -> f64 {
         (f64::from(step) * FINENESS).exp()
+    }
+
+    fn start(survived_g: f64) -> Bracket {
+        let survives = (survived_g.ln() / FINENESS) as i32;
+        Bracket {
+            survives,
+            fails: survives + 40,
+        }
     }
 
     impl Law {
@@ -213,7 +225,8 @@ mod tests {
                 },
                 shocks: 0,
             };
-            let start = ((mean_g * 1.05).ln() / FINENESS) as i32;
+            // Brackets of 1 % that may lie beside the critical shock.
+            let start = start(mean_g * (0.95 + 0.1 * random[5]));
             let Ok(pair) = find(&mut law, [start; 2]);
             assert!(law.shocks <= 60, "{}", law.shocks);
             let [found_g, half_g] = pair.change_g(&amplitude_g).expect("a change");
@@ -228,6 +241,39 @@ mod tests {
         assert!(narrower[50] >= 3.0, "{}", narrower[50]);
     }
 
+    /// Survives nothing between 99.8 and 100.2 G, where its critical shock is, but all of 100.2 to 104 G.
+    struct Island(Vec<i32>);
+
+    impl Shaken for Island {
+        type Interrupted = std::convert::Infallible;
+
+        fn survives(
+            &mut self,
+            _: End,
+            _: bool,
+            step: i32,
+        ) -> Result<Option<bool>, Self::Interrupted> {
+            self.0.push(step);
+            let at_g = amplitude_g(step);
+            Ok(Some(at_g < 99.8 || (100.2..104.0).contains(&at_g)))
+        }
+    }
+
+    #[test]
+    fn a_known_failure_bounds_the_search() {
+        let at = |of_g: f64| (of_g.ln() / FINENESS).round() as i32;
+        let known = Bracket {
+            survives: at(99.5),
+            fails: at(100.0),
+        };
+        let mut island = Island(Vec::new());
+        let Ok(pair) = find(&mut island, [known; 2]);
+        for found in [pair.low, pair.high, pair.coarser_low, pair.coarser_high] {
+            assert_eq!(found.map(|one| one.fails), Some(at(99.8)));
+        }
+        assert!(island.0.iter().all(|step| *step <= known.fails));
+    }
+
     #[test]
     fn a_critical_shock_out_of_reach_leaves_the_change_open() {
         let mut law = Law {
@@ -237,7 +283,7 @@ mod tests {
             disorder: 0.0,
             shocks: 0,
         };
-        let Ok(pair) = find(&mut law, [(110_f64.ln() / FINENESS) as i32; 2]);
+        let Ok(pair) = find(&mut law, [start(110.0); 2]);
         assert!(pair.low.is_some() && pair.high.is_none());
         assert_eq!(pair.change_g(&amplitude_g), None);
     }

@@ -1,22 +1,19 @@
 //! Simulates the pairs of a study: every tolerance at its two values, for every point.
 
-use std::collections::HashMap;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
-use rayon::prelude::*;
 
 use super::pair::{Bracket, End, FINENESS, Pair, Shaken, find};
 use crate::population::{Interrupted, Tolerances};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::{AmplitudeGrid, Probe, Verdict};
 use crate::store::summary::Status;
-use crate::store::{NumberStore, Numbers, PointDigest, StoreError};
-use crate::study::{Point, Study};
+use crate::store::{Answered, Known, NumberStore, Numbers, PointDigest, StoreError};
+use crate::study::{Point, RemeshedRamp, Study};
 use crate::sweep::{
-    Ending, Physics, ProgressKind, Simulator as _, StopFlag, SweepInput, SweepOptions, sweep,
+    Ending, Physics, ProgressKind, Simulator as _, SweepInput, SweepOptions, Until, sweep,
 };
 
 /// Cumulative probabilities of the two values: one standard deviation of a normal distribution either way.
@@ -25,14 +22,14 @@ pub const ENDS: [f64; 2] = [0.158_655_253_931_457, 0.841_344_746_068_543];
 /// Pairs to be simulated.
 pub struct Worth<'a> {
     nominal: &'a Study,
+    physics: Physics,
     /// By tolerance, at both values.
     ends: &'a [[Study; 2]],
-    physics: Vec<[Physics; 2]>,
 }
 
-/// Amplitudes from which critical shocks are sought, G: by tolerance, value, and point in the order of tables. A point without one
-/// has no pair.
-pub type Starts = Vec<[Vec<Option<f64>>; 2]>;
+/// Brackets within which critical shocks are sought, G: by tolerance, value, and point in the order of tables. A point without
+/// one has no pair.
+pub type Starts = Vec<[Vec<Option<[f64; 2]>>; 2]>;
 
 /// Opens or makes the store of pairs in `folder`.
 ///
@@ -49,27 +46,29 @@ pub(super) fn grid() -> AmplitudeGrid {
 }
 
 impl<'a> Worth<'a> {
-    /// Of a study, and of its studies at both values of every tolerance ([`Tolerances::studies_at`]); what they have in common
-    /// is built once.
+    /// Of a study, and of its studies at both values of every tolerance ([`Tolerances::studies_at`]).
     pub fn new(nominal: &'a Study, ends: &'a [[Study; 2]]) -> Self {
-        let own = Physics::of(nominal);
-        let of_study = |study: &Study| Physics::of(study).sharing(&own);
-        let physics = ends.iter().map(|ends| ends.each_ref().map(of_study));
         Self {
             nominal,
+            physics: Physics::of(nominal),
             ends,
-            physics: physics.collect(),
         }
     }
 
-    /// Critical shocks of every study, with the scan for earlier failures of any sweep; each in a store of its own in `folder`.
+    /// What a study has in common with the nominal one is built once.
+    fn physics_of(&self, study: &Study) -> Physics {
+        Physics::of(study).sharing(&self.physics)
+    }
+
+    /// Brackets of every study, with the scan for earlier failures of any sweep; each in a store of its own in `folder`.
     ///
     /// # Errors
     /// A stop, or a store that cannot be written. What was finished is kept.
     pub fn starts(
         &self,
         folder: &Path,
-        options: &SweepOptions,
+        threads: usize,
+        until: &Until,
         progress: ProgressKind,
     ) -> Result<Starts, Interrupted> {
         let one = |tolerance: usize, end: usize| {
@@ -77,22 +76,25 @@ impl<'a> Worth<'a> {
             // The command has checked the amplitudes of the study itself.
             let input = SweepInput::of(study).map_err(|_| Interrupted::Stopped)?;
             let name = format!("{}-{}", tolerance + 1, ["low", "high"][end]);
-            let physics = &self.physics[tolerance][end];
             let progress = progress.start(&name);
+            let options = SweepOptions {
+                stop: until.stop.clone(),
+                budget: until.left(),
+                ..SweepOptions::with_threads(threads)
+            };
             let swept = sweep(
                 &input,
-                physics,
+                &self.physics_of(study),
                 &folder.join(&name),
-                options,
+                &options,
                 progress.as_ref(),
-            );
-            let swept = swept.map_err(Interrupted::Store)?;
+            )?;
             if swept.ending != Ending::Complete {
                 return Err(Interrupted::Stopped);
             }
             let rows = swept.summary.points.into_iter();
             Ok(rows
-                .map(|row| row.survived_g.filter(|_| row.status == Status::Ok))
+                .map(|row| row.bracket_g().filter(|_| row.status == Status::Ok))
                 .collect())
         };
         (0..self.ends.len())
@@ -100,8 +102,8 @@ impl<'a> Worth<'a> {
             .collect()
     }
 
-    /// The pairs by tolerance and point; those that the store lacks are simulated by the threads of `pool`.
-    /// `progress` is told how many of how many are there.
+    /// The pairs by tolerance and point; those that the store lacks are simulated by `threads`. `progress` gets how many of how
+    /// many are there.
     ///
     /// # Errors
     /// A stop, or a store that cannot be written. What was finished is kept.
@@ -109,86 +111,61 @@ impl<'a> Worth<'a> {
         &self,
         starts: &Starts,
         store: &mut NumberStore,
-        pool: &rayon::ThreadPool,
-        stop: &StopFlag,
-        progress: &mut dyn FnMut(u64, u64),
+        threads: usize,
+        until: &Until,
+        mut progress: impl FnMut(usize, usize),
     ) -> Result<Vec<Vec<Pair>>, Interrupted> {
         let n_points = self.nominal.points.len();
-        let tasks: Vec<(usize, usize)> = (0..self.ends.len())
-            .flat_map(|tolerance| (0..n_points).map(move |point| (tolerance, point)))
-            .collect();
-        let known = &store.known.clone();
-        let is_over = &AtomicBool::new(false);
-        let (sender, receiver) = crossbeam_channel::unbounded();
-        let (mut pairs, mut failure) = (HashMap::new(), None);
-        std::thread::scope(|scope| {
-            scope.spawn(|| {
-                let one = |sender: &mut crossbeam_channel::Sender<_>, task: &(usize, usize)| {
-                    if !is_over.load(Ordering::Relaxed) && !stop.is_asked() {
-                        let found = self.pair(*task, &starts[task.0], known, stop);
-                        // The receiver goes only when all is over.
-                        let _ = sender.send((*task, found));
-                    }
-                };
-                pool.install(|| tasks.par_iter().with_max_len(1).for_each_with(sender, one));
-            });
-            for (task, found) in receiver {
-                match found.and_then(|(pair, new)| {
-                    store.append(new).map_err(Interrupted::Store)?;
-                    Ok(pair)
-                }) {
-                    Ok(pair) => {
-                        pairs.insert(task, pair);
-                        progress(pairs.len() as u64, tasks.len() as u64);
-                    }
-                    Err(why) => {
-                        is_over.store(true, Ordering::Relaxed);
-                        failure.get_or_insert(why);
-                    }
-                }
-            }
-        });
-        if let Some(why) = failure {
-            return Err(why);
-        }
-        let row = |tolerance| {
-            let points = (0..n_points).map(|point| pairs.get(&(tolerance, point)).copied());
-            points.collect::<Option<Vec<Pair>>>()
-        };
-        let rows = (0..self.ends.len()).map(row).collect::<Option<_>>();
-        rows.ok_or(Interrupted::Stopped)
+        let n = self.ends.len() * n_points;
+        let pairs = store.answers(
+            n,
+            threads,
+            |task, known| {
+                let (tolerance, place) = (task / n_points, task % n_points);
+                self.pair(tolerance, place, &starts[tolerance], known, until)
+            },
+            |done| progress(done, n),
+        )?;
+        Ok(pairs.chunks(n_points).map(<[Pair]>::to_vec).collect())
     }
 
     /// A pair, and its record if it is new.
     fn pair(
         &self,
-        (tolerance, place): (usize, usize),
-        starts: &[Vec<Option<f64>>; 2],
-        known: &HashMap<PointDigest, Numbers>,
-        stop: &StopFlag,
-    ) -> Result<(Pair, Option<(PointDigest, Numbers)>), Interrupted> {
+        tolerance: usize,
+        place: usize,
+        starts: &[Vec<Option<[f64; 2]>>; 2],
+        known: &Known,
+        until: &Until,
+    ) -> Result<Answered<Pair>, Interrupted> {
         let [Some(low_g), Some(high_g)] = starts.each_ref().map(|of_points| of_points[place])
         else {
-            return Ok((Pair::default(), None));
+            return Ok((Pair::default(), Vec::new()));
         };
         let points = self.ends[tolerance].each_ref().map(|study| {
             let order = study.table_order();
             &study.points[order[place]]
         });
-        let starts = [low_g, high_g].map(|start_g| grid().nearest(start_g));
+        let starts = [low_g, high_g].map(|[survived_g, failed_g]| {
+            let survives = grid().nearest(survived_g);
+            let fails = grid().nearest(failed_g).max(survives + 1);
+            Bracket { survives, fails }
+        });
         let key = key(self.nominal, points, starts);
         if let Some(pair) = known.get(&key).and_then(decode) {
-            return Ok((pair, None));
+            return Ok((pair, Vec::new()));
         }
+        let physics = self.ends[tolerance].each_ref();
+        let physics = physics.map(|study| self.physics_of(study));
         let mut simulated = Simulated {
-            physics: &self.physics[tolerance],
+            physics: &physics,
             place,
             sign: points[0].sign.factor(),
             has_mesh: points[0].remeshed.is_some(),
-            stop,
+            until,
         };
         let pair = find(&mut simulated, starts)?;
-        Ok((pair, Some((key, encode(&pair)))))
+        Ok((pair, vec![(key, encode(&pair))]))
     }
 }
 
@@ -198,7 +175,7 @@ struct Simulated<'a> {
     place: usize,
     sign: f64,
     has_mesh: bool,
-    stop: &'a StopFlag,
+    until: &'a Until,
 }
 
 impl Shaken for Simulated<'_> {
@@ -210,7 +187,7 @@ impl Shaken for Simulated<'_> {
         is_coarser: bool,
         step: i32,
     ) -> Result<Option<bool>, Interrupted> {
-        if self.stop.is_asked() {
+        if self.until.is_over() {
             return Err(Interrupted::Stopped);
         }
         let mesh = Some(Discretisation::RampMesh).filter(|_| self.has_mesh);
@@ -237,15 +214,17 @@ impl Shaken for Simulated<'_> {
 }
 
 /// Content of everything that a pair depends on.
-fn key(nominal: &Study, points: [&Point; 2], starts: [i32; 2]) -> PointDigest {
+fn key(nominal: &Study, points: [&Point; 2], starts: [Bracket; 2]) -> PointDigest {
     let mut hasher = blake3::Hasher::new();
-    let versions = format!("opshock worth 1 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {starts:?}");
+    let versions = format!("opshock worth 2 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {starts:?}");
     hasher.update(versions.as_bytes());
     // Effects and outputs of the study.
     hasher.update(&nominal.digest);
-    points.iter().for_each(|point| {
+    for point in points {
         hasher.update(&point.id.0);
-    });
+        let remeshed = point.remeshed.as_ref().map(RemeshedRamp::content);
+        hasher.update(remeshed.unwrap_or_default().as_bytes());
+    }
     PointDigest(*hasher.finalize().as_bytes())
 }
 

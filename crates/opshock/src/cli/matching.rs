@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::global::GlobalArgs;
+use super::long_run::LongRun;
 use super::stored;
 use super::sweep::{duration, quoted, settings};
 use super::{memory, modes, steady, study_file};
@@ -20,12 +21,10 @@ use opshock_study::report::{RunJson, STUDY_OF_A_MATCH, match_files, match_text};
 use opshock_study::store::aside;
 use opshock_study::study::Study;
 use opshock_study::study::memory::Demand;
-use opshock_study::sweep::StopFlag;
 use serde_json::{Value, json};
-use std::cell::Cell;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Find parameters of a study that make a set of observations true; run again, it resumes
 #[derive(Args, Debug)]
@@ -40,9 +39,6 @@ pub struct MatchArgs {
     out: Option<PathBuf>,
 }
 
-/// Time between two lines of progress within a wave.
-const BETWEEN_LINES: Duration = Duration::from_secs(10);
-
 /// Runs the command.
 pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
     let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?, &Paper)?;
@@ -52,21 +48,10 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     for note in &store.notes {
         console.tell(&format!("warning: {note}"));
     }
-    let stop = StopFlag::default();
-    stop.listen().context("cannot listen to signals")?;
-    let began = Instant::now();
-    let is_over = || {
-        arguments
-            .budget
-            .is_some_and(|budget| began.elapsed() >= budget)
-    };
-    let asked_to_stop = || stop.is_asked() || is_over();
-    let last_line = Cell::new(began);
+    let running = LongRun::begin(arguments.budget, console)?;
+    let asked_to_stop = || running.until.is_over();
     let progress = |stage: Stage, done: usize, of: usize| {
-        if last_line.get().elapsed() >= BETWEEN_LINES && !console.quiet {
-            last_line.set(Instant::now());
-            console.tell(&format!("{}: {done} of {of} parameter sets", stage.words()));
-        }
+        running.tell_progress(|| format!("{}: {done} of {of} parameter sets", stage.words()));
     };
     // All of this process: the search itself runs on this thread.
     rayon::ThreadPoolBuilder::new()
@@ -86,13 +71,13 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     console.tell(&format!(
         "{} simulated sets of numbers, {} s",
         evaluations.computed,
-        began.elapsed().as_secs()
+        running.seconds()
     ));
     if let Some(folder) = &arguments.out {
         let files = match_files(&problem, &answer, &found, &provenance::program())
             .context("cannot draw a figure")?;
         let written = aside::write_all(folder, files)?;
-        remove_studies_of_before(&problem, folder, &written)?;
+        aside::remove_former(folder, &written, &problem.study.path, study_of_a_match)?;
         console.tell(&format!(
             "wrote {} files into {}",
             written.len(),
@@ -113,37 +98,17 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
         quoted(&folder.display().to_string()),
         settings(global)
     ));
-    let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
-    Ok(signal.map_or(Exit::Budget, Exit::Signal))
+    Ok(running.stopped())
 }
 
-/// Removes the studies that a former match wrote into `folder` and this one did not; not the match's own study.
-fn remove_studies_of_before(
-    problem: &MatchProblem,
-    folder: &Path,
-    written: &[PathBuf],
-) -> anyhow::Result<()> {
-    let is_of_match = |name: &str| {
-        let number = name
-            .strip_prefix("matching-")
-            .and_then(|rest| rest.strip_suffix(".toml"));
-        name == "nearest.toml" || number.is_some_and(|number| number.parse::<u32>().is_ok())
-    };
-    let own = std::fs::canonicalize(&problem.study.path).ok();
-    for entry in std::fs::read_dir(folder).with_context(|| folder.display().to_string())? {
-        let path = entry.with_context(|| folder.display().to_string())?.path();
-        let name = path.file_name().and_then(|name| name.to_str());
-        let is_named = name.is_some_and(is_of_match) && path.is_file();
-        if !is_named || written.contains(&path) || std::fs::canonicalize(&path).ok() == own {
-            continue;
-        }
-        // A file of this name that no match wrote is somebody's own.
-        let text = std::fs::read(&path).with_context(|| path.display().to_string())?;
-        if text.starts_with(STUDY_OF_A_MATCH.as_bytes()) {
-            std::fs::remove_file(&path).with_context(|| path.display().to_string())?;
-        }
-    }
-    Ok(())
+/// How a file of this name begins, if a match wrote it.
+fn study_of_a_match(name: &str) -> Option<&'static str> {
+    let number = name
+        .strip_prefix("matching-")
+        .and_then(|rest| rest.strip_suffix(".toml"));
+    let is_named =
+        name == "nearest.toml" || number.is_some_and(|number| number.parse::<u32>().is_ok());
+    is_named.then_some(STUDY_OF_A_MATCH)
 }
 
 /// `opshock plan` of a match file.

@@ -24,6 +24,23 @@ pub fn of_sweep(study: &Study) -> Demand {
     Demand::sweep(study, finer)
 }
 
+/// What drives that differ from the studies need: each worker has models of its own of `copies` studies at a time, beside those
+/// of the studies.
+pub fn of_drives<'a>(studies: impl IntoIterator<Item = &'a Study>, copies: f64) -> Demand {
+    let mut models = 0.0;
+    let mut most = Demand::default();
+    for study in studies {
+        let sweep = of_sweep(study);
+        models += Demand::models(study).models;
+        most = most.max(Demand {
+            models: 0.0,
+            steps: sweep.steps + copies * sweep.models,
+            ..sweep
+        });
+    }
+    Demand { models, ..most }
+}
+
 /// What Linux says is available, or what a control group or a limit of this process leaves if that is less; without
 /// bound where the system gives no number.
 pub fn available_bytes() -> f64 {

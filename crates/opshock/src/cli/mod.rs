@@ -18,6 +18,7 @@ mod figures;
 mod global;
 mod hard_cases;
 mod import;
+mod long_run;
 mod matching;
 mod memory;
 mod merge;

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::global::GlobalArgs;
+use super::long_run::LongRun;
 use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
@@ -15,9 +16,9 @@ use opshock_study::qualification::Spec;
 use opshock_study::report::populated::{self, Populated};
 use opshock_study::store::aside;
 use opshock_study::study::{StudyError, StudyErrors};
-use opshock_study::sweep::{Physics, StopFlag};
+use opshock_study::sweep::Physics;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Find out which share of drives with tolerances survives a specification; run again, it resumes
 #[derive(Args, Debug)]
@@ -40,15 +41,13 @@ pub struct YieldArgs {
     #[arg(long, value_name = "TIME", value_parser = sweep::duration)]
     budget: Option<Duration>,
     /// Simulate one part of the drives, as 2/4, without an answer; another --store for each part
-    #[arg(long, value_name = "K/N", value_parser = part)]
+    #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["at_least", "out"])]
     shard: Option<Part>,
     /// Store of another part, or of other drives, whose answers are taken; may be repeated
     #[arg(long, value_name = "STORE")]
     reuse: Vec<PathBuf>,
 }
 
-/// Time between two lines of progress.
-const BETWEEN_LINES: Duration = Duration::from_secs(10);
 const ALL: Part = Part { number: 1, of: 1 };
 
 fn per_cent(text: &str) -> Result<f64, String> {
@@ -78,10 +77,10 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
     tolerances.check_spec(&spec)?;
     for requirement in &spec.requirements {
         study_file::refuse_unaccepted(&requirement.study, global)?;
-        let available = memory::available_bytes();
-        let of_sweep = memory::of_sweep(&requirement.study);
-        of_sweep.check("the drives", global.threads(), available)?;
     }
+    let studies = spec.requirements.iter().map(|one| &one.study);
+    let demand = memory::of_drives(studies, 1.0);
+    memory::check("the drives", demand, global.threads())?;
     let folder = match &global.store {
         Some(folder) => folder.clone(),
         None => stored::folder_of_study(&arguments.study, global).with_extension("yield"),
@@ -93,25 +92,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
     for note in &store.notes {
         console.tell(&format!("warning: {note}"));
     }
-    let stop = StopFlag::default();
-    stop.listen().context("cannot listen to signals")?;
-    let began = Instant::now();
-    let mut last_line = began;
-    let mut progress = |done: u64, of: u64| {
-        if arguments
-            .budget
-            .is_some_and(|budget| began.elapsed() >= budget)
-        {
-            stop.ask();
-        }
-        if last_line.elapsed() >= BETWEEN_LINES && !console.quiet {
-            last_line = Instant::now();
-            console.tell(&format!(
-                "{done} of {of} drives, {} s",
-                began.elapsed().as_secs()
-            ));
-        }
-    };
+    let running = LongRun::begin(arguments.budget, console)?;
     let nominal = spec.requirements.iter();
     let nominal: Vec<Physics> = nominal.map(|one| Physics::of(&one.study)).collect();
     let population = Population {
@@ -120,19 +101,19 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         spec: &arguments.spec,
         study: &arguments.study,
     };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(global.threads());
-    let pool = pool.build().context("cannot start threads")?;
     let part = arguments.shard.unwrap_or(ALL);
-    let found = population.simulate(&mut store, part, &pool, &stop, &mut progress);
+    let found = population.simulate(
+        &mut store,
+        part,
+        global.threads(),
+        &running.until,
+        |done, of| {
+            running.tell_progress(|| format!("{done} of {of} drives, {} s", running.seconds()));
+        },
+    );
     let drives = match found {
         Ok(drives) => drives,
-        Err(Interrupted::Stopped) => {
-            console.tell(
-                "saved, without an answer, and nothing written into --out; run the same command again to go on",
-            );
-            let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
-            return Ok(signal.map_or(Exit::Budget, Exit::Signal));
-        }
+        Err(Interrupted::Stopped) => return Ok(running.ended_early()),
         Err(Interrupted::Store(error)) => return Err(error.into()),
         Err(Interrupted::Refused(drive, values, errors)) => {
             return Err(refused(drive, &values, errors).into());
@@ -158,6 +139,12 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
     if let Some(out) = out {
         let files = populated::populated_files(&populated).context("cannot draw a figure")?;
         let written = aside::write_all(out, files)?;
+        aside::remove_former(
+            out,
+            &written,
+            &arguments.study,
+            populated::file_of_a_population,
+        )?;
         console.tell(&format!(
             "wrote {} files into {}",
             written.len(),
@@ -182,7 +169,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
 
 /// The study's faults, with the drive that has them.
 fn refused(drive: u64, values: &str, errors: StudyErrors) -> StudyErrors {
-    let told = errors.errors.into_iter().map(|mut fault: StudyError| {
+    let refused = errors.errors.into_iter().map(|mut fault: StudyError| {
         fault.message = format!(
             "{} (drive {drive} of the population: {values})",
             fault.message
@@ -192,5 +179,5 @@ fn refused(drive: u64, values: &str, errors: StudyErrors) -> StudyErrors {
                 .into();
         fault
     });
-    StudyErrors::new(told.collect())
+    StudyErrors::new(refused.collect())
 }

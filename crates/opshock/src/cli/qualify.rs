@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::{Failure, Fault};
 use super::global::GlobalArgs;
+use super::long_run::LongRun;
 use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
@@ -13,9 +14,9 @@ use opshock_study::report::qualified::{self, Qualified, Tested};
 use opshock_study::store::names::{JOURNAL_FILE, RESULTS_FILE};
 use opshock_study::store::{Summary, aside};
 use opshock_study::study::Study;
-use opshock_study::sweep::{Ending, Physics, ProgressKind, StopFlag, SweepInput, SweepOptions};
+use opshock_study::sweep::{Ending, Physics, ProgressKind, SweepInput, SweepOptions};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Find out whether a drive meets a specification: passes, fails or undecided for each requirement; run again, it resumes
 #[derive(Args, Debug)]
@@ -32,9 +33,6 @@ pub struct QualifyArgs {
     #[arg(long, value_name = "TIME", value_parser = sweep::duration)]
     budget: Option<Duration>,
 }
-
-const NOT_FINISHED: &str =
-    "saved, without a verdict, and nothing written into --out; run the same command again to go on";
 
 /// Runs the command.
 pub fn run(
@@ -56,33 +54,21 @@ pub fn run(
     let base = base(arguments, global);
     refuse_store(&base)?;
     let folders = folders(&base, &spec);
-    let stop = StopFlag::default();
-    stop.listen().context("cannot listen to signals")?;
-    let began = Instant::now();
+    let running = LongRun::begin(arguments.budget, console)?;
     let mut summaries = Vec::new();
     for (place, requirement) in spec.requirements.iter().enumerate() {
         let options = SweepOptions {
-            stop: stop.clone(),
-            budget: arguments
-                .budget
-                .map(|all| all.saturating_sub(began.elapsed())),
+            stop: running.until.stop.clone(),
+            budget: running.until.left(),
             // Requirements that differ in their amplitude alone share simulations.
             reuse: folders[..place].to_vec(),
             ..SweepOptions::with_threads(global.threads())
         };
         let (summary, ending) = answered(requirement, &folders[place], &options, global, console)?;
-        match ending {
-            Ending::Complete => summaries.push(summary),
-            Ending::Stopped { signal } => {
-                console.tell(NOT_FINISHED);
-                let number = signal.and_then(|signal| u8::try_from(signal).ok());
-                return Ok(number.map_or(Exit::Budget, Exit::Signal));
-            }
-            Ending::Budget => {
-                console.tell(NOT_FINISHED);
-                return Ok(Exit::Budget);
-            }
+        if ending != Ending::Complete {
+            return Ok(running.ended_early());
         }
+        summaries.push(summary);
     }
     let tested = spec.requirements.iter().zip(&summaries);
     let qualified = Qualified {

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::global::GlobalArgs;
+use super::long_run::LongRun;
 use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
@@ -12,10 +13,10 @@ use opshock_study::provenance;
 use opshock_study::report::valued::{self, Valued};
 use opshock_study::store::aside;
 use opshock_study::study::{SetArg, Study};
-use opshock_study::sweep::{ProgressKind, StopFlag, SweepInput, SweepOptions};
+use opshock_study::sweep::{ProgressKind, SweepInput};
 use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Find out by how much each tolerance changes the critical shocks of a study; run again, it resumes
 #[derive(Args, Debug)]
@@ -33,8 +34,6 @@ pub struct WorthArgs {
     budget: Option<Duration>,
 }
 
-/// Time between two lines of progress.
-const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Settings laid over the study: the pairs have uncertainties of their own.
 const SETS: [&str; 2] = ["search.uncertainty=false", "outputs=[\"critical_shock\"]"];
 
@@ -52,9 +51,13 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     let nominal = Study::from_path(&arguments.study, &sets)?;
     let tolerances = Tolerances::from_path(&arguments.tolerances, &arguments.study, &sets)?;
     study_file::refuse_unaccepted(&nominal, global)?;
-    memory::of_sweep(&nominal).check("the sweep", global.threads(), memory::available_bytes())?;
+    memory::check(
+        "the pairs",
+        memory::of_drives([&nominal], 2.0),
+        global.threads(),
+    )?;
     let places = 0..tolerances.parameters.len();
-    let ends = places.map(|place| tolerances.studies_at(&nominal, place, ENDS));
+    let ends = places.map(|place| tolerances.studies_at(place, ENDS));
     let ends: Vec<[Study; 2]> = ends.collect::<Result<_, _>>()?;
     let folder = match &global.store {
         Some(folder) => folder.clone(),
@@ -64,55 +67,25 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     for note in &store.notes {
         console.tell(&format!("warning: {note}"));
     }
-    let stop = StopFlag::default();
-    stop.listen().context("cannot listen to signals")?;
-    let began = Instant::now();
-    let stopped = || {
-        console.tell(
-            "saved, without an answer, and nothing written into --out; run the same command again to go on",
-        );
-        let signal = stop.signal().and_then(|number| u8::try_from(number).ok());
-        signal.map_or(Exit::Budget, Exit::Signal)
-    };
+    let running = LongRun::begin(arguments.budget, console)?;
     // Where the pairs begin: critical shocks as a sweep finds them.
     SweepInput::of(&nominal).context("the study has no amplitudes to search")?;
-    let options = SweepOptions {
-        stop: stop.clone(),
-        budget: arguments.budget,
-        ..SweepOptions::with_threads(global.threads())
-    };
     let kind = match console.quiet {
         true => ProgressKind::Warnings,
         false => global.progress.into(),
     };
     let worth = Worth::new(&nominal, &ends);
-    let starts = match worth.starts(&folder.join("critical"), &options, kind) {
-        Ok(starts) => starts,
-        Err(Interrupted::Store(error)) => return Err(error.into()),
-        Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),
-    };
-    let mut last_line = began;
-    let mut told = |done: u64, of: u64| {
-        if arguments
-            .budget
-            .is_some_and(|budget| began.elapsed() >= budget)
-        {
-            stop.ask();
-        }
-        if last_line.elapsed() >= BETWEEN_LINES && !console.quiet {
-            last_line = Instant::now();
-            console.tell(&format!(
-                "{done} of {of} pairs, {} s",
-                began.elapsed().as_secs()
-            ));
-        }
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(global.threads());
-    let pool = pool.build().context("cannot start threads")?;
-    let pairs = match worth.simulate(&starts, &mut store, &pool, &stop, &mut told) {
+    let (threads, until) = (global.threads(), &running.until);
+    let found = worth.starts(&folder.join("critical"), threads, until, kind);
+    let found = found.and_then(|starts| {
+        worth.simulate(&starts, &mut store, threads, until, |done, of| {
+            running.tell_progress(|| format!("{done} of {of} pairs, {} s", running.seconds()));
+        })
+    });
+    let pairs = match found {
         Ok(pairs) => pairs,
         Err(Interrupted::Store(error)) => return Err(error.into()),
-        Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(stopped()),
+        Err(Interrupted::Stopped | Interrupted::Refused(..)) => return Ok(running.ended_early()),
     };
     let answer = WorthAnswer::of(&tolerances, &nominal, &pairs);
     let valued = Valued {

@@ -33,8 +33,7 @@ pub(in crate::report) fn page(populated: &Populated<'_>) -> String {
         &mut page,
         "Requirements",
         &format!(
-            "{}<p>\u{201c}By interval\u{201d}: drives with a point so near the required amplitude that the uncertainty interval of its \
-             critical shock had to decide.</p>\n",
+            "{}<p>Decided by uncertainty interval: drives with a point so near the required amplitude that two shocks did not agree.</p>\n",
             table(populated.requirements(), 1)
         ),
     );
@@ -60,7 +59,7 @@ pub(in crate::report) fn page(populated: &Populated<'_>) -> String {
             "Which tolerance matters",
             &format!(
                 "{}<p>How much of the variance of the verdict (survives, or not) a tolerance explains by itself, and the share of drives that do \
-             not survive where its value is low, in the middle and high. A tolerance is told from chance when it explains more than 95 % of \
+             not survive where its value is low, in the middle and high. A tolerance is significant when it explains more than 95 % of \
              random permutations of the verdicts do. What tolerances do together is not in these numbers.</p>\n",
                 table(populated.sensitivities(), 1)
             ),
@@ -70,8 +69,10 @@ pub(in crate::report) fn page(populated: &Populated<'_>) -> String {
         &mut page,
         "Worst drives",
         &format!(
-            "{}<p>Each is beside this page as a study, drive-N.toml. Of drives that survive, those with the smallest clearance are \
-             listed.</p>\n",
+            "{}<p>Each is beside this page as a study, drive-N.toml. Of drives that survive, those decided by their uncertainty \
+             interval come first, then those with the smallest clearance. The highest amplitude is the highest that was tested; the lowest \
+             failed one is sought of drives that fail and of those of the fragility curve, and blank elsewhere. The clearance is the smallest at \
+             the higher survivor of the two amplitudes of the verdict.</p>\n",
             table(populated.worst(), populated.worst().0.len())
         ),
     );

@@ -51,11 +51,11 @@ pub(in crate::report) fn page(valued: &Valued<'_>) -> String {
     let _ = write!(
         page,
         "<section aria-labelledby=\"basis\">\n<h2 id=\"basis\">What it rests on</h2>\n\
-         <p>A change is the critical shock at the higher value less that at the lower one, everything else as in the study: the values \
-         below and above which 15.9 % of the parts lie, one standard deviation either way of a normal distribution. Both are found on the same \
+         <p>A change is the critical shock at the higher value less that at the lower one, everything else as in the study: the 15.9th \
+         and 84.1th percentiles of its distribution, one standard deviation either way of a normal one. Both are found on the same \
          meshes, time steps and amplitudes, and once more a step coarser, so that numerical errors which both have cancel. The number after \
-         \u{b1} bounds the rest: brackets, and three times what the change moves by coarsening. A change whose interval holds 0 cannot be told \
-         from none.</p>\n\
+         \u{b1} bounds the rest: brackets, and three times what the change moves by coarsening. A change whose interval holds 0 cannot be \
+         distinguished from none.</p>\n\
          <p>Not covered: errors of the model, what several tolerances do together, and how the change is distributed between the two values.</p>\n\
          <h3>Tolerances</h3>\n<pre>{}</pre>\n</section>\n</main>\n</body>\n</html>\n",
         escaped(valued.tolerances)

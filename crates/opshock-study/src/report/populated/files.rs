@@ -8,8 +8,20 @@ use crate::report::error::ReportError;
 use crate::report::html::population::page;
 use crate::report::table::{aligned, csv_line, plain_markdown};
 
-/// First line of a study that a population wrote.
-const STUDY_OF_A_POPULATION: &str = "# drive ";
+/// Beginning of a study that a population wrote.
+const STUDY_OF_A_POPULATION: &str = "# opshock yield: drive ";
+
+/// How a file of this name begins, if a population wrote it.
+pub fn file_of_a_population(name: &str) -> Option<&'static str> {
+    let number = name
+        .strip_prefix("drive-")
+        .and_then(|rest| rest.strip_suffix(".toml"));
+    if number.is_some_and(|number| number.parse::<u64>().is_ok()) {
+        return Some(STUDY_OF_A_POPULATION);
+    }
+    // Figures of this name are replaced whatever they hold.
+    ["yield.svg", "yield.png"].contains(&name).then_some("")
+}
 
 /// Answer and tables, as a terminal shows them.
 pub fn text(populated: &Populated<'_>) -> String {

@@ -4,5 +4,5 @@ pub(super) mod figure;
 mod files;
 pub(super) mod words;
 
-pub use files::{json, markdown, populated_files, text};
+pub use files::{file_of_a_population, json, markdown, populated_files, text};
 pub use words::Populated;

@@ -54,25 +54,25 @@ impl Populated<'_> {
                 between(lowest.counts.survival)
             ));
         }
-        let told: Vec<&Sensitivity> = answer
+        let significant: Vec<&Sensitivity> = answer
             .sensitivity
             .iter()
-            .filter(|one| one.is_told_apart)
+            .filter(|one| one.is_significant)
             .collect();
-        match told.first() {
+        match significant.first() {
             Some(first) => sentences.push(format!(
                 "The tolerance that decides most is {}: it explains {:.0} % ({:.0} to {:.0} %) of the variance of the verdict.{}",
                 first.name,
                 100.0 * first.first_order,
                 100.0 * first.interval[0],
                 100.0 * first.interval[1],
-                match answer.sensitivity.len() - told.len() {
+                match answer.sensitivity.len() - significant.len() {
                     0 => String::new(),
-                    others => format!(" {others} of {} cannot be told from chance.", answer.sensitivity.len()),
+                    others => format!(" {others} of {} cannot be distinguished from chance.", answer.sensitivity.len()),
                 }
             )),
             None if answer.all.failing + answer.all.undecided > 0 => sentences.push(
-                "No tolerance can be told from chance: too few drives fail, or no single one decides.".to_owned(),
+                "No tolerance can be distinguished from chance: too few drives fail, or no single one decides.".to_owned(),
             ),
             None => sentences.push("None fails, so that no tolerance can be ranked.".to_owned()),
         }
@@ -87,7 +87,7 @@ impl Populated<'_> {
             "survive",
             "undecided",
             "fail",
-            "by interval",
+            "decided by uncertainty interval",
             "share that survives, 95 %",
         ];
         let row = |name: &str, required: String, counts: &Counts, by_interval: String| {
@@ -130,7 +130,7 @@ impl Populated<'_> {
             "not passing: lowest quarter",
             "middle half",
             "highest quarter",
-            "told from chance?",
+            "significant?",
         ];
         let rows = self.answer.sensitivity.iter().map(|one| {
             let parts = &one.not_passing;
@@ -145,7 +145,7 @@ impl Populated<'_> {
                 share(&parts.lowest_quarter),
                 share(&parts.middle_half),
                 share(&parts.highest_quarter),
-                if one.is_told_apart { "yes" } else { "no" }.to_owned(),
+                if one.is_significant { "yes" } else { "no" }.to_owned(),
             ]
         });
         (header.map(String::from).to_vec(), rows.collect())
@@ -157,8 +157,9 @@ impl Populated<'_> {
             "drive",
             "verdict",
             "at",
-            "survives (G)",
-            "fails (G)",
+            "highest survived (G)",
+            "lowest failed (G)",
+            "clearance (nm)",
             "its values",
         ];
         let rows = self.answer.worst.iter().map(|one| {
@@ -171,6 +172,9 @@ impl Populated<'_> {
                 format!("{}, {}", one.requirement, one.point),
                 amplitude(one.bracket_g[0]),
                 amplitude(one.bracket_g[1]),
+                one.clearance_m.map_or(String::new(), |clearance_m| {
+                    format!("{:.2}", 1e9 * clearance_m)
+                }),
                 values(one),
             ]
         });
@@ -181,9 +185,9 @@ impl Populated<'_> {
     pub(in crate::report) fn basis(&self) -> String {
         format!(
             "{} drives, fixed before the first was simulated, each an independent draw (seed {}). A drive survives a requirement when every \
-             point of it does. A point whose verdict is the same at the required amplitude and at 1.19 times it (survivors) or a 1.19th of it \
-             (failures) needs no more; any other is decided by the uncertainty interval of its critical shock, or undecided. Intervals of \
-             shares are exact binomial ones (Clopper and Pearson 1934).",
+             point of it does. A point that survives the required amplitude and 1.19 times it passes, and one that fails at it and at a \
+             1.19th of it fails, at the study's resolution and window: two shocks, without a bound on their numerical error. Any other is \
+             decided by the uncertainty interval of its critical shock, or undecided. Intervals of shares are exact binomial ones (Clopper and Pearson 1934).",
             self.answer.drives, self.answer.seed
         )
     }

@@ -36,7 +36,7 @@ fn csv(valued: &Valued<'_>) -> String {
         "critical_high_g",
         "change_g",
         "uncertainty_g",
-        "told_apart",
+        "excludes_zero",
     ];
     let mut text = csv_line(&header.map(String::from));
     for row in &valued.answer.rows {
@@ -50,7 +50,7 @@ fn csv(valued: &Valued<'_>) -> String {
                 number(change.critical_g[1]),
                 number(change.change_g),
                 number(change.uncertainty_g),
-                change.is_told_apart.to_string(),
+                change.excludes_zero.to_string(),
             ]));
         }
     }
