@@ -28,7 +28,7 @@ fn every_damaged_specification_gets_its_message() {
         .collect();
     files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     files.sort();
-    assert!(files.len() >= 36, "{}", files.len());
+    assert!(files.len() >= 42, "{}", files.len());
     insta::with_settings!({
         snapshot_path => "../bad_inputs/specs/messages",
         prepend_module_to_snapshot => false,
@@ -279,6 +279,7 @@ fn margins_reasons_and_counts_are_those_of_the_rows_in_every_file() {
             Tested::of(&spec.requirements[0], &first),
             Tested::of(&spec.requirements[1], &second),
         ],
+        boundary: None,
     };
     assert_eq!(qualified.verdict(), Verdict::Fails);
     let sentences = qualified.sentences();
@@ -403,6 +404,32 @@ fn the_program_passes_fails_or_leaves_open_by_its_exit_code_and_goes_on_where_it
     let done = qualify(folder, &spec("at it", critical_g), &none);
     assert_eq!(done.code, 4, "{}{}", done.stdout, done.stderr);
     assert_eq!(done.json()["requirements"][0]["undecided_points"], 1);
+
+    // A damage boundary beside it: critical shocks of its own, short pulses up to far higher amplitudes.
+    let boundary = "\n[damage_boundary]\nwidths_ms = [0.05, 0.2, 0.8]\n";
+    let both = spec("low", 50.0) + boundary;
+    let done = qualify(folder, &both, &["--max-refinements", "0", "--out", "both"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let found = &done.json()["damage_boundary"];
+    let points = found["points"].as_array().expect("points");
+    assert_eq!(points.len(), 3);
+    for point in points {
+        let end = |key: &str| point[key][0].as_f64().expect(key);
+        let width_s = 1e-3 * point["pulse_ms"].as_f64().expect("a width");
+        let per_g = 9.80665 * 2.0 * width_s / std::f64::consts::PI;
+        let ratio = end("velocity_change_m_per_s") / (per_g * end("amplitude_g"));
+        assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
+    }
+    let critical = found["critical_velocity_change_m_per_s"]["interval"][0].as_f64();
+    let critical = critical.expect("a velocity change");
+    assert!(points.iter().all(|point| {
+        point["velocity_change_m_per_s"][0]
+            .as_f64()
+            .expect("an end")
+            >= critical
+    }));
+    let csv = std::fs::read_to_string(folder.join("both/damage_boundary.csv")).expect("written");
+    assert_eq!(csv.lines().count(), 4, "{csv}");
 
     // A store of a sweep is no folder of stores.
     let inside = ["--store", "drive.qualify/s/low"];

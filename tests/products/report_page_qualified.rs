@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use opshock_study::qualification::Spec;
-use opshock_study::report::qualified::{Qualified, Tested, qualified_files};
+use opshock_study::qualification::{BoundaryPoint, DamageBoundary, Spec};
+use opshock_study::report::qualified::{Boundary, Qualified, Tested, qualified_files};
 use opshock_study::search::{Flag, Sign};
 use opshock_study::store::summary::{PointSummary, Status, Summary, Totals};
 use opshock_study::study::Study;
@@ -81,6 +81,29 @@ fn table(widths_ms: &[f64], required_g: f64) -> Summary {
     }
 }
 
+/// Widths of a damage boundary, one of them with a bound alone.
+fn boundary() -> Boundary {
+    let points = [(0.1, 2100.0), (0.5, 480.0), (2.0, 260.0), (10.0, 240.0)];
+    let points = points.into_iter().map(|(pulse_ms, critical_g)| {
+        let high_g = match pulse_ms {
+            0.1 => f64::INFINITY,
+            _ => 1.05 * critical_g,
+        };
+        let amplitude_g = [critical_g, high_g];
+        BoundaryPoint {
+            pulse_ms,
+            sign: Sign::Plus,
+            amplitude_g,
+            velocity_change_m_per_s: amplitude_g.map(|g| 6.2e-3 * pulse_ms * g),
+        }
+    });
+    Boundary {
+        found: DamageBoundary::through(points.collect()).expect("a boundary"),
+        shape: "half-sine",
+        runs: 40,
+    }
+}
+
 /// The page, written into a folder.
 fn page(folder: &Path) -> String {
     let study = folder.join("drive.toml");
@@ -95,8 +118,9 @@ fn page(folder: &Path) -> String {
         program: "opshock 1 (abc)",
         spec: &spec,
         tested: tested.map(|(one, table)| Tested::of(one, table)).collect(),
+        boundary: Some(boundary()),
     };
-    let files = qualified_files(&qualified);
+    let files = qualified_files(&qualified).expect("files");
     let html = files.into_iter().find(|(name, _)| name.ends_with(".html"));
     String::from_utf8(html.expect("a page").1).expect("UTF-8")
 }

@@ -5,8 +5,10 @@
 //! (1 + m) A. The search ends at four times that amplitude. Every point with a bracket above a quarter of it gets its uncertainty
 //! interval, and those whose interval holds the amplitude are refined (`search::decisive`).
 
+mod damage_boundary;
 mod spec;
 mod verdict;
 
-pub use spec::{Requirement, Spec};
+pub use damage_boundary::{BoundaryPoint, Critical, DamageBoundary};
+pub use spec::{Requirement, Spec, pulse_shape};
 pub use verdict::{Open, PointVerdict, RequirementVerdict, Verdict};

@@ -12,7 +12,18 @@ use crate::study::table_fields::{Faults, Fields, wrong_kind};
 use crate::study::tree::{self, Value};
 use crate::study::{SetArg, Study, StudyError, StudyErrors, is_within};
 
-const TOP: &[&str] = &["spec_format", "name", "source", "requirement"];
+const TOP: &[&str] = &[
+    "spec_format",
+    "name",
+    "source",
+    "requirement",
+    "damage_boundary",
+];
+const OF_BOUNDARY: &[&str] = &["widths_ms", "signs", "set"];
+/// Fewest pulse widths of a damage boundary: a short pulse, a long one, and one between.
+const FEWEST_WIDTHS: usize = 3;
+/// Highest amplitude of its search, G: short pulses need more than a study's own.
+const BOUNDARY_MOST_G: f64 = 1e5;
 const OF_REQUIREMENT: &[&str] = &[
     "name",
     "amplitude_g",
@@ -57,6 +68,8 @@ pub struct Spec {
     pub text: String,
     /// Requirements, in the file's order.
     pub requirements: Vec<Requirement>,
+    /// The study of the damage boundary, where one is asked for.
+    pub damage_boundary: Option<Study>,
 }
 
 /// What a drive must survive.
@@ -80,20 +93,6 @@ impl Requirement {
         required_g(self.amplitude_g, self.margin_pct)
     }
 
-    /// Shape of its pulses, in words.
-    pub fn pulse_shape(&self) -> &'static str {
-        let first = self.study.points.first();
-        match first.map(|point| &point.scene.pulse.shape) {
-            Some(PulseShape::HalfSine) => "half-sine",
-            Some(PulseShape::Haversine) => "haversine",
-            Some(PulseShape::Square) => "square",
-            Some(PulseShape::Trapezoid { .. }) => "trapezoid",
-            Some(PulseShape::DampedSine { .. }) => "damped sine",
-            Some(PulseShape::Table { .. }) => "as sampled",
-            None => "none",
-        }
-    }
-
     /// Smallest and largest velocity change of its pulses at the required amplitude, m/s.
     pub fn velocity_changes_m_per_s(&self) -> [f64; 2] {
         let peak_m_per_s2 = self.required_g() * STANDARD_GRAVITY_M_PER_S2;
@@ -103,6 +102,20 @@ impl Requirement {
             let change = (peak_m_per_s2 * integral_s).abs();
             [low.min(change), high.max(change)]
         })
+    }
+}
+
+/// Shape of a study's pulses, in words.
+pub fn pulse_shape(study: &Study) -> &'static str {
+    let first = study.points.first();
+    match first.map(|point| &point.scene.pulse.shape) {
+        Some(PulseShape::HalfSine) => "half-sine",
+        Some(PulseShape::Haversine) => "haversine",
+        Some(PulseShape::Square) => "square",
+        Some(PulseShape::Trapezoid { .. }) => "trapezoid",
+        Some(PulseShape::DampedSine { .. }) => "damped sine",
+        Some(PulseShape::Table { .. }) => "as sampled",
+        None => "none",
     }
 }
 
@@ -146,12 +159,18 @@ impl Spec {
             }
             requirements.push(one);
         }
+        let damage_boundary = fields.get("damage_boundary").and_then(|node| {
+            let path = fields.path("damage_boundary");
+            let entry = Fields::of(node, &path, OF_BOUNDARY, &mut faults)?;
+            boundary(&entry, (&plain, study, sets), &mut faults)
+        });
         match (name, faults.is_empty()) {
             (Some(name), true) => Ok(Spec {
                 name,
                 source: from,
                 text,
                 requirements,
+                damage_boundary,
             }),
             _ => Err(StudyErrors::new(faults)),
         }
@@ -212,36 +231,16 @@ fn requirement(
         return None;
     }
     let required_g = required_g(amplitude_g, margin_pct);
-    let both: String = format!("{}, {name}", plain.name)
-        .chars()
-        .take(MOST_LETTERS)
-        .collect();
     let searched = [
-        format!("name={both:?}"),
         format!(
             "search.amplitude_g={{ min = {:?}, max = {:?} }}",
             plain.search.amplitude_min_g.min(required_g / FAR),
             required_g * FAR
         ),
         format!("search.required_amplitude_g={required_g:?}"),
-        "outputs=[\"critical_shock\"]".to_owned(),
-        "search.uncertainty=true".to_owned(),
         "search.uncertainty_of=\"decisive\"".to_owned(),
     ];
-    let mut all = sets.to_vec();
-    // What the requirement sets replaces what the command line sets.
-    let mut lay = |argument: SetArg| {
-        all.retain(|known| !is_within(&known.key, &argument.key));
-        all.push(argument);
-    };
-    if plain.search.added_points.is_some() {
-        lay(SetArg::unset("search.added_points").expect("a key"));
-    }
-    let keys = own.iter().map(|(_, text)| text);
-    for text in keys.chain(&searched) {
-        lay(SetArg::parse(text).expect("a key and a value"));
-    }
-    match Study::from_path(file, &all) {
+    match study_with((plain, file, sets), &name, &own, &searched) {
         Ok(study) => Some(Requirement {
             name,
             amplitude_g,
@@ -254,18 +253,97 @@ fn requirement(
             study,
         }),
         Err(refused) => {
-            faults.extend(refused.errors.into_iter().map(|fault| {
-                let place = own.iter().find(|(_, text)| {
-                    let key = text.split_once('=').map(|(key, _)| key);
-                    key == Some(fault.key.as_str())
-                });
-                refusal(entry, &name, place.map(|(name, _)| *name), fault)
-            }));
+            refuse(entry, &name, &own, refused, faults);
             None
         }
     }
 }
 
+/// The study of a damage boundary: intervals of every width and sign, of one ramp model and head.
+fn boundary(
+    entry: &Fields<'_>,
+    (plain, file, sets): (&Study, &Path, &[SetArg]),
+    faults: &mut Faults,
+) -> Option<Study> {
+    let before = faults.len();
+    if entry.get("widths_ms").is_none() {
+        entry.missing("widths_ms", "three or more pulse widths, in ms", faults);
+    }
+    let own = own_settings(entry, faults);
+    if faults.len() > before {
+        return None;
+    }
+    let searched = [format!(
+        "search.amplitude_g={{ min = {:?}, max = {BOUNDARY_MOST_G:?} }}",
+        plain.search.amplitude_min_g
+    )];
+    let name = "damage boundary";
+    let study = study_with((plain, file, sets), name, &own, &searched);
+    let study = study.map_err(|refused| refuse(entry, name, &own, refused, faults));
+    let study = study.ok()?;
+    if study.widths_ms.len() < FEWEST_WIDTHS {
+        let fault = entry.fault_of("E194", "widths_ms", "has too few pulse widths");
+        faults.push(fault.allowed("three or more, from short pulses to long ones"));
+    }
+    if study.points.len() != study.widths_ms.len() * study.signs.len() {
+        let fault = entry.fault(
+            "E194",
+            "the study has more points than pulse widths and signs",
+        );
+        faults
+            .push(fault.allowed("a study with one ramp model, head and value of every other key"));
+    }
+    (faults.len() == before).then_some(study)
+}
+
+/// The study with settings laid over it: its own of an entry of the file, and those of the search for it.
+fn study_with(
+    (plain, file, sets): (&Study, &Path, &[SetArg]),
+    name: &str,
+    own: &[(&'static str, String)],
+    searched: &[String],
+) -> Result<Study, StudyErrors> {
+    let both: String = format!("{}, {name}", plain.name)
+        .chars()
+        .take(MOST_LETTERS)
+        .collect();
+    let always = [
+        format!("name={both:?}"),
+        "outputs=[\"critical_shock\"]".to_owned(),
+        "search.uncertainty=true".to_owned(),
+    ];
+    let mut all = sets.to_vec();
+    // What the requirement sets replaces what the command line sets.
+    let mut lay = |argument: SetArg| {
+        all.retain(|known| !is_within(&known.key, &argument.key));
+        all.push(argument);
+    };
+    if plain.search.added_points.is_some() {
+        lay(SetArg::unset("search.added_points").expect("a key"));
+    }
+    let keys = own.iter().map(|(_, text)| text);
+    for text in keys.chain(&always).chain(searched) {
+        lay(SetArg::parse(text).expect("a key and a value"));
+    }
+    Study::from_path(file, &all)
+}
+
+/// The faults of an entry's study, at their places in the entry where that has the key.
+fn refuse(
+    entry: &Fields<'_>,
+    name: &str,
+    own: &[(&'static str, String)],
+    refused: StudyErrors,
+    faults: &mut Faults,
+) {
+    faults.extend(refused.errors.into_iter().map(|fault| {
+        let place = own.iter().find(|(_, text)| {
+            let key = text.split_once('=').map(|(key, _)| key);
+            key == Some(fault.key.as_str())
+        });
+        refusal(entry, name, place.map(|(name, _)| *name), fault)
+    }));
+}
 /// A fault of the requirement's study, at the place of the requirement where that has the key.
 fn refusal(
     entry: &Fields<'_>,

@@ -9,8 +9,8 @@ use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
 use opshock_study::provenance;
-use opshock_study::qualification::{Requirement, Spec, Verdict};
-use opshock_study::report::qualified::{self, Qualified, Tested};
+use opshock_study::qualification::{Spec, Verdict};
+use opshock_study::report::qualified::{self, Boundary, Qualified, Tested};
 use opshock_study::store::names::{JOURNAL_FILE, RESULTS_FILE};
 use opshock_study::store::{Summary, aside};
 use opshock_study::study::Study;
@@ -26,13 +26,16 @@ pub struct QualifyArgs {
     /// Specification file: amplitudes, pulses, margins
     #[arg(long, value_name = "FILE")]
     spec: PathBuf,
-    /// Folder for qualification.html, .md, .csv, .json and .xml (JUnit)
+    /// Folder for qualification.html, .md, .csv, .json and .xml (JUnit), and damage_boundary.csv, .svg and .png
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Start nothing that would end after this time, save and end with exit code 5, as 7h30m
     #[arg(long, value_name = "TIME", value_parser = sweep::duration)]
     budget: Option<Duration>,
 }
+
+/// Folder of the damage boundary beside those of the requirements, none of whose names begins with a dot.
+const BOUNDARY_FOLDER: &str = ".damage_boundary";
 
 /// Runs the command.
 pub fn run(
@@ -45,10 +48,11 @@ pub fn run(
     let study = study_file::read(&arguments.study, global, console)?;
     let sets = study_file::sets(global)?;
     let spec = Spec::from_path(&arguments.spec, &arguments.study, &sets)?;
-    for requirement in &spec.requirements {
-        study_file::refuse_unaccepted(&requirement.study, global)?;
+    let of_requirements = spec.requirements.iter().map(|one| &one.study);
+    for study in of_requirements.chain(&spec.damage_boundary) {
+        study_file::refuse_unaccepted(study, global)?;
         let available = memory::available_bytes();
-        let of_sweep = memory::of_sweep(&requirement.study);
+        let of_sweep = memory::of_sweep(study);
         of_sweep.check("the sweep", global.threads(), available)?;
     }
     let base = base(arguments, global);
@@ -64,11 +68,27 @@ pub fn run(
             reuse: folders[..place].to_vec(),
             ..SweepOptions::with_threads(global.threads())
         };
-        let (summary, ending) = answered(requirement, &folders[place], &options, global, console)?;
+        let (study, folder) = (&requirement.study, &folders[place]);
+        let (summary, ending) = answered(study, folder, &options, global, console)?;
         if ending != Ending::Complete {
             return Ok(running.ended_early());
         }
         summaries.push(summary);
+    }
+    let mut boundary = None;
+    if let Some(study) = &spec.damage_boundary {
+        let options = SweepOptions {
+            stop: running.until.stop.clone(),
+            budget: running.until.left(),
+            reuse: folders.clone(),
+            ..SweepOptions::with_threads(global.threads())
+        };
+        let folder = base.join(&spec.name).join(BOUNDARY_FOLDER);
+        let (summary, ending) = answered(study, &folder, &options, global, console)?;
+        if ending != Ending::Complete {
+            return Ok(running.ended_early());
+        }
+        boundary = Boundary::of(study, &summary);
     }
     let tested = spec.requirements.iter().zip(&summaries);
     let qualified = Qualified {
@@ -79,9 +99,11 @@ pub fn run(
         tested: tested
             .map(|(requirement, summary)| Tested::of(requirement, summary))
             .collect(),
+        boundary,
     };
     if let Some(out) = out {
-        for path in aside::write_all(out, qualified::qualified_files(&qualified))? {
+        let files = qualified::qualified_files(&qualified).context("cannot draw a figure")?;
+        for path in aside::write_all(out, files)? {
             console.tell(&format!("wrote {}", path.display()));
         }
     }
@@ -132,15 +154,14 @@ fn refuse_store(base: &Path) -> Result<(), Failure> {
     }]))
 }
 
-/// Critical shocks of a requirement's points.
+/// Critical shocks of a study's points.
 fn answered(
-    requirement: &Requirement,
+    study: &Study,
     folder: &Path,
     options: &SweepOptions,
     global: &GlobalArgs,
     console: &Console,
 ) -> Result<(Summary, Ending), Failure> {
-    let study: &Study = &requirement.study;
     let input = SweepInput::of(study).context("the study has no amplitudes to search")?;
     let kind = if console.quiet {
         ProgressKind::Warnings

@@ -6,9 +6,9 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::accuracy::plain_table;
 use super::main_table::flags;
-use super::text::{escaped, explained, head};
+use super::text::{escaped, explained, figure, head};
 use super::words;
-use crate::qualification::{PointVerdict, Verdict};
+use crate::qualification::{PointVerdict, Verdict, pulse_shape};
 use crate::report::coordinates;
 use crate::report::qualified::answer::{Qualified, Tested, critical_words, reserve_words};
 use crate::report::terms;
@@ -56,6 +56,30 @@ pub fn page(qualified: &Qualified<'_>) -> String {
             escaped(&tested.requirement.name),
             points(tested),
             verdict = tested.found.verdict.as_str()
+        );
+    }
+    if let Some(boundary) = &qualified.boundary {
+        let (header, rows) = boundary.table();
+        let rows: Vec<Vec<String>> = rows
+            .into_iter()
+            .map(|row| {
+                row.iter()
+                    .map(|cell| cell.replace("+-", "\u{b1}"))
+                    .collect()
+            })
+            .collect();
+        let sentences = boundary.sentences();
+        let _ = write!(
+            page,
+            "<section aria-labelledby=\"boundary\">\n<h2 id=\"boundary\">Damage boundary</h2>\n<p>{}</p>\n{}{}\
+             <p>Every shock to the left of the vertical line or below the horizontal one is survived, at the pulse widths tested (ASTM D3332). A \
+             product's own drops and handling belong on this picture by their velocity change and peak.</p>\n</section>\n",
+            signed(&sentences.join(" ")),
+            figure(
+                &boundary.figure().inline_svg(),
+                "Amplitude against velocity change"
+            ),
+            plain_table(&header, &rows, 0)
         );
     }
     let _ = write!(
@@ -119,7 +143,7 @@ fn requirements(qualified: &Qualified<'_>) -> String {
 fn points(tested: &Tested<'_>) -> String {
     let required_g = tested.requirement.required_g();
     let changes = tested.requirement.velocity_changes_m_per_s();
-    let shape = tested.requirement.pulse_shape();
+    let shape = pulse_shape(&tested.requirement.study);
     // A fall that stops without rebound.
     let falls = changes.map(|change| change * change / (2.0 * STANDARD_GRAVITY_M_PER_S2));
     let mut text = format!(

@@ -1,5 +1,6 @@
 //! A specification with what was found of each requirement, and the answer in sentences.
 
+use super::boundary::Boundary;
 use crate::qualification::{PointVerdict, Requirement, RequirementVerdict, Spec, Verdict};
 use crate::report::coordinates;
 use crate::store::summary::{PointSummary, Status, Summary};
@@ -59,6 +60,8 @@ pub struct Qualified<'a> {
     pub spec: &'a Spec,
     /// Its requirements, in the file's order.
     pub tested: Vec<Tested<'a>>,
+    /// Its damage boundary, where one is asked for.
+    pub boundary: Option<Boundary>,
 }
 
 impl Qualified<'_> {
@@ -69,7 +72,9 @@ impl Qualified<'_> {
 
     /// Simulations behind the verdicts.
     pub fn runs(&self) -> u64 {
-        self.tested.iter().map(|one| one.summary.totals.runs).sum()
+        let of_requirements = self.tested.iter().map(|one| one.summary.totals.runs);
+        let of_boundary = self.boundary.iter().map(|boundary| boundary.runs);
+        of_requirements.chain(of_boundary).sum()
     }
 
     /// The answer: verdict, how many points of which requirements, the point that decides, and where it is

@@ -6,6 +6,7 @@ use super::answer::{Qualified, Tested, critical_words, reserve_words};
 use super::junit::junit;
 use crate::qualification::Verdict;
 use crate::report::coordinates;
+use crate::report::error::ReportError;
 use crate::report::html::qualification::page;
 use crate::report::table::{aligned, csv_line, plain_markdown};
 
@@ -41,17 +42,34 @@ fn rows(qualified: &Qualified<'_>) -> (Vec<String>, Vec<Vec<String>>) {
 /// Answer, and a table with a line for each requirement, as a terminal shows them.
 pub fn text(qualified: &Qualified<'_>) -> String {
     let (header, rows) = rows(qualified);
-    format!(
+    let mut text = format!(
         "{}\n\n{}",
         qualified.sentences().join("\n"),
         aligned(&header, &rows)
-    )
+    );
+    if let Some(boundary) = &qualified.boundary {
+        let (header, rows) = boundary.table();
+        text.push_str(&format!(
+            "\n{}\n\n{}",
+            boundary.sentences().join("\n"),
+            aligned(&header, &rows)
+        ));
+    }
+    text
 }
 
 /// The same as Markdown, with the program and the specification.
 pub fn markdown(qualified: &Qualified<'_>) -> String {
     let (header, rows) = rows(qualified);
-    let table = plain_markdown(&header, &rows);
+    let mut table = plain_markdown(&header, &rows);
+    if let Some(boundary) = &qualified.boundary {
+        let (header, rows) = boundary.table();
+        table.push_str(&format!(
+            "\n## Damage boundary\n\n{}\n\n{}",
+            boundary.sentences().join("\n"),
+            plain_markdown(&header, &rows)
+        ));
+    }
     format!(
         "# {}: {}\n\n{}\n\n{table}\nDrive: {}. {} simulations. {}\n\n```toml\n{}\n```\n",
         qualified.study,
@@ -137,6 +155,7 @@ pub fn json(qualified: &Qualified<'_>) -> Value {
         "answer": qualified.sentences().join(" "),
         "runs": qualified.runs(),
         "requirements": requirements,
+        "damage_boundary": qualified.boundary.as_ref().map(|boundary| &boundary.found),
     })
 }
 
@@ -166,14 +185,28 @@ fn requirement(tested: &Tested<'_>) -> Value {
     })
 }
 
-/// `qualification.md`, `.csv`, `.json`, `.xml` and `.html`: names and bytes.
-pub fn qualified_files(qualified: &Qualified<'_>) -> Vec<(&'static str, Vec<u8>)> {
+/// `qualification.md`, `.csv`, `.json`, `.xml` and `.html`, and of a damage boundary `damage_boundary.csv`, `.svg` and `.png`:
+/// names and bytes.
+///
+/// # Errors
+///
+/// A figure that cannot be encoded.
+pub fn qualified_files(
+    qualified: &Qualified<'_>,
+) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let json = format!("{:#}\n", json(qualified));
-    vec![
+    let mut files = vec![
         ("qualification.md", markdown(qualified).into_bytes()),
         ("qualification.csv", csv(qualified).into_bytes()),
         ("qualification.json", json.into_bytes()),
         ("qualification.xml", junit(qualified).into_bytes()),
         ("qualification.html", page(qualified).into_bytes()),
-    ]
+    ];
+    if let Some(boundary) = &qualified.boundary {
+        let figure = boundary.figure();
+        files.push(("damage_boundary.csv", boundary.csv().into_bytes()));
+        files.push(("damage_boundary.svg", figure.svg().into_bytes()));
+        files.push(("damage_boundary.png", figure.png()?));
+    }
+    Ok(files)
 }
