@@ -16,7 +16,7 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify yield worth paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance qualify yield worth answers paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
@@ -79,6 +79,10 @@ qualify: build ## a drive that passes a specification, one that fails, one that 
 yield: build ## share of drives with tolerances that survives a specification, for two lines of drives: results/yield/ (half an hour of two idle cores, resumes)
 	$(YIELD) studies/yield/tolerances.toml --store results/yield/tight.opshock --out results/yield/tight
 	$(YIELD) studies/yield/tolerances-wide.toml --store results/yield/loose.opshock --out results/yield/loose
+
+.PHONY: answers
+answers: build ## what less time costs in an answer of qualify, yield and worth: results/answers/ (an hour of two idle cores, resumes; needs python3)
+	scripts/answers --jobs $(JOBS)
 
 .PHONY: worth
 worth: build ## by how much each tolerance changes the critical shocks: results/worth/ (minutes, resumes)
@@ -148,7 +152,7 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-yield
-verify-yield: bootstrap ## verdicts on 40 drives by two shocks against those of their uncertainty intervals (20 minutes; OPSHOCK_SEEDS=first..end for others)
+verify-yield: bootstrap ## verdicts on 40 drives by shocks against those of their uncertainty intervals (20 minutes; OPSHOCK_SEEDS=first..end for others)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture yield_slow
 
 .PHONY: verify-worth

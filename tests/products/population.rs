@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use opshock_study::draws::draw;
 use opshock_study::population::{
-    Counts, Level, Levels, Part, Population, Tolerances, judge, open_store,
+    Counts, DecidedBy, Level, Levels, Nominal, Part, Population, Tolerances, judge, open_store,
 };
 use opshock_study::qualification::{RequirementVerdict, Spec, Verdict};
 use opshock_study::study::Study;
@@ -130,12 +130,17 @@ struct Mock {
 impl Levels for Mock {
     type Interrupted = std::convert::Infallible;
 
-    fn shock(&mut self, step: i32) -> Result<Level, Self::Interrupted> {
+    fn shock(&mut self, step: i32, refined: i8) -> Result<Level, Self::Interrupted> {
         let at = f64::from(step) / 8.0;
-        Ok(match at < self.octaves + self.error {
-            true => Level::Survives(None),
+        let reserve = self.octaves + self.error * 0.5_f64.powi(refined.into()) - at;
+        Ok(match reserve > 0.0 {
+            true => Level::Survives(Some(1e-8 * reserve)),
             false => Level::Fails,
         })
+    }
+
+    fn failure_m(&self) -> f64 {
+        0.0
     }
 
     fn interval(&mut self) -> Result<Verdict, Self::Interrupted> {
@@ -235,7 +240,8 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = line(folder.path());
     let store = |name: &str| folder.path().join(name).display().to_string();
-    let (whole, one, two, merged) = (store("whole"), store("one"), store("two"), store("merged"));
+    let (whole, merged) = (store("whole"), store("merged"));
+    let parts: Vec<String> = (1..=4).map(|part| store(&format!("part-{part}"))).collect();
     let out = store("out");
     // Of a former answer, and somebody's own.
     std::fs::create_dir(&out).expect("a folder");
@@ -265,9 +271,10 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
     );
     // A part of the drives has no answer to be judged.
     let judged = ["--shard", "1/2", "--at-least", "90"];
-    assert_eq!(done(folder.path(), &files, &one, &judged).code, 2);
-    for (part, store) in [("1/2", &one), ("2/2", &two)] {
-        let shard = done(folder.path(), &files, store, &["--shard", part]);
+    assert_eq!(done(folder.path(), &files, &parts[0], &judged).code, 2);
+    for (number, store) in (1..).zip(&parts) {
+        let part = format!("{number}/4");
+        let shard = done(folder.path(), &files, store, &["--shard", &part]);
         assert_eq!(
             (shard.code, shard.stdout.as_str()),
             (0, ""),
@@ -275,12 +282,11 @@ fn shards_threads_and_a_second_run_give_the_same_answer() {
             shard.stderr
         );
     }
-    let united = done(
-        folder.path(),
-        &files,
-        &merged,
-        &["--reuse", &one, "--reuse", &two],
-    );
+    let reused: Vec<&str> = parts
+        .iter()
+        .flat_map(|part| ["--reuse", part.as_str()])
+        .collect();
+    let united = done(folder.path(), &files, &merged, &reused);
     assert_eq!(
         (united.code, &united.stdout),
         (0, &first.stdout),
@@ -360,13 +366,12 @@ const COMPARED: std::ops::Range<u64> = 0..40;
 
 #[test]
 #[ignore = "slow: 40 drives with every interval, make verify-yield"]
-fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
+fn yield_slow_verdicts_by_shocks_are_those_of_intervals() {
     let [study, file, spec] = ["study.toml", "tolerances-wide.toml", "operating.toml"]
         .map(|name| Path::new("../studies/yield").join(name));
     let tolerances = Tolerances::from_path(&file, &study, &[]).expect("tolerances");
     let nominal = Spec::from_path(&spec, &study, &[]).expect("a specification");
-    let nominal = nominal.requirements.iter();
-    let nominal: Vec<Physics> = nominal.map(|one| Physics::of(&one.study)).collect();
+    let nominal = Nominal::of(&nominal);
     let range = seeds(COMPARED);
     let mut few = tolerances;
     (few.drives, few.fragility_drives) = (range.end, 0);
@@ -381,7 +386,7 @@ fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
     let all = Part { number: 1, of: 1 };
     let drives = population.simulate(&mut store, all, 2, &Until::default(), |_, _| {});
     let drives = drives.unwrap_or_else(|why| panic!("{why:?}"));
-    // Verdict by two shocks, and by the interval: passes, undecided, fails.
+    // Verdict by shocks, and by the interval: passes, undecided, fails.
     let mut counts = [[0; 3]; 3];
     let column = |verdict: Verdict| match verdict {
         Verdict::Passes => 0,
@@ -401,16 +406,17 @@ fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
             for ((point, by_interval), row) in
                 points.iter().zip(&found.points).zip(&end.summary.points)
             {
-                if point.by_interval {
+                if point.by == DecidedBy::Interval {
                     continue;
                 }
                 counts[column(point.verdict)][column(by_interval.verdict)] += 1;
                 if point.verdict != by_interval.verdict {
                     println!(
-                        "drive {}, {}: {} by two shocks, {} by its interval, {:?} +- {:?} G",
+                        "drive {}, {}: {} by {:?}, {} by its interval, {:?} +- {:?} G",
                         drive.index + 1,
                         row.sign,
                         point.verdict.as_str(),
+                        point.by,
                         by_interval.verdict.as_str(),
                         row.a_crit_g,
                         row.uncertainty_g
@@ -419,6 +425,6 @@ fn yield_slow_verdicts_by_two_shocks_are_those_of_intervals() {
             }
         }
     }
-    println!("by two shocks (passes, undecided, fails) against the interval: {counts:?}");
+    println!("by shocks (passes, undecided, fails) against the interval: {counts:?}");
     assert_eq!([counts[0][2], counts[2][0]], [0, 0]);
 }

@@ -94,6 +94,7 @@ fn boundary() -> Boundary {
             pulse_ms,
             sign: Sign::Plus,
             amplitude_g,
+            open: None,
             velocity_change_m_per_s: amplitude_g.map(|g| 6.2e-3 * pulse_ms * g),
         }
     });

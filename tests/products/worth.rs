@@ -1,12 +1,12 @@
 //! `opshock worth`: changes of critical shocks by tolerances, from the program to its files and exit codes, and against finer scenes.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use opshock_study::population::Tolerances;
-use opshock_study::search::AmplitudeGrid;
 use opshock_study::study::{SetArg, Study};
 use opshock_study::sweep::{Physics, ProgressKind, Silent, SweepInput, SweepOptions, Until, sweep};
-use opshock_study::worth::{ENDS, FINENESS, Pair, Worth, open_store};
+use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
 
 use crate::cli::{COARSE, Done};
 
@@ -81,83 +81,92 @@ fn a_tolerance_without_effect_is_worth_nothing_and_clearance_is_worth_most() {
     assert_eq!(axis.errors()[0]["code"], "E195");
 }
 
-/// Pairs of the study at a preset, and its tolerances.
-fn pairs(preset: &str) -> (Tolerances, Vec<[Study; 2]>, Vec<Vec<Pair>>) {
-    let sets = [
-        "search.uncertainty=false".to_owned(),
-        format!("resolution.preset=\"{preset}\""),
-    ];
-    let sets: Vec<SetArg> = sets.iter().map(|set| set.parse().expect("a set")).collect();
+/// Critical shocks' half-widths of a study, by label of the point; those that were found.
+fn separate(study: &Study) -> HashMap<String, f64> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let input = SweepInput::of(study).expect("input");
+    let options = SweepOptions::with_threads(2);
+    let physics = Physics::of(study);
+    let end = sweep(&input, &physics, folder.path(), &options, &Silent).expect("sweeps");
+    let points = study.table_order().into_iter();
+    let labels = points.map(|point| study.points[point].label());
+    let rows = labels.zip(end.summary.points);
+    rows.filter_map(|(label, row)| Some((label, row.uncertainty_g?)))
+        .collect()
+}
+
+#[test]
+#[ignore = "slow: 30 pairs and 60 separate intervals, make verify-worth"]
+fn worth_slow_changes_hold_those_of_finer_scenes_and_are_narrower_than_separate_ones() {
     let [study, file] =
         ["study.toml", "tolerances.toml"].map(|name| Path::new("../studies/worth").join(name));
-    let nominal = Study::from_path(&study, &sets).expect("a study");
-    let tolerances = Tolerances::from_path(&file, &study, &sets).expect("tolerances");
-    let places = 0..tolerances.parameters.len();
-    let ends = places.map(|place| tolerances.studies_at(place, ENDS).expect("studies"));
-    let ends: Vec<[Study; 2]> = ends.collect();
+    let read = |sets: &[&str]| {
+        let sets: Vec<SetArg> = sets.iter().map(|set| set.parse().expect("a set")).collect();
+        let tolerances = Tolerances::from_path(&file, &study, &sets).expect("tolerances");
+        let places = 0..tolerances.parameters.len();
+        let ends = places.map(|place| tolerances.studies_at(place, ENDS).expect("studies"));
+        let ends: Vec<[Study; 2]> = ends.collect();
+        (
+            Study::from_path(&study, &sets).expect("a study"),
+            tolerances,
+            ends,
+        )
+    };
+    let coarse = "resolution.preset=\"coarse\"";
+    let (nominal, tolerances, ends) = read(&[coarse, "search.uncertainty=false"]);
     let folder = tempfile::tempdir().expect("a folder");
     let (worth, until) = (Worth::new(&nominal, &ends), Until::default());
     let starts = worth.starts(folder.path(), 2, &until, ProgressKind::Warnings);
     let starts = starts.unwrap_or_else(|why| panic!("{why:?}"));
     let mut store = open_store(folder.path(), &tolerances).expect("a store");
-    let found = worth.simulate(&starts, &mut store, 2, &until, |_, _| {});
-    (
-        tolerances,
-        ends.clone(),
-        found.unwrap_or_else(|why| panic!("{why:?}")),
-    )
-}
-
-#[test]
-#[ignore = "slow: 30 pairs at two presets and 60 separate intervals, make verify-worth"]
-fn worth_slow_changes_hold_those_of_finer_scenes_and_are_narrower_than_separate_ones() {
-    let grid = AmplitudeGrid::for_tolerance(FINENESS).expect("a grid");
-    let amplitude_g = |step: i32| grid.amplitude_g(step);
-    let (tolerances, _, coarse) = pairs("coarse");
-    let (_, _, finer) = pairs("standard");
-    let sets: Vec<SetArg> = vec!["resolution.preset=\"coarse\"".parse().expect("a set")];
-    let [study, file] =
-        ["study.toml", "tolerances.toml"].map(|name| Path::new("../studies/worth").join(name));
-    let separate = Tolerances::from_path(&file, &study, &sets).expect("tolerances");
-    let (mut held, mut known, mut ratios) = (0, 0, Vec::new());
-    for (place, (coarse, finer)) in coarse.iter().zip(&finer).enumerate() {
-        let ends = separate.studies_at(place, ENDS).expect("studies");
-        let intervals: Vec<Vec<Option<f64>>> = ends
-            .iter()
-            .map(|study| {
-                let folder = tempfile::tempdir().expect("a folder");
-                let input = SweepInput::of(study).expect("input");
-                let options = SweepOptions::with_threads(2);
-                let end = sweep(
-                    &input,
-                    &Physics::of(study),
-                    folder.path(),
-                    &options,
-                    &Silent,
-                );
-                let rows = end.expect("sweeps").summary.points;
-                rows.iter().map(|row| row.uncertainty_g).collect()
-            })
-            .collect();
-        for (point, (coarse, finer)) in coarse.iter().zip(finer).enumerate() {
-            let [found, truth] = [coarse, finer].map(|pair| pair.change_g(&amplitude_g));
-            let both = intervals[0][point].zip(intervals[1][point]);
-            let separate_g = both.map(|(low_g, high_g)| low_g + high_g);
-            let name = &tolerances.parameters[place].name;
+    let pairs = worth.simulate(&starts, &mut store, 2, &until, |_, _| {});
+    let pairs = pairs.unwrap_or_else(|why| panic!("{why:?}"));
+    let answer = WorthAnswer::of(&tolerances, &nominal, &pairs);
+    let (_, _, with_intervals) = read(&[coarse]);
+    let separate: HashMap<&str, [HashMap<String, f64>; 2]> = tolerances
+        .parameters
+        .iter()
+        .zip(&with_intervals)
+        .map(|(one, ends)| (one.name.as_str(), ends.each_ref().map(separate)))
+        .collect();
+    // The same changes at the preset standard.
+    let finer = std::fs::read_to_string("../results/worth/worth.csv").expect("make worth");
+    let finer: HashMap<(&str, &str), [f64; 2]> = finer
+        .lines()
+        .skip(1)
+        .filter_map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |place: usize| cells[place].parse().ok();
+            Some(((cells[0], cells[1]), [number(4)?, number(5)?]))
+        })
+        .collect();
+    let (mut held, mut narrow, mut known, mut ratios) = (0, 0, 0, Vec::new());
+    for row in &answer.rows {
+        for change in &row.changes {
+            let found = change.change_g.zip(change.uncertainty_g);
+            let truth = finer.get(&(row.name.as_str(), change.point.as_str()));
+            let [low, high] = separate[row.name.as_str()]
+                .each_ref()
+                .map(|of_points| of_points.get(&change.point));
+            let separate_g = low.zip(high).map(|(low_g, high_g)| low_g + high_g);
             println!(
-                "{name}, point {point}: coarse {found:.2?}, standard {truth:.2?}, separate {separate_g:.2?} G"
+                "{}, {}: coarse {found:.2?} G, refined {} times, standard {truth:.2?} G, separate {separate_g:.2?} G",
+                row.name, change.point, change.refined
             );
-            if let (Some([change_g, half_g]), Some([truth_g, truth_half_g])) = (found, truth) {
-                known += 1;
-                // What the finer answer lacks itself is no fault of the coarser.
-                held += u32::from((change_g - truth_g).abs() <= half_g + truth_half_g);
-                ratios.extend(separate_g.map(|separate_g| separate_g / half_g));
-            }
+            let (Some((change_g, half_g)), Some([truth_g, truth_half_g])) = (found, truth) else {
+                continue;
+            };
+            known += 1;
+            narrow += u32::from(2.0 * truth_half_g < half_g);
+            // What the finer answer lacks itself is no fault of the coarser.
+            held += u32::from((change_g - truth_g).abs() <= half_g + truth_half_g);
+            ratios.extend(separate_g.map(|separate_g| separate_g / half_g));
         }
     }
     ratios.sort_by(f64::total_cmp);
     println!(
-        "{held} of {known} hold the finer change; separate intervals are {:.1} times as wide (median of {})",
+        "{held} of {known} hold the finer change, {narrow} of which are known to half of the interval; separate intervals are {:.1} times as \
+         wide (median of {})",
         ratios[ratios.len() / 2],
         ratios.len()
     );

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use serde::Serialize;
 
 use super::fragility::Fragility;
-use super::level::LevelAnswer;
+use super::level::{DecidedBy, LevelAnswer};
 use super::sensitivity::Sensitivity;
 use super::tolerances::Tolerances;
 use crate::draws::Share;
@@ -43,11 +43,11 @@ impl DriveAnswer {
     /// these by their clearance.
     fn rank(point: &LevelAnswer) -> Rank {
         let clearance_m = point.clearance_m.unwrap_or(0.0);
-        match (point.verdict, point.by_interval) {
+        match (point.verdict, point.by) {
             (Verdict::Fails, _) => (0, point.fails.unwrap_or(0), clearance_m),
             (Verdict::Undecided, _) => (1, 0, clearance_m),
-            (Verdict::Passes, true) => (2, 0, clearance_m),
-            (Verdict::Passes, false) => (3, 0, clearance_m),
+            (Verdict::Passes, DecidedBy::Interval) => (2, 0, clearance_m),
+            (Verdict::Passes, _) => (3, 0, clearance_m),
         }
     }
 
@@ -113,6 +113,8 @@ pub struct RequirementAnswer {
     /// Drives by verdict.
     #[serde(flatten)]
     pub counts: Counts,
+    /// Drives with a point whose verdict took a shock at a finer resolution.
+    pub by_finer_shock: u64,
     /// Drives with a point whose verdict is that of an uncertainty interval.
     pub by_interval: u64,
     /// Fragility curve of each pulse width.
@@ -211,16 +213,19 @@ fn requirement(
         let lowest: Vec<_> = bracketed.iter().map(|drive| lowest(drive, width)).collect();
         Fragility::of(width, one.required_g(), &lowest)
     });
-    let by_interval = drives.iter().filter(|drive| {
-        drive.requirements[place]
-            .iter()
-            .any(|point| point.by_interval)
-    });
+    let decided = |by: DecidedBy| {
+        let has = |drive: &&DriveAnswer| {
+            let mut points = drive.requirements[place].iter();
+            points.any(|point| point.by == by)
+        };
+        drives.iter().filter(has).count() as u64
+    };
     RequirementAnswer {
         name: one.name.clone(),
         required_g: one.required_g(),
         counts: Counts::of(drives.iter().map(|drive| drive.verdict(place))),
-        by_interval: by_interval.count() as u64,
+        by_finer_shock: decided(DecidedBy::FinerShock),
+        by_interval: decided(DecidedBy::Interval),
         fragility: fragility.collect(),
     }
 }
@@ -279,9 +284,12 @@ mod tests {
 
     #[test]
     fn the_worst_point_of_a_drive_is_one_of_its_own_verdict() {
-        let point = |verdict, by_interval, fails, clearance_nm: f64| LevelAnswer {
+        let point = |verdict, is_near, fails, clearance_nm: f64| LevelAnswer {
             verdict,
-            by_interval,
+            by: match is_near {
+                true => DecidedBy::Interval,
+                false => DecidedBy::Shocks,
+            },
             survives: None,
             fails,
             clearance_m: Some(1e-9 * clearance_nm),

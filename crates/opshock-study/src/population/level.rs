@@ -4,9 +4,18 @@
 //! A_k = A 2^(k/8),   k = -16 to 16,   A the required amplitude
 //! ```
 //!
-//! A point that survives A and A_2 passes, one that fails at A and A_-2 fails, both at the study's resolution and window: two
-//! shocks, a factor of 1.19 apart, and no bound on their numerical error. Of any other point the uncertainty interval of the
-//! critical shock decides, as in a qualification. `docs/results/verify-yield.txt` compares both.
+//! Three shocks judge a point: at A, at A again with every discretisation parameter a step coarser, and at A_2 where it survives
+//! or at A_-2 where it fails. It passes when it survives all of them and the clearance h at A stays above that of failure within its
+//! numerical error,
+//!
+//! ```text
+//! h(0) - F |h(0) - h(-1)| / (r - 1) > h_fail,   F = 3, r = 2
+//! ```
+//!
+//! by Roache's factor of safety without an observed order (Roache 1994, J. Fluids Eng. 116, 405) and the slowest formal ratio.
+//! It fails when it fails all of them. Where the coarser shock leaves this open, a shock at A a step finer takes its place, with h(1) and
+//! h(0). Of any other point the uncertainty interval of the critical shock decides, as in a qualification.
+//! `docs/results/verify-yield.txt` compares both.
 
 use crate::qualification::Verdict;
 
@@ -14,6 +23,8 @@ use crate::qualification::Verdict;
 pub const STEPS_PER_OCTAVE: i32 = 8;
 /// Steps beyond the required amplitude whose verdict confirms that at the required one.
 pub const CONFIRMED: i32 = 2;
+/// Factor of safety over the slowest formal ratio less 1.
+const FACTOR: f64 = 3.0;
 /// Steps of the farthest amplitudes: a quarter of the required one and four times it.
 pub const FARTHEST: i32 = 16;
 
@@ -41,11 +52,25 @@ pub trait Levels {
     /// Why there is no answer, as after a stop.
     type Interrupted;
 
-    /// Outcome at a step.
-    fn shock(&mut self, step: i32) -> Result<Level, Self::Interrupted>;
+    /// Outcome at a step of the amplitude, with every discretisation parameter refined so many times, or coarsened.
+    fn shock(&mut self, step: i32, refined: i8) -> Result<Level, Self::Interrupted>;
+
+    /// Clearance that is called failure, m.
+    fn failure_m(&self) -> f64;
 
     /// Verdict by the uncertainty interval of the critical shock.
     fn interval(&mut self) -> Result<Verdict, Self::Interrupted>;
+}
+
+/// What decides a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DecidedBy {
+    /// Shocks at the study's resolution and a step coarser.
+    Shocks,
+    /// The same with one a step finer.
+    FinerShock,
+    /// The uncertainty interval of the critical shock.
+    Interval,
 }
 
 /// Answer of a point.
@@ -53,8 +78,8 @@ pub trait Levels {
 pub struct LevelAnswer {
     /// The verdict at the required amplitude.
     pub verdict: Verdict,
-    /// It is that of an uncertainty interval.
-    pub by_interval: bool,
+    /// What decided it.
+    pub by: DecidedBy,
     /// Step of the highest survivor below the lowest failure.
     pub survives: Option<i32>,
     /// Step of the lowest failure.
@@ -74,7 +99,7 @@ impl<L: Levels> Known<'_, L> {
         if let Some((_, level)) = self.known.iter().find(|(known, _)| *known == step) {
             return Ok(*level);
         }
-        let level = self.levels.shock(step)?;
+        let level = self.levels.shock(step, 0)?;
         self.known.push((step, level));
         Ok(level)
     }
@@ -134,7 +159,8 @@ pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswe
         levels,
         known: Vec::new(),
     };
-    let certain = match known.at(0)? {
+    let here = known.at(0)?;
+    let beyond = match here {
         Level::Survives(_) => matches!(known.at(CONFIRMED)?, Level::Survives(_)),
         Level::Fails => known.at(-CONFIRMED)? == Level::Fails,
         Level::Undecided => false,
@@ -142,10 +168,17 @@ pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswe
     let clearance_m = known
         .highest_survivor()
         .and_then(|(_, clearance_m)| clearance_m);
-    let verdict = match (certain, known.at(0)?) {
-        (true, Level::Fails) => Verdict::Fails,
-        (true, _) => Verdict::Passes,
-        (false, _) => known.levels.interval()?,
+    let failure_m = known.levels.failure_m();
+    let by = match beyond {
+        false => DecidedBy::Interval,
+        true if agree(here, known.levels.shock(0, -1)?, failure_m) => DecidedBy::Shocks,
+        true if agree(known.levels.shock(0, 1)?, here, failure_m) => DecidedBy::FinerShock,
+        true => DecidedBy::Interval,
+    };
+    let verdict = match (by, here) {
+        (DecidedBy::Interval, _) => known.levels.interval()?,
+        (_, Level::Fails) => Verdict::Fails,
+        _ => Verdict::Passes,
     };
     if is_bracketed || verdict == Verdict::Fails {
         known.bracket()?;
@@ -153,36 +186,63 @@ pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswe
     let survivor = known.highest_survivor();
     Ok(LevelAnswer {
         verdict,
-        by_interval: !certain,
+        by,
         survives: survivor.map(|(step, _)| step),
         fails: known.lowest_failure(),
         clearance_m,
     })
 }
 
+/// Whether the same shock has one outcome at a resolution and a step coarser, and a clearance above that of failure within its error.
+fn agree(outcome: Level, coarser: Level, failure_m: f64) -> bool {
+    match (outcome, coarser) {
+        (Level::Survives(Some(h_m)), Level::Survives(Some(coarser_m))) => {
+            h_m - FACTOR * (h_m - coarser_m).abs() > failure_m
+        }
+        (Level::Fails, Level::Fails) => true,
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Fails from a step on, and in single steps below.
+    /// Fails from a step on, and in single steps below. Its clearance, nm, is the distance to that step.
     struct Law {
         fails_from: i32,
         holes: Vec<i32>,
+        /// Change of that step by a coarser and by a finer resolution.
+        moved: [i32; 2],
         shocks: Vec<i32>,
+        others: Vec<i8>,
         intervals: u32,
     }
 
     impl Levels for Law {
         type Interrupted = std::convert::Infallible;
 
-        fn shock(&mut self, step: i32) -> Result<Level, Self::Interrupted> {
-            self.shocks.push(step);
-            let fails = step >= self.fails_from || self.holes.contains(&step);
+        fn shock(&mut self, step: i32, refined: i8) -> Result<Level, Self::Interrupted> {
+            match refined {
+                0 => self.shocks.push(step),
+                _ => self.others.push(refined),
+            }
+            let fails_from = self.fails_from
+                + match refined {
+                    -1 => self.moved[0],
+                    1 => self.moved[1],
+                    _ => 0,
+                };
+            let fails = step >= fails_from || self.holes.contains(&step);
             Ok(if fails {
                 Level::Fails
             } else {
-                Level::Survives(Some(1e-9))
+                Level::Survives(Some(1e-9 * f64::from(fails_from - step)))
             })
+        }
+
+        fn failure_m(&self) -> f64 {
+            0.0
         }
 
         fn interval(&mut self) -> Result<Verdict, Self::Interrupted> {
@@ -195,13 +255,15 @@ mod tests {
         Law {
             fails_from,
             holes: holes.to_vec(),
+            moved: [0, 0],
             shocks: Vec::new(),
+            others: Vec::new(),
             intervals: 0,
         }
     }
 
     #[test]
-    fn far_points_need_two_shocks_and_near_ones_their_interval() {
+    fn far_points_need_three_shocks_and_near_ones_their_interval() {
         for fails_from in -20..=20 {
             let mut point = law(fails_from, &[]);
             let answer = judge(&mut point, false).expect("no stop");
@@ -213,9 +275,29 @@ mod tests {
             assert_eq!(answer.verdict, wanted, "{fails_from}");
             assert_eq!(point.intervals, u32::from(wanted == Verdict::Undecided));
             if wanted == Verdict::Passes {
-                assert_eq!(point.shocks, [0, 2]);
+                assert_eq!((point.shocks, point.others), (vec![0, 2], vec![-1]));
             }
         }
+    }
+
+    #[test]
+    fn a_clearance_that_coarsening_moves_by_a_third_of_itself_is_refined() {
+        // 9 nm at the required amplitude; three times the change is to be less.
+        let by = |coarser: i32, finer: i32| {
+            let mut point = law(9, &[]);
+            point.moved = [coarser, finer];
+            let answer = judge(&mut point, false).expect("no stop");
+            assert_eq!(point.intervals, u32::from(answer.by == DecidedBy::Interval));
+            answer.by
+        };
+        assert_eq!(by(-2, 0), DecidedBy::Shocks);
+        assert_eq!(by(2, 0), DecidedBy::Shocks);
+        assert_eq!(by(-3, 1), DecidedBy::FinerShock);
+        assert_eq!(by(3, -2), DecidedBy::FinerShock);
+        // The finer one has 6 nm, a change of 3.
+        assert_eq!(by(3, -3), DecidedBy::Interval);
+        assert_eq!(by(-9, -9), DecidedBy::Interval);
+        assert_eq!(by(-9, 1), DecidedBy::FinerShock);
     }
 
     #[test]
@@ -244,7 +326,7 @@ mod tests {
     fn a_failure_below_survivors_is_no_pass() {
         // Fails at the required amplitude, survives above and below.
         let answer = judge(&mut law(10, &[0]), false).expect("no stop");
-        assert!(answer.by_interval);
+        assert_eq!(answer.by, DecidedBy::Interval);
         assert_eq!((answer.survives, answer.fails), (Some(-2), Some(0)));
     }
 

@@ -15,7 +15,7 @@ mod tolerances;
 
 pub use answer::{Counts, DriveAnswer, PopulationAnswer, RequirementAnswer, WorstDrive};
 pub use fragility::{Fragility, LogNormal, Step};
-pub use level::{CONFIRMED, FARTHEST, Level, LevelAnswer, Levels, amplitude_g, judge};
+pub use level::{CONFIRMED, DecidedBy, FARTHEST, Level, LevelAnswer, Levels, amplitude_g, judge};
 pub use sensitivity::{Bins, Sensitivity};
-pub use simulated::{Interrupted, Part, Population, open_store};
+pub use simulated::{Interrupted, Nominal, Part, Population, open_store};
 pub use tolerances::Tolerances;

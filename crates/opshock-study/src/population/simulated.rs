@@ -5,16 +5,17 @@
 
 use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use opshock_solver::quantity::m_per_s2_from_g;
 
 use super::answer::DriveAnswer;
-use super::level::{Level, LevelAnswer, Levels, amplitude_g, judge};
+use super::level::{DecidedBy, Level, LevelAnswer, Levels, amplitude_g, judge};
 use super::tolerances::Tolerances;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::qualification::{PointVerdict, Requirement, Spec, Verdict};
 use crate::search::{Probe, Verdict as Outcome};
-use crate::store::{Answered, Known, NumberStore, Numbers, PointDigest, StoreError};
+use crate::store::{Known, NumberStore, Numbers, PointDigest, StoreError};
 use crate::study::{Point, SetArg, Study, StudyErrors};
 use crate::sweep::{
     Ending, Physics, Silent, Simulator as _, SweepInput, SweepOptions, Until, sweep,
@@ -29,8 +30,8 @@ pub struct Population<'a> {
     pub spec: &'a Path,
     /// Study file.
     pub study: &'a Path,
-    /// The requirements without tolerances: what a drive has in common with them is built once.
-    pub nominal: &'a [Physics],
+    /// The requirements without tolerances.
+    pub nominal: &'a [Nominal<'a>],
 }
 
 /// One of so many parts of a population: drives `number - 1`, `number - 1 + of`, and so on.
@@ -68,6 +69,29 @@ pub fn open_store(folder: &Path, tolerances: &Tolerances) -> Result<NumberStore,
     NumberStore::open(folder, "population 1", name, path, text)
 }
 
+/// A requirement without tolerances: what drives have in common with it is built once, when the first of them asks.
+pub struct Nominal<'a> {
+    requirement: &'a Requirement,
+    physics: OnceLock<Physics>,
+}
+
+impl<'a> Nominal<'a> {
+    /// Of every requirement.
+    pub fn of(spec: &'a Spec) -> Vec<Self> {
+        let requirements = spec.requirements.iter();
+        let of = requirements.map(|requirement| Self {
+            requirement,
+            physics: OnceLock::new(),
+        });
+        of.collect()
+    }
+
+    fn physics(&self) -> &Physics {
+        let build = || Physics::with_coarser(&self.requirement.study);
+        self.physics.get_or_init(build)
+    }
+}
+
 /// A drive as it is simulated: its requirements, each with a study.
 struct Drive {
     index: u64,
@@ -78,10 +102,10 @@ impl Population<'_> {
     fn drive(&self, index: u64) -> Result<Drive, Interrupted> {
         let drawn = self.tolerances.draw(index);
         let sets: Vec<SetArg> = self.tolerances.arguments(&drawn);
-        match Spec::from_path(self.spec, self.study, &sets) {
-            Ok(spec) => Ok(Drive {
+        match Spec::requirements_from_path(self.spec, self.study, &sets) {
+            Ok(requirements) => Ok(Drive {
                 index,
-                requirements: spec.requirements,
+                requirements,
             }),
             Err(errors) => {
                 let values = self.tolerances.values(&drawn).into_iter();
@@ -114,29 +138,35 @@ impl Population<'_> {
             .step_by(part.of as usize)
             .collect();
         let folder = store.folder.join("intervals");
-        store.answers(
-            indices.len(),
-            threads,
-            |task, known| self.answer(indices[task], known, &folder, until),
-            |done| progress(done, indices.len()),
-        )
+        let answer = |task: usize, known: &Known| {
+            let mut new = Vec::new();
+            let answer = self.answer(indices[task], known, &folder, until, &mut new);
+            (answer, new)
+        };
+        let answers = store.answers(indices.len(), threads, answer, |done| {
+            progress(done, indices.len());
+        })?;
+        // All of their verdicts are kept.
+        let _ = std::fs::remove_dir_all(&folder);
+        Ok(answers)
     }
 
-    /// Answers of a drive, and those that are new.
+    /// Answers of a drive; `new` gets those that are.
     fn answer(
         &self,
         index: u64,
         known: &Known,
         folder: &Path,
         until: &Until,
-    ) -> Result<Answered<DriveAnswer>, Interrupted> {
+        new: &mut Vec<(PointDigest, Numbers)>,
+    ) -> Result<DriveAnswer, Interrupted> {
         let drive = self.drive(index)?;
         let is_bracketed = self.is_bracketed(drive.index);
-        let mut new = Vec::new();
         let mut requirements = Vec::new();
         for (requirement, nominal) in drive.requirements.iter().zip(self.nominal) {
             let order = requirement.study.table_order();
-            let physics = LazyCell::new(|| Physics::of(&requirement.study).sharing(nominal));
+            let physics = || Physics::of(&requirement.study).sharing(nominal.physics());
+            let physics = LazyCell::new(physics);
             let mut points = Vec::new();
             for (place, &point) in order.iter().enumerate() {
                 let key = key(requirement, &requirement.study.points[point], is_bracketed);
@@ -160,11 +190,10 @@ impl Population<'_> {
             }
             requirements.push(points);
         }
-        let answer = DriveAnswer {
+        Ok(DriveAnswer {
             index,
             requirements,
-        };
-        Ok((answer, new))
+        })
     }
 }
 
@@ -174,8 +203,8 @@ struct Simulated<'a> {
     point: &'a Point,
     place: usize,
     physics: &'a Physics,
-    nominal: &'a Physics,
-    /// Folder of the store of its uncertainty interval, as long as that is made.
+    nominal: &'a Nominal<'a>,
+    /// Folder of the store of its uncertainty interval.
     folder: PathBuf,
     until: &'a Until,
 }
@@ -183,16 +212,17 @@ struct Simulated<'a> {
 impl Levels for Simulated<'_> {
     type Interrupted = Interrupted;
 
-    fn shock(&mut self, step: i32) -> Result<Level, Interrupted> {
+    fn shock(&mut self, step: i32, refined: i8) -> Result<Level, Interrupted> {
         if self.until.is_over() {
             return Err(Interrupted::Stopped);
         }
         let amplitude_g = amplitude_g(self.requirement.required_g(), step);
         let amplitude = self.point.sign.factor() * m_per_s2_from_g(amplitude_g);
-        let run = || {
-            self.physics
-                .simulate(self.place, Probe::at(step), amplitude)
+        let probe = Probe {
+            levels: self.point.levels(refined),
+            ..Probe::at(step)
         };
+        let run = || self.physics.simulate(self.place, probe, amplitude);
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
         Ok(match result {
             Ok(result) => match result.verdict {
@@ -202,6 +232,10 @@ impl Levels for Simulated<'_> {
             },
             Err(_) => Level::Undecided,
         })
+    }
+
+    fn failure_m(&self) -> f64 {
+        self.point.scene.fail_below_m
     }
 
     fn interval(&mut self) -> Result<Verdict, Interrupted> {
@@ -215,14 +249,12 @@ impl Levels for Simulated<'_> {
             budget: self.until.left(),
             ..SweepOptions::with_threads(1)
         };
-        let physics = Physics::of(&study).sharing(self.nominal);
+        let physics = Physics::of(&study).sharing(self.nominal.physics());
         let end = sweep(&input, &physics, &self.folder, &options, &Silent);
         let end = end?;
         if end.ending != Ending::Complete {
             return Err(Interrupted::Stopped);
         }
-        // What is left of it is of no use, and found again by its name.
-        let _ = std::fs::remove_dir_all(&self.folder);
         let verdict = |row| PointVerdict::of(row, self.requirement.required_g()).verdict;
         Ok(end
             .summary
@@ -235,7 +267,7 @@ impl Levels for Simulated<'_> {
 /// Content of everything that a point's answer depends on.
 fn key(requirement: &Requirement, point: &Point, is_bracketed: bool) -> PointDigest {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(b"opshock population 1");
+    hasher.update(b"opshock population 2");
     let versions = format!("{PHYSICS_STRUCTURE} {PHYSICS_HEAD} {is_bracketed}");
     hasher.update(versions.as_bytes());
     hasher.update(&requirement.study.digest);
@@ -252,7 +284,11 @@ fn encode(answer: &LevelAnswer) -> Numbers {
     };
     vec![
         Some(Some(verdict)),
-        Some(Some(f64::from(u8::from(answer.by_interval)))),
+        Some(Some(match answer.by {
+            DecidedBy::Shocks => 0.0,
+            DecidedBy::Interval => 1.0,
+            DecidedBy::FinerShock => 2.0,
+        })),
         Some(answer.survives.map(f64::from)),
         Some(answer.fails.map(f64::from)),
         Some(answer.clearance_m),
@@ -262,7 +298,7 @@ fn encode(answer: &LevelAnswer) -> Numbers {
 fn decode(numbers: &Numbers) -> Option<LevelAnswer> {
     let [
         Some(Some(verdict)),
-        Some(Some(by_interval)),
+        Some(Some(by)),
         Some(survives),
         Some(fails),
         Some(clearance_m),
@@ -271,9 +307,14 @@ fn decode(numbers: &Numbers) -> Option<LevelAnswer> {
         return None;
     };
     let verdicts = [Verdict::Fails, Verdict::Undecided, Verdict::Passes];
+    let decided = [
+        DecidedBy::Shocks,
+        DecidedBy::Interval,
+        DecidedBy::FinerShock,
+    ];
     Some(LevelAnswer {
         verdict: *verdicts.get(verdict as usize)?,
-        by_interval: by_interval == 1.0,
+        by: *decided.get(by as usize)?,
         survives: survives.map(|step| step as i32),
         fails: fails.map(|step| step as i32),
         clearance_m,
@@ -290,7 +331,11 @@ mod tests {
             for (survives, fails) in [(None, Some(-16)), (Some(3), Some(4)), (Some(2), None)] {
                 let answer = LevelAnswer {
                     verdict,
-                    by_interval: fails.is_none(),
+                    by: match fails {
+                        None => DecidedBy::Interval,
+                        Some(4) => DecidedBy::FinerShock,
+                        _ => DecidedBy::Shocks,
+                    },
                     survives,
                     fails,
                     clearance_m: survives.map(|step| 1e-9 / f64::from(step)),

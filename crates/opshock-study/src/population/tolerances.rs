@@ -242,12 +242,14 @@ impl Tolerances {
             let points = study.table_order().into_iter();
             points.map(|point| study.points[point].label()).collect()
         };
+        let in_the_middle = self.study_of(&middle).ok();
+        let usual = labels(in_the_middle.as_ref().unwrap_or(plain));
         // Words of the fault and what is valid. A fault of another key is none of this tolerance's, or of this part's.
         let refused = |place: usize, p: f64, keys: &[&str]| {
             let mut unit = middle.clone();
             unit[place] = p;
             match self.study_of(&unit) {
-                Ok(study) => (labels(&study) != labels(plain)).then(|| {
+                Ok(study) => (labels(&study) != usual).then(|| {
                     let message = "changes the points of the study".to_owned();
                     (message, one_value())
                 }),
@@ -303,6 +305,10 @@ impl Tolerances {
                 let fault = fields.fault_of("E195", entry, format!("{of}: {message}"));
                 faults.push(fault.value(*name).allowed(allowed));
             }
+        }
+        if faults.is_empty() && usual != labels(plain) {
+            let fault = fields.fault_of("E195", "tolerance", "change the points of the study");
+            faults.push(fault.allowed(one_value()));
         }
     }
 }

@@ -12,6 +12,7 @@
 
 use serde::Serialize;
 
+use super::verdict::{Open, PointVerdict};
 use crate::search::Sign;
 use crate::store::summary::Summary;
 use crate::study::Study;
@@ -26,8 +27,11 @@ pub struct BoundaryPoint {
     pub pulse_ms: f64,
     /// Sign of the shock.
     pub sign: Sign,
-    /// Where the critical shock may lie, G; from 0 and without bound where nothing is known.
+    /// Where the critical shock may lie, G; from 0 and without bound where nothing is known. A lower end that would not pass as a
+    /// requirement ([`PointVerdict`]) is 0.
     pub amplitude_g: [f64; 2],
+    /// Why the lower end is not known.
+    pub open: Option<Open>,
     /// The same as velocity change, m/s.
     pub velocity_change_m_per_s: [f64; 2],
 }
@@ -39,8 +43,8 @@ pub struct Critical {
     pub interval: [f64; 2],
     /// Pulse width at which it is found, ms.
     pub at_ms: f64,
-    /// Widths beyond those that were tested will not lower it by much: it is not found at the end of the widths, or changes by
-    /// less than 10 % from there to the next width.
+    /// Widths beyond those that were tested will not lower it by much: it is known, and the end of the widths lies above it for certain,
+    /// or changes by less than 10 % to the next width.
     pub is_settled: bool,
 }
 
@@ -62,12 +66,15 @@ impl DamageBoundary {
         let points = order.zip(&summary.points).map(|(place, row)| {
             let point = &study.points[place];
             let unit_s = point.scene.pulse.integral_s().ok()?.abs();
-            let amplitude_g = row.interval_g().unwrap_or([0.0, f64::INFINITY]);
+            let [low_g, high_g] = row.interval_g().unwrap_or([0.0, f64::INFINITY]);
+            let open = PointVerdict::of(row, low_g).open;
+            let amplitude_g = [open.map_or(low_g, |_| 0.0), high_g];
             let per_g = opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 * unit_s;
             Some(BoundaryPoint {
                 pulse_ms: point.pulse_ms,
                 sign: point.sign,
                 amplitude_g,
+                open,
                 velocity_change_m_per_s: amplitude_g.map(|amplitude_g| per_g * amplitude_g),
             })
         });
@@ -121,15 +128,16 @@ fn critical(
     let interval = by_width.iter().fold([f64::INFINITY; 2], |all, one| {
         [all[0].min(one[0]), all[1].min(one[1])]
     });
+    let is_known = |[low, high]: [f64; 2]| low > 0.0 && high.is_finite();
     let is_settled = match by_width[..] {
-        _ if at > 0 => true,
-        [end, next, ..] => middle(next) <= (1.0 + SETTLED) * middle(end),
+        [end, ..] if at > 0 && end[0] >= interval[1] => true,
+        [end, next, ..] => is_known(end) && middle(next) <= (1.0 + SETTLED) * middle(end),
         _ => false,
     };
     Some(Critical {
         interval,
         at_ms: widths[at],
-        is_settled: is_settled && interval[1].is_finite(),
+        is_settled: is_settled && is_known(interval),
     })
 }
 
@@ -158,6 +166,7 @@ mod tests {
                 pulse_ms,
                 sign: Sign::Plus,
                 amplitude_g,
+                open: None,
                 velocity_change_m_per_s: amplitude_g.map(|amplitude_g| per_g * amplitude_g),
             }
         });
@@ -221,5 +230,6 @@ mod tests {
         assert_eq!(found.critical_acceleration_g.interval[0], 0.0);
         assert_eq!(found.critical_velocity_change_m_per_s.interval[0], 0.0);
         assert!(found.critical_acceleration_g.interval[1].is_finite());
+        assert!(!found.critical_velocity_change_m_per_s.is_settled);
     }
 }

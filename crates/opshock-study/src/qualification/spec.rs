@@ -10,7 +10,7 @@ use opshock_solver::shock::PulseShape;
 use crate::search::decisive::FAR;
 use crate::study::table_fields::{Faults, Fields, wrong_kind};
 use crate::study::tree::{self, Value};
-use crate::study::{SetArg, Study, StudyError, StudyErrors, is_within};
+use crate::study::{SetArg, Study, StudyError, StudyErrors, UncertaintyOf, is_within};
 
 const TOP: &[&str] = &[
     "spec_format",
@@ -127,6 +127,28 @@ impl Spec {
     ///
     /// Every fault of the specification, or of the study.
     pub fn from_path(path: &Path, study: &Path, sets: &[SetArg]) -> Result<Spec, StudyErrors> {
+        Self::read(path, study, sets, true)
+    }
+
+    /// The same, but for the damage boundary: the requirements alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spec::from_path`].
+    pub fn requirements_from_path(
+        path: &Path,
+        study: &Path,
+        sets: &[SetArg],
+    ) -> Result<Vec<Requirement>, StudyErrors> {
+        Ok(Self::read(path, study, sets, false)?.requirements)
+    }
+
+    fn read(
+        path: &Path,
+        study: &Path,
+        sets: &[SetArg],
+        with_boundary: bool,
+    ) -> Result<Spec, StudyErrors> {
         // A fault of the study itself is no fault of every requirement.
         let plain = Study::from_path(study, sets)?;
         let (text, root) = tree::read(path)?;
@@ -159,7 +181,8 @@ impl Spec {
             }
             requirements.push(one);
         }
-        let damage_boundary = fields.get("damage_boundary").and_then(|node| {
+        let asked = fields.get("damage_boundary").filter(|_| with_boundary);
+        let damage_boundary = asked.and_then(|node| {
             let path = fields.path("damage_boundary");
             let entry = Fields::of(node, &path, OF_BOUNDARY, &mut faults)?;
             boundary(&entry, (&plain, study, sets), &mut faults)
@@ -240,7 +263,7 @@ fn requirement(
         format!("search.required_amplitude_g={required_g:?}"),
         "search.uncertainty_of=\"decisive\"".to_owned(),
     ];
-    match study_with((plain, file, sets), &name, &own, &searched) {
+    match study_with((plain, file, sets), &name, &own, (&searched, &[])) {
         Ok(study) => Some(Requirement {
             name,
             amplitude_g,
@@ -253,7 +276,13 @@ fn requirement(
             study,
         }),
         Err(refused) => {
-            refuse(entry, &name, &own, refused, faults);
+            refuse(
+                entry,
+                &format!("requirement {name:?}"),
+                &own,
+                refused,
+                faults,
+            );
             None
         }
     }
@@ -278,8 +307,23 @@ fn boundary(
         plain.search.amplitude_min_g
     )];
     let name = "damage boundary";
-    let study = study_with((plain, file, sets), name, &own, &searched);
-    let study = study.map_err(|refused| refuse(entry, name, &own, refused, faults));
+    // Every point has its interval.
+    let search = &plain.search;
+    let given = [
+        (
+            "search.uncertainty_of",
+            search.uncertainty_of != UncertaintyOf::All,
+        ),
+        (
+            "search.required_amplitude_g",
+            search.required_amplitude_g.is_some(),
+        ),
+    ];
+    let given = given.into_iter().filter(|(_, is_given)| *is_given);
+    let unset: Vec<&str> = given.map(|(key, _)| key).collect();
+    let study = study_with((plain, file, sets), name, &own, (&searched, &unset));
+    let study =
+        study.map_err(|refused| refuse(entry, "the damage boundary", &own, refused, faults));
     let study = study.ok()?;
     if study.widths_ms.len() < FEWEST_WIDTHS {
         let fault = entry.fault_of("E194", "widths_ms", "has too few pulse widths");
@@ -296,12 +340,12 @@ fn boundary(
     (faults.len() == before).then_some(study)
 }
 
-/// The study with settings laid over it: its own of an entry of the file, and those of the search for it.
+/// The study with settings laid over it: its own of an entry of the file, those of the search for it, and without some keys.
 fn study_with(
     (plain, file, sets): (&Study, &Path, &[SetArg]),
     name: &str,
     own: &[(&'static str, String)],
-    searched: &[String],
+    (searched, unset): (&[String], &[&str]),
 ) -> Result<Study, StudyErrors> {
     let both: String = format!("{}, {name}", plain.name)
         .chars()
@@ -318,8 +362,10 @@ fn study_with(
         all.retain(|known| !is_within(&known.key, &argument.key));
         all.push(argument);
     };
-    if plain.search.added_points.is_some() {
-        lay(SetArg::unset("search.added_points").expect("a key"));
+    let added = plain.search.added_points.as_ref();
+    let added = added.map(|_| "search.added_points");
+    for key in added.iter().chain(unset) {
+        lay(SetArg::unset(key).expect("a key"));
     }
     let keys = own.iter().map(|(_, text)| text);
     for text in keys.chain(&always).chain(searched) {
@@ -331,7 +377,7 @@ fn study_with(
 /// The faults of an entry's study, at their places in the entry where that has the key.
 fn refuse(
     entry: &Fields<'_>,
-    name: &str,
+    what: &str,
     own: &[(&'static str, String)],
     refused: StudyErrors,
     faults: &mut Faults,
@@ -341,13 +387,13 @@ fn refuse(
             let key = text.split_once('=').map(|(key, _)| key);
             key == Some(fault.key.as_str())
         });
-        refusal(entry, name, place.map(|(name, _)| *name), fault)
+        refusal(entry, what, place.map(|(name, _)| *name), fault)
     }));
 }
 /// A fault of the requirement's study, at the place of the requirement where that has the key.
 fn refusal(
     entry: &Fields<'_>,
-    requirement: &str,
+    what: &str,
     own: Option<&'static str>,
     mut fault: StudyError,
 ) -> StudyError {
@@ -360,7 +406,7 @@ fn refusal(
                 .hint(fault.hint.clone())
         }
         None => {
-            fault.message = format!("{} (with requirement {requirement:?})", fault.message);
+            fault.message = format!("{} (with {what})", fault.message);
             fault
         }
     }
@@ -407,7 +453,7 @@ fn own_settings(entry: &Fields<'_>, faults: &mut Faults) -> Vec<(&'static str, S
                 let clashes =
                     |key: &str| is_within(&argument.key, key) || is_within(key, &argument.key);
                 if own_keys.any(clashes) || set.iter().any(|known: &String| clashes(known)) {
-                    let what = format!("{} is set by the requirement already", argument.key);
+                    let what = format!("{} is set already", argument.key);
                     faults.push(
                         fault(what)
                             .allowed("each key once, and none that the requirement sets itself"),

@@ -2,6 +2,7 @@
 //! population of drives. A kill costs what was not appended; the rest is found again by its key.
 
 use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -17,8 +18,8 @@ pub type Numbers = Vec<Option<Option<f64>>>;
 /// Numbers by the content of what they were computed from.
 pub type Known = HashMap<PointDigest, Numbers>;
 
-/// A task's answer, and the numbers it computed for it.
-pub type Answered<T> = (T, Vec<(PointDigest, Numbers)>);
+/// A task's answer or why it has none, and the numbers it computed, which are kept in both cases.
+pub type Answered<T, E> = (Result<T, E>, Vec<(PointDigest, Numbers)>);
 
 /// A store of numbers, open for writing by this process alone.
 pub struct NumberStore {
@@ -129,7 +130,7 @@ impl NumberStore {
     }
 
     /// Answers of tasks number 0 to `n - 1`, in this order. Each of `threads` takes the lowest number that none has taken; what
-    /// a task computed is kept as soon as it is done. `progress` gets the number of tasks done.
+    /// a task computed is kept as soon as it ends. `progress` gets the number of tasks done.
     ///
     /// Threads of their own: those of a rayon pool begin further tasks while one of them waits for a sweep.
     ///
@@ -140,7 +141,7 @@ impl NumberStore {
         &mut self,
         n: usize,
         threads: usize,
-        answer: impl Fn(usize, &Known) -> Result<Answered<T>, E> + Sync,
+        answer: impl Fn(usize, &Known) -> Answered<T, E> + Sync,
         mut progress: impl FnMut(usize),
     ) -> Result<Vec<T>, E> {
         let (known, journal) = (&self.known, &mut self.journal);
@@ -157,29 +158,33 @@ impl NumberStore {
                         if task >= n {
                             break;
                         }
-                        let found = answer(task, known);
-                        if found.is_err() {
+                        let found = catch_unwind(AssertUnwindSafe(|| answer(task, known)));
+                        if !matches!(found, Ok((Ok(_), _))) {
                             is_over.store(true, Ordering::SeqCst);
                         }
-                        // The receiver goes only when all is over.
-                        let _ = sender.send((task, found));
+                        match found {
+                            // The receiver goes only when all is over.
+                            Ok(found) => drop(sender.send((task, found))),
+                            Err(panic) => resume_unwind(panic),
+                        }
                     }
                 });
             }
             drop(sender);
-            for (task, found) in receiver {
+            for (task, (found, new)) in receiver {
+                match append(journal, new) {
+                    Ok(records) => computed.extend(records),
+                    Err(error) => {
+                        is_over.store(true, Ordering::SeqCst);
+                        unwritten.get_or_insert(error);
+                        continue;
+                    }
+                }
                 match found {
-                    Ok((answer, new)) => match append(journal, new) {
-                        Ok(records) => {
-                            computed.extend(records);
-                            done.push((task, answer));
-                            progress(done.len());
-                        }
-                        Err(error) => {
-                            is_over.store(true, Ordering::SeqCst);
-                            unwritten.get_or_insert(error);
-                        }
-                    },
+                    Ok(answer) => {
+                        done.push((task, answer));
+                        progress(done.len());
+                    }
                     Err(error) => failed.push((task, error)),
                 }
             }

@@ -17,6 +17,7 @@ use super::validity::{Check, PointRules};
 use super::words::Faces;
 use crate::identity::CellId;
 use crate::search::{Ramp, Sign};
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 /// A value on an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,6 +109,13 @@ impl Point {
     /// Sign of the scene's amplitude: the shock's, reversed for a head that faces up.
     pub fn factor(&self) -> f64 {
         self.sign.factor() * self.faces.factor()
+    }
+
+    /// Levels with each of its discretisation parameters refined by `steps`.
+    pub fn levels(&self, steps: i8) -> Levels {
+        let mesh = Some(Discretisation::RampMesh).filter(|_| self.remeshed.is_some());
+        let all = Discretisation::ALL.into_iter().chain(mesh);
+        all.fold(Levels::NONE, |levels, one| levels.changed(one, steps))
     }
 
     /// Short name: `rigid 2 ms +`, and the further axes.

@@ -98,6 +98,16 @@ impl Physics {
         Self::planned(study, Plan::new(&study.plan().outputs, Mode::Full))
     }
 
+    /// The points of a study with their films a step coarser built, for scenes that share them.
+    pub fn with_coarser(study: &Study) -> Self {
+        let physics = Self::of(study);
+        for (place, (slot, ..)) in study.table_order().into_iter().zip(&physics.points) {
+            // A scene that cannot be built has nothing to share.
+            let _ = physics.refined_model(*slot, study.points[place].levels(-1));
+        }
+        physics
+    }
+
     /// Takes the films and structures of `other`, which are built now if need be, for scenes that have the same.
     #[must_use]
     pub fn sharing(self, other: &Physics) -> Self {

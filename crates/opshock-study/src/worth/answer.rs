@@ -18,6 +18,8 @@ pub struct Change {
     pub change_g: Option<f64>,
     /// Half-width of its interval, G.
     pub uncertainty_g: Option<f64>,
+    /// Steps by which the study's resolution was refined for it.
+    pub refined: usize,
     /// The interval does not hold 0.
     pub excludes_zero: bool,
 }
@@ -89,6 +91,7 @@ impl WorthAnswer {
                         critical_g: pair.critical_g(&amplitude_g),
                         change_g: found.map(|[change_g, _]| change_g),
                         uncertainty_g: found.map(|[_, half_g]| half_g),
+                        refined: pair.refined(),
                         excludes_zero: found
                             .is_some_and(|[change_g, half_g]| change_g.abs() > half_g),
                     }

@@ -1,11 +1,12 @@
-//! A pair of critical shocks, at two values of a key, each at the resolution of the scene and one step coarser in everything.
+//! A pair of critical shocks, at two values of a key, each at the resolution of the scene, one step coarser in everything, and where
+//! that leaves the change uncertain one and two steps finer.
 //!
 //! With A(x, l) the critical amplitude at value x and refinement level l, the change across the tolerance is
 //! D(l) = A(x₊, l) - A(x₋, l). Its numerical error is the change of D by refinement, not that of A: what both values share
-//! cancels. With D(0), D(-1) and the slowest formal ratio r = 2 of the discretisation parameters
+//! cancels. With the finest level l and the slowest formal ratio r = 2 of the discretisation parameters
 //!
 //! ```text
-//! D = D(0) ± (w₀ + F (|D(0) - D(-1)| + w₀ + w₋₁) / (r - 1)),   F = 3
+//! D = D(l) ± (w(l) + F (|D(l) - D(l-1)| + w(l) + w(l-1)) / (r - 1)),   F = 3
 //! ```
 //!
 //! where w are the half-widths of the brackets, and F the factor of safety where no order is observed (Roache 1994, J. Fluids
@@ -35,11 +36,12 @@ pub trait Shaken {
     /// Why there is no answer, as after a stop.
     type Interrupted;
 
-    /// At a step of the amplitude grid, on the scene as it is or a step coarser; `None` without verdict.
+    /// At a step of the amplitude grid, with every discretisation parameter refined so many times, or coarsened; `None` without
+    /// verdict.
     fn survives(
         &mut self,
         end: End,
-        is_coarser: bool,
+        refined: i8,
         step: i32,
     ) -> Result<Option<bool>, Self::Interrupted>;
 }
@@ -53,18 +55,14 @@ pub struct Bracket {
     pub fails: i32,
 }
 
-/// Brackets of a pair; those that could not be found are missing.
+/// Brackets of a pair at the lower and the higher value: a step coarser, at the scene's resolution, one and two steps finer. Those that
+/// were not sought or not found are missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Pair {
-    /// At the lower value.
-    pub low: Option<Bracket>,
-    /// At the higher value.
-    pub high: Option<Bracket>,
-    /// At the lower value, a step coarser.
-    pub coarser_low: Option<Bracket>,
-    /// At the higher value, a step coarser.
-    pub coarser_high: Option<Bracket>,
-}
+pub struct Pair(pub [[Option<Bracket>; 2]; LEVELS]);
+
+/// Resolutions of a pair, the coarsest first, and the place of the scene's own among them.
+pub const LEVELS: usize = 4;
+const OWN: usize = 1;
 
 /// Middle and half-width of a bracket in G, with the amplitude of a step.
 fn middle(bracket: Bracket, amplitude_g: &dyn Fn(i32) -> f64) -> [f64; 2] {
@@ -73,37 +71,68 @@ fn middle(bracket: Bracket, amplitude_g: &dyn Fn(i32) -> f64) -> [f64; 2] {
 }
 
 impl Pair {
+    /// The finest level with both brackets.
+    fn finest(&self) -> Option<usize> {
+        (OWN..LEVELS)
+            .rev()
+            .find(|level| self.0[*level].iter().all(Option::is_some))
+    }
+
     /// Critical shocks at both values, G.
     pub fn critical_g(&self, amplitude_g: &dyn Fn(i32) -> f64) -> [Option<f64>; 2] {
-        [self.low, self.high].map(|bracket| Some(middle(bracket?, amplitude_g)[0]))
+        let level = self.finest().unwrap_or(OWN);
+        self.0[level].map(|bracket| Some(middle(bracket?, amplitude_g)[0]))
     }
 
     /// Change from the lower to the higher value and its half-width, G.
     pub fn change_g(&self, amplitude_g: &dyn Fn(i32) -> f64) -> Option<[f64; 2]> {
-        let difference = |low: Option<Bracket>, high: Option<Bracket>| {
+        let difference = |level: usize| {
+            let [low, high] = self.0[level];
             let [low, high] = [middle(low?, amplitude_g), middle(high?, amplitude_g)];
             Some([high[0] - low[0], high[1] + low[1]])
         };
-        let [change, width] = difference(self.low, self.high)?;
-        let [coarser, coarser_width] = difference(self.coarser_low, self.coarser_high)?;
+        let finest = self.finest()?;
+        let [change, width] = difference(finest)?;
+        let [coarser, coarser_width] = difference(finest - 1)?;
         let moved = (change - coarser).abs() + width + coarser_width;
         Some([change, width + FACTOR * moved / (RATIO - 1.0)])
     }
+
+    /// Refinement steps of the finest level beyond the scene's own.
+    pub fn refined(&self) -> usize {
+        self.finest().map_or(0, |level| level - OWN)
+    }
 }
 
-/// Brackets of a pair, sought within those that are known at the lower and at the higher value.
+/// Brackets of a pair, sought within those that are known at the lower and at the higher value. Finer ones follow, `most_finer` steps
+/// at most, until `is_narrow`.
 ///
 /// # Errors
 /// Where a verdict has none to give.
-pub fn find<S: Shaken>(shaken: &mut S, starts: [Bracket; 2]) -> Result<Pair, S::Interrupted> {
-    let mut pair = Pair {
-        low: bracket(shaken, End::Low, false, starts[0])?,
-        high: bracket(shaken, End::High, false, starts[1])?,
-        ..Pair::default()
-    };
-    if let (Some(low), Some(high)) = (pair.low, pair.high) {
-        pair.coarser_low = bracket(shaken, End::Low, true, low)?;
-        pair.coarser_high = bracket(shaken, End::High, true, high)?;
+pub fn find<S: Shaken>(
+    shaken: &mut S,
+    starts: [Bracket; 2],
+    most_finer: usize,
+    is_narrow: &dyn Fn(&Pair) -> bool,
+) -> Result<Pair, S::Interrupted> {
+    let mut pair = Pair::default();
+    let mut from = starts;
+    // The scene's own level first, then the coarser one, then finer ones from the last.
+    let finer = OWN + 1..=(OWN + most_finer).min(LEVELS - 1);
+    for level in [OWN, OWN - 1].into_iter().chain(finer) {
+        if level > OWN && is_narrow(&pair) {
+            break;
+        }
+        let refined = level as i8 - OWN as i8;
+        for (place, end) in [End::Low, End::High].into_iter().enumerate() {
+            pair.0[level][place] = bracket(shaken, end, refined, from[place])?;
+        }
+        match pair.0[level] {
+            [Some(low), Some(high)] if level >= OWN => from = [low, high],
+            // Finer ones without it have a change of their own.
+            _ if level < OWN => {}
+            _ => break,
+        }
     }
     Ok(pair)
 }
@@ -112,13 +141,13 @@ pub fn find<S: Shaken>(shaken: &mut S, starts: [Bracket; 2]) -> Result<Pair, S::
 fn bracket<S: Shaken>(
     shaken: &mut S,
     end: End,
-    is_coarser: bool,
+    refined: i8,
     start: Bracket,
 ) -> Result<Option<Bracket>, S::Interrupted> {
     let (mut survives, mut fails) = (None, None);
     let (mut step, mut further) = (start.survives, FIRST_STEPS);
     let (mut low, mut high) = loop {
-        match shaken.survives(end, is_coarser, step)? {
+        match shaken.survives(end, refined, step)? {
             None => return Ok(None),
             Some(true) => survives = Some(step),
             Some(false) => fails = Some(step),
@@ -140,7 +169,7 @@ fn bracket<S: Shaken>(
     };
     while high - low > 1 {
         let middle = low + (high - low) / 2;
-        match shaken.survives(end, is_coarser, middle)? {
+        match shaken.survives(end, refined, middle)? {
             None => return Ok(None),
             Some(true) => low = middle,
             Some(false) => high = middle,
@@ -198,19 +227,17 @@ mod tests {
         fn survives(
             &mut self,
             end: End,
-            is_coarser: bool,
+            refined: i8,
             step: i32,
         ) -> Result<Option<bool>, Self::Interrupted> {
             self.shocks += 1;
-            let level = if is_coarser { -1 } else { 0 };
-            Ok(Some(amplitude_g(step) <= self.at(end, level)))
+            Ok(Some(amplitude_g(step) <= self.at(end, refined.into())))
         }
     }
 
-    #[test]
-    fn changes_hold_those_of_100_known_laws_and_are_narrower_than_separate_intervals() {
-        let (mut held, mut narrower) = (0, Vec::new());
-        for index in 0..100 {
+    /// Known change, what the pair says of it, and the half-widths of two separate intervals by the same answers and factor, of 100 laws.
+    fn laws(most_finer: usize, most_shocks: u32) -> Vec<([f64; 3], f64)> {
+        let of_law = |index| {
             let random = draw(41, index, 6);
             let mean_g = 150.0 + 500.0 * random[0];
             let change_g = 0.2 * mean_g * (random[1] - 0.5);
@@ -227,18 +254,50 @@ mod tests {
             };
             // Brackets of 1 % that may lie beside the critical shock.
             let start = start(mean_g * (0.95 + 0.1 * random[5]));
-            let Ok(pair) = find(&mut law, [start; 2]);
-            assert!(law.shocks <= 60, "{}", law.shocks);
+            let is_narrow = |pair: &Pair| {
+                let found = pair.change_g(&amplitude_g);
+                found.is_some_and(|[_, half_g]| half_g <= 0.005 * mean_g)
+            };
+            let Ok(pair) = find(&mut law, [start; 2], most_finer, &is_narrow);
+            assert!(law.shocks <= most_shocks, "{}", law.shocks);
             let [found_g, half_g] = pair.change_g(&amplitude_g).expect("a change");
-            held += u32::from((found_g - change_g).abs() <= half_g);
-            // Separate intervals by the same answers and factor.
             let of = |end| FACTOR * (law.at(end, 0) - law.at(end, -1)).abs();
-            narrower.push((of(End::Low) + of(End::High)) / half_g);
-        }
+            let separate_g = of(End::Low) + of(End::High);
+            ([change_g, found_g, half_g], separate_g)
+        };
+        (0..100).map(of_law).collect()
+    }
+
+    #[test]
+    fn changes_hold_those_of_100_known_laws_and_are_narrower_than_separate_intervals() {
+        let all = laws(0, 60);
+        let is_held = |([exact_g, found_g, half_g], _): &&([f64; 3], f64)| {
+            (found_g - exact_g).abs() <= *half_g
+        };
+        let held = all.iter().filter(is_held).count();
+        let mut narrower: Vec<f64> = all
+            .iter()
+            .map(|([.., half_g], both_g)| both_g / half_g)
+            .collect();
         narrower.sort_by(f64::total_cmp);
         println!("{held} of 100, {} times narrower", narrower[50]);
         assert!(held >= 89, "{held}");
         assert!(narrower[50] >= 3.0, "{}", narrower[50]);
+        // Wide ones are refined, and still hold.
+        let finer = laws(2, 120);
+        let held = finer.iter().filter(is_held).count();
+        assert!(held >= 89, "{held}");
+        let wide = |all: &[([f64; 3], f64)]| {
+            let mut widths: Vec<f64> = all.iter().map(|([.., half_g], _)| *half_g).collect();
+            widths.sort_by(f64::total_cmp);
+            widths[95]
+        };
+        assert!(
+            wide(&finer) < 0.5 * wide(&all),
+            "{} {}",
+            wide(&finer),
+            wide(&all)
+        );
     }
 
     /// Survives nothing between 99.8 and 100.2 G, where its critical shock is, but all of 100.2 to 104 G.
@@ -250,7 +309,7 @@ mod tests {
         fn survives(
             &mut self,
             _: End,
-            _: bool,
+            _: i8,
             step: i32,
         ) -> Result<Option<bool>, Self::Interrupted> {
             self.0.push(step);
@@ -267,8 +326,8 @@ mod tests {
             fails: at(100.0),
         };
         let mut island = Island(Vec::new());
-        let Ok(pair) = find(&mut island, [known; 2]);
-        for found in [pair.low, pair.high, pair.coarser_low, pair.coarser_high] {
+        let Ok(pair) = find(&mut island, [known; 2], 2, &|_| false);
+        for found in pair.0.into_iter().flatten() {
             assert_eq!(found.map(|one| one.fails), Some(at(99.8)));
         }
         assert!(island.0.iter().all(|step| *step <= known.fails));
@@ -283,8 +342,8 @@ mod tests {
             disorder: 0.0,
             shocks: 0,
         };
-        let Ok(pair) = find(&mut law, [start(110.0); 2]);
-        assert!(pair.low.is_some() && pair.high.is_none());
+        let Ok(pair) = find(&mut law, [start(110.0); 2], 2, &|_| false);
+        assert_eq!(pair.0[OWN].map(|found| found.is_some()), [true, false]);
         assert_eq!(pair.change_g(&amplitude_g), None);
     }
 }

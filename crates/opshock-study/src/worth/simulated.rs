@@ -1,16 +1,16 @@
 //! Simulates the pairs of a study: every tolerance at its two values, for every point.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use opshock_solver::quantity::m_per_s2_from_g;
-use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
-use super::pair::{Bracket, End, FINENESS, Pair, Shaken, find};
+use super::pair::{Bracket, End, FINENESS, LEVELS, Pair, Shaken, find};
 use crate::population::{Interrupted, Tolerances};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::{AmplitudeGrid, Probe, Verdict};
 use crate::store::summary::Status;
-use crate::store::{Answered, Known, NumberStore, Numbers, PointDigest, StoreError};
+use crate::store::{Known, NumberStore, Numbers, PointDigest, StoreError};
 use crate::study::{Point, RemeshedRamp, Study};
 use crate::sweep::{
     Ending, Physics, ProgressKind, Simulator as _, SweepInput, SweepOptions, Until, sweep,
@@ -19,10 +19,14 @@ use crate::sweep::{
 /// Cumulative probabilities of the two values: one standard deviation of a normal distribution either way.
 pub const ENDS: [f64; 2] = [0.158_655_253_931_457, 0.841_344_746_068_543];
 
+/// A change is refined until its half-width is the study's target uncertainty of a critical shock over this.
+const NARROWER: f64 = 3.0;
+
 /// Pairs to be simulated.
 pub struct Worth<'a> {
     nominal: &'a Study,
-    physics: Physics,
+    /// What the studies have in common with it is built once, when the first of them asks.
+    physics: OnceLock<Physics>,
     /// By tolerance, at both values.
     ends: &'a [[Study; 2]],
 }
@@ -50,14 +54,16 @@ impl<'a> Worth<'a> {
     pub fn new(nominal: &'a Study, ends: &'a [[Study; 2]]) -> Self {
         Self {
             nominal,
-            physics: Physics::of(nominal),
+            physics: OnceLock::new(),
             ends,
         }
     }
 
-    /// What a study has in common with the nominal one is built once.
     fn physics_of(&self, study: &Study) -> Physics {
-        Physics::of(study).sharing(&self.physics)
+        let nominal = self
+            .physics
+            .get_or_init(|| Physics::with_coarser(self.nominal));
+        Physics::of(study).sharing(nominal)
     }
 
     /// Brackets of every study, with the scan for earlier failures of any sweep; each in a store of its own in `folder`.
@@ -122,7 +128,10 @@ impl<'a> Worth<'a> {
             threads,
             |task, known| {
                 let (tolerance, place) = (task / n_points, task % n_points);
-                self.pair(tolerance, place, &starts[tolerance], known, until)
+                match self.pair(tolerance, place, &starts[tolerance], known, until) {
+                    Ok((pair, new)) => (Ok(pair), new.into_iter().collect()),
+                    Err(why) => (Err(why), Vec::new()),
+                }
             },
             |done| progress(done, n),
         )?;
@@ -137,10 +146,10 @@ impl<'a> Worth<'a> {
         starts: &[Vec<Option<[f64; 2]>>; 2],
         known: &Known,
         until: &Until,
-    ) -> Result<Answered<Pair>, Interrupted> {
+    ) -> Result<(Pair, Option<(PointDigest, Numbers)>), Interrupted> {
         let [Some(low_g), Some(high_g)] = starts.each_ref().map(|of_points| of_points[place])
         else {
-            return Ok((Pair::default(), Vec::new()));
+            return Ok((Pair::default(), None));
         };
         let points = self.ends[tolerance].each_ref().map(|study| {
             let order = study.table_order();
@@ -151,21 +160,29 @@ impl<'a> Worth<'a> {
             let fails = grid().nearest(failed_g).max(survives + 1);
             Bracket { survives, fails }
         });
+        let target = points[0].target_uncertainty / NARROWER;
+        let most_finer = self.nominal.search.max_refinements as usize;
         let key = key(self.nominal, points, starts);
         if let Some(pair) = known.get(&key).and_then(decode) {
-            return Ok((pair, Vec::new()));
+            return Ok((pair, None));
         }
         let physics = self.ends[tolerance].each_ref();
         let physics = physics.map(|study| self.physics_of(study));
         let mut simulated = Simulated {
             physics: &physics,
             place,
-            sign: points[0].sign.factor(),
-            has_mesh: points[0].remeshed.is_some(),
+            point: points[0],
             until,
         };
-        let pair = find(&mut simulated, starts)?;
-        Ok((pair, vec![(key, encode(&pair))]))
+        let amplitude_g = |step: i32| grid().amplitude_g(step);
+        let is_narrow = |pair: &Pair| {
+            let change = pair.change_g(&amplitude_g);
+            let least_g = pair.critical_g(&amplitude_g).into_iter().flatten();
+            let least_g = least_g.fold(f64::INFINITY, f64::min);
+            change.is_some_and(|[_, half_g]| half_g <= target * least_g)
+        };
+        let pair = find(&mut simulated, starts, most_finer, &is_narrow)?;
+        Ok((pair, Some((key, encode(&pair)))))
     }
 }
 
@@ -173,35 +190,23 @@ impl<'a> Worth<'a> {
 struct Simulated<'a> {
     physics: &'a [Physics; 2],
     place: usize,
-    sign: f64,
-    has_mesh: bool,
+    /// At the lower value; at the higher one it has the same sign and the same discretisation parameters.
+    point: &'a Point,
     until: &'a Until,
 }
 
 impl Shaken for Simulated<'_> {
     type Interrupted = Interrupted;
 
-    fn survives(
-        &mut self,
-        end: End,
-        is_coarser: bool,
-        step: i32,
-    ) -> Result<Option<bool>, Interrupted> {
+    fn survives(&mut self, end: End, refined: i8, step: i32) -> Result<Option<bool>, Interrupted> {
         if self.until.is_over() {
             return Err(Interrupted::Stopped);
         }
-        let mesh = Some(Discretisation::RampMesh).filter(|_| self.has_mesh);
-        let mut levels = Levels::NONE;
-        if is_coarser {
-            for one in Discretisation::ALL.into_iter().chain(mesh) {
-                levels = levels.changed(one, -1);
-            }
-        }
         let probe = Probe {
-            levels,
+            levels: self.point.levels(refined),
             ..Probe::at(step)
         };
-        let amplitude = self.sign * m_per_s2_from_g(grid().amplitude_g(step));
+        let amplitude = self.point.sign.factor() * m_per_s2_from_g(grid().amplitude_g(step));
         let physics = &self.physics[usize::from(end == End::High)];
         let run = || physics.simulate(self.place, probe, amplitude);
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
@@ -216,7 +221,7 @@ impl Shaken for Simulated<'_> {
 /// Content of everything that a pair depends on.
 fn key(nominal: &Study, points: [&Point; 2], starts: [Bracket; 2]) -> PointDigest {
     let mut hasher = blake3::Hasher::new();
-    let versions = format!("opshock worth 2 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {starts:?}");
+    let versions = format!("opshock worth 3 {PHYSICS_STRUCTURE} {PHYSICS_HEAD} {starts:?}");
     hasher.update(versions.as_bytes());
     // Effects and outputs of the study.
     hasher.update(&nominal.digest);
@@ -229,8 +234,8 @@ fn key(nominal: &Study, points: [&Point; 2], starts: [Bracket; 2]) -> PointDiges
 }
 
 fn encode(pair: &Pair) -> Numbers {
-    let all = [pair.low, pair.high, pair.coarser_low, pair.coarser_high];
-    let steps = all.iter().flat_map(|bracket| {
+    let brackets = pair.0.iter().flatten();
+    let steps = brackets.flat_map(|bracket| {
         let steps = bracket.map(|bracket| [bracket.survives, bracket.fails].map(f64::from));
         [steps.map(|steps| steps[0]), steps.map(|steps| steps[1])]
     });
@@ -239,17 +244,15 @@ fn encode(pair: &Pair) -> Numbers {
 
 fn decode(numbers: &Numbers) -> Option<Pair> {
     let steps: Option<Vec<Option<f64>>> = numbers.iter().copied().collect();
-    let steps = steps.filter(|steps| steps.len() == 8)?;
-    let bracket = |place: usize| {
-        let [survives, fails] = [steps[2 * place]?, steps[2 * place + 1]?].map(|step| step as i32);
-        Some(Bracket { survives, fails })
-    };
-    Some(Pair {
-        low: bracket(0),
-        high: bracket(1),
-        coarser_low: bracket(2),
-        coarser_high: bracket(3),
-    })
+    let steps = steps.filter(|steps| steps.len() == 4 * LEVELS)?;
+    let mut pair = Pair::default();
+    for (bracket, steps) in pair.0.iter_mut().flatten().zip(steps.chunks(2)) {
+        *bracket = steps[0].zip(steps[1]).map(|(survives, fails)| Bracket {
+            survives: survives as i32,
+            fails: fails as i32,
+        });
+    }
+    Some(pair)
 }
 
 #[cfg(test)]
@@ -264,13 +267,13 @@ mod tests {
                 fails: survives + 1,
             })
         };
-        for coarser_high in [None, bracket(-7)] {
-            let pair = Pair {
-                low: bracket(3),
-                high: bracket(80),
-                coarser_low: bracket(0),
-                coarser_high,
-            };
+        for finer in [None, bracket(-7)] {
+            let pair = Pair([
+                [bracket(3), bracket(80)],
+                [bracket(0), bracket(70)],
+                [bracket(1), finer],
+                [None, finer],
+            ]);
             assert_eq!(decode(&encode(&pair)), Some(pair));
         }
     }

@@ -9,14 +9,13 @@ use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
 use opshock_study::population::{
-    Interrupted, Part, Population, PopulationAnswer, Tolerances, open_store,
+    Interrupted, Nominal, Part, Population, PopulationAnswer, Tolerances, open_store,
 };
 use opshock_study::provenance;
 use opshock_study::qualification::Spec;
 use opshock_study::report::populated::{self, Populated};
 use opshock_study::store::aside;
 use opshock_study::study::{StudyError, StudyErrors};
-use opshock_study::sweep::Physics;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -93,8 +92,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         console.tell(&format!("warning: {note}"));
     }
     let running = LongRun::begin(arguments.budget, console)?;
-    let nominal = spec.requirements.iter();
-    let nominal: Vec<Physics> = nominal.map(|one| Physics::of(&one.study)).collect();
+    let nominal = Nominal::of(&spec);
     let population = Population {
         nominal: &nominal,
         tolerances: &tolerances,

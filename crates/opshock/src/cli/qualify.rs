@@ -85,10 +85,13 @@ pub fn run(
         };
         let folder = base.join(&spec.name).join(BOUNDARY_FOLDER);
         let (summary, ending) = answered(study, &folder, &options, global, console)?;
-        if ending != Ending::Complete {
-            return Ok(running.ended_early());
+        match ending {
+            Ending::Complete => boundary = Boundary::of(study, &summary),
+            // The verdict does not rest on it.
+            _ => console.tell(
+                "the damage boundary is not finished; run the same command again to go on with it",
+            ),
         }
-        boundary = Boundary::of(study, &summary);
     }
     let tested = spec.requirements.iter().zip(&summaries);
     let qualified = Qualified {
@@ -103,7 +106,9 @@ pub fn run(
     };
     if let Some(out) = out {
         let files = qualified::qualified_files(&qualified).context("cannot draw a figure")?;
-        for path in aside::write_all(out, files)? {
+        let written = aside::write_all(out, files)?;
+        aside::remove_former(out, &written, &arguments.study, qualified::optional_file)?;
+        for path in written {
             console.tell(&format!("wrote {}", path.display()));
         }
     }

@@ -33,7 +33,8 @@ pub(in crate::report) fn page(populated: &Populated<'_>) -> String {
         &mut page,
         "Requirements",
         &format!(
-            "{}<p>Decided by uncertainty interval: drives with a point so near the required amplitude that two shocks did not agree.</p>\n",
+            "{}<p>Decided by a finer shock: drives with a point whose outcome or clearance a coarser resolution left open. \
+             Decided by uncertainty interval: drives with a point of which the shocks did not agree.</p>\n",
             table(populated.requirements(), 1)
         ),
     );

@@ -72,8 +72,8 @@ pub fn page(qualified: &Qualified<'_>) -> String {
         let _ = write!(
             page,
             "<section aria-labelledby=\"boundary\">\n<h2 id=\"boundary\">Damage boundary</h2>\n<p>{}</p>\n{}{}\
-             <p>Every shock to the left of the vertical line or below the horizontal one is survived, at the pulse widths tested (ASTM D3332). A \
-             product's own drops and handling belong on this picture by their velocity change and peak.</p>\n</section>\n",
+             <p>A shock of a tested width that fails has at least both critical values (ASTM D3332): it lies to the right of the vertical line \
+             and above the horizontal one. The lines are drawn at the lower ends, and not where these are unknown.</p>\n</section>\n",
             signed(&sentences.join(" ")),
             figure(
                 &boundary.figure().inline_svg(),

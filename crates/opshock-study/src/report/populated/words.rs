@@ -87,16 +87,19 @@ impl Populated<'_> {
             "survive",
             "undecided",
             "fail",
+            "decided by a finer shock",
             "decided by uncertainty interval",
             "share that survives, 95 %",
         ];
-        let row = |name: &str, required: String, counts: &Counts, by_interval: String| {
+        let row = |name: &str, required: String, counts: &Counts, by: [String; 2]| {
+            let [by_finer_shock, by_interval] = by;
             vec![
                 name.to_owned(),
                 required,
                 counts.passing.to_string(),
                 counts.undecided.to_string(),
                 counts.failing.to_string(),
+                by_finer_shock,
                 by_interval,
                 between(counts.survival),
             ]
@@ -106,17 +109,17 @@ impl Populated<'_> {
             .requirements
             .iter()
             .map(|one| {
-                let by_interval = one.by_interval.to_string();
-                row(
-                    &one.name,
-                    format!("{:.1}", one.required_g),
-                    &one.counts,
-                    by_interval,
-                )
+                let by = [one.by_finer_shock, one.by_interval].map(|count| count.to_string());
+                row(&one.name, format!("{:.1}", one.required_g), &one.counts, by)
             })
             .collect();
         if rows.len() > 1 {
-            rows.push(row("all", String::new(), &self.answer.all, String::new()));
+            rows.push(row(
+                "all",
+                String::new(),
+                &self.answer.all,
+                Default::default(),
+            ));
         }
         (header.map(String::from).to_vec(), rows)
     }
@@ -185,9 +188,11 @@ impl Populated<'_> {
     pub(in crate::report) fn basis(&self) -> String {
         format!(
             "{} drives, fixed before the first was simulated, each an independent draw (seed {}). A drive survives a requirement when every \
-             point of it does. A point that survives the required amplitude and 1.19 times it passes, and one that fails at it and at a \
-             1.19th of it fails, at the study's resolution and window: two shocks, without a bound on their numerical error. Any other is \
-             decided by the uncertainty interval of its critical shock, or undecided. Intervals of shares are exact binomial ones (Clopper and Pearson 1934).",
+             point of it does. Three shocks judge a point: at the required amplitude, there a step coarser in everything, and at 1.19 times it (a \
+             1.19th of it where it fails). It passes when it survives all three and its smallest clearance stays above that of failure less three \
+             times its change by the coarser step, and fails when it fails all three. Where the coarser shock leaves this open, one at a step finer \
+             takes its place. Any other point is decided by the uncertainty interval of its critical shock, or undecided. Amplitudes between \
+             these, lower ones, and a longer simulated time are not looked at. Intervals of shares are exact binomial ones (Clopper and Pearson 1934).",
             self.answer.drives, self.answer.seed
         )
     }

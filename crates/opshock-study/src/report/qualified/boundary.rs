@@ -1,6 +1,6 @@
 //! Damage boundary of a qualification: sentence, table, figure, CSV.
 
-use crate::qualification::{BoundaryPoint, Critical, DamageBoundary, pulse_shape};
+use crate::qualification::{BoundaryPoint, DamageBoundary, pulse_shape};
 use crate::report::chart::{
     Axis, Dash, Figure, Fill, Marker, Panel, Rule, Sample, Series, Value, colour,
 };
@@ -41,12 +41,12 @@ impl Boundary {
             [width.min(from), width.max(to)]
         });
         let mut sentences = vec![format!(
-            "Damage boundary ({} of {from_ms} to {to_ms} ms): a shock fails only with a velocity change of {} m/s or more (at {} ms) and an \
-             amplitude of {} G or more (at {} ms).",
+            "Damage boundary ({} of {from_ms} to {to_ms} ms): the critical velocity change is {} m/s (found at {} ms), the critical acceleration \
+             {} G (found at {} ms).",
             self.shape,
-            span(velocity, 3),
+            ends(velocity.interval, 3),
             velocity.at_ms,
-            span(acceleration, 1),
+            ends(acceleration.interval, 1),
             acceleration.at_ms
         )];
         if !velocity.is_settled {
@@ -69,6 +69,7 @@ impl Boundary {
             "sign",
             "critical shock (G)",
             "velocity change (m/s)",
+            "lower end not known because",
         ];
         let rows = self.found.points.iter().map(|point| {
             vec![
@@ -76,17 +77,20 @@ impl Boundary {
                 point.sign.as_str().to_owned(),
                 ends(point.amplitude_g, 1),
                 ends(point.velocity_change_m_per_s, 3),
+                point
+                    .open
+                    .map_or(String::new(), |open| open.words().to_owned()),
             ]
         });
         (header.map(String::from).to_vec(), rows.collect())
     }
 
-    /// Amplitude against velocity change, a curve for each sign, with both critical values as lines.
+    /// Amplitude against velocity change, a curve for each sign, with the lower ends of both critical values as lines.
     pub(in crate::report) fn figure(&self) -> Figure {
         let signs = [Sign::Plus, Sign::Minus].into_iter().zip(colour::CYCLE);
         let series = signs.filter_map(|(sign, colour)| {
             let points = self.found.points.iter().filter(|one| one.sign == sign);
-            let samples: Vec<Sample> = points.map(sample).collect();
+            let samples: Vec<Sample> = points.filter_map(sample).collect();
             let marker = (Marker::Circle, Fill::Full);
             let name = format!("sign {}", sign.as_str());
             (!samples.is_empty())
@@ -94,18 +98,16 @@ impl Boundary {
         });
         let rules = [
             Rule::Vertical {
-                x: middle(self.found.critical_velocity_change_m_per_s.interval),
-                label: "critical velocity change".into(),
+                x: self.found.critical_velocity_change_m_per_s.interval[0],
+                label: "critical velocity change, lower end".into(),
             },
             Rule::Horizontal {
-                y: middle(self.found.critical_acceleration_g.interval),
-                label: "critical acceleration".into(),
+                y: self.found.critical_acceleration_g.interval[0],
+                label: "critical acceleration, lower end".into(),
             },
         ];
         let is_known = |rule: &Rule| match rule {
-            Rule::Vertical { x: value, .. } | Rule::Horizontal { y: value, .. } => {
-                value.is_finite()
-            }
+            Rule::Vertical { x: value, .. } | Rule::Horizontal { y: value, .. } => *value > 0.0,
         };
         Figure {
             title: "Damage boundary".into(),
@@ -155,7 +157,8 @@ fn middle([low, high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-fn sample(point: &BoundaryPoint) -> Sample {
+/// Of a point of which something is known.
+fn sample(point: &BoundaryPoint) -> Option<Sample> {
     let [low, high] = point.amplitude_g;
     let velocity = point.velocity_change_m_per_s;
     let (x, value) = match (low > 0.0, high.is_finite()) {
@@ -164,9 +167,10 @@ fn sample(point: &BoundaryPoint) -> Sample {
             (middle(velocity), Value::Known { y, low, high })
         }
         (false, true) => (velocity[1], Value::Below(high)),
-        _ => (velocity[0], Value::Above(low)),
+        (true, false) => (velocity[0], Value::Above(low)),
+        (false, false) => return None,
     };
-    Sample {
+    Some(Sample {
         x,
         value,
         open: false,
@@ -176,11 +180,7 @@ fn sample(point: &BoundaryPoint) -> Sample {
             ends(point.amplitude_g, 1),
             ends(velocity, 3)
         ),
-    }
-}
-
-fn span(critical: &Critical, digits: usize) -> String {
-    ends(critical.interval, digits)
+    })
 }
 
 /// `210.1 +- 3.2`, or the bound that is known.

@@ -204,9 +204,21 @@ pub fn qualified_files(
     ];
     if let Some(boundary) = &qualified.boundary {
         let figure = boundary.figure();
-        files.push(("damage_boundary.csv", boundary.csv().into_bytes()));
-        files.push(("damage_boundary.svg", figure.svg().into_bytes()));
-        files.push(("damage_boundary.png", figure.png()?));
+        let [csv, svg, png] = OF_BOUNDARY;
+        files.push((csv, boundary.csv().into_bytes()));
+        files.push((svg, figure.svg().into_bytes()));
+        files.push((png, figure.png()?));
     }
     Ok(files)
+}
+
+const OF_BOUNDARY: [&str; 3] = [
+    "damage_boundary.csv",
+    "damage_boundary.svg",
+    "damage_boundary.png",
+];
+
+/// How a file of this name begins, where a qualification writes it only if it is asked for: these are replaced whatever they hold.
+pub fn optional_file(name: &str) -> Option<&'static str> {
+    OF_BOUNDARY.contains(&name).then_some("")
 }

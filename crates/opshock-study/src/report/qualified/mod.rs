@@ -7,5 +7,5 @@ mod junit;
 
 pub use answer::{Qualified, Tested};
 pub use boundary::Boundary;
-pub use files::{csv, json, markdown, qualified_files, text};
+pub use files::{csv, json, markdown, optional_file, qualified_files, text};
 pub use junit::junit;

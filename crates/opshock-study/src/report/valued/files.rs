@@ -36,6 +36,7 @@ fn csv(valued: &Valued<'_>) -> String {
         "critical_high_g",
         "change_g",
         "uncertainty_g",
+        "refined",
         "excludes_zero",
     ];
     let mut text = csv_line(&header.map(String::from));
@@ -50,6 +51,7 @@ fn csv(valued: &Valued<'_>) -> String {
                 number(change.critical_g[1]),
                 number(change.change_g),
                 number(change.uncertainty_g),
+                change.refined.to_string(),
                 change.excludes_zero.to_string(),
             ]));
         }
