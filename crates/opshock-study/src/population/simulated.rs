@@ -73,6 +73,7 @@ pub fn open_store(folder: &Path, tolerances: &Tolerances) -> Result<NumberStore,
 pub struct Nominal<'a> {
     requirement: &'a Requirement,
     physics: OnceLock<Physics>,
+    finer: OnceLock<()>,
 }
 
 impl<'a> Nominal<'a> {
@@ -82,13 +83,26 @@ impl<'a> Nominal<'a> {
         let of = requirements.map(|requirement| Self {
             requirement,
             physics: OnceLock::new(),
+            finer: OnceLock::new(),
         });
         of.collect()
     }
 
     fn physics(&self) -> &Physics {
-        let build = || Physics::with_coarser(&self.requirement.study);
-        self.physics.get_or_init(build)
+        let study = &self.requirement.study;
+        self.physics.get_or_init(|| {
+            let physics = Physics::of(study);
+            physics.build_films(study, -1);
+            physics
+        })
+    }
+
+    /// The same with films a step finer.
+    fn finer(&self) -> &Physics {
+        let physics = self.physics();
+        let study = &self.requirement.study;
+        self.finer.get_or_init(|| physics.build_films(study, 1));
+        physics
     }
 }
 
@@ -218,6 +232,9 @@ impl Levels for Simulated<'_> {
         }
         let amplitude_g = amplitude_g(self.requirement.required_g(), step);
         let amplitude = self.point.sign.factor() * m_per_s2_from_g(amplitude_g);
+        if refined > 0 {
+            self.physics.take_films(self.nominal.finer());
+        }
         let probe = Probe {
             levels: self.point.levels(refined),
             ..Probe::at(step)

@@ -98,26 +98,29 @@ impl Physics {
         Self::planned(study, Plan::new(&study.plan().outputs, Mode::Full))
     }
 
-    /// The points of a study with their films a step coarser built, for scenes that share them.
-    pub fn with_coarser(study: &Study) -> Self {
-        let physics = Self::of(study);
-        for (place, (slot, ..)) in study.table_order().into_iter().zip(&physics.points) {
+    /// Builds the films of its points, those of `study`, refined by `steps` in everything, for scenes that share them.
+    pub fn build_films(&self, study: &Study, steps: i8) {
+        for (place, (slot, ..)) in study.table_order().into_iter().zip(&self.points) {
             // A scene that cannot be built has nothing to share.
-            let _ = physics.refined_model(*slot, study.points[place].levels(-1));
+            let _ = self.refined_model(*slot, study.points[place].levels(steps));
         }
-        physics
     }
 
     /// Takes the films and structures of `other`, which are built now if need be, for scenes that have the same.
     #[must_use]
     pub fn sharing(self, other: &Physics) -> Self {
+        self.take_films(other);
+        self
+    }
+
+    /// Takes the films and structures of `other` that are built by now, and those of its points.
+    pub fn take_films(&self, other: &Physics) {
         for point in 0..other.points.len() {
             // A scene that cannot be built has nothing to share.
             let _ = other.model(point);
         }
         let models = lock(&other.shared_models).clone();
         lock(&self.shared_models).extend(models);
-        self
     }
 
     fn planned(study: &Study, plan: Plan) -> Self {

@@ -60,9 +60,11 @@ impl<'a> Worth<'a> {
     }
 
     fn physics_of(&self, study: &Study) -> Physics {
-        let nominal = self
-            .physics
-            .get_or_init(|| Physics::with_coarser(self.nominal));
+        let nominal = self.physics.get_or_init(|| {
+            let physics = Physics::of(self.nominal);
+            physics.build_films(self.nominal, -1);
+            physics
+        });
         Physics::of(study).sharing(nominal)
     }
 
