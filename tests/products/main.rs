@@ -39,6 +39,7 @@ mod outside_ramp;
 mod population;
 mod qualify;
 mod real_sweep;
+mod refused;
 mod report_answer;
 mod report_files;
 mod report_page;

@@ -16,6 +16,7 @@ use opshock_tests::seeded::seeds;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
 use crate::cli::{COARSE, Done, OPSHOCK};
+use crate::refused::every_file_is_refused;
 
 fn drive(folder: &Path) -> PathBuf {
     let file = folder.join("drive.toml");
@@ -27,25 +28,8 @@ fn drive(folder: &Path) -> PathBuf {
 fn every_damaged_tolerance_file_gets_its_message() {
     let folder = tempfile::tempdir().expect("a folder");
     let study = drive(folder.path());
-    let entries = std::fs::read_dir("bad_inputs/tolerances").expect("a folder");
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    files.sort();
-    assert!(files.len() >= 36, "{}", files.len());
-    insta::with_settings!({
-        snapshot_path => "../bad_inputs/tolerances/messages",
-        prepend_module_to_snapshot => false,
-        omit_expression => true,
-    }, {
-        for path in files {
-            let name = path.file_stem().expect("a name").to_str().expect("UTF-8");
-            let refused = Tolerances::from_path(&path, &study, &[]).expect_err(name);
-            let code = name.split('_').next().expect("a code").to_uppercase();
-            assert!(refused.errors.iter().any(|one| one.code == code), "{name}: {refused}");
-            insta::assert_snapshot!(name, refused.to_string());
-        }
+    every_file_is_refused("tolerances", 39, |path| {
+        Tolerances::from_path(path, &study, &[]).err()
     });
 }
 

@@ -10,6 +10,7 @@ use opshock_study::store::{AxisValue, load};
 use opshock_study::study::{SetArg, Study};
 
 use crate::cli::{COARSE, Done};
+use crate::refused::every_file_is_refused;
 
 /// The smallest useful study in a folder.
 fn drive(folder: &Path) -> PathBuf {
@@ -22,26 +23,7 @@ fn drive(folder: &Path) -> PathBuf {
 fn every_damaged_specification_gets_its_message() {
     let folder = tempfile::tempdir().expect("a folder");
     let study = drive(folder.path());
-    let entries = std::fs::read_dir("bad_inputs/specs").expect("a folder");
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    files.sort();
-    assert!(files.len() >= 42, "{}", files.len());
-    insta::with_settings!({
-        snapshot_path => "../bad_inputs/specs/messages",
-        prepend_module_to_snapshot => false,
-        omit_expression => true,
-    }, {
-        for path in files {
-            let name = path.file_stem().expect("a name").to_str().expect("UTF-8");
-            let refused = Spec::from_path(&path, &study, &[]).expect_err(name);
-            let code = name.split('_').next().expect("a code").to_uppercase();
-            assert!(refused.errors.iter().any(|one| one.code == code), "{name}: {refused}");
-            insta::assert_snapshot!(name, refused.to_string());
-        }
-    });
+    every_file_is_refused("specs", 42, |path| Spec::from_path(path, &study, &[]).err());
 }
 
 const GOOD: &str = r#"

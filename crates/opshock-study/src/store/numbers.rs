@@ -238,3 +238,70 @@ fn damage(path: &Path, content: &JournalContent) -> Vec<String> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug)]
+    enum Ended {
+        At(usize),
+        Store,
+    }
+
+    impl From<StoreError> for Ended {
+        fn from(_: StoreError) -> Self {
+            Ended::Store
+        }
+    }
+
+    fn open(folder: &Path) -> NumberStore {
+        NumberStore::open(folder, "test 1", "t", Path::new("t.toml"), "").expect("a store")
+    }
+
+    fn key(task: usize) -> PointDigest {
+        PointDigest(*blake3::hash(&task.to_le_bytes()).as_bytes())
+    }
+
+    #[test]
+    fn answers_keep_their_order_and_what_failing_tasks_computed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let numbers = |task: usize| vec![(key(task), vec![Some(Some(task as f64))])];
+        for threads in [1, 4] {
+            let folder = folder.path().join(threads.to_string());
+            let failing = |task: usize, _: &Known| match task {
+                5 | 6 => (Err(Ended::At(task)), numbers(task)),
+                _ => (Ok(task), numbers(task)),
+            };
+            let mut most = 0;
+            let found = open(&folder).answers(20, threads, failing, |done| most = done);
+            assert!(matches!(found, Err(Ended::At(5))), "{found:?}");
+            assert!((5..20).contains(&most), "{most}");
+            // Another process goes on from there.
+            let mut store = open(&folder);
+            let kept = store.known.len();
+            assert!((0..=5).all(|task| store.known.contains_key(&key(task))));
+            let rest = |task: usize, known: &Known| match known.contains_key(&key(task)) {
+                true => (Ok::<usize, Ended>(task), Vec::new()),
+                false => (Ok(task), numbers(task)),
+            };
+            let found = store.answers(20, threads, rest, |_| {}).expect("answers");
+            assert_eq!(found, (0..20).collect::<Vec<_>>());
+            assert_eq!(store.known.len(), 20);
+            assert!(kept < 20);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "a scoped thread panicked")]
+    fn a_panic_in_a_task_ends_the_others() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let answer = |task: usize, _: &Known| {
+            assert_ne!(task, 3, "task 3");
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            (Ok::<usize, Ended>(task), Vec::new())
+        };
+        // Hours, if the others went on.
+        let _ = open(folder.path()).answers(10_000_000, 2, answer, |_| {});
+    }
+}
