@@ -298,7 +298,9 @@ fn boundary(
     if entry.get("widths_ms").is_none() {
         entry.missing("widths_ms", "three or more pulse widths, in ms", faults);
     }
-    let own = own_settings(entry, faults);
+    // As many intervals as there are points: none is refined unless the entry sets it.
+    let mut own = vec![("set", "search.max_refinements=0".to_owned())];
+    own.extend(own_settings(entry, faults));
     if faults.len() > before {
         return None;
     }
