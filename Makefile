@@ -70,8 +70,8 @@ study: build ## run another study: make study NAME=drive-2.5in
 	$(OPSHOCK) report results/$(NAME)/$(NAME).opshock --out results/$(NAME) $(OR_OPEN)
 
 .PHONY: qualify
-qualify: build ## a drive that passes a specification, one that fails, one that is undecided: results/qualify/ (3 minutes of two idle cores, resumes)
-	$(QUALIFY) studies/qualify/operating.toml --store results/qualify/passes.opshock --out results/qualify/passes
+qualify: build ## a drive that passes a specification, one that fails, one that is undecided, and a damage boundary: results/qualify/ (6 minutes of two idle cores, resumes)
+	$(QUALIFY) studies/qualify/operating-boundary.toml --store results/qualify/passes.opshock --out results/qualify/passes
 	$(QUALIFY) studies/qualify/operating.toml --set ramp.clearance_um=40 --store results/qualify/fails.opshock --out results/qualify/fails || test $$? -eq 8
 	$(QUALIFY) studies/qualify/operating-433g.toml --store results/qualify/undecided.opshock --out results/qualify/undecided $(OR_OPEN)
 

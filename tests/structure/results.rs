@@ -108,7 +108,8 @@ fn results_are_of_todays_physics() {
             .unwrap_or_default();
         let stem = stem.split('-').next().unwrap_or_default();
         let of_figures = (stem.starts_with("fig") && speaks("figures.md"))
-            || (stem == "critical_shock" && speaks("table.md"));
+            || (stem == "critical_shock" && speaks("table.md"))
+            || (stem == "damage_boundary" && speaks("qualification.md"));
         let of_match = ["observations", "parameters", "samples", "ranges", "choices"]
             .contains(&stem)
             && speaks("match.md");
