@@ -156,7 +156,7 @@ verify-yield: bootstrap ## verdicts on 40 drives by shocks against those of thei
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture yield_slow
 
 .PHONY: verify-worth
-verify-worth: bootstrap ## changes by tolerances at the preset coarse against those at standard, and their intervals against separate ones (15 minutes)
+verify-worth: bootstrap ## changes by tolerances at the preset coarse against those at standard, and their intervals against separate ones (15 minutes; needs results/worth)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture worth_slow
 
 .PHONY: verify-forecast
