@@ -70,7 +70,7 @@ study: build ## run another study: make study NAME=drive-2.5in
 	$(OPSHOCK) report results/$(NAME)/$(NAME).opshock --out results/$(NAME) $(OR_OPEN)
 
 .PHONY: qualify
-qualify: build ## a drive that passes a specification, one that fails, one that is undecided, and a damage boundary: results/qualify/ (6 minutes of two idle cores, resumes)
+qualify: build ## a drive that passes a specification, one that fails, one that is undecided, and a damage boundary: results/qualify/ (minutes, resumes)
 	$(QUALIFY) studies/qualify/operating-boundary.toml --store results/qualify/passes.opshock --out results/qualify/passes
 	$(QUALIFY) studies/qualify/operating.toml --set ramp.clearance_um=40 --store results/qualify/fails.opshock --out results/qualify/fails || test $$? -eq 8
 	$(QUALIFY) studies/qualify/operating-433g.toml --store results/qualify/undecided.opshock --out results/qualify/undecided $(OR_OPEN)
@@ -81,11 +81,11 @@ yield: build ## share of drives with tolerances that survives a specification, f
 	$(YIELD) studies/yield/tolerances-wide.toml --store results/yield/loose.opshock --out results/yield/loose
 
 .PHONY: answers
-answers: build ## what less time costs in an answer of qualify, yield and worth: results/answers/ (an hour of two idle cores, resumes; needs python3)
+answers: build ## what less time costs in an answer of qualify, yield and worth: results/answers/ (resumes; needs python3)
 	scripts/answers --jobs $(JOBS)
 
 .PHONY: worth
-worth: build ## by how much each tolerance changes the critical shocks: results/worth/ (minutes, resumes)
+worth: build ## by how much each tolerance changes the critical shocks: results/worth/ (18 minutes of two cores, resumes)
 	$(OPSHOCK) worth studies/worth/study.toml -j $(JOBS) --tolerances studies/worth/tolerances.toml --store results/worth/pairs.opshock --out results/worth
 
 test: bootstrap ## every test (slow ones are in `make verify`)
@@ -152,11 +152,11 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-yield
-verify-yield: bootstrap ## verdicts on 40 drives by shocks against those of their uncertainty intervals (20 minutes; OPSHOCK_SEEDS=first..end for others)
+verify-yield: bootstrap ## verdicts on 40 drives by shocks against those of their uncertainty intervals (half a minute and more a drive; OPSHOCK_SEEDS=first..end for others)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture yield_slow
 
 .PHONY: verify-worth
-verify-worth: bootstrap ## changes by tolerances at the preset coarse against those at standard, and their intervals against separate ones (15 minutes; needs results/worth)
+verify-worth: bootstrap ## changes by tolerances at the preset coarse against those at standard, and their intervals against separate ones (half an hour; needs results/worth)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture worth_slow
 
 .PHONY: verify-forecast

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use opshock_study::draws::draw;
 use opshock_study::population::{
-    Counts, DecidedBy, Level, Levels, Nominal, Part, Population, Tolerances, judge, open_store,
+    Counts, DecidedBy, Level, Levels, Nominal, Part, Population, STORE, Tolerances, judge,
 };
 use opshock_study::qualification::{RequirementVerdict, Spec, Verdict};
 use opshock_study::study::Study;
@@ -355,7 +355,8 @@ fn yield_slow_verdicts_by_shocks_are_those_of_intervals() {
         .map(|name| Path::new("../studies/yield").join(name));
     let tolerances = Tolerances::from_path(&file, &study, &[]).expect("tolerances");
     let nominal = Spec::from_path(&spec, &study, &[]).expect("a specification");
-    let nominal = Nominal::of(&nominal);
+    let nominal = nominal.requirements.iter();
+    let nominal: Vec<Nominal> = nominal.map(|one| Nominal::of(&one.study)).collect();
     let range = seeds(COMPARED);
     let mut few = tolerances;
     (few.drives, few.fragility_drives) = (range.end, 0);
@@ -366,7 +367,7 @@ fn yield_slow_verdicts_by_shocks_are_those_of_intervals() {
         nominal: &nominal,
     };
     let folder = tempfile::tempdir().expect("a folder");
-    let mut store = open_store(folder.path(), &few).expect("a store");
+    let mut store = few.open_store(folder.path(), STORE).expect("a store");
     let all = Part { number: 1, of: 1 };
     let drives = population.simulate(&mut store, all, 2, &Until::default(), |_, _| {});
     let drives = drives.unwrap_or_else(|why| panic!("{why:?}"));

@@ -105,8 +105,8 @@ fn boundary() -> Boundary {
     }
 }
 
-/// The page, written into a folder.
-fn page(folder: &Path) -> String {
+/// The page, with a damage boundary or without.
+fn page(folder: &Path, boundary: Option<Boundary>) -> String {
     let study = folder.join("drive.toml");
     std::fs::write(&study, Study::example("my drive")).expect("written");
     std::fs::write(folder.join("spec.toml"), SPEC).expect("written");
@@ -119,7 +119,7 @@ fn page(folder: &Path) -> String {
         program: "opshock 1 (abc)",
         spec: &spec,
         tested: tested.map(|(one, table)| Tested::of(one, table)).collect(),
-        boundary: Some(boundary()),
+        boundary,
     };
     let files = qualified_files(&qualified).expect("files");
     let html = files.into_iter().find(|(name, _)| name.ends_with(".html"));
@@ -150,35 +150,40 @@ fn report_page_of_a_qualification_fits_screens_and_two_sheets() {
         folder: tempfile::tempdir().expect("a folder"),
     };
     let folder = browser.folder.path();
-    let html = page(folder);
+    let html = page(folder, None);
     let policy = "style-src 'unsafe-inline'";
     assert!(html.contains(policy));
-    let probed = html
-        .replace(
-            policy,
-            "style-src 'unsafe-inline'; script-src 'unsafe-inline'",
-        )
-        .replace("</body>", PROBE);
-    let frame = FRAME.replace("NAME", "probed.html");
+    let probed = |html: &str| {
+        let allowed = "style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+        html.replace(policy, allowed).replace("</body>", PROBE)
+    };
+    let bounded = probed(&page(folder, Some(boundary())));
     for (name, text) in [
         ("page.html", &html),
-        ("probed.html", &probed),
-        ("phone.html", &frame),
+        ("probed.html", &probed(&html)),
+        ("phone.html", &FRAME.replace("NAME", "probed.html")),
+        ("bounded.html", &bounded),
+        ("bounded_phone.html", &FRAME.replace("NAME", "bounded.html")),
     ] {
         std::fs::write(folder.join(name), text).expect("written");
     }
     for (scheme, ground) in [(1, "rgb(255, 255, 255)"), (0, "rgb(22, 25, 29)")] {
         let scheme = format!("--blink-settings=preferredColorScheme={scheme}");
-        for (file, size) in [("probed.html", "1400,2000"), ("phone.html", "500,4000")] {
+        // Two requirements, and their 6 and 12 points; four widths more.
+        for (file, size, rows) in [
+            ("probed.html", "1400,2000", 20),
+            ("phone.html", "500,4000", 20),
+            ("bounded.html", "1400,2600", 24),
+            ("bounded_phone.html", "500,5000", 24),
+        ] {
             let size = format!("--window-size={size}");
             let found = browser.probe_in(file, &[&size, &scheme]);
             assert_eq!(found["overflow"], 0, "{found}");
             assert_eq!(found["ground"], ground, "{found}");
             assert_ne!(found["ink"], ground, "{found}");
-            // Two requirements, and their 6 and 12 points.
             assert_eq!(
                 (&found["rows"], &found["pictures"]),
-                (&20.into(), &18.into()),
+                (&rows.into(), &18.into()),
                 "{found}"
             );
             assert_eq!(found["unnamed"], 0, "{found}");

@@ -6,7 +6,7 @@ use std::path::Path;
 use opshock_study::population::Tolerances;
 use opshock_study::study::{SetArg, Study};
 use opshock_study::sweep::{Physics, ProgressKind, Silent, SweepInput, SweepOptions, Until, sweep};
-use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
+use opshock_study::worth::{ENDS, STORE, Worth, WorthAnswer};
 
 use crate::cli::{COARSE, Done};
 
@@ -118,7 +118,9 @@ fn worth_slow_changes_hold_those_of_finer_scenes_and_are_narrower_than_separate_
     let (worth, until) = (Worth::new(&nominal, &ends), Until::default());
     let starts = worth.starts(folder.path(), 2, &until, ProgressKind::Warnings);
     let starts = starts.unwrap_or_else(|why| panic!("{why:?}"));
-    let mut store = open_store(folder.path(), &tolerances).expect("a store");
+    let mut store = tolerances
+        .open_store(folder.path(), STORE)
+        .expect("a store");
     let pairs = worth.simulate(&starts, &mut store, 2, &until, |_, _| {});
     let pairs = pairs.unwrap_or_else(|why| panic!("{why:?}"));
     let answer = WorthAnswer::of(&tolerances, &nominal, &pairs);

@@ -89,12 +89,12 @@ pub struct LevelAnswer {
 }
 
 /// Outcomes so far.
-struct Known<'a, L: Levels> {
+struct Outcomes<'a, L: Levels> {
     levels: &'a mut L,
     known: Vec<(i32, Level)>,
 }
 
-impl<L: Levels> Known<'_, L> {
+impl<L: Levels> Outcomes<'_, L> {
     fn at(&mut self, step: i32) -> Result<Level, L::Interrupted> {
         if let Some((_, level)) = self.known.iter().find(|(known, _)| *known == step) {
             return Ok(*level);
@@ -155,12 +155,12 @@ impl<L: Levels> Known<'_, L> {
 /// # Errors
 /// Where an outcome or the interval has none to give.
 pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswer, L::Interrupted> {
-    let mut known = Known {
+    let mut known = Outcomes {
         levels,
         known: Vec::new(),
     };
     let here = known.at(0)?;
-    let beyond = match here {
+    let is_confirmed = match here {
         Level::Survives(_) => matches!(known.at(CONFIRMED)?, Level::Survives(_)),
         Level::Fails => known.at(-CONFIRMED)? == Level::Fails,
         Level::Undecided => false,
@@ -169,7 +169,7 @@ pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswe
         .highest_survivor()
         .and_then(|(_, clearance_m)| clearance_m);
     let failure_m = known.levels.failure_m();
-    let by = match beyond {
+    let by = match is_confirmed {
         false => DecidedBy::Interval,
         true if agree(here, known.levels.shock(0, -1)?, failure_m) => DecidedBy::Shocks,
         true if agree(known.levels.shock(0, 1)?, here, failure_m) => DecidedBy::FinerShock,

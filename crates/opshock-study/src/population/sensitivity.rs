@@ -2,7 +2,7 @@
 //! verdict the value explains.
 //!
 //! The first-order index S = Var(E[Y | X]) / Var(Y) of the verdict Y (1 where a drive does not pass) is that of ten
-//! bins of equal probability, less what chance gives them (ε²: Kelley 1935, Proc. Natl. Acad. Sci. 21, 554). It is told apart from
+//! bins of equal probability, less what chance gives them (ε²: Kelley 1935, Proc. Natl. Acad. Sci. 21, 554). It is significant apart from
 //! chance when it exceeds 95 % of the indices of 999 random permutations of the verdicts.
 
 use rand::SeedableRng as _;
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn intervals_hold_the_index_and_a_tolerance_without_effect_is_rarely_significant() {
-        let (mut held, mut told) = (0, 0);
+        let (mut held, mut significant) = (0, 0);
         for sample in 0..100_u64 {
             let drawn: Vec<Vec<f64>> = (0..500).map(|index| draw(100 + sample, index, 2)).collect();
             let fails: Vec<bool> = drawn.iter().map(|x| 2.0 * x[0] < 1.0 - x[1]).collect();
@@ -169,11 +169,11 @@ mod tests {
             let exact = 5.0 / 9.0 - 4.0 / 2400.0 * 16.0 / 3.0;
             held += u32::from((own.interval[0]..=own.interval[1]).contains(&exact));
             let idle: Vec<f64> = (0..500).map(|index| draw(sample, index, 1)[0]).collect();
-            told += u32::from(Sensitivity::of("y", 1, &idle, &fails).is_significant);
+            significant += u32::from(Sensitivity::of("y", 1, &idle, &fails).is_significant);
         }
         // 95 and 5 are meant; of 100, these bounds are crossed once in a thousand times.
         assert!(held >= 87, "{held}");
-        assert!(told <= 13, "{told}");
+        assert!(significant <= 13, "{significant}");
     }
 
     #[test]

@@ -5,12 +5,12 @@
 
 use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 
 use opshock_solver::quantity::m_per_s2_from_g;
 
 use super::answer::DriveAnswer;
 use super::level::{DecidedBy, Level, LevelAnswer, Levels, amplitude_g, judge};
+use super::nominal::Nominal;
 use super::tolerances::Tolerances;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::qualification::{PointVerdict, Requirement, Spec, Verdict};
@@ -60,51 +60,8 @@ impl From<StoreError> for Interrupted {
     }
 }
 
-/// Opens or makes the store of a population in `folder`.
-///
-/// # Errors
-/// As [`NumberStore::open`].
-pub fn open_store(folder: &Path, tolerances: &Tolerances) -> Result<NumberStore, StoreError> {
-    let (name, path, text) = (&tolerances.name, &tolerances.path, &tolerances.text);
-    NumberStore::open(folder, "population 1", name, path, text)
-}
-
-/// A requirement without tolerances: what drives have in common with it is built once, when the first of them asks.
-pub struct Nominal<'a> {
-    requirement: &'a Requirement,
-    physics: OnceLock<Physics>,
-    finer: OnceLock<()>,
-}
-
-impl<'a> Nominal<'a> {
-    /// Of every requirement.
-    pub fn of(spec: &'a Spec) -> Vec<Self> {
-        let requirements = spec.requirements.iter();
-        let of = requirements.map(|requirement| Self {
-            requirement,
-            physics: OnceLock::new(),
-            finer: OnceLock::new(),
-        });
-        of.collect()
-    }
-
-    fn physics(&self) -> &Physics {
-        let study = &self.requirement.study;
-        self.physics.get_or_init(|| {
-            let physics = Physics::of(study);
-            physics.build_films(study, -1);
-            physics
-        })
-    }
-
-    /// The same with films a step finer.
-    fn finer(&self) -> &Physics {
-        let physics = self.physics();
-        let study = &self.requirement.study;
-        self.finer.get_or_init(|| physics.build_films(study, 1));
-        physics
-    }
-}
+/// Stores of populations, with their format.
+pub const STORE: &str = "population 1";
 
 /// A drive as it is simulated: its requirements, each with a study.
 struct Drive {
@@ -179,8 +136,7 @@ impl Population<'_> {
         let mut requirements = Vec::new();
         for (requirement, nominal) in drive.requirements.iter().zip(self.nominal) {
             let order = requirement.study.table_order();
-            let physics = || Physics::of(&requirement.study).sharing(nominal.physics());
-            let physics = LazyCell::new(physics);
+            let physics = LazyCell::new(|| nominal.shared_by(&requirement.study));
             let mut points = Vec::new();
             for (place, &point) in order.iter().enumerate() {
                 let key = key(requirement, &requirement.study.points[point], is_bracketed);
@@ -266,9 +222,8 @@ impl Levels for Simulated<'_> {
             budget: self.until.left(),
             ..SweepOptions::with_threads(1)
         };
-        let physics = Physics::of(&study).sharing(self.nominal.physics());
-        let end = sweep(&input, &physics, &self.folder, &options, &Silent);
-        let end = end?;
+        let physics = self.nominal.shared_by(&study);
+        let end = sweep(&input, &physics, &self.folder, &options, &Silent)?;
         if end.ending != Ending::Complete {
             return Err(Interrupted::Stopped);
         }

@@ -8,6 +8,7 @@ use super::correlation::Correlation;
 use super::parts::Parts;
 use crate::draws::{self, Parameter, draw};
 use crate::qualification::Spec;
+use crate::store::{NumberStore, StoreError};
 use crate::study::table_fields::{Faults, Fields};
 use crate::study::tree;
 use crate::study::{SetArg, Study, StudyError, StudyErrors, is_within};
@@ -122,6 +123,14 @@ impl Tolerances {
             true => Ok(all),
             false => Err(StudyErrors::new(faults)),
         }
+    }
+
+    /// Opens or makes the store of its answers in `folder`; `kind` names them and their format.
+    ///
+    /// # Errors
+    /// As [`NumberStore::open`].
+    pub fn open_store(&self, folder: &Path, kind: &str) -> Result<NumberStore, StoreError> {
+        NumberStore::open(folder, kind, &self.name, &self.path, &self.text)
     }
 
     /// A specification whose requirements set none of these keys.
@@ -295,9 +304,9 @@ impl Tolerances {
         });
         let probabilities: Vec<Vec<f64>> = extremes.chain(rows).collect();
         for (place, (name, entry, keys)) in all.iter().enumerate() {
-            let of_entry = probabilities[place].iter().enumerate();
-            let first = of_entry.filter_map(|(at, p)| Some((at, refused(place, *p, keys)?)));
-            if let Some((at, (message, allowed))) = first.take(1).next() {
+            let mut of_entry = probabilities[place].iter().enumerate();
+            let first = of_entry.find_map(|(at, p)| Some((at, refused(place, *p, keys)?)));
+            if let Some((at, (message, allowed))) = first {
                 let of = match *entry {
                     "parts" => format!("part {} of the file", at + 1),
                     _ => format!("tolerance {name:?}"),

@@ -7,4 +7,4 @@ mod simulated;
 
 pub use answer::{Change, WorthAnswer, WorthRow};
 pub use pair::{Bracket, End, FINENESS, Pair, Shaken, find};
-pub use simulated::{ENDS, Starts, Worth, open_store};
+pub use simulated::{ENDS, STORE, Starts, Worth};

@@ -1,16 +1,15 @@
 //! Simulates the pairs of a study: every tolerance at its two values, for every point.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
 use opshock_solver::quantity::m_per_s2_from_g;
 
 use super::pair::{Bracket, End, FINENESS, LEVELS, Pair, Shaken, find};
-use crate::population::{Interrupted, Tolerances};
+use crate::population::{Interrupted, Nominal};
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::{AmplitudeGrid, Probe, Verdict};
 use crate::store::summary::Status;
-use crate::store::{Known, NumberStore, Numbers, PointDigest, StoreError};
+use crate::store::{Known, NumberStore, Numbers, PointDigest};
 use crate::study::{Point, RemeshedRamp, Study};
 use crate::sweep::{
     Ending, Physics, ProgressKind, Simulator as _, SweepInput, SweepOptions, Until, sweep,
@@ -25,8 +24,7 @@ const NARROWER: f64 = 3.0;
 /// Pairs to be simulated.
 pub struct Worth<'a> {
     nominal: &'a Study,
-    /// What the studies have in common with it is built once, when the first of them asks.
-    physics: OnceLock<Physics>,
+    shared: Nominal<'a>,
     /// By tolerance, at both values.
     ends: &'a [[Study; 2]],
 }
@@ -35,14 +33,8 @@ pub struct Worth<'a> {
 /// one has no pair.
 pub type Starts = Vec<[Vec<Option<[f64; 2]>>; 2]>;
 
-/// Opens or makes the store of pairs in `folder`.
-///
-/// # Errors
-/// As [`NumberStore::open`].
-pub fn open_store(folder: &Path, tolerances: &Tolerances) -> Result<NumberStore, StoreError> {
-    let (name, path, text) = (&tolerances.name, &tolerances.path, &tolerances.text);
-    NumberStore::open(folder, "worth 1", name, path, text)
-}
+/// Stores of pairs, with their format.
+pub const STORE: &str = "worth 1";
 
 /// The amplitude grid of all pairs.
 pub(super) fn grid() -> AmplitudeGrid {
@@ -50,22 +42,13 @@ pub(super) fn grid() -> AmplitudeGrid {
 }
 
 impl<'a> Worth<'a> {
-    /// Of a study, and of its studies at both values of every tolerance ([`Tolerances::studies_at`]).
+    /// Of a study, and of its studies at both values of every tolerance ([`crate::population::Tolerances::studies_at`]).
     pub fn new(nominal: &'a Study, ends: &'a [[Study; 2]]) -> Self {
         Self {
             nominal,
-            physics: OnceLock::new(),
+            shared: Nominal::of(nominal),
             ends,
         }
-    }
-
-    fn physics_of(&self, study: &Study) -> Physics {
-        let nominal = self.physics.get_or_init(|| {
-            let physics = Physics::of(self.nominal);
-            physics.build_films(self.nominal, -1);
-            physics
-        });
-        Physics::of(study).sharing(nominal)
     }
 
     /// Brackets of every study, with the scan for earlier failures of any sweep; each in a store of its own in `folder`.
@@ -92,7 +75,7 @@ impl<'a> Worth<'a> {
             };
             let swept = sweep(
                 &input,
-                &self.physics_of(study),
+                &self.shared.shared_by(study),
                 &folder.join(&name),
                 &options,
                 progress.as_ref(),
@@ -169,9 +152,10 @@ impl<'a> Worth<'a> {
             return Ok((pair, None));
         }
         let physics = self.ends[tolerance].each_ref();
-        let physics = physics.map(|study| self.physics_of(study));
+        let physics = physics.map(|study| self.shared.shared_by(study));
         let mut simulated = Simulated {
             physics: &physics,
+            shared: &self.shared,
             place,
             point: points[0],
             until,
@@ -191,6 +175,7 @@ impl<'a> Worth<'a> {
 /// A pair that is simulated.
 struct Simulated<'a> {
     physics: &'a [Physics; 2],
+    shared: &'a Nominal<'a>,
     place: usize,
     /// At the lower value; at the higher one it has the same sign and the same discretisation parameters.
     point: &'a Point,
@@ -210,6 +195,9 @@ impl Shaken for Simulated<'_> {
         };
         let amplitude = self.point.sign.factor() * m_per_s2_from_g(grid().amplitude_g(step));
         let physics = &self.physics[usize::from(end == End::High)];
+        if refined > 0 {
+            physics.take_films(self.shared.finer());
+        }
         let run = || physics.simulate(self.place, probe, amplitude);
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
         Ok(result.ok().and_then(|result| match result.verdict {

@@ -25,12 +25,17 @@ pub fn of_sweep(study: &Study) -> Demand {
 }
 
 /// What drives that differ from the studies need: each worker has models of its own of `copies` studies at a time, beside those
-/// of the studies.
-pub fn of_drives<'a>(studies: impl IntoIterator<Item = &'a Study>, copies: f64) -> Demand {
+/// of the studies. Films are refined by `steps` at most, beside those of intervals.
+pub fn of_drives<'a>(
+    studies: impl IntoIterator<Item = &'a Study>,
+    copies: f64,
+    steps: u8,
+) -> Demand {
+    let finer = [f64::from(steps).exp2(); 2];
     let mut models = 0.0;
     let mut most = Demand::default();
     for study in studies {
-        let sweep = of_sweep(study);
+        let sweep = of_sweep(study).max(Demand::sweep(study, finer));
         models += Demand::models(study).models;
         most = most.max(Demand {
             models: 0.0,

@@ -9,7 +9,7 @@ use super::{memory, mode_shapes, stored, study_file, sweep};
 use anyhow::Context as _;
 use clap::Args;
 use opshock_study::population::{
-    Interrupted, Nominal, Part, Population, PopulationAnswer, Tolerances, open_store,
+    Interrupted, Nominal, Part, Population, PopulationAnswer, STORE, Tolerances,
 };
 use opshock_study::provenance;
 use opshock_study::qualification::Spec;
@@ -78,13 +78,13 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         study_file::refuse_unaccepted(&requirement.study, global)?;
     }
     let studies = spec.requirements.iter().map(|one| &one.study);
-    let demand = memory::of_drives(studies, 1.0);
+    let demand = memory::of_drives(studies, 1.0, 1);
     memory::check("the drives", demand, global.threads())?;
     let folder = match &global.store {
         Some(folder) => folder.clone(),
         None => stored::folder_of_study(&arguments.study, global).with_extension("yield"),
     };
-    let mut store = open_store(&folder, &tolerances)?;
+    let mut store = tolerances.open_store(&folder, STORE)?;
     for other in &arguments.reuse {
         store.reuse(other)?;
     }
@@ -92,7 +92,8 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         console.tell(&format!("warning: {note}"));
     }
     let running = LongRun::begin(arguments.budget, console)?;
-    let nominal = Nominal::of(&spec);
+    let nominal = spec.requirements.iter();
+    let nominal: Vec<Nominal> = nominal.map(|one| Nominal::of(&one.study)).collect();
     let population = Population {
         nominal: &nominal,
         tolerances: &tolerances,

@@ -59,15 +59,16 @@ pub fn run(
     refuse_store(&base)?;
     let folders = folders(&base, &spec);
     let running = LongRun::begin(arguments.budget, console)?;
+    let options = |reuse: &[PathBuf]| SweepOptions {
+        stop: running.until.stop.clone(),
+        budget: running.until.left(),
+        reuse: reuse.to_vec(),
+        ..SweepOptions::with_threads(global.threads())
+    };
     let mut summaries = Vec::new();
     for (place, requirement) in spec.requirements.iter().enumerate() {
-        let options = SweepOptions {
-            stop: running.until.stop.clone(),
-            budget: running.until.left(),
-            // Requirements that differ in their amplitude alone share simulations.
-            reuse: folders[..place].to_vec(),
-            ..SweepOptions::with_threads(global.threads())
-        };
+        // Requirements that differ in their amplitude alone share simulations.
+        let options = options(&folders[..place]);
         let (study, folder) = (&requirement.study, &folders[place]);
         let (summary, ending) = answered(study, folder, &options, global, console)?;
         if ending != Ending::Complete {
@@ -77,14 +78,8 @@ pub fn run(
     }
     let mut boundary = None;
     if let Some(study) = &spec.damage_boundary {
-        let options = SweepOptions {
-            stop: running.until.stop.clone(),
-            budget: running.until.left(),
-            reuse: folders.clone(),
-            ..SweepOptions::with_threads(global.threads())
-        };
         let folder = base.join(&spec.name).join(BOUNDARY_FOLDER);
-        let (summary, ending) = answered(study, &folder, &options, global, console)?;
+        let (summary, ending) = answered(study, &folder, &options(&folders), global, console)?;
         match ending {
             Ending::Complete => boundary = Boundary::of(study, &summary),
             // The verdict does not rest on it.

@@ -14,7 +14,7 @@ use opshock_study::report::valued::{self, Valued};
 use opshock_study::store::aside;
 use opshock_study::study::{SetArg, Study};
 use opshock_study::sweep::{ProgressKind, SweepInput};
-use opshock_study::worth::{ENDS, Worth, WorthAnswer, open_store};
+use opshock_study::worth::{ENDS, STORE, Worth, WorthAnswer};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -53,7 +53,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     study_file::refuse_unaccepted(&nominal, global)?;
     memory::check(
         "the pairs",
-        memory::of_drives([&nominal], 2.0),
+        memory::of_drives([&nominal], 2.0, nominal.search.max_refinements.min(2)),
         global.threads(),
     )?;
     let places = 0..tolerances.parameters.len();
@@ -63,7 +63,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
         Some(folder) => folder.clone(),
         None => stored::folder_of_study(&arguments.study, global).with_extension("worth"),
     };
-    let mut store = open_store(&folder, &tolerances)?;
+    let mut store = tolerances.open_store(&folder, STORE)?;
     for note in &store.notes {
         console.tell(&format!("warning: {note}"));
     }

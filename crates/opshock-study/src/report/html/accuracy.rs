@@ -1,6 +1,6 @@
 //! The page's section on accuracy: contributions to the uncertainty intervals, and error against cost.
 
-use super::text::{escaped, explained, figure};
+use super::text::{escaped, explained, figure, signed};
 use crate::accuracy::{Accuracy, PointStudies};
 use crate::report::accuracy_files;
 use crate::report::table;
@@ -129,7 +129,7 @@ pub(super) fn plain_table(header: &[String], rows: &[Vec<String>], words: usize)
     for row in rows {
         text.push_str("<tr>");
         for (column, cell) in row.iter().enumerate() {
-            let _ = write!(text, "<td{}>{}</td>", class(column), escaped(cell));
+            let _ = write!(text, "<td{}>{}</td>", class(column), signed(cell));
         }
         text.push_str("</tr>\n");
     }

@@ -1,6 +1,6 @@
 //! The page's table of critical shocks: every column, status and flag explained on hover.
 
-use super::text::{escaped, explained};
+use super::text::{escaped, explained, signed};
 use crate::report::{table, terms};
 use crate::store::summary::{PointSummary, Summary};
 use std::fmt::Write as _;
@@ -36,7 +36,7 @@ pub(super) fn section(summary: &Summary) -> String {
             let class = if numeric(column) { " class=\"n\"" } else { "" };
             let value = sort_value(point, column, words)
                 .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
-            let cell = escaped(&cell.replace("+-", "\u{b1}"));
+            let cell = signed(cell);
             let _ = match column {
                 0 => write!(
                     text,

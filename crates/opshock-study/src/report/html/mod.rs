@@ -181,11 +181,10 @@ fn sections(source: &ReportSource<'_>, layout: &Layout) -> Vec<Section> {
 
 /// Every value of the axes to choose from, against the best.
 fn choices(answer: &Answer<'_>) -> String {
-    let mut text = String::new();
-    for (header, rows) in answer.tables() {
-        text.push_str(&accuracy::plain_table(&header, &rows, header.len()));
-    }
-    text.replace("+-", "\u{b1}")
+    let tables = answer.tables().into_iter();
+    tables
+        .map(|(header, rows)| accuracy::plain_table(&header, &rows, header.len()))
+        .collect()
 }
 
 /// Effects simulated for each ramp, those left out, and the rules that apply.

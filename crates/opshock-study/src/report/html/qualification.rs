@@ -6,7 +6,7 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 
 use super::accuracy::plain_table;
 use super::main_table::flags;
-use super::text::{escaped, explained, figure, head};
+use super::text::{escaped, explained, figure, head, signed};
 use super::words;
 use crate::qualification::{PointVerdict, Verdict, pulse_shape};
 use crate::report::coordinates;
@@ -60,14 +60,6 @@ pub fn page(qualified: &Qualified<'_>) -> String {
     }
     if let Some(boundary) = &qualified.boundary {
         let (header, rows) = boundary.table();
-        let rows: Vec<Vec<String>> = rows
-            .into_iter()
-            .map(|row| {
-                row.iter()
-                    .map(|cell| cell.replace("+-", "\u{b1}"))
-                    .collect()
-            })
-            .collect();
         let sentences = boundary.sentences();
         let _ = write!(
             page,
@@ -89,11 +81,6 @@ pub fn page(qualified: &Qualified<'_>) -> String {
         basis(qualified)
     );
     page
-}
-
-/// Text of the page with a plus-minus sign.
-fn signed(text: &str) -> String {
-    escaped(&text.replace("+-", "\u{b1}"))
 }
 
 /// A line for each requirement.
@@ -129,7 +116,7 @@ fn requirements(qualified: &Qualified<'_>) -> String {
                     format!(
                         "{}: {}",
                         coordinates::name(one.summary, row),
-                        critical_words(row).replace("+-", "\u{b1}")
+                        critical_words(row)
                     )
                 }),
                 worst.map_or(String::new(), |(row, at)| reserve_words(row, at)),

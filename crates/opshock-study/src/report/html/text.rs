@@ -50,6 +50,11 @@ pub(in crate::report) fn escaped(text: &str) -> String {
     safe
 }
 
+/// The same with the plus-minus sign of numbers.
+pub(super) fn signed(text: &str) -> String {
+    escaped(&text.replace("+-", "\u{b1}"))
+}
+
 /// A word that says its meaning on hover.
 pub(super) fn explained(word: &str, meaning: &str) -> String {
     format!(

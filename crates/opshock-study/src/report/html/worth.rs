@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::accuracy::plain_table;
-use super::text::{escaped, head};
-use crate::report::valued::words::{Valued, signed};
+use super::text::{escaped, head, signed};
+use crate::report::valued::words::{Valued, plus_minus};
 use crate::worth::{Change, WorthRow};
 
 /// Width and height of a bar's picture.
@@ -15,7 +15,6 @@ const HIGH: f64 = 18.0;
 pub(in crate::report) fn page(valued: &Valued<'_>) -> String {
     let sentences = valued.sentences();
     let (first, others) = sentences.split_first().expect("an answer has a sentence");
-    let plus_minus = |text: &str| escaped(&text.replace("+-", "\u{b1}"));
     let mut page = head(
         &format!("{}: what tolerances are worth", valued.answer.name),
         false,
@@ -24,20 +23,12 @@ pub(in crate::report) fn page(valued: &Valued<'_>) -> String {
         page,
         "<body>\n<header>\n<h1>{}: what tolerances are worth</h1>\n<p class=\"lead\">{}</p>\n",
         escaped(&valued.answer.name),
-        plus_minus(first)
+        signed(first)
     );
     for sentence in others {
-        let _ = writeln!(page, "<p>{}</p>", plus_minus(sentence));
+        let _ = writeln!(page, "<p>{}</p>", signed(sentence));
     }
     let (header, rows) = valued.table();
-    let rows: Vec<Vec<String>> = rows
-        .into_iter()
-        .map(|row| {
-            row.into_iter()
-                .map(|cell| cell.replace("+-", "\u{b1}"))
-                .collect()
-        })
-        .collect();
     let _ = write!(
         page,
         "<p>Drive: {}.</p>\n<p class=\"quiet\">{}</p>\n</header>\n<main>\n\
@@ -83,7 +74,7 @@ fn bars(valued: &Valued<'_>) -> String {
     );
     for (row, change) in rows() {
         let words = match (change.change_g, change.uncertainty_g) {
-            (Some(change_g), Some(half_g)) => signed(change_g, half_g).replace("+-", "\u{b1}"),
+            (Some(change_g), Some(half_g)) => signed(&plus_minus(change_g, half_g)),
             _ => "none found".to_owned(),
         };
         let _ = writeln!(

@@ -42,7 +42,7 @@ impl Valued<'_> {
         let [change_g, half_g] = known(&first).unwrap_or_default();
         let change = format!(
             "{} G at {}, from its {LOW} to its {HIGH} percentile",
-            signed(change_g, half_g),
+            plus_minus(change_g, half_g),
             first.point
         );
         if !first.excludes_zero {
@@ -62,11 +62,11 @@ impl Valued<'_> {
             sentences.push(match lead > half_g + other_half_g {
                 true => format!(
                     "Its lead over {next} ({} G) is beyond the uncertainties.",
-                    signed(other_g, other_half_g)
+                    plus_minus(other_g, other_half_g)
                 ),
                 false => format!(
                     "It cannot be distinguished from {next} ({} G).",
-                    signed(other_g, other_half_g)
+                    plus_minus(other_g, other_half_g)
                 ),
             });
         }
@@ -106,7 +106,7 @@ impl Valued<'_> {
                 largest
                     .and_then(known)
                     .map_or("none".to_owned(), |[change_g, half_g]| {
-                        signed(change_g, half_g)
+                        plus_minus(change_g, half_g)
                     }),
             );
             cells.push(
@@ -114,7 +114,7 @@ impl Valued<'_> {
                     .and_then(known)
                     .zip(row.width.filter(|width| *width != 0.0))
                     .map_or(String::new(), |([change_g, half_g], width)| {
-                        signed(change_g / width, half_g / width.abs())
+                        plus_minus(change_g / width, half_g / width.abs())
                     }),
             );
             cells.push(largest.map_or(String::new(), |change| change.point.clone()));
@@ -126,7 +126,7 @@ impl Valued<'_> {
 }
 
 /// `+12.3 +- 1.1`: the half-width with two digits, the change to the same place.
-pub(in crate::report) fn signed(change: f64, half: f64) -> String {
+pub(in crate::report) fn plus_minus(change: f64, half: f64) -> String {
     let digits = half.abs().max(f64::MIN_POSITIVE).log10().floor();
     let after_point = (1.0 - digits).clamp(0.0, 12.0) as usize;
     format!("{change:+.after_point$} +- {half:.after_point$}")
@@ -144,12 +144,12 @@ fn short(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::signed;
+    use super::plus_minus;
 
     #[test]
     fn a_change_is_written_to_the_digits_of_its_half_width() {
-        assert_eq!(signed(12.345, 1.149), "+12.3 +- 1.1");
-        assert_eq!(signed(-73_027.4, 1249.0), "-73027 +- 1249");
-        assert_eq!(signed(0.000_123_4, 0.000_045), "+0.000123 +- 0.000045");
+        assert_eq!(plus_minus(12.345, 1.149), "+12.3 +- 1.1");
+        assert_eq!(plus_minus(-73_027.4, 1249.0), "-73027 +- 1249");
+        assert_eq!(plus_minus(0.000_123_4, 0.000_045), "+0.000123 +- 0.000045");
     }
 }
