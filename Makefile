@@ -88,6 +88,23 @@ answers: build ## what less time costs in an answer of qualify, yield and worth:
 worth: build ## by how much each tolerance changes the critical shocks: results/worth/ (18 minutes of two cores, resumes)
 	$(OPSHOCK) worth studies/worth/study.toml -j $(JOBS) --tolerances studies/worth/tolerances.toml --store results/worth/pairs.opshock --out results/worth
 
+.PHONY: book
+book: bootstrap ## the book, docs/ as HTML with search, in target/book/ (needs python3 with venv)
+	scripts/book
+
+.PHONY: verify-book
+verify-book: book ## the book: its links, and every command of its lessons prints what the page shows (10 minutes)
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture lessons_are
+
+.PHONY: wheel verify-python
+wheel: ## the Python package as a wheel with everything in it: target/wheels/ (10 minutes at first; needs python3 with venv)
+	@scripts/bootstrap
+	scripts/wheel
+
+verify-python: ## the Python package from its wheel: tests, types, and what a batch of 1000 shocks costs beside the same in Rust
+	@scripts/bootstrap --verify
+	scripts/verify-python
+
 test: bootstrap ## every test (slow ones are in `make verify`)
 	cargo test --workspace --locked
 
@@ -109,7 +126,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-python verify-book ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -198,6 +215,12 @@ verify-mounts: bootstrap ## stores on file systems that are full or read-only (n
 verify-hdf5: ## h5dump and h5py read every dataset with its units, pandas goes from the table to the histories
 	@scripts/bootstrap --verify
 	cargo test --locked -p opshock-tests --test products -- --ignored --nocapture hdf5_readers
+
+.PHONY: verify-octave
+verify-octave: ## scripts/matlab and the lines of docs/matlab.md under Octave on small real files: numbers of `opshock report` and of the CSV history, to the bit
+	@scripts/bootstrap --verify
+	cargo build --release --locked -p opshock
+	tests/octave/run $(OPSHOCK)
 
 verify-klu: ## SuiteSparse's KLU, a reference of the benchmarks, on a system with a known solution
 	@scripts/bootstrap --verify

@@ -11,6 +11,7 @@ fn every_module_is_on_the_map_and_every_path_on_it_exists() {
         "crates/opshock/src",
         "crates/opshock-import/src",
         "crates/opshock-paper/src",
+        "crates/opshock-python/src",
         "crates/opshock-solid/src",
         "crates/opshock-solver/src",
         "crates/opshock-study/src",

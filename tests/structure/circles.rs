@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Crates without circles.
-const CRATES: [&str; 6] = [
+const CRATES: [&str; 7] = [
     "opshock-solver",
     "opshock-import",
     "opshock-solid",
     "opshock-paper",
+    "opshock-python",
     "opshock-study",
     "opshock",
 ];

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod accuracy;
+pub mod batch;
 pub mod draws;
 pub mod hard_cases;
 pub mod identity;

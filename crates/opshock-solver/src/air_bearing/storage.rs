@@ -12,9 +12,9 @@
 //! ```
 //!
 //! on cells of the width Δ. The same operator on dψ/dt removes the lag: M = 12 μ A (1 − Δ²/3 ∂xx + Δ³/4 ∂xxx). Waves
-//! then travel correctly to the third order of Δ, and steady states do not change. (Lele 1992, J. Comput. Phys. 103,
-//! 16, has the principle, as a compact scheme.) The operator is the flux of a second share of the storage through the
-//! faces, so that mass is conserved:
+//! along x, and no others, then travel correctly to the third order of Δ. Steady states do not change. (Principle: Lele
+//! 1992, J. Comput. Phys. 103, 16.) The operator is the flux of a second share of the storage through the faces along x,
+//! so that mass is conserved:
 //!
 //! ```text
 //! −ω K (s_d/4 + 3 s_b/4),   K = 12 μ L Δ_c (Δ_b + Δ_c)(Δ_b + 2 Δ_c + Δ_d)/(8 (Δ_b + Δ_c + Δ_d)),

@@ -90,7 +90,7 @@ impl Refund {
 /// The law of impact and its numerical limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpactLaw {
-    /// Newton's coefficient of restitution e, 0 to 1.
+    /// Newton's coefficient of restitution e, 0 to 1. At 0 the impulse aims at a closed gap at the end of the step.
     pub restitution: f64,
     /// Gaps up to this are closed, m; far below anything of interest.
     pub gap_tolerance_m: f64,

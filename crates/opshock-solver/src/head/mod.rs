@@ -1,8 +1,8 @@
 //! Time integration of one head: film, slider, gimbal, dimple and suspension under the disk's motion.
 //!
 //! ```text
-//! 12 μ A dψ/dt + R(ψ, q_rel) = 0                    film, n cells, ψ = p h
-//! M ẍ = f a(t) + F(ψ, q_rel) − F₀ − C ẋ − K x − B (N − N₀)      slider and suspension
+//! M dψ/dt + R(ψ, q_rel) = 0                     film, n cells, ψ = p h, storage M
+//! M_x ẍ = f a(t) + F(ψ, q_rel) − F₀ − C ẋ − K x − B (N − N₀)    slider and suspension
 //! q_rel = q₀ + (z, pitch, roll) − (w_d, pitch_d, roll_d)(t)      attitude over the disk
 //! ```
 //!

@@ -18,7 +18,7 @@ pub enum Coupling {
 pub struct HeadResolution {
     /// Relative local error allowed in the clearance per step.
     pub tolerance: f64,
-    /// Largest share by which a step may change the minimum clearance.
+    /// Share of |clearance| + 2 h₀ for a step to close; 1.25 times it at most.
     pub approach_share: f64,
     /// Modes of the suspension kept above the dimple-pinned interface, bending.
     pub suspension_modes: usize,

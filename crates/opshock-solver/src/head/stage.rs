@@ -3,8 +3,8 @@
 //! With v = (x − x_known)/d a stage is, for film ψ and coordinates x,
 //!
 //! ```text
-//! r_f = c (ψ − ψ_known)/d + R(ψ, q)                          A = c/d + R_ψ,  Z = A⁻¹ R_q
-//! r_m = M (v − v_known)/d + C v + K x + B (N − N₀) − f a − (F − F₀)
+//! r_f = M (ψ − ψ_known)/d + R(ψ, q)                          A = M/d + R_ψ,  Z = A⁻¹ R_q
+//! r_m = M_x (v − v_known)/d + C v + K x + B (N − N₀) − f a − (F − F₀)
 //! (S − F_q + F_ψ Z) δx = −r_m − F_ψ A⁻¹ r_f,     δψ = −A⁻¹ r_f − Z δq
 //! ```
 //!

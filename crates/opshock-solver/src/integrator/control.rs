@@ -1,11 +1,11 @@
-//! Chooses the next step size from the error of the last step, out of a geometric series of step sizes.
+//! Chooses the next step from the error of the last one, out of a geometric series of step sizes.
 //!
 //! ```text
-//! Δt_new = Δt · 0.9 (1/e)^(1/p)      e error over tolerance, p power of the estimate
+//! Δt_new = Δt · 0.9 (1/e)^(1/p) T^(0.3/p)      e error over tolerance, p power of its estimate
 //! ```
 //!
-//! rounded down to a member Δt₀ ρ^k of the series. A step grows by the factor ρ at least or not at all: the iteration
-//! matrix depends on Δt alone, and reusing it saves more than the last few per cent of the step would.
+//! rounded down to Δt_max ρ^−k, with Δt_max the largest step. T is the e before over e, within 0.2 and 1. A step grows by
+//! ρ at least or not at all: the iteration matrix depends on Δt alone, and reusing it saves more than a few per cent.
 
 /// Ratio ρ of neighbouring step sizes.
 const RATIO: f64 = 1.25;

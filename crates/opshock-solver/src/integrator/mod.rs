@@ -15,7 +15,7 @@
 //! | scheme | order | implicit stages | γ | source |
 //! |---|---|---|---|---|
 //! | TR-BDF2 | 2 (3 embedded) | 2 | 1 − √2/2 | Bank et al. 1985; Hosea and Shampine, Appl. Numer. Math. 20 (1996) 21 |
-//! | ESDIRK3(2)4L\[2\]SA | 3 (2 embedded) | 3 | 0.43586652… | Kennedy and Carpenter, NASA/CR-2001-211038, ARK3(2)4L\[2\]SA implicit part |
+//! | ESDIRK3(2)4L\[2\]SA | 3 (2 embedded) | 3 | 0.43586652… | Kennedy and Carpenter, NASA/TM-2001-211038, ARK3(2)4L\[2\]SA implicit part |
 //!
 //! [`Stepper`] takes one trial step of any [`StageSystem`]. [`StepControl`] chooses the next step from its error out of
 //! a coarse geometric series of step sizes, so that factorisations, which depend on d, are reused; [`hermite`] holds

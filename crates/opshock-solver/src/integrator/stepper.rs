@@ -62,7 +62,7 @@ impl Stepper {
         self.last_dt_s = Some(dt_s);
     }
 
-    /// Forgets the steps before, as at a jump of the rate.
+    /// Forgets the steps before, as at a restart.
     pub fn forget(&mut self) {
         self.last_dt_s = None;
     }

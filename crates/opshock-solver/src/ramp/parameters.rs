@@ -16,7 +16,7 @@ pub struct RampParameters {
     pub radius_m: f64,
     /// Angle of the contact points in the disk's sense of rotation, rad.
     pub angle_rad: f64,
-    /// Coefficient of restitution of an impact, 0 <= e <= 1 (Newton's law).
+    /// Coefficient of restitution of an impact, 0 <= e <= 1; Newton's if e > 0.
     pub restitution: f64,
     /// Local stiffness between each arm and its contact point, N/m; `None`: hard. The spring has hardly any mass, so
     /// restitution has no effect beside it.

@@ -18,7 +18,7 @@
 //! part in the kept modes. It is orthogonal to them in M and K, so it enters like one of them, at the frequency of its
 //! Rayleigh quotient. The tab then has exactly the compliance of the finite elements (attachment mode).
 //!
-//! Sources: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313; R. R. Craig, C.-J. Chang, NASA CR-2918 (1977).
+//! Sources: R. R. Craig, M. C. C. Bampton, AIAA J. 6 (1968) 1313; R. R. Craig, C.-J. Chang (1977).
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 

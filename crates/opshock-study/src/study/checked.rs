@@ -117,10 +117,17 @@ impl Study {
     /// Every fault of the study, up to [`fault::MAX_LISTED`], sorted by place.
     pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
         let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
-        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Self::from_text_of(text, path, sets)
+    }
+
+    /// Reads a study from the text that the file at `path` has, or had. File paths in it start from that file's folder.
+    ///
+    /// # Errors
+    /// As [`Study::from_path`].
+    pub fn from_text_of(text: String, path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
         let location = Location {
             file: path.to_path_buf(),
-            folder,
+            folder: path.parent().map(Path::to_path_buf).unwrap_or_default(),
         };
         let study = Self::read(text, location, sets)?;
         Ok(Self {

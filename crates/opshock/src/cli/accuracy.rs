@@ -113,7 +113,7 @@ pub fn run(
     console: &Console,
 ) -> Result<Exit, Failure> {
     let study = study_file::read(&arguments.study, global, console)?;
-    study_file::refuse_unaccepted(&study, global)?;
+    study_file::refuse_unaccepted(&study, &global.accept)?;
     let points = points(&study, &arguments.at)?;
     let mut memory = Memory::open(&arguments.out)?;
     let mut measured = Vec::new();

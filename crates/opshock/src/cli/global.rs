@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// Options of every command.
 #[derive(Args, Debug)]
-pub(super) struct GlobalArgs {
+pub struct GlobalArgs {
     /// Print version, commit and physics versions
     #[arg(short = 'V', long, action = ArgAction::Version)]
     version: Option<bool>,

@@ -1,5 +1,5 @@
 //! Parses the command line and runs the command; a file per command. Results go to stdout, messages to
-//! stderr; see [`Exit`] for the exit codes.
+//! stderr; see [`Exit`] for the exit codes. Modules that the Python package shares are public.
 
 mod accuracy;
 mod check;
@@ -13,14 +13,14 @@ mod explain;
 mod export;
 mod export_suspension;
 mod export_vtu;
-mod failure;
+pub mod failure;
 mod figures;
 mod global;
 mod hard_cases;
 mod import;
 mod long_run;
 mod matching;
-mod memory;
+pub mod memory;
 mod merge;
 mod mode_shapes;
 mod modes;
@@ -31,16 +31,16 @@ mod pulse;
 mod qualify;
 mod report;
 mod responses;
-mod run;
+pub mod run;
 mod schema;
 mod selection;
 mod slurm;
 mod status;
 mod steady;
 mod steady_state;
-mod stored;
-mod study_file;
-mod sweep;
+pub mod stored;
+pub mod study_file;
+pub mod sweep;
 mod terminal;
 mod thresholds;
 mod worth;
@@ -108,8 +108,12 @@ enum Command {
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {
+    main_with(std::env::args_os().collect()).into()
+}
+
+/// Runs the program with these arguments, the first its own name.
+pub fn main_with(arguments: Vec<OsString>) -> Exit {
     tame_signals();
-    let arguments: Vec<OsString> = std::env::args_os().collect();
     // A mistake in the arguments must be reported in JSON too, before they are parsed.
     let json = arguments
         .iter()
@@ -123,7 +127,7 @@ pub fn main() -> ExitCode {
                 console.fail(&failure);
                 failure.exit()
             });
-            return exit.into();
+            return exit;
         }
     };
     let console = Console {
@@ -131,10 +135,10 @@ pub fn main() -> ExitCode {
         quiet: cli.global.quiet,
     };
     match run(&cli, &console) {
-        Ok(exit) => exit.into(),
+        Ok(exit) => exit,
         Err(failure) => {
             console.fail(&failure);
-            failure.exit().into()
+            failure.exit()
         }
     }
 }
@@ -176,7 +180,7 @@ fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
         Command::Export(arguments) => export::run(arguments, &cli.global, console),
         Command::Import(arguments) => import::run(arguments, &cli.global, console),
         Command::Doctor(arguments) => doctor::run(arguments, &cli.global, console),
-        Command::Schema(arguments) => schema::run(arguments, console),
+        Command::Schema(arguments) => schema::run(arguments, Cli::command(), console),
         Command::Completions(arguments) => completions::run(arguments, Cli::command(), console),
     }
 }

@@ -38,7 +38,7 @@ pub fn run(arguments: &PlanArgs, global: &GlobalArgs, console: &Console) -> Resu
         return matching::plan(&arguments.study, global, console);
     }
     let study = study_file::read(&arguments.study, global, console)?;
-    study_file::refuse_unaccepted(&study, global)?;
+    study_file::refuse_unaccepted(&study, &global.accept)?;
     let folder = stored::folder_of_study(&arguments.study, global);
     let loaded = stored::finished(&folder)?;
     let owner = loaded.owner.clone();

@@ -75,7 +75,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
     let spec = Spec::from_path(&arguments.spec, &arguments.study, &sets)?;
     tolerances.check_spec(&spec)?;
     for requirement in &spec.requirements {
-        study_file::refuse_unaccepted(&requirement.study, global)?;
+        study_file::refuse_unaccepted(&requirement.study, &global.accept)?;
     }
     let studies = spec.requirements.iter().map(|one| &one.study);
     let demand = memory::of_drives(studies, 1.0, 1);

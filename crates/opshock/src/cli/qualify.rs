@@ -50,7 +50,7 @@ pub fn run(
     let spec = Spec::from_path(&arguments.spec, &arguments.study, &sets)?;
     let of_requirements = spec.requirements.iter().map(|one| &one.study);
     for study in of_requirements.chain(&spec.damage_boundary) {
-        study_file::refuse_unaccepted(study, global)?;
+        study_file::refuse_unaccepted(study, &global.accept)?;
         let available = memory::available_bytes();
         let of_sweep = memory::of_sweep(study);
         of_sweep.check("the sweep", global.threads(), available)?;

@@ -95,7 +95,11 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
 }
 
 /// Runs the shock by the study's plan.
-pub(super) fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
+///
+/// # Errors
+///
+/// The run does not fit into the memory; the scene cannot be simulated.
+pub fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
     let plan = study.plan();
     memory::check("the run", Demand::run(&shot.point.scene, &plan, record), 1)?;
     let model = Model::assemble(&shot.point.scene, &plan, None)

@@ -155,9 +155,23 @@ pub fn results(source: &Source, console: &Console) -> Result<Results, Failure> {
 ///
 /// As [`read`].
 pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
+    loaded(source, &mut |code, message| {
+        console.tell(&format!("warning: {code}: {message}"));
+    })
+}
+
+/// As [`load`]; what is wrong with the store goes to `note`, code and sentence.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn loaded(
+    source: &Source,
+    note: &mut dyn FnMut(&str, &str),
+) -> Result<(Results, Option<String>), Failure> {
     let (mut loaded, results) = store::load(&source.folder)?;
     for (code, message) in &loaded.notes {
-        console.tell(&format!("warning: {code}: {message}"));
+        note(code, message);
     }
     let owner = owner(&mut loaded, &source.folder)?;
     source.check(&owner)?;
@@ -175,11 +189,12 @@ pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<Strin
         (Ok(replayed), _) => Ok((replayed, owner.resolved)),
         // A study of another version of the program: what was saved last is still a table.
         (Err(_), Some(results)) => {
-            console.tell(&format!(
-                "warning: {} simulations are newer than results.h5 and not shown: this program does \
-                 not read the study that the store keeps",
+            let message = format!(
+                "{} simulations are newer than results.h5 and not shown: this program does not read \
+                 the study that the store keeps",
                 newer(&results)
-            ));
+            );
+            note("newer", &message);
             Ok((results, owner.resolved))
         }
         (Err(error), None) => Err(error),

@@ -49,12 +49,8 @@ pub fn read(path: &Path, global: &GlobalArgs, console: &Console) -> Result<Study
 /// # Errors
 ///
 /// The warnings, as faults of the study.
-pub fn refuse_unaccepted(study: &Study, global: &GlobalArgs) -> Result<(), Failure> {
-    let mut open: Vec<StudyError> = study
-        .unaccepted(&global.accept)
-        .into_iter()
-        .cloned()
-        .collect();
+pub fn refuse_unaccepted(study: &Study, accepted: &[String]) -> Result<(), Failure> {
+    let mut open: Vec<StudyError> = study.unaccepted(accepted).into_iter().cloned().collect();
     if open.is_empty() {
         return Ok(());
     }

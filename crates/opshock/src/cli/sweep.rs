@@ -17,7 +17,8 @@ use opshock_study::store::{Audit, Summary};
 use opshock_study::study::{Point, Study};
 use opshock_study::sweep::rounds::{self, Next, RoundError};
 use opshock_study::sweep::{
-    Ending, Physics, ProgressKind, Shard, StopFlag, SweepInput, SweepOptions, audit, sweep,
+    Ending, Physics, Progress, ProgressKind, Shard, StopFlag, SweepEnd, SweepInput, SweepOptions,
+    audit, sweep,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -57,7 +58,7 @@ enum Only {
 /// Runs the command.
 pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Result<Exit, Failure> {
     let study = study_file::read(&arguments.study, global, console)?;
-    study_file::refuse_unaccepted(&study, global)?;
+    study_file::refuse_unaccepted(&study, &global.accept)?;
     if !study.asks_for(Output::CriticalShock) {
         return thresholds::run(&study, console);
     }
@@ -66,7 +67,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     let folder = stored::folder_of_study(&arguments.study, global);
     let stop = StopFlag::default();
     stop.listen().context("cannot listen to signals")?;
-    let mut options = SweepOptions {
+    let options = SweepOptions {
         stop,
         budget: arguments.budget,
         retry_undecided: arguments.only == Some(Only::Undecided),
@@ -79,59 +80,16 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     } else {
         global.progress.into()
     };
-    let began = Instant::now();
-    let no_range = "the study has no amplitudes to search";
-    // Without their undecided runs the study's own answers may call for other widths.
-    let mut study = if options.retry_undecided {
-        study
-    } else {
-        rounds::first(&study, &folder, options.shard.as_ref()).map_err(not_known)?
+    let observer = Observer {
+        progress: &|study| kind.start(study),
+        message: &|message| console.tell(message),
     };
-    let (mut computed_runs, mut reused_runs) = (0, 0);
-    let (input, end) = loop {
-        memory::of_sweep(&study).check("the sweep", global.threads(), available)?;
-        let progress = kind.start(&study.name);
-        let input = SweepInput::of(&study).context(no_range)?;
-        let physics = Physics::of(&study);
-        let mut end = sweep(&input, &physics, &folder, &options, progress.as_ref())?;
-        drop(progress);
-        computed_runs += end.computed_runs;
-        reused_runs += end.reused_runs;
-        options.budget = arguments
-            .budget
-            .map(|budget| budget.saturating_sub(began.elapsed()));
-        if end.ending != Ending::Complete {
-            break (input, end);
-        }
-        if options.shard.is_some() && study.search.added_points.is_some() {
-            console.tell("this part is answered: points to be added wait for the shards at work");
-        }
-        let now = Instant::now();
-        match rounds::next(&study, &folder, &options, &end.summary, now).map_err(not_known)? {
-            Next::Round(next) => {
-                console.tell(&added(&study, &next));
-                study = *next;
-                options.retry_undecided = false;
-            }
-            Next::Done => break (input, end),
-            Next::Left { points } => {
-                console.tell(&format!(
-                    "{points} points of shards that are not at work are open, and with them the \
-                     points to be added: run these shards, or `opshock merge` and `opshock sweep`"
-                ));
-                break (input, end);
-            }
-            Next::Stopped(ending) => {
-                end.ending = ending;
-                break (input, end);
-            }
-        }
-    };
+    let Swept { study, input, end } = in_rounds(study, &folder, options, available, &observer)?;
 
     if !arguments.reuse.is_empty() {
         console.tell(&format!(
             "{} simulations taken from other stores, {} made",
-            reused_runs, computed_runs
+            end.reused_runs, end.computed_runs
         ));
     }
     let mut summary = end.summary;
@@ -176,6 +134,82 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             console.tell(&resume(arguments, &folder, global));
             Ok(Exit::Budget)
         }
+    }
+}
+
+/// Receives what a sweep reports.
+pub struct Observer<'a> {
+    /// Progress of a round, by the name of its study.
+    pub progress: &'a dyn Fn(&str) -> Box<dyn Progress>,
+    /// A message for the user.
+    pub message: &'a dyn Fn(&str),
+}
+
+/// A sweep that ended.
+pub struct Swept {
+    /// The study with the widths of its last round.
+    pub study: Study,
+    /// Its input.
+    pub input: SweepInput,
+    /// How it ended, with the simulations of all rounds.
+    pub end: SweepEnd,
+}
+
+/// Sweeps a study into a folder, with the rounds of widths that it adds. Each must fit into `available` bytes.
+///
+/// # Errors
+///
+/// The study has nothing to search or does not fit into the memory; the store cannot be used.
+pub fn in_rounds(
+    study: Study,
+    folder: &Path,
+    mut options: SweepOptions,
+    available: f64,
+    observer: &Observer<'_>,
+) -> Result<Swept, Failure> {
+    thresholds::refuse_without_search(&study)?;
+    let (began, budget) = (Instant::now(), options.budget);
+    // Without their undecided runs the study's own answers may call for other widths.
+    let mut study = if options.retry_undecided {
+        study
+    } else {
+        rounds::first(&study, folder, options.shard.as_ref()).map_err(not_known)?
+    };
+    let (mut computed_runs, mut reused_runs) = (0, 0);
+    loop {
+        memory::of_sweep(&study).check("the sweep", options.threads, available)?;
+        let progress = (observer.progress)(&study.name);
+        let input = SweepInput::of(&study).context("the study has no amplitudes to search")?;
+        let physics = Physics::of(&study);
+        let mut end = sweep(&input, &physics, folder, &options, progress.as_ref())?;
+        drop(progress);
+        computed_runs += end.computed_runs;
+        reused_runs += end.reused_runs;
+        (end.computed_runs, end.reused_runs) = (computed_runs, reused_runs);
+        options.budget = budget.map(|budget| budget.saturating_sub(began.elapsed()));
+        if end.ending != Ending::Complete {
+            return Ok(Swept { study, input, end });
+        }
+        if options.shard.is_some() && study.search.added_points.is_some() {
+            let waits = "this part is answered: points to be added wait for the shards at work";
+            (observer.message)(waits);
+        }
+        let now = Instant::now();
+        match rounds::next(&study, folder, &options, &end.summary, now).map_err(not_known)? {
+            Next::Round(next) => {
+                (observer.message)(&added(&study, &next));
+                study = *next;
+                options.retry_undecided = false;
+                continue;
+            }
+            Next::Done => {}
+            Next::Left { points } => (observer.message)(&format!(
+                "{points} points of shards that are not at work are open, and with them the points to \
+                 be added: run these shards, or `opshock merge` and `opshock sweep`"
+            )),
+            Next::Stopped(ending) => end.ending = ending,
+        }
+        return Ok(Swept { study, input, end });
     }
 }
 

@@ -21,13 +21,7 @@ use std::fmt::Write as _;
 pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
     let answered = Output::TouchThreshold;
     if let Some(output) = study.outputs.iter().find(|output| **output != answered) {
-        let file = study.path.display().to_string();
-        let message = format!("a sweep does not answer {output} without critical_shock");
-        let mut fault = StudyError::in_file("E158", &file, message)
-            .allowed("critical_shock with any others, or touch_threshold alone")
-            .hint(format!("`opshock run` gives {output} of one shock"));
-        fault.key = "outputs".to_owned();
-        return Err(StudyErrors::from(fault).into());
+        return Err(not_answered(study, *output));
     }
     let plan = Plan::new(&[Output::TouchThreshold], Mode::Auto);
     let runs = study
@@ -59,6 +53,28 @@ pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
         console.result(&text(&rows))?;
     }
     Ok(Exit::Complete)
+}
+
+/// Refuses a study whose outputs need no search.
+///
+/// # Errors
+///
+/// E158.
+pub fn refuse_without_search(study: &Study) -> Result<(), Failure> {
+    match study.outputs.first() {
+        Some(output) if !study.asks_for(Output::CriticalShock) => Err(not_answered(study, *output)),
+        _ => Ok(()),
+    }
+}
+
+fn not_answered(study: &Study, output: Output) -> Failure {
+    let file = study.path.display().to_string();
+    let message = format!("a sweep does not answer {output} without critical_shock");
+    let mut fault = StudyError::in_file("E158", &file, message)
+        .allowed("critical_shock with any others, or touch_threshold alone")
+        .hint(format!("`opshock run` gives {output} of one shock"));
+    fault.key = "outputs".to_owned();
+    StudyErrors::from(fault).into()
 }
 
 fn row(point: &Point, onset_g: Option<f64>) -> Value {

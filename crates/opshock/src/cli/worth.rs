@@ -50,7 +50,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     }
     let nominal = Study::from_path(&arguments.study, &sets)?;
     let tolerances = Tolerances::from_path(&arguments.tolerances, &arguments.study, &sets)?;
-    study_file::refuse_unaccepted(&nominal, global)?;
+    study_file::refuse_unaccepted(&nominal, &global.accept)?;
     memory::check(
         "the pairs",
         memory::of_drives([&nominal], 2.0, nominal.search.max_refinements.min(2)),

@@ -6,7 +6,7 @@ use crate::head::outcome::Place;
 use crate::integrator::hermite;
 use crate::slider::clearance::Clearance;
 
-/// Number of points inside a step at which the clearance is evaluated.
+/// Equal parts of a step, at whose ends the clearance is evaluated.
 const LOOKS: usize = 5;
 
 /// The first passage of the limit inside a step.

@@ -84,7 +84,7 @@ pub(super) fn one_step(discretisations: &[Discretisation], near: Change) -> Esti
 }
 
 /// Error from two steps coarser: `near` and `far` are the changes one and two steps coarser. The larger of both estimates at
-/// the formal order, or at a slower one that was observed.
+/// the formal order, that of `near` at a slower one observed.
 pub(super) fn two_coarser(
     discretisations: &[Discretisation],
     near: Change,

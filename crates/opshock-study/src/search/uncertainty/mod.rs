@@ -12,30 +12,31 @@
 //! | coarser and finer | \|A(0) - A(1)\|, known, on its own side; and \|A(0) - A(1)\| / (r - 1) | 1 and 1.25 |
 //! | the same, r not observed | the same known part; the larger of that and \|A(-1) - A(0)\| / r, over r - 1 | 1 and 3 |
 //!
-//! The ratio r is the observed one, at most the formal one; it is not observed where the changes differ in sign or fall by less
-//! than r / √2. Of two brackets the largest distance counts. The scene is coarsened first, since that is cheap. It is refined by
-//! a step, or two, while the contribution is more than a quarter of the target uncertainty (`pieces`, `judge`); with A(2) the
-//! known part is \|A(0) - A(2)\|, and e follows from the last two.
+//! The ratio r is the observed one, R = (A(0) - A(-1)) / (A(1) - A(0)), at most the formal one. Up to the formal one over √2
+//! it is not observed, and r is formal. If R > 1 there, factor times e is at least 1.25 \|A(0) - A(1)\| / (max(R, 1.25) - 1).
+//! Of two brackets the largest distance counts. The scene is coarsened first, which is cheap. It is refined by a step or two
+//! while the contribution exceeds a quarter of the target (`pieces`, `judge`). With A(2) the known part is \|A(0) - A(2)\|,
+//! and e follows from the last two.
 //!
-//! The parameters are changed in groups, each as a whole: tolerances of the head; modes of the suspension; modes and time step
-//! of disk and ramp; the mesh of a ramp; the grid of the film's defect correction; the film's grid. A parameter is changed
-//! alone only where its group has no answer. The effect of all but the last hardly depends on the film, so that these runs
-//! take a quarter of the cells, or half, if the answer there is near. The film's grid is evaluated last, from the scene
-//! itself: on half and a quarter of the cells, and on twice the cells where that is more than the others leave.
+//! Parameters are changed in groups: tolerances of the head; modes of the suspension; modes and time step of disk and ramp;
+//! the mesh of a ramp; the grid of the film's defect correction; the film's grid. One is changed alone only where its group
+//! has no answer. All but the last hardly depend on the film, so these runs take a quarter of the cells, or half, if the
+//! answer there is near. The film's grid comes last, from the scene itself: on half and a quarter of the cells, and on twice
+//! the cells where that is more than the others leave.
 //!
-//! The change of A between two scenes is measured in one of two ways (`measure`):
+//! The change of A between two scenes is measured in two ways (`measure`):
 //!
 //! * *clearance sensitivity* (`clearance_sensitivity`): δA = δh / |dh/dA|, with h the smallest clearance of survivors just
-//!   below A and δh its change, by a run. It holds where h falls steadily to zero as the amplitude grows, at the instant at
-//!   which the lowest failure touches.
+//!   below A and δh its change, by a run. It holds where h falls steadily to zero as A grows, at the instant at which the lowest
+//!   failure touches.
 //! * *re-bracketing* (`rebracketing`): elsewhere, as where the dimple opens and survival ends abruptly, the critical
 //!   amplitude of the changed scene is searched for.
 //!
 //! Contributions add up, below and above the answer; none makes another smaller. Where they exceed the target, the largest
 //! are refined and the answer is bracketed anew (`refinement`).
 //!
-//! [`answer`] is a function of finished runs. Called with more runs it goes further, and it asks for the next run that it
-//! lacks: always the same runs in the same order, whatever the number of threads.
+//! [`answer`] is a function of finished runs. Called with more runs it goes further and asks for the next run that it lacks:
+//! the same runs in the same order, whatever the number of threads.
 
 mod ask;
 mod change;

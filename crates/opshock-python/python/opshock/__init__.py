@@ -1,0 +1,91 @@
+"""How a hard disk drive's head-disk interface survives operational shock.
+
+::
+
+    import opshock
+
+    study = opshock.Study("my-drive.toml")
+    run = opshock.simulate(study.scene(ramp="rigid", pulse_ms=2, sign="+"), 400, history=True)
+    store = opshock.sweep(study, "my-drive.opshock", progress=True)
+    store.plot()
+
+Every number is that of the command line, to the bit. Names end in their units; results never change.
+"""
+
+from . import _native
+from ._errors import ChoiceError, Fault, OpshockError, StoreError, StudyError
+from ._run import (
+    ArmContact,
+    Base,
+    Columns,
+    Complementarity,
+    ContactSpell,
+    Cost,
+    Dimple,
+    DiskMotion,
+    Energy,
+    History,
+    Hub,
+    Place,
+    PressureFields,
+    RampContact,
+    Run,
+    RunWarning,
+    Steady,
+    Stop,
+    simulate,
+    simulate_many,
+)
+from ._search import Search, SearchResult
+from ._store import Contribution, CriticalShock, Progress, Store, critical_shock, open_store, sweep
+from ._study import OpshockWarning, Scene, Study
+from ._verdict import Verdict
+
+__all__ = [
+    "ArmContact",
+    "Base",
+    "ChoiceError",
+    "Columns",
+    "Complementarity",
+    "ContactSpell",
+    "Contribution",
+    "Cost",
+    "CriticalShock",
+    "Dimple",
+    "DiskMotion",
+    "Energy",
+    "Fault",
+    "History",
+    "Hub",
+    "OpshockError",
+    "OpshockWarning",
+    "Place",
+    "PressureFields",
+    "Progress",
+    "RampContact",
+    "Run",
+    "RunWarning",
+    "Scene",
+    "Search",
+    "SearchResult",
+    "Steady",
+    "Stop",
+    "Store",
+    "StoreError",
+    "Study",
+    "StudyError",
+    "Verdict",
+    "critical_shock",
+    "open_store",
+    "program",
+    "simulate",
+    "simulate_many",
+    "sweep",
+]
+
+__version__ = _native.program().split()[1]
+
+
+def program() -> str:
+    """This program, as every result names it: version, commit, physics versions of structure and head."""
+    return _native.program()
