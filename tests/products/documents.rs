@@ -195,38 +195,37 @@ fn headings_of_tables_are_those_of_the_program() {
     }
 }
 
-/// The reference of words is the one that the program writes.
-#[test]
-fn the_reference_of_words_is_todays() {
+/// A page that the program writes is committed as it writes it today.
+fn is_todays(option: &str, name: &str) {
     let at = tempfile::tempdir().unwrap();
-    let done = Done::of(at.path(), &["schema", "--terms"]);
+    let done = Done::of(at.path(), &["schema", option]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let path = root().join("docs/terms.md");
+    let path = root().join(name);
     if std::env::var_os("INSTA_UPDATE").is_some_and(|how| how == "always") {
         std::fs::write(&path, &done.stdout).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap();
     assert!(
         committed == done.stdout,
-        "write it anew: opshock schema --terms > docs/terms.md"
+        "write it anew: opshock schema {option} > {name}"
     );
 }
 
-/// The reference of keys is the one that the program writes, and knows every key with its words.
+#[test]
+fn the_reference_of_words_is_todays() {
+    is_todays("--terms", "docs/terms.md");
+}
+
+#[test]
+fn the_reference_of_commands_is_todays() {
+    is_todays("--commands", "docs/commands.md");
+}
+
+/// The reference of keys is today's, and knows every key with its words.
 #[test]
 fn the_reference_of_keys_is_todays() {
+    is_todays("--markdown", "docs/keys.md");
     let at = tempfile::tempdir().unwrap();
-    let done = Done::of(at.path(), &["schema", "--markdown"]);
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let path = root().join("docs/keys.md");
-    if std::env::var_os("INSTA_UPDATE").is_some_and(|how| how == "always") {
-        std::fs::write(&path, &done.stdout).unwrap();
-    }
-    let committed = std::fs::read_to_string(&path).unwrap();
-    assert!(
-        committed == done.stdout,
-        "write it anew: opshock schema --markdown > docs/keys.md"
-    );
     let one = Done::of(at.path(), &["schema", "disk.thickness_mm"]);
     assert_eq!(one.code, 0, "{}", one.stderr);
     for line in [
@@ -243,8 +242,8 @@ fn the_reference_of_keys_is_todays() {
             one.stdout
         );
     }
-    let keys = done
-        .stdout
+    let reference = page("docs/keys.md");
+    let keys = reference
         .lines()
         .filter_map(|line| line.strip_prefix("**`"));
     let keys: Vec<&str> = keys.map(|line| line.split_once('`').unwrap().0).collect();

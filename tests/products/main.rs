@@ -4,6 +4,7 @@ mod accuracy;
 mod added_points;
 mod bad_inputs;
 mod bad_stores;
+mod book;
 mod cli;
 mod cli_claims;
 mod cli_explain;
