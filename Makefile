@@ -93,13 +93,24 @@ book: bootstrap ## the book, docs/ as HTML with search, in target/book/ (needs p
 	scripts/book
 
 .PHONY: verify-book
-verify-book: book ## the book: its links, and every command of its lessons prints what the page shows (10 minutes)
-	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture lessons_are
+verify-book: ## the book: its links, its pages in Chromium, and every command of its lessons prints what the page shows (15 minutes)
+	@scripts/bootstrap --verify
+	scripts/book
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 the_book_ lessons_are
 
 .PHONY: wheel verify-python
 wheel: ## the Python package as a wheel with everything in it: target/wheels/ (10 minutes at first; needs python3 with venv)
 	@scripts/bootstrap
 	scripts/wheel
+
+.PHONY: dist verify-dist
+dist: ## one archive for clusters and colleagues, the program with HDF5 in it: target/dist/ (needs python3 with venv)
+	@scripts/bootstrap
+	scripts/dist
+
+verify-dist: ## the archive, tried in a Debian without HDF5, Rust and Python (as root)
+	@scripts/bootstrap --verify
+	scripts/dist --verify
 
 verify-python: ## the Python package from its wheel: tests, types, and what a batch of 1000 shocks costs beside the same in Rust
 	@scripts/bootstrap --verify
@@ -126,7 +137,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-python verify-book ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-dist verify-python verify-book ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow

@@ -155,3 +155,26 @@ fn completions_are_printed_for_the_shells() {
         assert!(done.stdout.contains("opshock"), "{shell}");
     }
 }
+
+#[test]
+fn manual_pages_are_written_for_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = Done::of(folder.path(), &["completions", "--man", "man1"]);
+    assert_eq!((done.code, done.stdout.as_str()), (0, ""));
+    let page = |name: &str| std::fs::read_to_string(folder.path().join("man1").join(name)).unwrap();
+    let named = page("opshock.1").matches("opshock\\-").count();
+    let written = std::fs::read_dir(folder.path().join("man1"))
+        .unwrap()
+        .count();
+    // The program's own page, and those of three imports.
+    assert!(named > 20 && written > named, "{named} {written}");
+    let sweep = page("opshock-sweep.1");
+    assert!(
+        sweep.starts_with(".ie") && sweep.contains(".TH opshock-sweep 1"),
+        "{sweep}"
+    );
+    assert!(sweep.contains("save and end with exit code 5"), "{sweep}");
+    let both = Done::of(folder.path(), &["completions", "bash", "--man", "man1"]);
+    assert_eq!(both.code, 2);
+    assert_eq!(Done::of(folder.path(), &["completions"]).code, 2);
+}

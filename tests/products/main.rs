@@ -5,6 +5,7 @@ mod added_points;
 mod bad_inputs;
 mod bad_stores;
 mod book;
+mod book_page;
 mod cli;
 mod cli_claims;
 mod cli_explain;

@@ -60,7 +60,7 @@ pub(super) fn figure(summary: &Summary, layout: &Layout, provenance: &str) -> Fi
         .iter()
         .any(|point| matches!(point.status, Status::AboveRange | Status::BelowRange));
     let has_uncertainty = |point: &PointSummary| point.uncertainty_g.is_some();
-    let mut subtitle = "largest amplitude survived".to_owned();
+    let mut subtitle = "critical shock".to_owned();
     if summary.points.iter().any(has_uncertainty) {
         subtitle.push_str(" with its uncertainty interval");
     }
