@@ -2,6 +2,7 @@
 
 mod architecture;
 mod circles;
+mod codes;
 mod floors;
 mod keys;
 mod results;

@@ -39,7 +39,7 @@ pub struct GlobalArgs {
     /// How progress is shown
     #[arg(long, global = true, value_name = "HOW", value_enum, default_value_t)]
     pub(super) progress: ProgressChoice,
-    /// Codes of warnings that need not stop the command, as W201,W305
+    /// Codes of warnings that need not stop the command, as W201,W203
     #[arg(long, global = true, value_name = "CODES", value_delimiter = ',')]
     pub(super) accept: Vec<String>,
 }
