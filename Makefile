@@ -89,7 +89,8 @@ worth: build ## by how much each tolerance changes the critical shocks: results/
 	$(OPSHOCK) worth studies/worth/study.toml -j $(JOBS) --tolerances studies/worth/tolerances.toml --store results/worth/pairs.opshock --out results/worth
 
 .PHONY: book
-book: bootstrap ## the book, docs/ as HTML with search, in target/book/ (needs python3 with venv)
+book: ## the book, docs/ as HTML with search, in target/book/
+	@scripts/bootstrap --python
 	scripts/book
 
 .PHONY: verify-book
@@ -99,13 +100,13 @@ verify-book: ## the book: its links, its pages in Chromium, and every command of
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 the_book_ lessons_are
 
 .PHONY: wheel verify-python
-wheel: ## the Python package as a wheel with everything in it: target/wheels/ (10 minutes at first; needs python3 with venv)
-	@scripts/bootstrap
+wheel: ## the Python package as a wheel with everything in it: target/wheels/ (10 minutes at first)
+	@scripts/bootstrap --python
 	scripts/wheel
 
 .PHONY: dist verify-dist
-dist: ## one archive for clusters and colleagues, the program with HDF5 in it: target/dist/ (needs python3 with venv)
-	@scripts/bootstrap
+dist: ## one archive for clusters and colleagues, the program with HDF5 in it: target/dist/
+	@scripts/bootstrap --python
 	scripts/dist
 
 verify-dist: ## the archive, tried in a Debian without HDF5, Rust and Python (as root)
@@ -115,6 +116,11 @@ verify-dist: ## the archive, tried in a Debian without HDF5, Rust and Python (as
 verify-python: ## the Python package from its wheel: tests, types, and what a batch of 1000 shocks costs beside the same in Rust
 	@scripts/bootstrap --verify
 	scripts/verify-python
+
+.PHONY: verify-notebooks
+verify-notebooks: ## every notebook of notebooks/ with the package from its wheel: no error, no warning, and its time (some minutes; needs python3 with venv)
+	@test -e target/wheels/opshock-*.whl || $(MAKE) --no-print-directory wheel
+	scripts/verify-notebooks
 
 test: bootstrap ## every test (slow ones are in `make verify`)
 	cargo test --workspace --locked
@@ -137,7 +143,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-dist verify-python verify-book ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-dist verify-python verify-notebooks verify-book ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow

@@ -13,7 +13,7 @@ const PROGRAM: &str = "target/release/opshock ";
 fn printed(folder: &Path, command: &str) -> String {
     let command = command.replace(PROGRAM, &format!("{OPSHOCK} "));
     let mut shell = program("sh");
-    let done = shell.args(["-c", &command]).current_dir(folder);
+    let done = shell.args(["-ec", &command]).current_dir(folder);
     let done = done.env_remove("COLUMNS").output().unwrap();
     // Exit code 4: some points are open, which the output says.
     let errors = String::from_utf8(done.stderr).unwrap();

@@ -39,6 +39,7 @@ mod mode_shapes;
 mod multi_body;
 mod outside_ramp;
 mod population;
+mod python_keys;
 mod qualify;
 mod real_sweep;
 mod refused;

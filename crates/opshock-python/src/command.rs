@@ -18,6 +18,12 @@ pub fn program() -> String {
     provenance::program()
 }
 
+/// Cores that this process may use.
+#[pyfunction]
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// The JSON Schema of study files.
 #[pyfunction]
 pub fn schema() -> String {

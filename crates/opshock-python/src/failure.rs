@@ -1,6 +1,6 @@
 //! Failures as Python exceptions, which carry the faults that `--json` prints.
 
-use opshock::cli::failure::Failure;
+use opshock::cli::failure::{Failure, Fault};
 use pyo3::prelude::*;
 
 /// The exception of a failure: made by `opshock._errors.of`.
@@ -15,6 +15,16 @@ pub fn raised(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
         message,
         failure.json()["errors"].to_string(),
     );
+    made(py, arguments)
+}
+
+/// The exception of one fault of the program.
+pub fn raised_fault(py: Python<'_>, fault: Fault) -> PyErr {
+    let faults = serde_json::json!([fault]).to_string();
+    made(py, (1, fault.message, faults))
+}
+
+fn made(py: Python<'_>, arguments: (u8, String, String)) -> PyErr {
     let made = py
         .import("opshock._errors")
         .and_then(|module| module.call_method1("of", arguments));

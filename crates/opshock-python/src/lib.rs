@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::command::{main, program, schema};
+    use super::command::{cores, main, program, schema};
     #[pymodule_export]
     use super::search::Search;
     #[pymodule_export]

@@ -94,6 +94,7 @@ pub fn simulate_many(
     let plans: Vec<_> = studies.iter().map(|study| study.study.plan()).collect();
     let scenes = studies.iter().map(|study| &study.study.points[0].scene);
     let scenes: Vec<_> = scenes.zip(&plans).collect();
+    let threads = threads.clamp(1, shocks.len().max(1));
     let demands = scenes
         .iter()
         .map(|(scene, plan)| Demand::run(scene, plan, false));

@@ -1,5 +1,7 @@
 //! Long work that Python's Ctrl-C interrupts.
 
+use crate::failure::raised_fault;
+use opshock::cli::failure::Fault;
 use opshock_study::sweep::StopFlag;
 use pyo3::prelude::*;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -36,6 +38,12 @@ pub fn interruptible<T: Send>(
     match (answer, raised) {
         (_, Some(error)) => Err(error),
         (Ok(answer), None) => Ok(answer),
-        (Err(panic), None) => std::panic::resume_unwind(panic),
+        (Err(panic), None) => {
+            let words = panic.downcast_ref::<String>().map(String::as_str);
+            let words = words.or(panic.downcast_ref::<&str>().copied());
+            let words = words.unwrap_or("no message").to_owned();
+            let fault = Fault::new("panicked", format!("a simulation panicked: {words}"));
+            Err(raised_fault(py, fault))
+        }
     }
 }

@@ -10,11 +10,13 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-type Read = (Results, Option<String>, Vec<(String, String)>);
+type Read = (Results, Option<String>, Vec<String>);
 
 fn read(folder: &Path) -> Result<Read, Failure> {
     let mut notes = Vec::new();
-    let note = &mut |code: &str, message: &str| notes.push((code.to_owned(), message.to_owned()));
+    let note = &mut |code: Option<&str>, message: &str| {
+        notes.push(code.map_or(message.to_owned(), |code| format!("{code}: {message}")));
+    };
     let (results, study) = loaded(&Source::of_folder(folder), note)?;
     Ok((results, study, notes))
 }

@@ -1,12 +1,11 @@
 //! Studies: read, changed, described.
 
 use crate::failure::{or_raise, raised};
-use opshock::cli::failure::Failure;
+use opshock::cli::failure::{Failure, Fault};
 use opshock_study::study::text_file::read_text;
 use opshock_study::study::{
     Choice, Point, Ramp, SetArg, Sign, Study as Checked, StudyErrors, is_within,
 };
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -20,9 +19,16 @@ pub struct Study {
 }
 
 impl Study {
-    fn of(text: String, path: &Path, settings: Vec<String>) -> Result<Self, Failure> {
+    /// Of a text; `file` is the file that has it, if one does.
+    fn of(
+        text: String,
+        path: &Path,
+        file: Option<PathBuf>,
+        settings: Vec<String>,
+    ) -> Result<Self, Failure> {
         let sets: Result<Vec<SetArg>, _> = settings.iter().map(|one| SetArg::parse(one)).collect();
-        let study = Checked::from_text_of(text, path, &sets?)?;
+        let mut study = Checked::from_text_of(text, path, &sets?)?;
+        study.file = file;
         Ok(Self { study, settings })
     }
 
@@ -41,8 +47,10 @@ impl Study {
             |setting: &&String| !later.iter().any(|above| is_within(&key(setting), above));
         let kept = self.settings.iter().filter(is_kept).cloned();
         let settings = kept.chain(further).collect();
-        let text = self.study.text.clone();
-        Self::of(text, &self.study.path, settings)
+        let Checked {
+            text, path, file, ..
+        } = &self.study;
+        Self::of(text.clone(), path, file.clone(), settings)
     }
 }
 
@@ -52,13 +60,37 @@ impl Study {
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf, settings: Vec<String>) -> PyResult<Self> {
         let text = read_text(&path).map_err(|fault| raised(py, StudyErrors::from(*fault)))?;
-        or_raise(py, Self::of(text, &path, settings))
+        let file = std::fs::canonicalize(&path).ok();
+        or_raise(py, Self::of(text, &path, file, settings))
     }
 
     /// Reads the text of a study; `path` is the file it would be in.
     #[staticmethod]
     fn parse(py: Python<'_>, text: String, path: PathBuf, settings: Vec<String>) -> PyResult<Self> {
-        or_raise(py, Self::of(text, &path, settings))
+        or_raise(py, Self::of(text, &path, None, settings))
+    }
+
+    /// Text, path, file and settings, of which [`Study::restored`] makes the study again.
+    fn parts(&self) -> (&str, &Path, Option<&Path>, &[String]) {
+        let study = &self.study;
+        (
+            &study.text,
+            &study.path,
+            study.file.as_deref(),
+            &self.settings,
+        )
+    }
+
+    /// The study of these parts.
+    #[staticmethod]
+    fn restored(
+        py: Python<'_>,
+        text: String,
+        path: PathBuf,
+        file: Option<PathBuf>,
+        settings: Vec<String>,
+    ) -> PyResult<Self> {
+        or_raise(py, Self::of(text, &path, file, settings))
     }
 
     /// Text of the smallest useful study.
@@ -81,9 +113,12 @@ impl Study {
         sign: Option<&str>,
     ) -> PyResult<Self> {
         let choice = Choice {
-            ramp: word("ramp", ramp, "none, rigid or deformable", Ramp::from_word)?,
+            ramp: or_raise(
+                py,
+                word("ramp", ramp, "none, rigid or deformable", Ramp::from_word),
+            )?,
             pulse_ms,
-            sign: word("sign", sign, "+ or -", Sign::from_word)?,
+            sign: or_raise(py, word("sign", sign, "+ or -", Sign::from_word))?,
             amplitude_g: None,
         };
         let point = self.study.select_point(&choice);
@@ -147,10 +182,17 @@ fn word<T>(
     given: Option<&str>,
     allowed: &str,
     read: impl Fn(&str) -> Option<T>,
-) -> PyResult<Option<T>> {
+) -> Result<Option<T>, Failure> {
     let Some(given) = given else {
         return Ok(None);
     };
-    let refused = || PyValueError::new_err(format!("{name} = {given:?}: must be {allowed}"));
+    let refused = || {
+        Failure::Usage(vec![Fault {
+            key: Some(name.to_owned()),
+            value: Some(given.to_owned()),
+            allowed: Some(allowed.to_owned()),
+            ..Fault::new("usage", format!("{name} = {given:?}"))
+        }])
+    };
     read(given).map(Some).ok_or_else(refused)
 }

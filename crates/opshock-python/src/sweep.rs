@@ -6,7 +6,7 @@ use crate::study::Study;
 use opshock::cli::failure::Failure;
 use opshock::cli::sweep::{Observer, in_rounds};
 use opshock::cli::{memory, study_file};
-use opshock_study::sweep::{Ending, Event, Progress, StopFlag, SweepOptions};
+use opshock_study::sweep::{Event, Progress, StopFlag, SweepOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -52,13 +52,8 @@ impl Progress for Caller {
 /// The events that a progress bar shows.
 fn reported(event: &Event) -> Option<Value> {
     Some(match event {
-        Event::Started {
-            points,
-            stored_runs,
-            ..
-        } => json!({"event": "started", "points": points.len(), "stored_runs": stored_runs}),
-        Event::ProbeDone { .. } => json!({"event": "run"}),
-        Event::PointDone { summary, .. } => json!({"event": "point", "row": summary_json(summary)}),
+        Event::Started { points, .. } => json!({"event": "started", "points": points.len()}),
+        Event::PointDone { .. } => json!({"event": "point"}),
         Event::Estimated(estimate) => json!({
             "event": "estimate",
             "runs_done": estimate.runs_done,
@@ -71,16 +66,7 @@ fn reported(event: &Event) -> Option<Value> {
     })
 }
 
-fn summary_json(row: &opshock_study::store::PointSummary) -> Value {
-    json!({
-        "label": format!("{} {} ms {}", row.ramp, row.pulse_ms, row.sign),
-        "a_crit_g": row.a_crit_g,
-        "uncertainty_g": row.uncertainty_g,
-        "status": row.status.as_str(),
-    })
-}
-
-/// Finds every critical shock of a study, into the store in `folder`. How it ended: `complete`, `budget`, `stopped`.
+/// Finds every critical shock of a study, into the store in `folder`.
 #[pyfunction]
 #[expect(
     clippy::too_many_arguments,
@@ -93,9 +79,10 @@ pub fn sweep(
     threads: usize,
     budget_s: Option<f64>,
     retry_undecided: bool,
+    reuse: Vec<PathBuf>,
     accept: Vec<String>,
     progress: Py<PyAny>,
-) -> PyResult<&'static str> {
+) -> PyResult<()> {
     or_raise(py, study_file::refuse_unaccepted(&study.study, &accept))?;
     let budget = budget_s.map(Duration::try_from_secs_f64).transpose();
     let budget = budget.map_err(|_| PyValueError::new_err("budget_s must be a time >= 0 in s"))?;
@@ -104,6 +91,7 @@ pub fn sweep(
         stop: stop.clone(),
         budget,
         retry_undecided,
+        reuse,
         ..SweepOptions::with_threads(threads)
     };
     let (function, raised) = (Arc::new(progress), Arc::new(Mutex::new(None)));
@@ -112,22 +100,18 @@ pub fn sweep(
         stop: stop.clone(),
         raised: Arc::clone(&raised),
     };
-    let work = || -> Result<Ending, Failure> {
+    let work = || -> Result<(), Failure> {
         let observer = Observer {
             progress: &|_| Box::new(caller()),
             message: &|message| caller().call(&json!({"event": "message", "message": message})),
         };
         let available = memory::available_bytes();
-        let swept = in_rounds(study.study.clone(), &folder, options, available, &observer)?;
-        Ok(swept.end.ending)
+        in_rounds(study.study.clone(), &folder, options, available, &observer)?;
+        Ok(())
     };
-    let ending = interruptible(py, &stop, work)?;
+    let ended = interruptible(py, &stop, work)?;
     if let Some(error) = raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
         return Err(error);
     }
-    Ok(match or_raise(py, ending)? {
-        Ending::Complete => "complete",
-        Ending::Budget => "budget",
-        Ending::Stopped { .. } => "stopped",
-    })
+    or_raise(py, ended)
 }

@@ -93,9 +93,10 @@ def test_free_axes(study: Study) -> None:
 
 def test_words_and_numbers_of_a_scene(study: Study) -> None:
     """A wrong ramp, a wrong sign, a width that is none."""
-    with pytest.raises(ValueError, match='ramp = "wood": must be none, rigid or deformable'):
+    with pytest.raises(ChoiceError, match='ramp = "wood", allowed: none, rigid or deformable') as caught:
         study.scene(ramp="wood", pulse_ms=2)
-    with pytest.raises(ValueError, match=r'sign = "up": must be \+ or -'):
+    assert (caught.value.faults[0].key, caught.value.faults[0].value) == ("ramp", "wood")
+    with pytest.raises(ChoiceError, match=r'sign = "up", allowed: \+ or -'):
         study.scene(ramp="none", pulse_ms=2, sign="up")
     for width in (0.0, -1.0, float("nan")):
         with pytest.raises(ChoiceError, match="pulse_ms .* finite number > 0"):
@@ -162,9 +163,32 @@ def test_damaged_stores(tmp_path: Path, study: Study, store: opshock.Store, caps
     (wrong / "journal").write_bytes(b"no journal")
     with pytest.raises(StoreError, match="E182"):
         opshock.open_store(wrong)
-    assert not opshock.sweep(study, wrong, threads=1, budget_s=0).is_complete
+    with pytest.warns(OpshockWarning, match="journal: 10 bytes at 0 are damaged"):
+        assert not opshock.sweep(study, wrong, threads=1, budget_s=0).is_complete
     assert (wrong / "journal.damaged").read_bytes() == b"no journal"
-    assert "journal: 10 bytes at 0 are damaged" in capsys.readouterr().err
+
+
+def test_what_the_user_wrote_is_quoted_as_it_is(study: Study, tmp_path: Path) -> None:
+    """Options of the command line are translated in what the program says, not in names of files and values."""
+    folder = tmp_path / "--set"
+    folder.mkdir()
+    with pytest.raises(StudyError) as caught:
+        Study(folder / "none.toml")
+    assert str(folder) in str(caught.value)
+    assert caught.value.faults[0].file == str(folder / "none.toml")
+    with pytest.raises(StudyError, match='preset = "--only-this"') as caught:
+        study.with_settings({"resolution.preset": "--only-this"})
+    assert caught.value.faults[0].value == '"--only-this"'
+
+
+def test_a_study_of_a_text_is_of_no_file(study: Study, small_toml: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It does not take over the store of a study file that happens to lie in the working directory."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "study.toml").write_text(small_toml)
+    opshock.sweep(Study("study.toml"), "swept", threads=1, budget_s=0)
+    with pytest.raises(StoreError, match="E188"):
+        opshock.sweep(Study.from_toml(small_toml.replace('"small"', '"another design"')), "swept", threads=1, budget_s=0)
+    assert len(opshock.sweep(Study("study.toml"), "swept", threads=1, budget_s=0)) == 4
 
 
 def test_a_study_without_a_verdict_is_not_swept(study: Study, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import opshock
 import pytest
@@ -168,3 +169,49 @@ def test_a_bar_of_tqdm_of_your_own(tmp_path: Path, free: opshock.Scene) -> None:
     bar = tqdm(disable=False)
     opshock.sweep(free, tmp_path / "swept", threads=1, progress=bar)
     assert (bar.n, bar.total) == (1, 1)
+
+
+def test_rounds_that_add_widths_do_not_overshoot(tmp_path: Path, small_toml: str) -> None:
+    """A bar ends where its total is, and never beyond."""
+    text = small_toml.replace('["none", "rigid"]', '["none"]').replace("[1.0, 2.0]", "[0.5, 2.0]")
+    bar = Shown()
+    swept = opshock.sweep(
+        opshock.Study.from_toml(text + "[search.added_points]\ntolerance_pct = 5.0\nclosest_pct = 1.0\nmax_points = 2\n"),
+        tmp_path / "s",
+        threads=1,
+        progress=bar,
+    )
+    assert len(swept) > 2
+    assert (bar.shown, bar.total) == (len(swept), len(swept))
+
+
+def test_a_bar_that_is_none_is_refused_before_the_sweep(tmp_path: Path, study: opshock.Study) -> None:
+    """A number is no bar."""
+    with pytest.raises(TypeError, match="progress = 1: must be True, False, or a bar"):
+        opshock.sweep(study, tmp_path / "swept", threads=1, progress=1)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    assert not (tmp_path / "swept").exists()
+
+
+def test_one_scene_is_searched_at_a_time(study: opshock.Study) -> None:
+    """A study of several points is none."""
+    searches: list[Any] = [opshock.critical_shock, opshock.Search]
+    for search in searches:
+        with pytest.raises(ValueError, match="a scene is one point, here are 4"):
+            search(study)
+
+
+class Shown:
+    """A bar that counts."""
+
+    total: int = 0
+    shown: int = 0
+
+    def update(self, n: int = 1, /) -> None:
+        self.shown += n
+        assert self.shown <= self.total
+
+    def set_postfix_str(self, s: str, /) -> None:
+        pass
+
+    def close(self) -> None:
+        pass

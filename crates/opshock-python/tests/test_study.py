@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from opshock import Scene, Study
+from opshock import Scene, Study, StudyError
 
 
 def same(typed: object, written: object, where: str) -> int:
@@ -213,3 +215,22 @@ def test_a_misspelt_setting_cannot_be_assigned(study_file: Path) -> None:
     """It would be without effect."""
     with pytest.raises(AttributeError):
         Study(study_file).thickness_mm = 0.5
+
+
+def test_names_of_any_language(small_toml: str, study: Study) -> None:
+    """Characters beyond the basic plane, quotes, and those that TOML escapes."""
+    for name in ("Laufwerk 😀", 'a "drive"', "back\\slash"):
+        named = study.with_settings({"name": name})
+        assert named.name == name
+        assert Study.from_toml(named.toml).digest == named.digest
+    with pytest.raises(StudyError, match="E159"):
+        study.with_settings({"name": "del\x7fete"})
+
+
+def test_studies_can_be_copied_and_sent(study_file: Path) -> None:
+    """To another process, with their settings."""
+    thin = Study(study_file, {"disk.thickness_mm": 0.5}).scene(ramp="rigid", pulse_ms=2)
+    again = pickle.loads(pickle.dumps(thin))
+    assert isinstance(again, Scene)
+    assert (again.digest, again.label, again.disk.thickness_mm) == (thin.digest, "rigid 2 ms +", 0.5)
+    assert copy.deepcopy(thin).with_settings({"disk.thickness_mm": 0.6}).disk.thickness_mm == 0.6

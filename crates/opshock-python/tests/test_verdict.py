@@ -121,3 +121,22 @@ def test_contributions_add_up_to_the_interval(uncertain: opshock.Store) -> None:
         assert found.failed_g is not None
         assert found.contributions["search"].high_g == pytest.approx(found.failed_g - found.survived_g, rel=1e-9)
         assert found.contributions["search"].low_g == 0.0
+
+
+@pytest.mark.parametrize(
+    ("flag", "below", "above"),
+    [
+        ("window", Verdict.UNDECIDED, Verdict.FAILS),
+        ("window_undecided", Verdict.UNDECIDED, Verdict.FAILS),
+        ("undecided_amplitude", Verdict.UNDECIDED, Verdict.FAILS),
+        ("contribution_missing", Verdict.UNDECIDED, Verdict.UNDECIDED),
+        ("safety_factor_3", Verdict.SURVIVES, Verdict.FAILS),
+        ("non_monotone", Verdict.SURVIVES, Verdict.FAILS),
+    ],
+)
+def test_flags_leave_undecided_what_qualify_does(flag: str, below: Verdict, above: Verdict) -> None:
+    """A survivor in doubt survives nothing; an interval without a contribution decides nothing."""
+    flagged = row(flags=(flag,), brackets_g=((495.0, 505.0), (900.0, 950.0)))
+    assert (flagged.at(479.0), flagged.at(500.0), flagged.at(521.0)) == (below, Verdict.UNDECIDED, above)
+    # Some shock below 900 G fails.
+    assert flagged.at(900.0) is above

@@ -90,6 +90,7 @@ pub fn simulate_all(
     std::thread::scope(|scope| {
         for _ in 0..threads.clamp(1, shocks.len().max(1)) {
             scope.spawn(|| {
+                let _end = EndOfAll(stop);
                 let mut workspace = Workspace::default();
                 while !stop.is_asked() {
                     let Some(&place) = order.get(next.fetch_add(1, Ordering::Relaxed)) else {
@@ -115,6 +116,17 @@ pub fn simulate_all(
         }
     });
     answers.into_inner().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A thread that panics stops the others.
+struct EndOfAll<'a>(&'a StopFlag);
+
+impl Drop for EndOfAll<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.ask();
+        }
+    }
 }
 
 /// What a thread that panicked left is whole: it is replaced in one step.

@@ -16,7 +16,7 @@ class Fault:
     message: str
     """What is wrong, in a sentence."""
     file: str | None = None
-    """File; ``--set`` for a setting."""
+    """File; ``settings`` for a setting."""
     line: int | None = None
     """Line in the file, from 1."""
     key: str | None = None
@@ -63,15 +63,27 @@ def _in_python(text: str) -> str:
     text = re.sub(r"--accept ([EWN]\d+)", r'accept=["\1"]', text)
     text = re.sub(r"--set ([\w.]+)=VALUE", r'settings={"\1": VALUE}', text)
     text = re.sub(r"--set\b", "settings", text)
+    text = re.sub(r"(?<![\w-])-j (\d+)", r"threads=\1", text)
+    text = re.sub(r"(?<![\w-])-j\b", "threads", text)
     return re.sub(r"(?<!\w)--([a-z]+(?:-[a-z]+)*)", lambda found: found[1].replace("-", "_"), text)
 
 
 def of(exit_code: int, message: str, faults: str) -> OpshockError:
     """The exception of a failure; called by the compiled half."""
-    said = [{key: _in_python(value) if isinstance(value, str) else value for key, value in one.items()} for one in json.loads(faults)]
-    read = tuple(record(Fault, {key: value or None for key, value in one.items()}) for one in said)
+    said = ("message", "allowed", "hint", "key")
+    read = tuple(
+        record(
+            Fault, {key: _in_python(value) if value and (key in said or value == "--set") else value or None for key, value in one.items()}
+        )
+        for one in json.loads(faults)
+    )
     kind = _BY_EXIT_CODE.get(exit_code, OpshockError)
     if kind is ChoiceError:
         parts = [[fault.message, fault.allowed and f"allowed: {fault.allowed}", fault.hint] for fault in read]
         message = "; ".join(", ".join(part for part in one if part) for one in parts)
-    return kind(_in_python(message).strip().removeprefix("error: "), read)
+    else:
+        message = re.sub(r"^--set(?=:)", "settings", message, flags=re.MULTILINE)
+        for one in json.loads(faults):
+            for key in said:
+                message = message.replace(one.get(key) or "\0", _in_python(one.get(key) or ""))
+    return kind(message.strip().removeprefix("error: "), read)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -274,8 +273,8 @@ class Run:
     """The hub, of a disk on a bearing."""
     base: Base | None = None
     """The base, when it vibrates."""
-    history: History | None = None
-    """Columns over time, when they were asked for."""
+    history: History | None = field(default=None, compare=False)
+    """Columns over time, when they were asked for; left out when runs are compared."""
 
     def _repr_html_(self) -> str:
         rows = [("verdict", "none" if self.verdict is None else self.verdict.value)]
@@ -381,7 +380,8 @@ def _run(scene: Scene, amplitude_g: float, answer: str, history: History | None 
 def simulate(scene: Scene, amplitude_g: float, *, history: bool = False) -> Run:
     """Simulates one shock of ``amplitude_g`` times standard gravity: the numbers of ``opshock run``.
 
-    With ``history`` the columns over time are kept. An amplitude has no sign: the scene's :attr:`Scene.sign` has it.
+    With ``history`` the columns over time are kept. An amplitude has no sign: the scene's :attr:`Scene.sign` has it. Ctrl-C
+    waits for the end of the simulation.
     """
     answer, kept = _native.simulate(scene._study, amplitude_g, history)
     return _run(scene, amplitude_g, answer, History(*kept) if kept else None)
@@ -393,14 +393,15 @@ def cores(threads: int | None) -> int:
         if threads < 1:
             raise ValueError(f"threads = {threads}: must be at least 1")
         return threads
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return _native.cores()
 
 
 def simulate_many(shocks: Iterable[tuple[Scene, float]], *, threads: int | None = None) -> list[Run]:
     """Simulates many shocks, pairs of scene and amplitude in multiples of standard gravity, on all cores.
 
     The answers are those of :func:`simulate`, to the bit, in the order of the shocks. Shocks of the same scene object share
-    what its simulation prepares, so that a batch of them takes less time than one by one. Ctrl-C ends it.
+    what its simulation prepares, so that a batch of them takes less time than one by one. Ctrl-C ends it, after
+    the simulations at work.
     """
     pairs = [(scene, float(amplitude)) for scene, amplitude in shocks]
     distinct = list({id(scene): scene for scene, _ in pairs}.values())

@@ -46,6 +46,8 @@ class Search:
 
     def __init__(self, scene: Scene, *, hint_g: float | None = None) -> None:
         """Begins a search; near ``hint_g``, in multiples of standard gravity, if that is given."""
+        if len(scene.points) != 1:
+            raise ValueError(f"a scene is one point, here are {len(scene.points)}: study.scene(...) gives one")
         if hint_g is not None and not hint_g > 0:
             raise ValueError(f"hint_g = {hint_g}: must be an amplitude > 0")
         self._search = _native.Search(scene._study, hint_g)

@@ -7,15 +7,17 @@ import os
 import sys
 import tempfile
 import types
+import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from . import _html, _native
+from ._errors import StoreError
 from ._records import record
 from ._run import cores
-from ._study import Scene, Study
+from ._study import OpshockWarning, Scene, Study
 from ._verdict import Verdict
 
 if TYPE_CHECKING:
@@ -71,7 +73,7 @@ class CriticalShock:
     runs: int
     """Simulations that the answer took."""
     brackets_g: tuple[tuple[float, ...], ...]
-    """Every survivor with the next higher failure: several where failure is not monotone."""
+    """Every survivor with the next higher failure, on the study's own resolution: several where failure is not monotone."""
     scanned_from_g: float | None
     """Lower end of what was searched."""
     largest_gap_pct: float | None
@@ -89,13 +91,22 @@ class CriticalShock:
         return None
 
     def at(self, amplitude_g: float) -> Verdict:
-        """Whether a shock of this amplitude is survived: undecided within the interval, and where there is none."""
+        """Whether every shock up to this amplitude is survived, as ``opshock qualify`` judges it from the interval.
+
+        Undecided within the interval, where there is none or a contribution is missing from it, and where a flag says that a
+        survivor is in doubt (``window``, ``window_undecided``, ``undecided_amplitude``).
+        """
         if not amplitude_g >= 0:
             raise ValueError(f"amplitude_g = {amplitude_g}: must be >= 0; the sign is the point's")
         interval = self.interval_g
         if interval is None or interval[0] < amplitude_g < interval[1]:
             return Verdict.UNDECIDED
-        return Verdict.SURVIVES if amplitude_g <= interval[0] else Verdict.FAILS
+        if self.uncertainty_g is not None and "contribution_missing" in self.flags:
+            return Verdict.UNDECIDED
+        if amplitude_g > interval[0]:
+            return Verdict.FAILS
+        in_doubt = {"window", "window_undecided", "undecided_amplitude"} & set(self.flags)
+        return Verdict.UNDECIDED if in_doubt else Verdict.SURVIVES
 
     def to_dict(self) -> dict[str, Any]:
         """A row of a table: axes as columns of their own, contributions left out."""
@@ -128,7 +139,7 @@ class Store(Sequence[CriticalShock]):
 
     def __init__(self, path: _Path) -> None:
         """Reads the store in a folder; also one that a sweep is working on."""
-        self._path = Path(path)
+        self._path = Path(path).resolve()
         read = json.loads(_native.open_store(path))
         table = read["table"]
         known = {field.name for field in fields(CriticalShock)} - {"axes"}
@@ -166,7 +177,7 @@ class Store(Sequence[CriticalShock]):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is wrong with the store."""
-        return tuple(": ".join(one) for one in self._read["warnings"])
+        return tuple(self._read["warnings"])
 
     @property
     def totals(self) -> Mapping[str, Any]:
@@ -183,6 +194,8 @@ class Store(Sequence[CriticalShock]):
     @property
     def study(self) -> Study:
         """The study, with every default written out."""
+        if self._read["study_toml"] is None:
+            raise StoreError(f"{self._path} does not hold its study any more")
         return Study.from_toml(self._read["study_toml"])
 
     def __len__(self) -> int:
@@ -204,12 +217,15 @@ class Store(Sequence[CriticalShock]):
         return tuple(row for row in self._rows if has(row))
 
     def runs(self) -> list[dict[str, Any]]:
-        """Every simulation of the store, as ``opshock export`` prints it: amplitude, verdict, clearance, cost."""
+        """Every simulation that the folder holds now, as ``opshock export`` prints it: amplitude, verdict, clearance, cost."""
         runs: list[dict[str, Any]] = json.loads(_native.store_runs(self._path))
         return runs
 
     def to_pandas(self) -> pd.DataFrame:
-        """The table; amplitudes in multiples of standard gravity, the program and digest in ``attrs``."""
+        """The table; amplitudes in multiples of standard gravity, the program and digest in ``attrs``.
+
+        The column ``flags`` is ``frame["flags"]``: pandas has an attribute of that name.
+        """
         import pandas as pd
 
         frame = pd.DataFrame([row.to_dict() for row in self._rows])
@@ -267,19 +283,22 @@ def sweep(
     budget_s: float | None = None,
     progress: bool | Progress = False,
     retry_undecided: bool = False,
+    reuse: Collection[_Path] = (),
     accept: Collection[str] = (),
 ) -> Store:
     """Finds the critical shock of every point of a study, on all cores, into the store in a folder.
 
     Every simulation is on the disk when it is done: called again, with the same study, it goes on where it stopped. Ctrl-C
     saves, then raises ``KeyboardInterrupt``. ``budget_s`` ends it after so many seconds: then :attr:`Store.is_complete` is
-    false. ``progress=True`` shows a bar of tqdm; a bar of your own may be given. ``accept`` are codes of warnings of the
-    study that need not stop it.
+    false. ``progress=True`` shows a bar of tqdm; a bar of your own may be given. ``reuse`` are other stores whose simulations
+    of equal content are taken. ``accept`` are codes of warnings of the study that need not stop it.
     """
     bar = _bar(study.name) if progress is True else None if progress is False else progress
+    if bar is not None and not callable(getattr(bar, "update", None)):
+        raise TypeError(f"progress = {progress!r}: must be True, False, or a bar with total, update, set_postfix_str and close")
     codes = [accept] if isinstance(accept, str) else list(accept)
     try:
-        _native.sweep(study._study, store, cores(threads), budget_s, retry_undecided, codes, _shown(bar))
+        _native.sweep(study._study, store, cores(threads), budget_s, retry_undecided, list(reuse), codes, _shown(bar))
     finally:
         if bar is not None:
             bar.close()
@@ -294,11 +313,20 @@ def critical_shock(
     progress: bool | Progress = False,
     accept: Collection[str] = (),
 ) -> CriticalShock:
-    """The critical shock of one scene, with its uncertainty interval; kept in ``store`` if one is given."""
+    """The critical shock of one scene, with its uncertainty interval; kept in ``store`` if one is given.
+
+    A store holds one study: give none that another study was swept into.
+    """
+    _only_point(scene)
     with tempfile.TemporaryDirectory() as folder:
         swept = sweep(scene, store or Path(folder) / "store", threads=threads, progress=progress, accept=accept)
         row: CriticalShock = swept[0]
         return row
+
+
+def _only_point(scene: Study) -> None:
+    if len(scene.points) != 1:
+        raise ValueError(f"a scene is one point, here are {len(scene.points)}: study.scene(...) gives one")
 
 
 def _bar(name: str) -> Progress:
@@ -311,19 +339,28 @@ def _bar(name: str) -> Progress:
 
 
 def _shown(bar: Progress | None) -> Callable[[str], None]:
-    """Receives the events of a sweep: warnings go to standard error, the rest to the bar."""
+    """Receives the events of a sweep: warnings are raised as such, messages go to standard error, the rest to the bar."""
+
+    # Rounds that add widths report all points again.
+    shown, done = 0, 0
 
     def show(text: str) -> None:
+        nonlocal shown, done
         event = json.loads(text)
         kind = event["event"]
-        if kind in ("warning", "message"):
-            print(f"{kind}: {event['message']}", file=sys.stderr)
+        if kind == "warning":
+            warnings.warn(f"{event['code']}: {event['message']}", OpshockWarning, stacklevel=2)
+        if kind == "message":
+            print(event["message"], file=sys.stderr)
         if bar is None:
             return
         if kind == "started":
-            bar.total = event["points"]
+            bar.total, done = event["points"], 0
         elif kind == "point":
-            bar.update(1)
+            done += 1
+            if done > shown:
+                shown = done
+                bar.update(1)
         elif kind == "estimate":
             left = event["left_s"]
             time = f", {left[0]:.0f} to {left[2]:.0f} s left" if left else ""

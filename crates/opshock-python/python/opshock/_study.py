@@ -22,6 +22,11 @@ class OpshockWarning(UserWarning):
     """Something in a study is doubtful: the code, and what is doubtful."""
 
 
+def _text(text: str) -> str:
+    """A text as TOML writes it."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007F")
+
+
 def _toml_value(value: Any) -> str:
     """A value as TOML writes it."""
     if hasattr(value, "tolist"):
@@ -33,9 +38,9 @@ def _toml_value(value: Any) -> str:
     if isinstance(value, float):
         return repr(value) if math.isfinite(value) else str(value)
     if isinstance(value, (str, PathLike)):
-        return json.dumps(fspath(value))
+        return _text(fspath(value))
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml_value(one)}" for key, one in value.items()) + " }"
+        return "{ " + ", ".join(f"{_text(str(key))} = {_toml_value(one)}" for key, one in value.items()) + " }"
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(_toml_value(one) for one in value) + "]"
     raise TypeError(f"{value!r}: a study holds numbers, words, truth values, lists and tables")
@@ -75,7 +80,7 @@ class Study(_keys.Study):
     @classmethod
     def from_dict(cls, settings: Mapping[str, Any], *, folder: str | PathLike[str] = "") -> Self:
         """A study of nested dictionaries: ``{"name": "mine", "disk": {"rpm": 5400.0}, ...}``."""
-        lines = [f"{json.dumps(str(key))} = {_toml_value(value)}\n" for key, value in {"study_format": 2, **settings}.items()]
+        lines = [f"{_text(str(key))} = {_toml_value(value)}\n" for key, value in {"study_format": 2, **settings}.items()]
         return cls.from_toml("".join(lines), folder=folder)
 
     @classmethod
@@ -100,6 +105,9 @@ class Study(_keys.Study):
             if remark["code"].startswith("W"):
                 message = f"{remark['code']}: {remark['key']} = {remark['value']}: {remark['message']}"
                 warnings.warn(message, OpshockWarning, stacklevel=_callers_level())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), self._study.parts())
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise FrozenInstanceError(f"cannot assign to {name!r}: with_settings() gives another study")
@@ -164,6 +172,11 @@ class Study(_keys.Study):
         axes = list(self.axes)
         rows = [[p["ramp"], p["pulse_ms"], p["sign"], *(p["axes"][axis] for axis in axes)] for p in self.__dict__["_described"]["points"]]
         return _html.table(f"{self.name}: {len(rows)} points", ["ramp", "pulse_ms", "sign", *axes], rows)
+
+
+def _restored(kind: type[Study], parts: tuple[str, str, str | None, list[str]]) -> Study:
+    """A study that was copied or came from another process."""
+    return kind._of(_native.Study.restored(*parts))
 
 
 class Scene(Study):

@@ -117,10 +117,15 @@ impl Study {
     /// Every fault of the study, up to [`fault::MAX_LISTED`], sorted by place.
     pub fn from_path(path: &Path, sets: &[SetArg]) -> Result<Self, StudyErrors> {
         let text = text_file::read_text(path).map_err(|fault| StudyErrors::from(*fault))?;
-        Self::from_text_of(text, path, sets)
+        let study = Self::from_text_of(text, path, sets)?;
+        Ok(Self {
+            file: std::fs::canonicalize(path).ok(),
+            ..study
+        })
     }
 
-    /// Reads a study from the text that the file at `path` has, or had. File paths in it start from that file's folder.
+    /// Reads a study from the text that a file at `path` would have. File paths in it start from that file's folder; the
+    /// study itself comes from no file.
     ///
     /// # Errors
     /// As [`Study::from_path`].
@@ -129,11 +134,7 @@ impl Study {
             file: path.to_path_buf(),
             folder: path.parent().map(Path::to_path_buf).unwrap_or_default(),
         };
-        let study = Self::read(text, location, sets)?;
-        Ok(Self {
-            file: std::fs::canonicalize(path).ok(),
-            ..study
-        })
+        Self::read(text, location, sets)
     }
 
     /// Reads a study from its text. File paths start from the working directory.

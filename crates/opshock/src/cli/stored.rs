@@ -156,22 +156,23 @@ pub fn results(source: &Source, console: &Console) -> Result<Results, Failure> {
 /// As [`read`].
 pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
     loaded(source, &mut |code, message| {
-        console.tell(&format!("warning: {code}: {message}"));
+        let code = code.map_or(String::new(), |code| format!("{code}: "));
+        console.tell(&format!("warning: {code}{message}"));
     })
 }
 
-/// As [`load`]; what is wrong with the store goes to `note`, code and sentence.
+/// As [`load`]; what is wrong with the store goes to `note`, code (if there is one) and sentence.
 ///
 /// # Errors
 ///
 /// As [`read`].
 pub fn loaded(
     source: &Source,
-    note: &mut dyn FnMut(&str, &str),
+    note: &mut dyn FnMut(Option<&str>, &str),
 ) -> Result<(Results, Option<String>), Failure> {
     let (mut loaded, results) = store::load(&source.folder)?;
     for (code, message) in &loaded.notes {
-        note(code, message);
+        note(Some(code), message);
     }
     let owner = owner(&mut loaded, &source.folder)?;
     source.check(&owner)?;
@@ -194,7 +195,7 @@ pub fn loaded(
                  the study that the store keeps",
                 newer(&results)
             );
-            note("newer", &message);
+            note(None, &message);
             Ok((results, owner.resolved))
         }
         (Err(error), None) => Err(error),

@@ -21,7 +21,9 @@ use std::fmt::Write as _;
 pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
     let answered = Output::TouchThreshold;
     if let Some(output) = study.outputs.iter().find(|output| **output != answered) {
-        return Err(not_answered(study, *output));
+        let message = format!("a sweep does not answer {output} without critical_shock");
+        let allowed = "critical_shock with any others, or touch_threshold alone";
+        return Err(refused(study, &message, allowed));
     }
     let plan = Plan::new(&[Output::TouchThreshold], Mode::Auto);
     let runs = study
@@ -61,18 +63,18 @@ pub fn run(study: &Study, console: &Console) -> Result<Exit, Failure> {
 ///
 /// E158.
 pub fn refuse_without_search(study: &Study) -> Result<(), Failure> {
-    match study.outputs.first() {
-        Some(output) if !study.asks_for(Output::CriticalShock) => Err(not_answered(study, *output)),
-        _ => Ok(()),
+    if study.asks_for(Output::CriticalShock) {
+        return Ok(());
     }
+    let message = "the outputs are without critical_shock: there is nothing to search";
+    Err(refused(study, message, "critical_shock with any others"))
 }
 
-fn not_answered(study: &Study, output: Output) -> Failure {
+fn refused(study: &Study, message: &str, allowed: &str) -> Failure {
     let file = study.path.display().to_string();
-    let message = format!("a sweep does not answer {output} without critical_shock");
     let mut fault = StudyError::in_file("E158", &file, message)
-        .allowed("critical_shock with any others, or touch_threshold alone")
-        .hint(format!("`opshock run` gives {output} of one shock"));
+        .allowed(allowed)
+        .hint("`opshock run` gives the outputs of one shock");
     fault.key = "outputs".to_owned();
     StudyErrors::from(fault).into()
 }
