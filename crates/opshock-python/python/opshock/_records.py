@@ -2,6 +2,7 @@
 
 import dataclasses
 import enum
+import functools
 import types
 import typing
 from collections.abc import Mapping
@@ -10,11 +11,16 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 
 
+@functools.cache
+def _types(cls: type) -> list[tuple[str, Any]]:
+    """Attributes of a dataclass with their types: found once, since that takes longer than a record."""
+    hints = typing.get_type_hints(cls)
+    return [(field.name, hints[field.name]) for field in dataclasses.fields(cls)]
+
+
 def record(cls: type[T], values: Mapping[str, Any]) -> T:
     """A dataclass of a JSON object; keys without an attribute are left out."""
-    hints = typing.get_type_hints(cls)
-    fields = dataclasses.fields(cls)  # type: ignore[arg-type]
-    return cls(**{field.name: _value(hints[field.name], values[field.name]) for field in fields if field.name in values})
+    return cls(**{name: _value(kind, values[name]) for name, kind in _types(cls) if name in values})  # type: ignore[arg-type]
 
 
 def _value(kind: Any, value: Any) -> Any:
