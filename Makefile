@@ -94,13 +94,13 @@ book: ## the book, docs/ as HTML with search, in target/book/
 	scripts/book
 
 .PHONY: verify-book
-verify-book: ## the book: its links, its pages in Chromium, and every command of its lessons prints what the page shows (15 minutes)
+verify-book: ## the book: its links, its pages in Chromium, and every command of its lessons prints what the page shows
 	@scripts/bootstrap --verify
 	scripts/book
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 the_book_ lessons_are
 
 .PHONY: wheel verify-python
-wheel: ## the Python package as a wheel with everything in it: target/wheels/ (10 minutes at first)
+wheel: ## the Python package as a wheel with everything in it: target/wheels/ (the first time it compiles HDF5)
 	@scripts/bootstrap --python
 	scripts/wheel
 

@@ -60,7 +60,7 @@ impl Search {
     /// Takes the verdict of the amplitude asked for, and the smallest clearance of its survivor, m.
     fn tell(&self, verdict: &str, min_clearance_m: Option<f64>) -> PyResult<()> {
         let mut locked = self.locked();
-        let (search, told) = &mut *locked;
+        let (search, taken) = &mut *locked;
         let Some(asked) = search.ask() else {
             let message = "the search has its answer: ask() gives None";
             return Err(PyRuntimeError::new_err(message));
@@ -92,7 +92,7 @@ impl Search {
                 )));
             }
         }
-        *told += 1;
+        *taken += 1;
         Ok(())
     }
 

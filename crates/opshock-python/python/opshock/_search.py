@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from . import _native
 from ._records import record
 from ._run import Run
-from ._study import Scene
+from ._study import Scene, only_point
 from ._verdict import Verdict
 
 
@@ -31,7 +31,7 @@ class SearchResult:
 
 
 class Search:
-    """Asks for amplitudes and is told verdicts: those of a drop table, of another program, or of many searches run together.
+    """Asks for amplitudes and receives verdicts: those of a drop table, of another program, or of many searches run together.
 
     ::
 
@@ -46,8 +46,7 @@ class Search:
 
     def __init__(self, scene: Scene, *, hint_g: float | None = None) -> None:
         """Begins a search; near ``hint_g``, in multiples of standard gravity, if that is given."""
-        if len(scene.points) != 1:
-            raise ValueError(f"a scene is one point, here are {len(scene.points)}: study.scene(...) gives one")
+        only_point(scene)
         if hint_g is not None and not hint_g > 0:
             raise ValueError(f"hint_g = {hint_g}: must be an amplitude > 0")
         self._search = _native.Search(scene._study, hint_g)

@@ -17,7 +17,7 @@ from . import _html, _native
 from ._errors import StoreError
 from ._records import record
 from ._run import cores
-from ._study import OpshockWarning, Scene, Study
+from ._study import OpshockWarning, Scene, Study, only_point
 from ._verdict import Verdict
 
 if TYPE_CHECKING:
@@ -317,16 +317,11 @@ def critical_shock(
 
     A store holds one study: give none that another study was swept into.
     """
-    _only_point(scene)
+    only_point(scene)
     with tempfile.TemporaryDirectory() as folder:
         swept = sweep(scene, store or Path(folder) / "store", threads=threads, progress=progress, accept=accept)
         row: CriticalShock = swept[0]
         return row
-
-
-def _only_point(scene: Study) -> None:
-    if len(scene.points) != 1:
-        raise ValueError(f"a scene is one point, here are {len(scene.points)}: study.scene(...) gives one")
 
 
 def _bar(name: str) -> Progress:

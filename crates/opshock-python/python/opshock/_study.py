@@ -179,14 +179,19 @@ def _restored(kind: type[Study], parts: tuple[str, str, str | None, list[str]]) 
     return kind._of(_native.Study.restored(*parts))
 
 
+def only_point(study: Study) -> None:
+    """Refuses a study that is no scene."""
+    if len(study.points) != 1:
+        axes = ", ".join(study.axes.values()) or "ramp.models, pulse.widths_ms, pulse.signs"
+        raise ValueError(f"a scene is one point, here are {len(study.points)}: choose one value of {axes}, as with study.scene()")
+
+
 class Scene(Study):
     """A study of one point: all that a simulation needs but the amplitude."""
 
     def _take(self, native: _native.Study) -> None:
         super()._take(native)
-        if len(self.points) != 1:
-            axes = ", ".join(self.axes.values()) or "ramp.models, pulse.widths_ms, pulse.signs"
-            raise ValueError(f"a scene is one point, here are {len(self.points)}: choose one value of {axes} with settings={{...}}")
+        only_point(self)
 
     @property
     def label(self) -> str:
