@@ -86,6 +86,7 @@ fn input(decides: bool) -> SweepInput {
                 discretisations: vec![Discretisation::FilmGrid],
                 film_halvings: 2,
                 mesh_halvings: 0,
+                hard_contact: false,
                 target: 0.01,
                 refinements: 3,
             });

@@ -136,6 +136,7 @@ pub fn laws_study(n: usize) -> SweepInput {
             discretisations: Discretisation::ALL.to_vec(),
             film_halvings: 3,
             mesh_halvings: 0,
+            hard_contact: false,
             target: 0.01,
             refinements: 0,
         });

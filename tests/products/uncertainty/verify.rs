@@ -213,6 +213,7 @@ fn structure(seed: u64, known: Known<'_>) -> Line {
         discretisations: vec![Discretisation::DiskModes, Discretisation::StructureStep],
         film_halvings: 0,
         mesh_halvings: 0,
+        hard_contact: false,
         target: 0.05,
         refinements: 0,
     });

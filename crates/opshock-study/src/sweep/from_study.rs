@@ -143,6 +143,7 @@ const COARSEST_FILM: usize = 60;
 
 fn uncertainty_plan(point: &Point, refinements: u8) -> UncertaintyPlan {
     let cells = point.scene.film_resolution.cells;
+    let ramp = &point.scene.ramp;
     let mut discretisations = point.scene.discretisations();
     discretisations.extend(point.remeshed.as_ref().map(|_| Discretisation::RampMesh));
     UncertaintyPlan {
@@ -155,6 +156,7 @@ fn uncertainty_plan(point: &Point, refinements: u8) -> UncertaintyPlan {
             Some(ramp) => ramp.halvings(MOST_STEPS + 1),
             None => 0,
         },
+        hard_contact: !ramp.model.is_absent() && ramp.contact_stiffness_n_per_m.is_none(),
         target: point.target_uncertainty,
         refinements,
     }

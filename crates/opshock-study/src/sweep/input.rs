@@ -19,6 +19,8 @@ pub struct UncertaintyPlan {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved.
     pub mesh_halvings: i8,
+    /// The ramp's contact has no stiffness.
+    pub hard_contact: bool,
     /// Target uncertainty, a share.
     pub target: f64,
     /// Largest number of adaptive refinements of the point.

@@ -42,6 +42,8 @@ pub struct UncertaintyInput {
     pub film_halvings: i8,
     /// Times the study's elements of the ramp's solid may be halved; 0 where there are none.
     pub mesh_halvings: i8,
+    /// The ramp's contact has no stiffness: each impact excites every disk mode.
+    pub hard_contact: bool,
     /// Target uncertainty, a share.
     pub target: f64,
 }

@@ -34,12 +34,13 @@ impl Uncertainty {
             self.flags.insert(Flag::ContributionMissing);
             return;
         };
-        let [below, above] = estimate.errors();
+        // The refined answer, over and times the ratio 1 + e that it may be wrong by.
+        let [below, above] = estimate.known;
+        let beyond = estimate.share * estimate.factor;
         self.contributions.push(Contribution {
             name,
-            // The ratio 1 + e, downwards.
-            low: below / (1.0 + below),
-            high: above,
+            low: (below + beyond) / (1.0 + beyond),
+            high: above + beyond + above * beyond,
             factor: estimate.factor,
         });
         if estimate.factor == judge::FACTOR_NO_ORDER

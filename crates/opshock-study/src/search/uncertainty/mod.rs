@@ -15,8 +15,8 @@
 //! The ratio r is the observed one, R = (A(0) - A(-1)) / (A(1) - A(0)), at most the formal one. Up to the formal one over √2
 //! it is not observed, and r is formal. If R > 1 there, factor times e is at least 1.25 \|A(0) - A(1)\| / (max(R, 1.25) - 1).
 //! Of two brackets the largest distance counts. The scene is coarsened first, which is cheap. It is refined by a step or two
-//! while the contribution exceeds a quarter of the target (`pieces`, `judge`). With A(2) the known part is \|A(0) - A(2)\|,
-//! and e follows from the last two.
+//! while the contribution exceeds a quarter of the target (`pieces`, `judge`), and by one at least for disk modes that a
+//! contact without stiffness excites. With A(2) the known part is \|A(0) - A(2)\|, and e follows from the last two.
 //!
 //! Parameters are changed in groups: tolerances of the head; modes of the suspension; modes and time step of disk and ramp;
 //! the mesh of a ramp; the grid of the film's defect correction; the film's grid. One is changed alone only where its group

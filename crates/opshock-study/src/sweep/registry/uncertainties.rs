@@ -295,6 +295,7 @@ pub(in crate::sweep) fn interval_input(
         discretisations: plan.discretisations.clone(),
         film_halvings: plan.film_halvings,
         mesh_halvings: plan.mesh_halvings,
+        hard_contact: plan.hard_contact,
         target: plan.target,
     })
 }

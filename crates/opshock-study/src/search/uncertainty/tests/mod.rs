@@ -108,6 +108,7 @@ impl Law {
             discretisations: Discretisation::ALL.to_vec(),
             film_halvings,
             mesh_halvings: 0,
+            hard_contact: false,
             target: 0.01,
         };
         (input, search.amplitude_g(survivor))
