@@ -5,38 +5,48 @@ import enum
 import functools
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 T = TypeVar("T")
 
 
+Converter = Callable[[Any], Any]
+
+
 @functools.cache
-def _types(cls: type) -> list[tuple[str, Any]]:
-    """Attributes of a dataclass with their types: found once, since that takes longer than a record."""
+def _attributes(cls: type) -> list[tuple[str, Converter | None]]:
+    """Attributes of a dataclass with what converts their JSON values: found once, since that takes longer than a record."""
     hints = typing.get_type_hints(cls)
-    return [(field.name, hints[field.name]) for field in dataclasses.fields(cls)]
+    return [(field.name, _converter(hints[field.name])) for field in dataclasses.fields(cls)]
 
 
 def record(cls: type[T], values: Mapping[str, Any]) -> T:
     """A dataclass of a JSON object; keys without an attribute are left out."""
-    return cls(**{name: _value(kind, values[name]) for name, kind in _types(cls) if name in values})  # type: ignore[arg-type]
+    known = [(name, convert) for name, convert in _attributes(cls) if name in values]  # type: ignore[arg-type]
+    return cls(**{name: convert(values[name]) if convert else values[name] for name, convert in known})
 
 
-def _value(kind: Any, value: Any) -> Any:
-    if value is None:
-        return None
-    if typing.get_origin(kind) in (types.UnionType, typing.Union):
-        kinds = [one for one in typing.get_args(kind) if one is not type(None)]
-        if isinstance(value, list):
-            kinds = [one for one in kinds if typing.get_origin(one) is tuple] or kinds
-        return _value(kinds[0], value)
-    if typing.get_origin(kind) is tuple:
-        return tuple(_value(typing.get_args(kind)[0], one) for one in value)
-    if typing.get_origin(kind) in (Mapping, dict):
-        return types.MappingProxyType({key: _value(typing.get_args(kind)[1], one) for key, one in value.items()})
-    if isinstance(kind, type) and dataclasses.is_dataclass(kind) and isinstance(value, Mapping):
-        return record(kind, value)
+def _converter(kind: Any) -> Converter | None:
+    """What makes a value of this type of its JSON; ``None`` where it is the JSON value itself."""
+    origin, inner = typing.get_origin(kind), typing.get_args(kind)
+    if origin in (types.UnionType, typing.Union):
+        kinds = [one for one in inner if one is not type(None)]
+        listed = [one for one in kinds if typing.get_origin(one) is tuple] or kinds
+        of_list, of_other = _each(listed[0]), _each(kinds[0])
+        return lambda value: of_list(value) if isinstance(value, list) else of_other(value)
+    if origin is tuple:
+        convert = _each(inner[0])
+        return lambda value: None if value is None else tuple(map(convert, value))
+    if origin in (Mapping, dict):
+        convert = _each(inner[1])
+        return lambda value: None if value is None else types.MappingProxyType({key: convert(one) for key, one in value.items()})
+    if isinstance(kind, type) and dataclasses.is_dataclass(kind):
+        return lambda value: record(kind, value) if isinstance(value, Mapping) else value
     if isinstance(kind, type) and issubclass(kind, enum.Enum):
-        return kind(value)
-    return value
+        return lambda value: None if value is None else kind(value)
+    return None
+
+
+def _each(kind: Any) -> Converter:
+    return _converter(kind) or (lambda value: value)
