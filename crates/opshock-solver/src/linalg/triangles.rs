@@ -16,6 +16,7 @@
 use super::diagonals::Band;
 use super::entry::Entry;
 use crate::lanes::{Simd, WithSimd, widest};
+use std::ops::{Deref, DerefMut};
 
 /// Rows solved together.
 const ROWS: usize = 16;
@@ -26,8 +27,32 @@ const ABREAST: usize = 4;
 /// Sums a block's columns are spread over.
 const SUMS: usize = 4;
 
-/// Sixteen numbers of a column.
-type Column<E> = [E; ROWS];
+/// Sixteen numbers of a column; none shares a cache line with another's.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Column<E>([E; ROWS]);
+
+impl<E: Entry> Column<E> {
+    fn zeros() -> Self {
+        Self([E::ZERO; ROWS])
+    }
+}
+
+impl<E> Deref for Column<E> {
+    type Target = [E; ROWS];
+
+    #[inline(always)]
+    fn deref(&self) -> &[E; ROWS] {
+        &self.0
+    }
+}
+
+impl<E> DerefMut for Column<E> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [E; ROWS] {
+        &mut self.0
+    }
+}
 
 /// Both triangles of a banded factorisation.
 #[derive(Clone, Debug)]
@@ -51,8 +76,8 @@ impl<E: Entry> Triangles<E> {
         Self {
             n,
             band,
-            lower: vec![[E::ZERO; ROWS]; blocks * (band.below + ROWS)],
-            upper: vec![[E::ZERO; ROWS]; blocks * (band.above + ROWS)],
+            lower: vec![Column::zeros(); blocks * (band.below + ROWS)],
+            upper: vec![Column::zeros(); blocks * (band.above + ROWS)],
             outside: [band.below, band.above]
                 .map(|columns| vec![E::ZERO; ROWS * columns.next_multiple_of(ABREAST)]),
             x: vec![E::ZERO; blocks * ROWS],
@@ -81,9 +106,9 @@ impl<E: Entry> Triangles<E> {
             let first = block * ROWS;
             let (lower_outside, lower_own) = lower.split_at_mut(below);
             let (upper_own, upper_outside) = upper.split_at_mut(ROWS);
-            let mut unit = [[E::ZERO; ROWS]; ROWS];
-            let mut full = [[E::ZERO; ROWS]; ROWS];
-            let mut inverse = [E::ONE; ROWS];
+            let mut unit = [Column::zeros(); ROWS];
+            let mut full = [Column::zeros(); ROWS];
+            let mut inverse = Column([E::ONE; ROWS]);
             // Entries of these rows beyond the band are zero from the start.
             let n_rows = ROWS.min(n - first);
             before[n_rows * strides[0]..].fill(E::ZERO);
@@ -178,7 +203,7 @@ fn inverse_of_upper<E: Entry, S: Simd>(
     let mut out = identity();
     for c in 0..ROWS {
         let mut source = out[c];
-        for v in &mut source {
+        for v in source.iter_mut() {
             *v = *v * inverse_diagonal[c];
         }
         out[c] = source;
@@ -190,7 +215,7 @@ fn inverse_of_upper<E: Entry, S: Simd>(
 }
 
 fn identity<E: Entry>() -> [Column<E>; ROWS] {
-    let mut out = [[E::ZERO; ROWS]; ROWS];
+    let mut out = [Column::zeros(); ROWS];
     for (k, row) in out.iter_mut().enumerate() {
         row[k] = E::ONE;
     }
@@ -234,7 +259,7 @@ fn less_products_abreast<E: Entry, S: Simd>(
     rows: &[E],
     first: usize,
 ) -> [Column<E>; ABREAST] {
-    let mut sums = [[E::ZERO; ROWS]; ABREAST];
+    let mut sums = [Column::zeros(); ABREAST];
     for (column, row) in columns.iter().zip(rows.chunks_exact(rows.len() / ROWS)) {
         let factors = &row[first..first + ABREAST];
         for (sum, factor) in sums.iter_mut().zip(factors) {
@@ -248,7 +273,10 @@ fn less_products_abreast<E: Entry, S: Simd>(
 #[inline(always)]
 fn subtract<E: Entry, S: Simd>(simd: S, row: &mut Column<E>, factor: E, source: &Column<E>) {
     let factor = (-factor).splat(simd);
-    for (row, source) in E::cut_mut::<S>(row).iter_mut().zip(E::cut::<S>(source)) {
+    for (row, source) in E::cut_mut::<S>(row.as_mut_slice())
+        .iter_mut()
+        .zip(E::cut::<S>(source.as_slice()))
+    {
         *row = E::multiply_add(simd, factor, *source, *row);
     }
 }
@@ -301,7 +329,7 @@ impl<E: Entry> Solve<'_, E> {
             let mut sum = BlockSum::<E, S, V>::of_far(simd, far, x_far);
             sum.add_all(simd, own, rows);
             sum.add_all(simd, near, x_near);
-            rows.copy_from_slice(&sum.total(simd));
+            rows.copy_from_slice(sum.total(simd).as_slice());
         }
         for (block, columns) in upper.chunks_exact(above + ROWS).enumerate().rev() {
             let first = block * ROWS;
@@ -316,7 +344,7 @@ impl<E: Entry> Solve<'_, E> {
             for (columns, x) in near.zip(x_near).rev() {
                 sum.add(simd, columns, x);
             }
-            rows.copy_from_slice(&sum.total(simd));
+            rows.copy_from_slice(sum.total(simd).as_slice());
         }
     }
 }
@@ -339,7 +367,7 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
     #[inline(always)]
     fn add_one(&mut self, simd: S, s: usize, column: &Column<E>, x: E) {
         let x = x.splat(simd);
-        for (sum, part) in self.0[s].iter_mut().zip(E::cut::<S>(column)) {
+        for (sum, part) in self.0[s].iter_mut().zip(E::cut::<S>(column.as_slice())) {
             *sum = E::multiply_add(simd, *part, x, *sum);
         }
     }
@@ -364,8 +392,8 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
     #[inline(always)]
     fn total(self, simd: S) -> Column<E> {
         let [a, b, c, d] = self.0;
-        let mut out = [E::ZERO; ROWS];
-        for (v, out) in E::cut_mut::<S>(&mut out).iter_mut().enumerate() {
+        let mut out = Column::zeros();
+        for (v, out) in E::cut_mut::<S>(out.as_mut_slice()).iter_mut().enumerate() {
             *out = E::add(simd, E::add(simd, a[v], b[v]), E::add(simd, c[v], d[v]));
         }
         out
