@@ -93,11 +93,15 @@ book: ## the book, docs/ as HTML with search, in target/book/
 	@scripts/bootstrap --python
 	scripts/book
 
+.PHONY: manual
+manual: build ## the verification manual, docs/verification-manual.md, from the physics tests (minutes; needs python3)
+	scripts/manual
+
 .PHONY: verify-book
-verify-book: ## the book: its links, its pages in Chromium, and every command of its lessons prints what the page shows
+verify-book: wheel ## the book: its links, its pages in Chromium, every command of its lessons prints what the page shows, and those of all other pages run
 	@scripts/bootstrap --verify
 	scripts/book
-	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 the_book_ lessons_are
+	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture --test-threads=1 the_book_ lessons_are commands_of
 
 .PHONY: wheel verify-python
 wheel: ## the Python package as a wheel with everything in it: target/wheels/ (the first time it compiles HDF5)

@@ -108,7 +108,7 @@ fn main() {
 
 fn pairs() {
     println!(
-        "| question | one shock, planned | full | ratio | further shock, planned | full | ratio |"
+        "| question | one shock, reduced | full | ratio | further shock, reduced | full | ratio |"
     );
     println!("|---|---|---|---|---|---|---|");
     compare(

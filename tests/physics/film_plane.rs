@@ -4,6 +4,7 @@
 use opshock_solver::air_bearing::FlowModel;
 use opshock_tests::digests::assert_digest;
 use opshock_tests::films::{Held, PlaneSlider, crowded, crowded_twice, model, uniform};
+use opshock_tests::sheet::at_most;
 use opshock_tests::{number, reference};
 
 fn richardson(coarse: f64, fine: f64) -> f64 {
@@ -33,13 +34,28 @@ fn wide_plane_slider_reaches_the_ode_solution_with_order_two() {
         let (load, centre) = (number(&case["W"]), number(&case["Xcp"]));
         all.extend([&a, &b, &c].map(|row| row.load));
         let found = richardson(b.load, c.load);
-        assert!((found / load - 1.0).abs() < 1e-5, "{case}: {found}");
+        at_most(
+            "plane-slider",
+            "relative error of the load, extrapolated from 128 and 256 cells",
+            (found / load - 1.0).abs(),
+            1e-5,
+        );
         let found = richardson(b.centre, c.centre);
-        assert!((found / centre - 1.0).abs() < 2e-5, "{case}: {found}");
+        at_most(
+            "plane-slider",
+            "relative error of the centre of pressure, likewise",
+            (found / centre - 1.0).abs(),
+            2e-5,
+        );
         // Where the leading coefficient all but vanishes there is no order to speak of.
         if bearing_number <= 100.0 && (c.load / load - 1.0).abs() > 3e-6 {
             let order = ((a.load - b.load) / (b.load - c.load)).abs().log2();
-            assert!((order - 2.0).abs() < 0.15, "{case}: order {order}");
+            at_most(
+                "plane-slider",
+                "distance of the order of convergence from 2",
+                (order - 2.0).abs(),
+                0.15,
+            );
         }
     }
     assert_digest("reference plane_slider_1d", &all);
@@ -101,25 +117,24 @@ fn hard_c2_limits_of_the_bearing_number_and_no_new_extrema() {
         &slow.each_ref().map(|row| row.load),
     );
     let expected = number(&limits["W_over_Lambda_zero"]);
-    assert!(
-        (slow[0].load / 1e-4 / expected - 1.0).abs() < 1e-3,
-        "{}",
-        slow[0].load
-    );
-    assert!(
-        (slow[1].load / 1e-2 / expected - 1.0).abs() < 1e-3,
-        "{}",
-        slow[1].load
-    );
+    for (slow, bearing_number) in slow.iter().zip([1e-4, 1e-2]) {
+        at_most(
+            "bearing-number-limits",
+            "relative error of load over bearing number, at 1e-4 and 1e-2",
+            (slow.load / bearing_number / expected - 1.0).abs(),
+            1e-3,
+        );
+    }
 
     let expected = number(&limits["W_infinite"]);
     for bearing_number in [1e4, 1e5, 1e6, 1e7] {
         let held = hold(bearing_number);
         let tolerance = 5.0 / bearing_number + 2e-6;
-        assert!(
-            (held.load / expected - 1.0).abs() < tolerance,
-            "{}",
-            held.load
+        at_most(
+            "bearing-number-limits",
+            "relative error of the load from 1e4 to 1e7, of 5/Λ + 2e-6",
+            (held.load / expected - 1.0).abs() / tolerance,
+            1.0,
         );
         let x = crowded(512, 4.0);
         for (i, p) in held.pressure.iter().enumerate() {
@@ -155,16 +170,18 @@ fn square_plane_slider_reaches_its_richardson_value() {
         let load = number(&case["W_richardson"][0]);
         all.extend([coarse.load, fine.load]);
         let found = richardson(coarse.load, fine.load);
-        assert!(
-            (found / load - 1.0).abs() < 1e-4,
-            "{case}: {}",
-            found / load - 1.0
+        at_most(
+            "square-slider",
+            "relative error of the load, extrapolated",
+            (found / load - 1.0).abs(),
+            1e-4,
         );
         let centre = number(&case["Xcp_richardson"][0]);
-        assert!(
-            (fine.centre / centre - 1.0).abs() < 1e-4,
-            "{case}: {}",
-            fine.centre
+        at_most(
+            "square-slider",
+            "relative error of the centre of pressure on the finer grid",
+            (fine.centre / centre - 1.0).abs(),
+            1e-4,
         );
     }
     assert_digest("reference plane_slider_square", &all);

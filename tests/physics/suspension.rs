@@ -3,6 +3,7 @@
 //! trusted to 0.5 %) and against relations it must obey.
 
 use opshock_solver::suspension::{BeamMatrices, ReducedSuspension, SuspensionError};
+use opshock_tests::sheet::at_most;
 use opshock_tests::suspensions::{default_suspension, paper_suspension};
 use serde_json::Value;
 
@@ -23,6 +24,10 @@ fn default_set_reproduces_independent_elements() {
     let reference = reference();
     let number = |key: &str| reference[key].as_f64().expect("number");
     let list = |key: &str, i: usize| reference[key][i].as_f64().expect("number");
+    let assert_close = |what: &str, found: f64, wanted: f64, relative: f64| {
+        let what = format!("relative difference: {what}");
+        at_most("suspension", &what, (found / wanted - 1.0).abs(), relative);
+    };
     let model = ReducedSuspension::build(&default_suspension(), 4).expect("builds");
     assert_close("mass", model.mass_kg, number("mass_total_kg"), 1e-9);
     let stiffness = model.dimple_stiffness_n_per_m();

@@ -10,6 +10,7 @@ use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{Bearing, Model, Request, Verdict, Workspace, simulate};
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_tests::heads::{default_slider, standard_gas};
+use opshock_tests::sheet::at_most;
 
 const ON: ViscousShear = ViscousShear { is_on: true };
 const FLOOR_M: f64 = 0.3e-9;
@@ -90,7 +91,12 @@ fn viscous_shear_of_parallel_plates() {
                 let drag = gas.viscosity_pa_s * speed * slider.length_m * slider.width_m
                     / (h + 2.0 * slip * gas.mean_free_path_m);
                 let [along, outward] = load.in_plane_n.unwrap();
-                assert!((along / drag - 1.0).abs() < 1e-12, "{along} {drag}");
+                at_most(
+                    "viscous-shear",
+                    "relative error of the drag, parallel plates",
+                    (along / drag - 1.0).abs(),
+                    1e-12,
+                );
                 assert!(outward.abs() < 1e-12 * drag, "{outward}");
                 let [force, pitch, roll] = load.force;
                 let (x, y) = (drag * skew_rad.cos(), drag * skew_rad.sin());
@@ -151,7 +157,12 @@ fn viscous_shear_of_a_wedge_in_closed_form() {
     };
     let errors = [20, 40, 80].map(error);
     for (n, error) in [20.0, 40.0, 80.0].into_iter().zip(errors) {
-        assert!(error < 1.0 / (n * n), "{n} cells: {error:e}");
+        at_most(
+            "viscous-shear",
+            &format!("relative error of the drag under a wedge's pressure, {n} cells"),
+            error,
+            1.0 / (n * n),
+        );
     }
     let order = (errors[1] / errors[2]).log2();
     assert!((order - 2.0).abs() < 0.1, "{errors:?}");

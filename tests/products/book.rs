@@ -1,45 +1,104 @@
-//! Pages of the book that a reader follows command by command: each is replayed in an empty folder, and every line shown
-//! behind a command must be in its output.
+//! Commands of the book. Pages that a reader follows line by line are replayed, and every line shown behind a command must be in
+//! its output; the commands of all others run.
 
 use crate::cli::OPSHOCK;
 use opshock_tests::program::program;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
 
-/// The program's path as pages write it.
-const PROGRAM: &str = "target/release/opshock ";
-
-/// Standard output of a page's command in `folder`, by a shell.
-fn printed(folder: &Path, command: &str) -> String {
-    let command = command.replace(PROGRAM, &format!("{OPSHOCK} "));
-    let mut shell = program("sh");
-    let done = shell.args(["-ec", &command]).current_dir(folder);
-    let done = done.env_remove("COLUMNS").output().unwrap();
-    // Exit code 4: some points are open, which the output says.
-    let errors = String::from_utf8(done.stderr).unwrap();
-    assert!(
-        [Some(0), Some(4)].contains(&done.status.code()),
-        "{command}\n{errors}"
-    );
-    String::from_utf8(done.stdout).unwrap()
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    root.canonicalize().unwrap()
 }
+
+fn page(name: &str) -> String {
+    fs::read_to_string(root().join(name)).unwrap()
+}
+
+/// Blocks of a page: kind and text.
+fn blocks(page: &str) -> impl Iterator<Item = (&str, &str)> {
+    let blocks = page.split("```").skip(1).step_by(2);
+    blocks.map(|block| block.split_once('\n').unwrap())
+}
+
+/// A folder as a reader has it: the source tree's documents and studies, programs, the drive of the first lesson.
+struct Reader(tempfile::TempDir);
+
+impl Reader {
+    /// With these lines the program is run.
+    fn new(opshock: &str) -> Reader {
+        let at = tempfile::tempdir().unwrap();
+        symlink(root().join("tests"), at.path().join("tests")).unwrap();
+        // Commands write beside a study.
+        for folder in ["docs", "studies"] {
+            let mut copy = program("cp");
+            let done = copy.arg("-r").arg(root().join(folder)).arg(at.path());
+            assert!(done.status().unwrap().success());
+        }
+        let bin = at.path().join("target/release");
+        fs::create_dir_all(&bin).unwrap();
+        for (name, text) in [("opshock", opshock), ("make", MAKE), ("sbatch", SBATCH)] {
+            let text = format!(
+                "#!/bin/bash\nPROGRAM={OPSHOCK} ROOT={}\n{text}",
+                root().display()
+            );
+            fs::write(bin.join(name), text).unwrap();
+            let executable = fs::Permissions::from_mode(0o755);
+            fs::set_permissions(bin.join(name), executable).unwrap();
+        }
+        let reader = Reader(at);
+        reader.printed("opshock new > my-drive.toml");
+        reader
+    }
+
+    /// Standard output of commands, by a shell.
+    fn printed(&self, commands: &str) -> String {
+        let path = format!(
+            "{}/target/release:{}",
+            self.0.path().display(),
+            std::env::var("PATH").unwrap()
+        );
+        let mut shell = program("bash");
+        let done = shell.args(["-ec", commands]).current_dir(self.0.path());
+        let done = done
+            .env("PATH", path)
+            .env_remove("COLUMNS")
+            .output()
+            .unwrap();
+        let errors = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.success(), "{commands}\n{errors}");
+        String::from_utf8(done.stdout).unwrap()
+    }
+}
+
+/// As it is called. Exit code 4: some points are open, which the output says.
+const AS_CALLED: &str = r#""$PROGRAM" "$@" || { code=$?; [ $code = 4 ] || exit $code; }"#;
+
+/// What can take hours ends after a minute (exit code 5) unless it is done; a requirement may be failed (8).
+const A_MINUTE: &str = r#"case "$1" in
+  sweep | match | worth | yield | qualify) budget="--budget 1m" ;;
+esac
+case "$*" in *--budget*) set -- "${@/#7h30m/1m}" && set -- "${@/#8h/1m}" && budget= ;; esac
+"$PROGRAM" "$@" $budget || { code=$?; case $code in 4 | 5 | 8) ;; *) exit $code ;; esac; }"#;
+
+/// Whether the target is there: what it does has a time of its own.
+const MAKE: &str = r#"exec /usr/bin/make -n -C "$ROOT" "$@""#;
+
+/// The tasks of an array job one after the other; `slurm.rs` submits to a Slurm.
+const SBATCH: &str = r#"for task in 1 2 3 4; do SLURM_ARRAY_TASK_ID=$task bash "$1"; done"#;
 
 /// Replays a page; the number of its commands.
 fn replay(name: &str) -> usize {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../docs")
-        .join(name);
-    let page = std::fs::read_to_string(page).unwrap();
-    let at = tempfile::tempdir().unwrap();
-    // Later lessons go on with the drive of the first.
-    printed(at.path(), &format!("{PROGRAM}new > my-drive.toml"));
+    let page = page(name);
+    let reader = Reader::new(AS_CALLED);
     let mut output = String::new();
     let mut n_commands = 0;
-    for block in page.split("```").skip(1).step_by(2) {
-        let (kind, text) = block.split_once('\n').unwrap();
+    for (kind, text) in blocks(&page) {
         match kind {
-            "sh" if text.starts_with(PROGRAM) => {
-                output = printed(at.path(), text);
+            "sh" if text.starts_with("target/release/opshock ") => {
+                output = reader.printed(text);
                 n_commands += 1;
             }
             "text" => {
@@ -48,16 +107,62 @@ fn replay(name: &str) -> usize {
                     assert!(lines.contains(line), "{name}: {line}\n{output}");
                 }
             }
-            "toml" => std::fs::write(at.path().join("tolerances.toml"), text).unwrap(),
+            "toml" => fs::write(reader.0.path().join("tolerances.toml"), text).unwrap(),
             _ => {}
         }
     }
     n_commands
 }
 
+/// What a reader has before a page's first command.
+fn prepared(name: &str) -> &'static str {
+    match name {
+        "docs/import.md" => {
+            "cp tests/reference/cml_decks/susp_* tests/reference/calculix/arm.* .
+             cp tests/reference/cml_decks/rail_own_rectangular_abs.dat rail.dat
+             cp tests/reference/cml_decks/dynluls_shock_400G_2ms_rigid.def DynLULS.def
+             cp tests/bad_inputs/imports/cmlair/sound.run.dat run.dat
+             opshock import matrices --mass arm.mas --stiffness arm.sti --dof arm.dof --units mm_n --contact 12.3 --out arm-si
+             cp arm-si/mass.mtx arm.mass.mtx
+             cp arm-si/stiffness.mtx arm.stiffness.mtx"
+        }
+        "docs/match.md" => "cp studies/paper-cases/study.toml .\ncp studies/paper-cases/match.toml ramp.match.toml",
+        "docs/qualify.md" => "cp studies/qualify/operating.toml spec.toml",
+        _ => "",
+    }
+}
+
+/// Runs the commands of a page; the number of its blocks.
+fn run(name: &str) -> usize {
+    let wheels = || {
+        fs::read_dir(root().join("target/wheels"))
+            .into_iter()
+            .flatten()
+    };
+    let reader = Reader::new(A_MINUTE);
+    reader.printed(prepared(name));
+    let mut n_blocks = 0;
+    for (kind, text) in blocks(&page(name)) {
+        // The address is the reader's.
+        if kind != "sh" || text.starts_with("git clone URL") {
+            continue;
+        }
+        let mut text = text.to_string();
+        if text.contains("/path/to/opshock-") {
+            let wheel = wheels().next().expect("make wheel").unwrap().path();
+            let (before, behind) = text.split_once("/path/to/").unwrap();
+            let (_, behind) = behind.split_once(".whl").unwrap();
+            text = format!("{before}{}{behind}", wheel.display());
+        }
+        reader.printed(&format!("{text}\nwait"));
+        n_blocks += 1;
+    }
+    n_blocks
+}
+
 #[test]
 fn the_first_shock_is_as_its_page_shows_it() {
-    assert_eq!(replay("first-shock.md"), 7);
+    assert_eq!(replay("docs/first-shock.md"), 7);
 }
 
 /// The five lessons: some ten minutes of a core.
@@ -71,7 +176,34 @@ fn lessons_are_as_their_pages_show_them() {
         ("trusting-the-number", 7),
         ("design-decision", 8),
     ] {
-        assert_eq!(replay(&format!("lessons/{name}.md")), n_commands, "{name}");
+        assert_eq!(
+            replay(&format!("docs/lessons/{name}.md")),
+            n_commands,
+            "{name}"
+        );
         println!("{name}: {n_commands} commands print what the page shows");
     }
+}
+
+/// All other pages, each for itself: some twenty minutes of two cores.
+#[test]
+#[ignore = "make verify-book"]
+fn commands_of_all_pages_run() {
+    let mut pages = vec!["README.md".to_string()];
+    for file in fs::read_dir(root().join("docs")).unwrap() {
+        let name = file.unwrap().file_name().into_string().unwrap();
+        if name.ends_with(".md") && !["first-shock.md", "commands.md"].contains(&name.as_str()) {
+            pages.push(format!("docs/{name}"));
+        }
+    }
+    pages.sort();
+    let mut n_blocks = 0;
+    for name in pages {
+        let own = run(&name);
+        n_blocks += own;
+        if own > 0 {
+            println!("{name}: the commands of {own} blocks run");
+        }
+    }
+    assert_eq!(n_blocks, 53);
 }

@@ -87,7 +87,7 @@ fn explain_measures_on_request() {
     let json = program(folder.path(), "explain", &arguments).json();
     let cost = &json["scenes"][0]["cost"];
     let number = |key: &str| cost[key].as_f64().unwrap();
-    let saved = 1.0 - number("planned_s") / number("full_s");
+    let saved = 1.0 - number("reduced_s") / number("full_s");
     assert!((number("saved_share") - saved).abs() < 1e-12, "{cost}");
     let done = program(folder.path(), "explain", &["--measure"]);
     assert_eq!(done.code, 2, "a measurement needs a shock");
@@ -153,7 +153,7 @@ fn a_steady_attitude_needs_no_moving_head() {
 }
 
 #[test]
-fn a_sweep_in_full_gives_the_planned_critical_shocks() {
+fn the_full_model_gives_the_critical_shocks_of_the_reduced_one() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = |effects: &str| {
         let store = format!("{effects}.opshock");

@@ -368,12 +368,12 @@ fn steady_and_run_fly_alike() {
 fn skews_of_either_sign_fly_alike() {
     let folder = tempfile::tempdir().unwrap();
     new_study(folder.path());
-    for (accuracy, skew) in [("coarse", "8"), ("standard", "5")] {
-        let accuracy = format!("resolution.preset={accuracy}");
+    for (preset, skew) in [("coarse", "8"), ("standard", "5")] {
+        let preset = format!("resolution.preset={preset}");
         let [one, other] = ["", "-"].map(|sign| {
             let skew = format!("slider.skew_deg={sign}{skew}");
             let arguments = [
-                "steady", "s.toml", "--json", "--set", &accuracy, "--set", &skew,
+                "steady", "s.toml", "--json", "--set", &preset, "--set", &skew,
             ];
             let steady = Done::of(folder.path(), &arguments).json();
             let number = |key: &str| steady[key].as_f64().expect("a number");

@@ -266,7 +266,7 @@ fn the_page_says_what_uncertainties_are_made_of_and_what_accuracy_costs() {
     assert_eq!(page.matches(">Accuracy</h2>").count(), 1);
     // 1 % and 2 % of 366.25 G, the second with safety factor 3.
     assert!(page.contains("<td class=\"n\">1.00</td>"));
-    assert!(page.contains("<td class=\"n\">2.00 x3</td>"));
+    assert!(page.contains("<td class=\"n\">2.00 SF 3</td>"));
     assert!(page.contains("aria-label=\"Error against time, rigid 0.5 ms +\""));
     assert!(page.contains("<td><strong>coarse</strong></td>"));
     assert!(page.contains("<td>standard</td>"));

@@ -162,3 +162,34 @@ fn results_are_of_todays_studies_and_of_the_committed_table() {
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// The verification manual has today's physics, and a sheet and figures for each case that tests/physics/sheets.toml words.
+#[test]
+fn the_verification_manual_is_of_todays_sheets() {
+    let read = |path: &Path| std::fs::read_to_string(path).unwrap();
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = read(&tests.join("../docs/verification-manual.md"));
+    assert_eq!(fault("verification-manual.md", &page), None);
+    let words: toml::Table = read(&tests.join("physics/sheets.toml")).parse().unwrap();
+    let files = std::fs::read_dir(tests.join("physics")).unwrap();
+    let sources: String = files.map(|file| read(&file.unwrap().path())).collect();
+    let sheets = words["sheet"].as_array().unwrap();
+    assert_eq!(page.matches("\n### ").count(), sheets.len());
+    for sheet in sheets {
+        let [name, title, problem, at] =
+            ["name", "title", "problem", "at"].map(|key| sheet[key].as_str().unwrap());
+        let own = page.split("\n### ").find(|own| own.starts_with(title));
+        let own = own.unwrap_or_else(|| panic!("{title}: no sheet; `make manual`"));
+        assert!(
+            own.contains(problem),
+            "{title}: `make manual` makes it anew"
+        );
+        assert!(
+            sources.contains(&format!("\"{name}\",")),
+            "{name}: no test has it"
+        );
+        let (file, test) = at.split_once("::").unwrap();
+        let source = read(&tests.join(format!("physics/{file}.rs")));
+        assert!(source.contains(&format!("fn {test}")), "{at}: no such test");
+    }
+}

@@ -12,6 +12,7 @@ pub mod refined;
 pub mod runge_kutta;
 pub mod scenes;
 pub mod seeded;
+pub mod sheet;
 pub mod tables;
 pub mod timing;
 

@@ -37,7 +37,7 @@ def test_an_invalid_value(small_toml: str, tmp_path: Path) -> None:
     assert "E130 disk.thickness_mm = -1: must be > 0" in str(caught.value)
 
 
-def test_all_faults_are_told(study: Study) -> None:
+def test_all_faults_are_reported(study: Study) -> None:
     """Three wrong settings, three faults; the key of each."""
     wrong = {"disk.thicknes_mm": 0.5, "dsk.rpm": 1.0, "disk.poisson": "much"}
     with pytest.raises(StudyError) as caught:
@@ -123,7 +123,7 @@ def test_a_study_of_several_points_is_not_simulated(study: Study) -> None:
 
 
 def test_a_slider_that_cannot_fly(study: Study) -> None:
-    """A disk that hardly turns carries nothing: told with the load that it would carry."""
+    """A disk that hardly turns carries nothing: reported with the load that it would carry."""
     settings = {"disk.rpm": 50.0, "resolution.film_cells": 50, "resolution.film_correction_cells": 50}
     with pytest.warns(OpshockWarning, match="^W201.*rev/min"):
         scene = study.scene(ramp="none", pulse_ms=2, settings=settings)

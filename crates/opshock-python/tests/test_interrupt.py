@@ -31,7 +31,7 @@ except KeyboardInterrupt:
 
 
 class Bar:
-    """Counts what a sweep tells it, and raises at a given update."""
+    """Counts what a sweep reports, and raises at a given update."""
 
     def __init__(self, raise_at: int | None = None) -> None:
         self.total: int | None = None

@@ -56,7 +56,7 @@ def test_above_and_below_the_range(free: opshock.Scene) -> None:
 
 
 def test_failures_that_are_not_monotone_are_flagged(scanned: opshock.Scene) -> None:
-    """A second region of failure below the first is found by the scan, and both brackets are told."""
+    """A second region of failure below the first is found by the scan, and both brackets are reported."""
 
     def answer(amplitude_g: float) -> Verdict:
         return Verdict.FAILS if amplitude_g >= 1000 or 560 <= amplitude_g < 720 else Verdict.SURVIVES

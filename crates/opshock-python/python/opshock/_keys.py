@@ -745,7 +745,7 @@ class Resolution:
     head_tolerance: float | tuple[float, ...] | None = None
     """Relative local error of the clearance per step. Set by resolution.preset when absent."""
     min_film_height_nm: float | tuple[float, ...] | None = None
-    """Minimum film height, a regularisation: the height that the film sees does not fall below it. In nm. Set by resolution.preset when absent."""
+    """Minimum film height, a regularisation: the height that the film sees does not fall below it. No uncertainty interval includes what another one would change. In nm. Set by resolution.preset when absent."""
     not_refined: tuple[str, ...] | None = None
     """Discretisation parameters whose values belong to the model, as the modes of another program's mesh: they contribute to no uncertainty interval, and no refinement changes them. Absent: all are refined."""
     preset: str | tuple[str, ...] = MISSING

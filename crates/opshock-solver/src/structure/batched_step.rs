@@ -70,7 +70,7 @@ impl Driven {
 }
 
 impl ContactSystem<'_> {
-    /// Commits a whole step in one pass.
+    /// Commits a batched modal step.
     pub(super) fn batched_step(&mut self) {
         let (driven, n) = (self.driven, self.run.n_moving);
         self.add_exchange();

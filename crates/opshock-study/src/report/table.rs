@@ -223,8 +223,8 @@ pub(super) fn uncertainty_cost(summary: &Summary) -> Option<String> {
 pub(super) fn contributions_note(summary: &Summary) -> String {
     let mut text = String::from(
         "Half of each contribution, in per cent of A_crit; they add up to the half-width of the interval. The bracket of \
-         the search, and what a refined simulation has shown, lie on one side, the others on both. x3: the \
-         error did not fall as its method predicts (formal order), so that it is taken 3 times instead of 1.25 times; \
+         the search, and what a refined simulation has shown, lie on one side, the others on both. SF 3 \
+         (safety factor 3): the error did not fall as its method predicts (formal order), so that it is taken 3 times instead of 1.25 times; \
          the bracket is taken once.",
     );
     for name in contribution_names(summary) {
@@ -244,7 +244,7 @@ fn contribution_names(summary: &Summary) -> Vec<&'static str> {
     CONTRIBUTIONS.into_iter().filter(has).collect()
 }
 
-/// Half the contributions of every uncertainty interval as per cent of `A_crit`, header and rows; `x3` marks the safety
+/// Half the contributions of every uncertainty interval as per cent of `A_crit`, header and rows; `SF 3` marks the safety
 /// factor 3. `None` where the intervals have no other contribution than the bracket.
 pub(super) fn contributions(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<String>>)> {
     let names = contribution_names(summary);
@@ -275,7 +275,11 @@ pub(super) fn contributions(summary: &Summary) -> Option<(Vec<String>, Vec<Vec<S
         row.extend(names.iter().map(|name| {
             let contribution = point.contributions.iter().find(|(known, _)| known == name);
             contribution.map_or(String::new(), |(_, contribution)| {
-                let wide = if contribution.factor > 2.0 { " x3" } else { "" };
+                let wide = if contribution.factor > 2.0 {
+                    " SF 3"
+                } else {
+                    ""
+                };
                 format!(
                     "{}{wide}",
                     per_cent(0.5 * (contribution.low_g + contribution.high_g))

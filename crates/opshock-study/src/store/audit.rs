@@ -39,7 +39,8 @@ pub struct Difference {
     /// Name of the quantity, with its unit.
     pub quantity: String,
     /// As stored.
-    pub planned: String,
+    #[serde(alias = "planned")]
+    pub stored: String,
     /// With the full model.
     pub full: String,
 }
@@ -80,12 +81,12 @@ impl std::fmt::Display for Difference {
             point,
             amplitude_g,
             quantity,
-            planned,
+            stored,
             full,
         } = self;
         write!(
             f,
-            "{point} at {amplitude_g:.4} G: {quantity} is {planned} as stored and {full} with the full model"
+            "{point} at {amplitude_g:.4} G: {quantity} is {stored} as stored and {full} with the full model"
         )
     }
 }

@@ -76,12 +76,12 @@ fn compare(input: &SweepInput, row: &RunRow, simulator: &dyn Simulator) -> Vec<D
     quantities(row.result())
         .into_iter()
         .zip(quantities(&full))
-        .filter(|(planned, full)| planned != full)
-        .map(|((quantity, planned), (_, full))| Difference {
+        .filter(|(stored, full)| stored != full)
+        .map(|((quantity, stored), (_, full))| Difference {
             point: label.clone(),
             amplitude_g: row.amplitude_g,
             quantity: quantity.to_owned(),
-            planned,
+            stored,
             full,
         })
         .collect()

@@ -68,7 +68,7 @@ pub struct Until {
 impl Until {
     /// From now on, for a time.
     pub fn after(budget: Option<Duration>, stop: StopFlag) -> Self {
-        // A time beyond what the clock can tell is no bound.
+        // A time beyond what the clock can represent is no bound.
         let end = budget.and_then(|budget| Instant::now().checked_add(budget));
         Self { stop, end }
     }

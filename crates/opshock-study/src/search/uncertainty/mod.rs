@@ -9,14 +9,14 @@
 //! |---|---|---|
 //! | coarser alone | \|A(-1) - A(0)\| / (r - 1) | 3 |
 //! | coarser, in the same bracket | width / (r - 1) | 1.25 |
-//! | coarser and finer | \|A(0) - A(1)\|, known, on its own side; and \|A(0) - A(1)\| / (r - 1) | 1 and 1.25 |
-//! | the same, r not observed | the same known part; the larger of that and \|A(-1) - A(0)\| / r, over r - 1 | 1 and 3 |
+//! | coarser and finer | \|A(0) - A(1)\|, known, one-sided; and \|A(0) - A(1)\| / (r - 1) | 1 and 1.25 |
+//! | the same, r not observed | the same known contribution; the larger of that and \|A(-1) - A(0)\| / r, over r - 1 | 1 and 3 |
 //!
 //! The ratio r is the observed one, R = (A(0) - A(-1)) / (A(1) - A(0)), at most the formal one. Up to the formal one over √2
 //! it is not observed, and r is formal. If R > 1 there, factor times e is at least 1.25 \|A(0) - A(1)\| / (max(R, 1.25) - 1).
-//! Of two brackets the largest distance counts. The scene is coarsened first, which is cheap. It is refined by a step or two
+//! Of two brackets the largest distance is taken. The scene is coarsened first, which is cheap. It is refined by a step or two
 //! while the contribution exceeds a quarter of the target (`pieces`, `judge`), and by one at least for disk modes that a
-//! contact without stiffness excites. With A(2) the known part is \|A(0) - A(2)\|, and e follows from the last two.
+//! contact without stiffness excites. With A(2) the known contribution is \|A(0) - A(2)\|, and e follows from the last two.
 //!
 //! Parameters are changed in groups: tolerances of the head; modes of the suspension; modes and time step of disk and ramp;
 //! the mesh of a ramp; the grid of the film's defect correction; the film's grid. One is changed alone only where its group
