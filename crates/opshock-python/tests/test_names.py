@@ -174,3 +174,13 @@ def test_every_setting_says_what_it_is() -> None:
                 suffix = unit[1].lower().replace("gpa", "gpa")
                 assert re.search(rf"_{suffix}(_|$)|^(min|max|amplitude)|lines$", key), (key, unit[1])
     assert described > 150
+
+
+def test_the_book_has_every_name_as_it_is_today() -> None:
+    root = Path(__file__).resolve().parents[3]
+    generator = root / "crates/opshock-python/generate_reference.py"
+    done = subprocess.run([sys.executable, generator], check=True, capture_output=True, text=True)
+    assert done.stdout == (root / "docs/python-reference.md").read_text(encoding="utf-8")
+    for name in opshock.__all__:
+        value = getattr(opshock, name)
+        assert f"\n## {name}\n" in done.stdout or not callable(value), name
