@@ -87,7 +87,8 @@ case "$*" in *--budget*) set -- "${@/#7h30m/1m}" && set -- "${@/#8h/1m}" && budg
 const MAKE: &str = r#"exec /usr/bin/make -n -C "$ROOT" "$@""#;
 
 /// The tasks of an array job one after the other; `slurm.rs` submits to a Slurm.
-const SBATCH: &str = r#"for task in 1 2 3 4; do SLURM_ARRAY_TASK_ID=$task bash "$1"; done"#;
+const SBATCH: &str = r#"sed -i "s|$PROGRAM sweep|& --budget 1m|" "$1"
+for task in 1 2 3 4; do SLURM_ARRAY_TASK_ID=$task bash "$1" || [ $? = 5 ]; done"#;
 
 /// Replays a page; the number of its commands.
 fn replay(name: &str) -> usize {
