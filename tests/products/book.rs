@@ -123,6 +123,7 @@ fn prepared(name: &str) -> &'static str {
              cp tests/reference/cml_decks/rail_own_rectangular_abs.dat rail.dat
              cp tests/reference/cml_decks/dynluls_shock_400G_2ms_rigid.def DynLULS.def
              cp tests/bad_inputs/imports/cmlair/sound.run.dat run.dat
+             for file in M K cords; do cp tests/bad_inputs/imports/dense/sound.$file.dat $file.dat; done
              opshock import matrices --mass arm.mas --stiffness arm.sti --dof arm.dof --units mm_n --contact 12.3 --out arm-si
              cp arm-si/mass.mtx arm.mass.mtx
              cp arm-si/stiffness.mtx arm.stiffness.mtx"

@@ -7,20 +7,26 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
-
 from . import _html, _native
 from ._records import record
 from ._study import Scene
 from ._verdict import Verdict
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
 
-Array = npt.NDArray[np.float64]
+    Array = npt.NDArray[np.float64]
+
+
+def _array(numbers: bytes) -> Array:
+    # Imported with the first history: it takes half of the package's start.
+    import numpy as np
+
+    return np.frombuffer(numbers)
 
 
 @dataclass(frozen=True)
@@ -282,11 +288,11 @@ class Run:
         return _html.table(f"{self.scene.label}, {self.amplitude_g:g} G", ["", ""], rows)
 
 
-class Columns(Mapping[str, Array]):
+class Columns(Mapping[str, "Array"]):
     """Columns of numbers on one time, by name; the name ends in the unit. The arrays are read-only."""
 
     def __init__(self, columns: Iterable[tuple[str, str, str, bytes]]) -> None:
-        self._columns = {name: (units, description, np.frombuffer(numbers)) for name, units, description, numbers in columns}
+        self._columns = {name: (units, description, _array(numbers)) for name, units, description, numbers in columns}
 
     def __getitem__(self, name: str) -> Array:
         return self._columns[name][2]
@@ -351,7 +357,7 @@ class History(Columns):
         self._head = Columns(head)
         self._fields: PressureFields | None = None
         if fields:
-            time, y, x, pressure, gap = (np.frombuffer(numbers) for numbers in fields)
+            time, y, x, pressure, gap = map(_array, fields)
             shape = (len(time), len(y) - 1, len(x) - 1)
             self._fields = PressureFields(time, y, x, pressure.reshape(shape), gap.reshape(shape))
 
