@@ -12,10 +12,13 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent / "python/opshock"
 HEAD = """# Python: every name
 
-Made by `crates/opshock-python/generate_reference.py` from the package's docstrings, which `help(opshock.CriticalShock)`
-prints, too. Names end in their units: `_g` in multiples of standard gravity, all others in SI units unless they say so. Names of
-results are those of `--json` ([files](files.md)). How the parts work together: [Python](python.md).
+Made by `crates/opshock-python/generate_reference.py` from the package's docstrings. Names end in their units: `_g` in
+multiples of standard gravity, all others in SI units unless they say so. Names of results are those of `--json` ([files](files.md)).
+How the parts work together: [Python](python.md).
 """
+
+# Others are answers.
+MADE_BY_USERS = ("Search", "Study")
 
 
 def text(docstring):
@@ -32,7 +35,7 @@ def row(name, kind, about):
 
 def call(function):
     """A function as it is called."""
-    own = ast.unparse(function.args).removeprefix("self, ").removeprefix("self")
+    own = ast.unparse(function.args).removeprefix("self, ").removeprefix("self").removeprefix("cls, ")
     return f"{function.name}({own})"
 
 
@@ -40,8 +43,13 @@ def members(cls):
     """Rows of attributes with the string behind each, and of properties; then the methods."""
     attributes, methods = [], []
     for one, after in zip(cls.body, [*cls.body[1:], None], strict=True):
-        if isinstance(one, ast.AnnAssign) and isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
+        is_explained = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
+        if isinstance(one, ast.AnnAssign) and is_explained:
             attributes.append(row(one.target.id, ast.unparse(one.annotation), after.value.value))
+        elif isinstance(one, ast.Assign) and is_explained:
+            attributes.append(row(one.targets[0].id, cls.name, after.value.value))
+        elif isinstance(one, ast.FunctionDef) and one.name == "__init__" and cls.name in MADE_BY_USERS:
+            methods.append(f"- `{cls.name}({call(one).removeprefix('__init__(')}` makes one.")
         elif isinstance(one, ast.FunctionDef) and not one.name.startswith("_"):
             if any(ast.unparse(mark) == "property" for mark in one.decorator_list):
                 attributes.append(row(one.name, ast.unparse(one.returns), ast.get_docstring(one)))

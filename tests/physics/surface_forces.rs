@@ -194,7 +194,7 @@ fn surface_forces_of_tilted_plates_and_their_order() {
             let [force, moment] = error(160);
             at_most(
                 "surface-forces",
-                "relative error of the force, tilted plates, 160 cells",
+                "relative error of the force, tilted plates, 160 x 160 cells",
                 force,
                 1e-6,
             );

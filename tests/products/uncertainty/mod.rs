@@ -359,6 +359,7 @@ fn the_truth_lies_inside_the_uncertainty_of_known_laws() {
 
 mod coverage;
 mod fig13_truths;
+mod hard_contact;
 mod random_drives;
 mod truths;
 mod verify;

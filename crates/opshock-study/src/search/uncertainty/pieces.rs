@@ -208,7 +208,10 @@ fn error(
             break;
         }
         let Some(finest) = measure.change(walk, start, at(steps))? else {
-            estimate = estimate.map(Estimate::unconfirmed);
+            // A confirmation that has no answer leaves the contribution unknown.
+            estimate = estimate
+                .map(Estimate::unconfirmed)
+                .filter(|_| steps > least);
             break;
         };
         let finer = before.map_or(finest, |before| finest.since(before));

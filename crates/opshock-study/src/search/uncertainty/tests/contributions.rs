@@ -280,12 +280,15 @@ fn modes_that_a_hard_contact_excites_are_confirmed_by_finer_ones() {
         ..=0 => law.see(input.grid, ask),
         _ => finer.see(input.grid, ask),
     };
-    let low_g = |hard_contact: bool| {
+    let with = |hard_contact: bool, see: &dyn Fn(Ask) -> Seen| {
         let input = UncertaintyInput {
             hard_contact,
             ..input.clone()
         };
-        let uncertainty = done(uncertainty(&input, &|ask| Some(of_law(ask))).1);
+        done(uncertainty(&input, &|ask| Some(see(ask))).1)
+    };
+    let low_g = |hard_contact: bool| {
+        let uncertainty = with(hard_contact, &of_law);
         let low: f64 = uncertainty.contributions.iter().map(|one| one.low).sum();
         (
             reported_g * (1.0 - low),
@@ -295,4 +298,16 @@ fn modes_that_a_hard_contact_excites_are_confirmed_by_finer_ones() {
     let (confirmed_g, is_told) = low_g(true);
     assert!(confirmed_g < 219.0 && is_told, "{confirmed_g}");
     assert!(low_g(false).0 > 290.0);
+    // Finer modes without a verdict: the contribution is not known.
+    let undecided = |ask: Ask| {
+        let mut seen = of_law(ask);
+        if ask.levels.of(Discretisation::DiskModes) > 0 {
+            seen.verdict = AmplitudeVerdict::Undecided;
+        }
+        seen
+    };
+    for hard_contact in [true, false] {
+        let flags = with(hard_contact, &undecided).flags;
+        assert_eq!(flags.contains(&Flag::ContributionMissing), hard_contact);
+    }
 }
