@@ -17,7 +17,7 @@ multiples of standard gravity, all others in SI units unless they say so. Names 
 How the parts work together: [Python](python.md).
 """
 
-# Others are answers.
+# Classes that a user makes; the program makes the others.
 MADE_BY_USERS = ("Search", "Study")
 
 

@@ -2,26 +2,11 @@
 //! its output; the commands of all others run.
 
 use crate::cli::OPSHOCK;
+use crate::documents::{blocks, drive_of, page, root};
 use opshock_tests::program::program;
 use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    root.canonicalize().unwrap()
-}
-
-fn page(name: &str) -> String {
-    fs::read_to_string(root().join(name)).unwrap()
-}
-
-/// Blocks of a page: kind and text.
-fn blocks(page: &str) -> impl Iterator<Item = (&str, &str)> {
-    let blocks = page.split("```").skip(1).step_by(2);
-    blocks.map(|block| block.split_once('\n').unwrap())
-}
 
 /// A folder as a reader has it: the source tree's documents and studies, programs, the drive of the first lesson.
 struct Reader(tempfile::TempDir);
@@ -132,41 +117,49 @@ fn prepared(name: &str) -> &'static str {
              cp arm-si/stiffness.mtx arm.stiffness.mtx"
         }
         "docs/match.md" => "sed s:../fig13:studies/fig13: studies/paper-cases/study.toml > study.toml\ncp studies/paper-cases/match.toml ramp.match.toml",
-        "docs/qualify.md" => "cp studies/qualify/operating.toml spec.toml",
         _ => "",
     }
 }
 
+/// The wheel in place of the path that stands for it.
+fn with_wheel(text: &str) -> String {
+    let Some((before, behind)) = text.split_once("/path/to/") else {
+        return text.to_owned();
+    };
+    let wheel = fs::read_dir(root().join("target/wheels"))
+        .expect("make wheel")
+        .next();
+    let (_, behind) = behind.split_once(".whl").unwrap();
+    format!(
+        "{before}{}{behind}",
+        wheel.unwrap().unwrap().path().display()
+    )
+}
+
 /// Runs the commands of a page; the number of its blocks.
 fn run(name: &str) -> usize {
-    let wheels = || {
-        fs::read_dir(root().join("target/wheels"))
-            .into_iter()
-            .flatten()
-    };
+    let page = page(name);
     let reader = Reader::new(A_MINUTE);
     reader.printed(prepared(name));
     let mut n_blocks = 0;
-    for (kind, text) in blocks(&page(name)) {
-        // The address is the reader's.
-        if kind != "sh" || text.starts_with("git clone URL") {
-            continue;
+    for (kind, text) in blocks(&page) {
+        match kind {
+            "toml" if text.starts_with("spec_format") => {
+                fs::write(reader.0.path().join("spec.toml"), text).unwrap();
+            }
+            // The address is the reader's.
+            "sh" if !text.starts_with("git clone URL") => {
+                let text = with_wheel(text);
+                reader.printed(&format!(
+                    "{text}\nfor job in $(jobs -p); do wait $job; done"
+                ));
+                if name == "docs/your-own-drive.md" && text.contains("> my-drive.toml") {
+                    drive_of(&page, reader.0.path());
+                }
+                n_blocks += 1;
+            }
+            _ => {}
         }
-        let mut text = text.to_string();
-        if text.contains("/path/to/opshock-") {
-            let wheel = wheels().next().expect("make wheel").unwrap().path();
-            let (before, behind) = text.split_once("/path/to/").unwrap();
-            let (_, behind) = behind.split_once(".whl").unwrap();
-            text = format!("{before}{}{behind}", wheel.display());
-        }
-        reader.printed(&format!(
-            "{text}\nfor job in $(jobs -p); do wait $job; done"
-        ));
-        if name == "docs/your-own-drive.md" && text.contains("> my-drive.toml") {
-            // What its second section has the reader change.
-            reader.printed("sed -i 's/^clearance_um = .*/clearance_um = [60, 100]/' my-drive.toml\ngrep -q '60, 100' my-drive.toml");
-        }
-        n_blocks += 1;
     }
     n_blocks
 }

@@ -5,16 +5,17 @@ use crate::cli::Done;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+pub(crate) fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    root.canonicalize().unwrap()
 }
 
-fn page(name: &str) -> String {
+pub(crate) fn page(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap()
 }
 
 /// Blocks of a page, in order, each with what stands behind its three quotes.
-fn blocks(page: &str) -> Vec<(&str, &str)> {
+pub(crate) fn blocks(page: &str) -> Vec<(&str, &str)> {
     let parts = page.split("```").skip(1).step_by(2);
     parts.map(|part| part.split_once('\n').unwrap()).collect()
 }
@@ -34,7 +35,7 @@ fn shown<'a>(page: &'a str, name: &str) -> (Vec<String>, Vec<&'a str>) {
 }
 
 /// `opshock new`, with the first block of settings of the page laid over it.
-fn drive_of(page: &str, at: &Path) {
+pub(crate) fn drive_of(page: &str, at: &Path) {
     let new = Done::of(at, &["new"]);
     assert_eq!(new.code, 0, "{}", new.stderr);
     let mut study: toml::Table = new.stdout.parse().unwrap();

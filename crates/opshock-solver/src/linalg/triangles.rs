@@ -16,7 +16,6 @@
 use super::diagonals::Band;
 use super::entry::Entry;
 use crate::lanes::{Simd, WithSimd, widest};
-use std::ops::{Deref, DerefMut};
 
 /// Rows solved together.
 const ROWS: usize = 16;
@@ -31,28 +30,6 @@ const SUMS: usize = 4;
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Column<E>([E; ROWS]);
-
-impl<E: Entry> Column<E> {
-    fn zeros() -> Self {
-        Self([E::ZERO; ROWS])
-    }
-}
-
-impl<E> Deref for Column<E> {
-    type Target = [E; ROWS];
-
-    #[inline(always)]
-    fn deref(&self) -> &[E; ROWS] {
-        &self.0
-    }
-}
-
-impl<E> DerefMut for Column<E> {
-    #[inline(always)]
-    fn deref_mut(&mut self) -> &mut [E; ROWS] {
-        &mut self.0
-    }
-}
 
 /// Both triangles of a banded factorisation.
 #[derive(Clone, Debug)]
@@ -76,8 +53,8 @@ impl<E: Entry> Triangles<E> {
         Self {
             n,
             band,
-            lower: vec![Column::zeros(); blocks * (band.below + ROWS)],
-            upper: vec![Column::zeros(); blocks * (band.above + ROWS)],
+            lower: vec![Column([E::ZERO; ROWS]); blocks * (band.below + ROWS)],
+            upper: vec![Column([E::ZERO; ROWS]); blocks * (band.above + ROWS)],
             outside: [band.below, band.above]
                 .map(|columns| vec![E::ZERO; ROWS * columns.next_multiple_of(ABREAST)]),
             x: vec![E::ZERO; blocks * ROWS],
@@ -106,9 +83,9 @@ impl<E: Entry> Triangles<E> {
             let first = block * ROWS;
             let (lower_outside, lower_own) = lower.split_at_mut(below);
             let (upper_own, upper_outside) = upper.split_at_mut(ROWS);
-            let mut unit = [Column::zeros(); ROWS];
-            let mut full = [Column::zeros(); ROWS];
-            let mut inverse = Column([E::ONE; ROWS]);
+            let mut unit = [Column([E::ZERO; ROWS]); ROWS];
+            let mut full = [Column([E::ZERO; ROWS]); ROWS];
+            let mut inverse = [E::ONE; ROWS];
             // Entries of these rows beyond the band are zero from the start.
             let n_rows = ROWS.min(n - first);
             before[n_rows * strides[0]..].fill(E::ZERO);
@@ -120,10 +97,10 @@ impl<E: Entry> Triangles<E> {
                 let at = r * strides[0] + below - n_before;
                 copy(&entries[..n_before], &mut before[at..]);
                 for c in r.saturating_sub(below)..r {
-                    unit[r][c] = entries[c + below - r];
+                    unit[r].0[c] = entries[c + below - r];
                 }
                 for c in r + 1..ROWS.min(r + above + 1) {
-                    full[r][c] = entries[c + below - r];
+                    full[r].0[c] = entries[c + below - r];
                 }
                 // Columns first + ROWS ... first + r + above.
                 let own_end = (ROWS + below - r).min(self.band.width());
@@ -187,7 +164,7 @@ fn inverse_of_unit_lower<E: Entry, S: Simd>(simd: S, l: &[Column<E>; ROWS]) -> [
     for c in (1..ROWS).rev() {
         let source = out[c];
         for (r, row) in out[..c].iter_mut().enumerate() {
-            subtract(simd, row, l[c][r], &source);
+            subtract(simd, row, l[c].0[r], &source);
         }
     }
     out
@@ -198,26 +175,26 @@ fn inverse_of_unit_lower<E: Entry, S: Simd>(simd: S, l: &[Column<E>; ROWS]) -> [
 fn inverse_of_upper<E: Entry, S: Simd>(
     simd: S,
     u: &[Column<E>; ROWS],
-    inverse_diagonal: &Column<E>,
+    inverse_diagonal: &[E; ROWS],
 ) -> [Column<E>; ROWS] {
     let mut out = identity();
     for c in 0..ROWS {
         let mut source = out[c];
-        for v in source.iter_mut() {
+        for v in &mut source.0 {
             *v = *v * inverse_diagonal[c];
         }
         out[c] = source;
         for (r, row) in out.iter_mut().enumerate().skip(c + 1) {
-            subtract(simd, row, u[c][r], &source);
+            subtract(simd, row, u[c].0[r], &source);
         }
     }
     out
 }
 
 fn identity<E: Entry>() -> [Column<E>; ROWS] {
-    let mut out = [Column::zeros(); ROWS];
+    let mut out = [Column([E::ZERO; ROWS]); ROWS];
     for (k, row) in out.iter_mut().enumerate() {
-        row[k] = E::ONE;
+        row.0[k] = E::ONE;
     }
     out
 }
@@ -259,7 +236,7 @@ fn less_products_abreast<E: Entry, S: Simd>(
     rows: &[E],
     first: usize,
 ) -> [Column<E>; ABREAST] {
-    let mut sums = [Column::zeros(); ABREAST];
+    let mut sums = [Column([E::ZERO; ROWS]); ABREAST];
     for (column, row) in columns.iter().zip(rows.chunks_exact(rows.len() / ROWS)) {
         let factors = &row[first..first + ABREAST];
         for (sum, factor) in sums.iter_mut().zip(factors) {
@@ -273,9 +250,9 @@ fn less_products_abreast<E: Entry, S: Simd>(
 #[inline(always)]
 fn subtract<E: Entry, S: Simd>(simd: S, row: &mut Column<E>, factor: E, source: &Column<E>) {
     let factor = (-factor).splat(simd);
-    for (row, source) in E::cut_mut::<S>(row.as_mut_slice())
+    for (row, source) in E::cut_mut::<S>(&mut row.0)
         .iter_mut()
-        .zip(E::cut::<S>(source.as_slice()))
+        .zip(E::cut::<S>(&source.0))
     {
         *row = E::multiply_add(simd, factor, *source, *row);
     }
@@ -329,7 +306,7 @@ impl<E: Entry> Solve<'_, E> {
             let mut sum = BlockSum::<E, S, V>::of_far(simd, far, x_far);
             sum.add_all(simd, own, rows);
             sum.add_all(simd, near, x_near);
-            rows.copy_from_slice(sum.total(simd).as_slice());
+            rows.copy_from_slice(&sum.total(simd));
         }
         for (block, columns) in upper.chunks_exact(above + ROWS).enumerate().rev() {
             let first = block * ROWS;
@@ -344,7 +321,7 @@ impl<E: Entry> Solve<'_, E> {
             for (columns, x) in near.zip(x_near).rev() {
                 sum.add(simd, columns, x);
             }
-            rows.copy_from_slice(sum.total(simd).as_slice());
+            rows.copy_from_slice(&sum.total(simd));
         }
     }
 }
@@ -367,7 +344,7 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
     #[inline(always)]
     fn add_one(&mut self, simd: S, s: usize, column: &Column<E>, x: E) {
         let x = x.splat(simd);
-        for (sum, part) in self.0[s].iter_mut().zip(E::cut::<S>(column.as_slice())) {
+        for (sum, part) in self.0[s].iter_mut().zip(E::cut::<S>(&column.0)) {
             *sum = E::multiply_add(simd, *part, x, *sum);
         }
     }
@@ -390,10 +367,10 @@ impl<E: Entry, S: Simd, const V: usize> BlockSum<E, S, V> {
 
     /// The total.
     #[inline(always)]
-    fn total(self, simd: S) -> Column<E> {
+    fn total(self, simd: S) -> [E; ROWS] {
         let [a, b, c, d] = self.0;
-        let mut out = Column::zeros();
-        for (v, out) in E::cut_mut::<S>(out.as_mut_slice()).iter_mut().enumerate() {
+        let mut out = [E::ZERO; ROWS];
+        for (v, out) in E::cut_mut::<S>(&mut out).iter_mut().enumerate() {
             *out = E::add(simd, E::add(simd, a[v], b[v]), E::add(simd, c[v], d[v]));
         }
         out
