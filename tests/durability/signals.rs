@@ -203,8 +203,8 @@ fn the_program_tells_how_to_go_on_after_a_signal() {
     send(&child, "-INT");
     let said: Vec<String> = lines.map(|line| line.expect("reads")).collect();
     assert_eq!(child.wait().expect("waits").code(), Some(130), "{said:?}");
-    let is_told = |line: &String| line.starts_with("stopping");
-    assert!(said.iter().any(is_told), "{said:?}");
+    let is_reported = |line: &String| line.starts_with("stopping");
+    assert!(said.iter().any(is_reported), "{said:?}");
     let resume = said.last().expect("a line");
     let line = resume
         .strip_prefix("saved; resume with: opshock ")

@@ -84,7 +84,7 @@ hard! {
     hard_b8_both_ramps_at_once "B8",
     hard_b9_starts_touching_starts_overlapping "B9",
     hard_b10_plastic_hit_on_a_free_ramp_mass "B10",
-    hard_b11_ramp_mass_ratio_ladder "B11",
+    hard_b11_ramp_mass_ratio_series "B11",
     hard_b12_restitution_must_not_matter_in_the_limit "B12",
     hard_b13_several_impacts_inside_one_step "B13",
     hard_b14_honest_order_at_impacts "B14",

@@ -24,7 +24,7 @@ fn hard_b17_the_negative_shock_is_the_mirror_bit_by_bit() {
 
 /// Hard case B11: very light arms are no ramp, very heavy ones a rigid ramp.
 #[test]
-fn hard_b11_ladder_of_arm_masses() {
+fn hard_b11_series_of_arm_masses() {
     let base = s1(5e-4, RigidRamp).with_cut(20e3);
     let amplitude = 200.0 * G;
     let scaled = |factor: f64, keep_stiffness: bool| {

@@ -280,7 +280,7 @@ fn the_drive_disk_has_its_documented_frequencies() {
 /// Four steps finer than the preset `fine` a disk would have 448 elements, more than it may. Bending waves
 /// far above the first modes have wave numbers pi / (outer - inner) apart, whatever holds the edges.
 #[test]
-fn the_finest_disk_a_climb_asks_for_is_built_and_carries_waves_to_its_cut() {
+fn the_finest_disk_a_refinement_asks_for_is_built_and_carries_waves_to_its_cut() {
     let named = scene(
         "fig13-stiffness",
         "rigid",

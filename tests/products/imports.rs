@@ -254,7 +254,7 @@ fn a_study_takes_its_ramp_from_a_gmsh_mesh() {
 fn files_that_are_missing_and_freedoms_that_are_not_there_are_named() {
     let at = tempfile::tempdir().unwrap();
     let mut text = String::new();
-    let mut tell = |words: Vec<String>| {
+    let mut printed = |words: Vec<String>| {
         let done = run(at.path(), &words);
         assert_eq!(done.code, 3, "{}", done.stderr);
         for error in done.errors() {
@@ -274,17 +274,17 @@ fn files_that_are_missing_and_freedoms_that_are_not_there_are_named() {
         words.extend(more.iter().map(|word| (*word).to_owned()));
         words
     };
-    tell(cmlair(Some(Path::new("no.rail.dat"))));
-    tell(cmlair(Some(Path::new("no.run.dat"))));
-    tell(sound(
+    printed(cmlair(Some(Path::new("no.rail.dat"))));
+    printed(cmlair(Some(Path::new("no.run.dat"))));
+    printed(sound(
         "calculix",
         &["--contact", "2.3", "--contact", "12.3"],
     ));
-    tell(sound("calculix", &["--contact", "tip"]));
-    tell(sound("market", &["--contact", "4"]));
+    printed(sound("calculix", &["--contact", "tip"]));
+    printed(sound("market", &["--contact", "4"]));
     let mut without = sound("calculix", &[]);
     without.truncate(without.len() - 2);
-    tell(without);
+    printed(without);
     // A mode file whose only mode does not move the second freedom.
     let shapes = at.path().join("one.mtx");
     std::fs::write(
@@ -306,7 +306,7 @@ fn files_that_are_missing_and_freedoms_that_are_not_there_are_named() {
     for (option, path) in [("--modes", &shapes), ("--frequencies", &hertz)] {
         still.extend([option.to_owned(), path.display().to_string()]);
     }
-    tell(still.clone());
+    printed(still.clone());
     insta::assert_snapshot!(text);
     let contact = still.iter().position(|word| word == "--contact").unwrap();
     still[contact + 1] = "1".to_owned();

@@ -6,6 +6,7 @@ mod bad_inputs;
 mod bad_stores;
 mod book;
 mod book_page;
+mod clearances;
 mod cli;
 mod cli_claims;
 mod cli_explain;

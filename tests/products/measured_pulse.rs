@@ -97,7 +97,7 @@ fn a_record_in_seconds_is_read_right_or_refused() {
 }
 
 #[test]
-fn steps_and_cut_records_are_told() {
+fn steps_and_cut_records_are_reported() {
     let at = tempfile::tempdir().unwrap();
     // 23 G of 459.2 G from the end of the pulse on: 5.0 %.
     let offset = record(|t| if t > 1.9999e-3 { 22.96 } else { 0.0 });

@@ -77,6 +77,7 @@ fn search(
     let start = Start {
         hint_g: None,
         onset_index: None,
+        fail_below_m: 0.0,
         width_rank: 0,
     };
     let peak = peak_s2(width_ms * 1e-3);

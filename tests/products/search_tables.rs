@@ -49,7 +49,7 @@ impl Misses {
         self
     }
 
-    fn tell(&self, name: &str) {
+    fn print(&self, name: &str) {
         println!(
             "{name}: {} of {} answers above the lowest failure ({:.2} %), at most {:.0} % too high; \
              {:.1} runs a point",
@@ -139,10 +139,10 @@ fn ten_thousand_tables_with_windows_of_failure() {
             }
         }
     }
-    plain.tell("plain bisection");
-    off.tell("monotonicity_scan = \"off\"");
-    sampled.tell("monotonicity_scan = \"sampled\"");
-    full.tell("monotonicity_scan = \"full\"");
+    plain.print("plain bisection");
+    off.print("monotonicity_scan = \"off\"");
+    sampled.print("monotonicity_scan = \"sampled\"");
+    full.print("monotonicity_scan = \"full\"");
     assert_eq!(full.missed, 0);
     // Windows up to 25 % wide in two thirds of the tables: bisection misses many of them.
     assert!(plain.missed * 10 > plain.points, "{} missed", plain.missed);
@@ -186,7 +186,7 @@ fn search_slow_full_on_ten_thousand_tables() {
             all.with(&part.expect("ends"))
         })
     });
-    all.tell(&format!("monotonicity_scan = \"full\", seeds {seeds:?}"));
+    all.print(&format!("monotonicity_scan = \"full\", seeds {seeds:?}"));
 }
 
 fn input(table: &Table) -> SweepInput {
@@ -288,6 +288,8 @@ fn runs_per_point_on_figure_13() {
                     sign,
                     axes: Vec::new(),
                     round: 0,
+                    fail_below_m: 0.0,
+                    clearance_axis: None,
                 },
                 critical_g: number(6).expect("a failure") * (1.0 - 1e-9),
                 onset_g: number(7),

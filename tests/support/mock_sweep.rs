@@ -31,6 +31,8 @@ pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
                         sign,
                         axes: Vec::new(),
                         round: 0,
+                        fail_below_m: 0.0,
+                        clearance_axis: None,
                     },
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),

@@ -112,6 +112,8 @@ impl Table {
                         sign: Sign::Plus,
                         axes: Vec::new(),
                         round: 0,
+                        fail_below_m: 0.0,
+                        clearance_axis: None,
                     },
                     critical_g,
                     onset_g,

@@ -40,6 +40,7 @@ impl Search {
         let start = Start {
             hint_g,
             onset_index: None,
+            fail_below_m: input.points[0].coordinates.fail_below_m,
             width_rank: 0,
         };
         Ok(Self {

@@ -112,7 +112,7 @@ def test_driven_by_simulate_it_is_the_critical_shock(free: opshock.Scene, store:
     assert (result.status, result.survived_g, result.failed_g) == (swept.status, swept.survived_g, swept.failed_g)
 
 
-def test_a_run_is_told_as_its_verdict_with_its_clearance(free: opshock.Scene) -> None:
+def test_a_run_is_reported_as_its_verdict_with_its_clearance(free: opshock.Scene) -> None:
     """Telling a run is telling verdict and smallest clearance; a clearance decides nothing."""
     run = opshock.simulate(free, Search(free).ask() or 0.0)
     assert run.verdict is Verdict.SURVIVES

@@ -199,7 +199,7 @@ def test_a_budget_ends_a_sweep(study: opshock.Study, tmp_path: Path) -> None:
     assert begun[0].at(1.0) is Verdict.UNDECIDED
 
 
-def test_a_changed_study_is_told(study: opshock.Study, tmp_path: Path) -> None:
+def test_a_changed_study_is_reported(study: opshock.Study, tmp_path: Path) -> None:
     """By a warning, with the change; the store is the new study's."""
     opshock.sweep(study, tmp_path / "swept", threads=1, budget_s=0)
     thin = study.with_settings({"disk.thickness_mm": 0.6})

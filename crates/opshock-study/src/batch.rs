@@ -32,21 +32,21 @@ pub struct Simulated {
 type Built = Arc<OnceLock<Result<Model, BuildError>>>;
 
 /// A scene, its plan, its model while shocks of it are left, and their number.
-struct Slot<'a> {
+struct Entry<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
     model: Mutex<Option<Built>>,
     left: AtomicUsize,
 }
 
-impl Slot<'_> {
-    /// The model, made now if it is the first time; `alive` are the slots from which parts may be taken.
-    fn built(&self, alive: &[Slot<'_>]) -> Built {
+impl Entry<'_> {
+    /// The model, made now if it is the first time; `alive` are the entries from which parts may be taken.
+    fn built(&self, alive: &[Entry<'_>]) -> Built {
         let built = Arc::clone(lock(&self.model).get_or_insert_default());
         built.get_or_init(|| {
             let others: Vec<Built> = alive
                 .iter()
-                .filter_map(|slot| lock(&slot.model).clone())
+                .filter_map(|entry| lock(&entry.model).clone())
                 .collect();
             let models = others.iter().filter_map(|other| other.get()?.as_ref().ok());
             Model::assemble(self.scene, self.plan, models)
@@ -70,9 +70,9 @@ pub fn simulate_all(
     threads: usize,
     stop: &StopFlag,
 ) -> Vec<Option<Simulated>> {
-    let slots: Vec<Slot<'_>> = scenes
+    let entries: Vec<Entry<'_>> = scenes
         .iter()
-        .map(|(scene, plan)| Slot {
+        .map(|(scene, plan)| Entry {
             scene,
             plan,
             model: Mutex::default(),
@@ -80,7 +80,7 @@ pub fn simulate_all(
         })
         .collect();
     for shock in shocks {
-        slots[shock.scene].left.fetch_add(1, Ordering::Relaxed);
+        entries[shock.scene].left.fetch_add(1, Ordering::Relaxed);
     }
     // Scene by scene, so that few models are alive at a time.
     let mut order: Vec<usize> = (0..shocks.len()).collect();
@@ -97,18 +97,18 @@ pub fn simulate_all(
                         return;
                     };
                     let began = Instant::now();
-                    let slot = &slots[shocks[place].scene];
+                    let entry = &entries[shocks[place].scene];
                     let request = Request {
                         amplitude_m_per_s2: shocks[place].amplitude_m_per_s2,
                         record: false,
                     };
-                    let built = slot.built(&slots);
+                    let built = entry.built(&entries);
                     let outcome = match built.get() {
                         Some(Ok(model)) => Ok(simulate(model, &request, &mut workspace)),
                         Some(Err(error)) => Err(error.clone()),
                         None => unreachable!("the model was made or refused"),
                     };
-                    slot.done();
+                    entry.done();
                     let wall_s = began.elapsed().as_secs_f64();
                     lock(&answers)[place] = Some(Simulated { outcome, wall_s });
                 }

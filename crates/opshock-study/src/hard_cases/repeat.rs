@@ -107,6 +107,7 @@ pub(super) fn f2() -> Vec<Check> {
     let start = Start {
         hint_g: Some(300.0),
         onset_index: None,
+        fail_below_m: 0.0,
         width_rank: 1,
     };
     let settings = settings();

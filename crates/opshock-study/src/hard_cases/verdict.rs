@@ -224,6 +224,7 @@ pub(super) fn search(
     let start = Start {
         hint_g: None,
         onset_index: None,
+        fail_below_m: 0.0,
         width_rank: 0,
     };
     let mut search = PointSearch::new(settings, start);
@@ -282,8 +283,8 @@ pub(super) fn e5() -> Vec<Check> {
         let critical = 1e-4 / peak_s2(width_ms * 1e-3) / G;
         closed = closed.max((critical / exact - 1.0).abs());
         let (findings, _) = search(settings, above(critical));
-        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
-        let (low, high) = (node(findings.survivor), node(findings.failure));
+        let grid_point = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
+        let (low, high) = (grid_point(findings.survivor), grid_point(findings.failure));
         outside += usize::from(!(low < exact && exact <= high));
         wide = wide.max(high / low - 1.0);
         let (low, high) = naive::search::bracketed((20.0, 2000.0), 7, |a| a >= critical);
@@ -322,7 +323,7 @@ pub(super) fn e6() -> Vec<Check> {
 }
 
 pub(super) fn e7() -> Vec<Check> {
-    let island = |_: Probe, a: f64| {
+    let interval = |_: Probe, a: f64| {
         if (130.0..146.0).contains(&a) || a >= 200.0 {
             fails()
         } else {
@@ -332,7 +333,7 @@ pub(super) fn e7() -> Vec<Check> {
     let guarded = settings(MonotonicityScan::Sampled);
     let exact = guarded.grid.amplitude_g(guarded.grid.at_or_above(130.0));
     let found = |settings: SearchSettings| {
-        let (findings, _) = search(settings, island);
+        let (findings, _) = search(settings, interval);
         let g = findings
             .failure
             .map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
@@ -370,8 +371,8 @@ pub(super) fn e8() -> Vec<Check> {
                 fails()
             }
         });
-        let node = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
-        let (low, high) = (node(findings.survivor), node(findings.failure));
+        let grid_point = |n: Option<i32>| n.map_or(f64::NAN, |n| settings.grid.amplitude_g(n));
+        let (low, high) = (grid_point(findings.survivor), grid_point(findings.failure));
         outside += usize::from(!(low * 0.997 < critical && critical <= high * 1.0031));
         narrow = narrow.min(high / low - 1.0);
         let (low, high) =

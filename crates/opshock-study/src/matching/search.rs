@@ -11,19 +11,19 @@ use crate::store::StoreError;
 /// Least number of sets from which a wave starts; the nearest where fewer are left.
 const PARENTS: usize = 20;
 
-/// Searches for parameter sets; `tell` is called for every wave.
+/// Searches for parameter sets; `notify` is called for every wave.
 ///
 /// # Errors
 /// The store cannot be written. What was computed before is kept.
 pub fn search(
     problem: &MatchProblem,
     evaluations: &mut Evaluations<'_>,
-    tell: &mut dyn FnMut(&WaveReport),
+    notify: &mut dyn FnMut(&WaveReport),
 ) -> Result<Searched, StoreError> {
     let mut run = Run {
         problem,
         evaluations,
-        tell,
+        notify,
         found: Searched::nothing(problem.observations.len()),
     };
     match run.all() {
@@ -49,7 +49,7 @@ impl Evaluations<'_> {
         let mut run = Run {
             problem,
             evaluations: self,
-            tell: &mut |_| {},
+            notify: &mut |_| {},
             found: Searched {
                 samples: Vec::new(),
                 waves: Vec::new(),
@@ -72,7 +72,7 @@ impl Evaluations<'_> {
 pub(super) struct Run<'a, 'b> {
     pub(super) problem: &'a MatchProblem,
     pub(super) evaluations: &'a mut Evaluations<'b>,
-    tell: &'a mut dyn FnMut(&WaveReport),
+    notify: &'a mut dyn FnMut(&WaveReport),
     pub(super) found: Searched,
 }
 
@@ -346,7 +346,7 @@ impl Run<'_, '_> {
             kept,
             left,
         };
-        (self.tell)(&report);
+        (self.notify)(&report);
         self.found.waves.push(report);
     }
 }

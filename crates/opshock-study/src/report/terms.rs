@@ -136,7 +136,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Word, "study", "study", "What a study file asks: a drive, its shocks, the axes to vary and how to search."),
     term(Kind::Word, "point", "point", "A combination of ramp model, pulse width, sign and values of the further axes: it has one critical shock."),
     term(Kind::Word, "axis", "axis", "A key of the study with a list of values."),
-    term(Kind::Word, "scene", "scene", "The drive and the shock of one simulation, in SI units."),
+    term(Kind::Word, "scene", "scene", "All data of one simulation but its amplitude: drive, effects, discretisation, and the shock's shape, width and sign, in SI units."),
     term(Kind::Word, "structure", "structure", "Disk and ramp."),
     term(Kind::Word, "head", "head", "Slider, air film and suspension."),
     term(Kind::Word, "verdict", "verdict", "Whether the slider survives a simulated shock or fails it; undecided where the simulation ended before."),

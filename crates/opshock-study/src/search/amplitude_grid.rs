@@ -64,9 +64,9 @@ impl AmplitudeGrid {
             return Err(AmplitudeGridError::Tolerance { tolerance });
         }
         // 2^(1/n) - 1 = tol is met exactly for tol = 1; rounding must not add a grid point there.
-        let nodes = (std::f64::consts::LN_2 / tolerance.ln_1p() - ROUNDING).ceil();
+        let grid_points = (std::f64::consts::LN_2 / tolerance.ln_1p() - ROUNDING).ceil();
         Ok(AmplitudeGrid {
-            steps_per_octave: nodes as i32,
+            steps_per_octave: grid_points as i32,
         })
     }
 
@@ -93,8 +93,8 @@ impl AmplitudeGrid {
 
     /// Largest number of grid steps whose span stays within `share` (0.1 = 10 %), at least 1.
     pub fn steps_within(&self, share: f64) -> i32 {
-        let nodes = f64::from(self.steps_per_octave) * (1.0 + share).log2() + ROUNDING;
-        (nodes.floor() as i32).max(1)
+        let grid_points = f64::from(self.steps_per_octave) * (1.0 + share).log2() + ROUNDING;
+        (grid_points.floor() as i32).max(1)
     }
 
     /// Grid point nearest to an amplitude in the logarithm. `amplitude_g` is positive and finite.

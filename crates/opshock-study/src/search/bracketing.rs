@@ -17,13 +17,15 @@ const FIRST_STEP: f64 = 0.03;
 const AIMED: usize = 3;
 
 /// Exponential search of one point.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bracketing {
     start: i32,
     first_step: i32,
     octave: i32,
     ups: u32,
     downs: u32,
+    /// Clearance below which the interface has failed, m.
+    fail_below_m: f64,
 }
 
 /// Next step of the exponential search from the evidence.
@@ -43,31 +45,36 @@ pub(super) enum BracketingStep {
 }
 
 impl Bracketing {
-    /// Exponential search over `nodes` from a hint in G, or from the middle of the range.
+    /// Exponential search over `grid_points` from a hint in G, or from the middle of the range.
     pub(super) fn new(
         grid: &AmplitudeGrid,
-        nodes: AmplitudeRange,
+        grid_points: AmplitudeRange,
         hint_g: Option<f64>,
+        fail_below_m: f64,
     ) -> Bracketing {
         let octave = grid.steps_per_octave;
         let (start, first_step) = match hint_g {
             Some(hint_g) => (grid.nearest(hint_g), grid.steps_within(FIRST_STEP)),
-            None => (nodes.low + (nodes.high - nodes.low) / 2, octave),
+            None => (
+                grid_points.low + (grid_points.high - grid_points.low) / 2,
+                octave,
+            ),
         };
         Bracketing {
-            start: start.clamp(nodes.low, nodes.high),
+            start: start.clamp(grid_points.low, grid_points.high),
             first_step,
             octave,
             ups: 0,
             downs: 0,
+            fail_below_m,
         }
     }
 
-    /// Next step. `assumed_survivor` is a grid point below `nodes` known to survive without a run.
+    /// Next step. `assumed_survivor` is a grid point below `grid_points` known to survive without a run.
     pub(super) fn step(
         &self,
         evidence: &Evidence,
-        nodes: AmplitudeRange,
+        grid_points: AmplitudeRange,
         assumed_survivor: Option<i32>,
     ) -> BracketingStep {
         let (Some(bottom), Some(top)) = (evidence.bottom(), evidence.top()) else {
@@ -76,18 +83,20 @@ impl Bracketing {
         let Some(failure) = evidence.lowest_failure() else {
             let any_survivor = evidence.highest_survivor_below(None).is_some();
             // Nothing decided yet: smaller shocks are easier to compute.
-            if !any_survivor && bottom > nodes.low {
-                return BracketingStep::Test((bottom - self.stride(self.downs)).max(nodes.low));
+            if !any_survivor && bottom > grid_points.low {
+                return BracketingStep::Test(
+                    (bottom - self.stride(self.downs)).max(grid_points.low),
+                );
             }
-            if top < nodes.high {
+            if top < grid_points.high {
                 let stride = self.stride(self.ups);
-                let step = match evidence.vanishing_point(None) {
+                let step = match evidence.failing_point(None, self.fail_below_m) {
                     Some(place) if top > self.start => {
                         ((place - f64::from(top)).ceil() as i32).clamp(1, stride)
                     }
                     _ => stride,
                 };
-                return BracketingStep::Test((top + step).min(nodes.high));
+                return BracketingStep::Test((top + step).min(grid_points.high));
             }
             return BracketingStep::Exhausted;
         };
@@ -96,10 +105,17 @@ impl Bracketing {
         }
         let next = bottom - self.stride(self.downs);
         match assumed_survivor {
-            Some(survivor) if next < nodes.low => BracketingStep::Bracketed { survivor, failure },
-            _ if bottom > nodes.low => BracketingStep::Test(next.max(nodes.low)),
+            Some(survivor) if next < grid_points.low => {
+                BracketingStep::Bracketed { survivor, failure }
+            }
+            _ if bottom > grid_points.low => BracketingStep::Test(next.max(grid_points.low)),
             _ => BracketingStep::Exhausted,
         }
+    }
+
+    /// Steps down from a grid point that is known to fail.
+    pub(super) fn begin_at(&mut self, failure: i32) {
+        self.start = failure;
     }
 
     /// Notes a step whose verdict is known.
@@ -117,13 +133,13 @@ impl Bracketing {
     }
 }
 
-/// Grid point next to the place in a bracket where the clearance vanishes, after `halvings` grid points tested
+/// Grid point next to the place in a bracket where the clearance falls to that called failure, after `halvings` grid points tested
 /// in it; `None` when the clearance is no guide (any more) or grid points without verdict lie between.
 pub(super) fn aimed(
     evidence: &Evidence,
-    survivor: i32,
-    failure: i32,
+    (survivor, failure): (i32, i32),
     halvings: usize,
+    fail_below_m: f64,
 ) -> Option<i32> {
     if failure - survivor < 3
         || halvings >= AIMED
@@ -131,7 +147,7 @@ pub(super) fn aimed(
     {
         return None;
     }
-    let place = evidence.vanishing_point(Some(failure))?;
+    let place = evidence.failing_point(Some(failure), fail_below_m)?;
     let last = place.floor();
     if !(f64::from(survivor) <= last && last < f64::from(failure)) {
         return None;
@@ -160,6 +176,6 @@ pub(super) fn bisect(evidence: &Evidence, survivor: i32, failure: i32) -> Option
 }
 
 /// Whether the highest grid point of the range survives.
-pub(super) fn survives_at_top(evidence: &Evidence, nodes: AmplitudeRange) -> bool {
-    evidence.get(nodes.high) == Some(AmplitudeVerdict::Survives)
+pub(super) fn survives_at_top(evidence: &Evidence, grid_points: AmplitudeRange) -> bool {
+    evidence.get(grid_points.high) == Some(AmplitudeVerdict::Survives)
 }

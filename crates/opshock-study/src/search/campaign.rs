@@ -10,11 +10,10 @@
 use std::collections::BTreeSet;
 
 use super::findings::{Findings, Inheritance};
-use super::follow;
 use super::hint::{self, Known};
 use super::order::{Coordinates, Order};
 use super::outcome::Status;
-use super::point::{Asked, PointSearch, Start};
+use super::point::{Asked, KnownVerdict, PointSearch, Start};
 use super::probe::Verdict;
 use super::settings::SearchSettings;
 
@@ -52,32 +51,35 @@ enum Trust {
 }
 
 #[derive(Clone, Debug)]
-enum Stage {
+pub(super) enum Stage {
     Waiting,
     Searching(Box<PointSearch>),
     Copied { onset_index: i32 },
 }
 
 #[derive(Clone, Debug)]
-struct PointState {
+pub(super) struct PointState {
     touch: Option<Touch>,
-    stage: Stage,
-    base: Option<Findings>,
+    pub(super) stage: Stage,
+    pub(super) base: Option<Findings>,
+    /// With its base answer: what it says to the same point with larger clearances called failure.
+    known: Vec<KnownVerdict>,
 }
 
 /// Search of all points of a study.
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    settings: SearchSettings,
+    pub(super) settings: SearchSettings,
     pulse_ms: Vec<f64>,
-    order: Order,
-    successors: Vec<Vec<usize>>,
-    points: Vec<PointState>,
-    chain_final: Vec<bool>,
-    n_final_chains: usize,
+    fail_below_m: Vec<f64>,
+    pub(super) order: Order,
+    pub(super) successors: Vec<Vec<usize>>,
+    pub(super) points: Vec<PointState>,
+    pub(super) chain_final: Vec<bool>,
+    pub(super) n_final_chains: usize,
     /// (source, low end of its non-monotone interval, neighbour) already given.
-    given: BTreeSet<(usize, i32, usize)>,
-    changed: Vec<usize>,
+    pub(super) given: BTreeSet<(usize, i32, usize)>,
+    pub(super) changed: Vec<usize>,
 }
 
 impl Campaign {
@@ -93,12 +95,14 @@ impl Campaign {
         Campaign {
             settings,
             pulse_ms: coordinates.iter().map(|at| at.pulse_ms).collect(),
+            fail_below_m: coordinates.iter().map(|at| at.fail_below_m).collect(),
             successors,
             points: vec![
                 PointState {
                     touch: None,
                     stage: Stage::Waiting,
                     base: None,
+                    known: Vec::new(),
                 };
                 coordinates.len()
             ],
@@ -210,9 +214,9 @@ impl Campaign {
         let companion = self.order.relations[point].companion;
         let onset_index = self.onset_index(point);
         let mut findings = match (&state.stage, companion, onset_index) {
-            (Stage::Searching(search), Some(companion), Some(node)) => search
+            (Stage::Searching(search), Some(companion), Some(grid_point)) => search
                 .findings()
-                .lowered_by(&self.findings(companion), node),
+                .lowered_by(&self.findings(companion), grid_point),
             (Stage::Searching(search), _, _) => search.findings(),
             (Stage::Copied { onset_index }, Some(companion), _) => {
                 self.findings(companion).copied_below(*onset_index)
@@ -247,6 +251,9 @@ impl Campaign {
         }
         let touch = state.touch?;
         let relations = &self.order.relations[point];
+        if relations.smaller_clearance.is_some() {
+            return None;
+        }
         let hint_g = self.hint_g(point, touch, Trust::Likely)?;
         let onset_index = self.onset_index(point)?;
         if onset_index > self.settings.range.high {
@@ -258,6 +265,7 @@ impl Campaign {
                 hint_g,
                 onset_index: relations.companion.map(|_| onset_index),
                 width_rank: relations.width_rank,
+                fail_below_m: self.fail_below_m[point],
             },
         ))
     }
@@ -294,17 +302,25 @@ impl Campaign {
                 settled => settled.as_ref(),
             },
         };
+        let known: &[KnownVerdict] = match relations.smaller_clearance {
+            None => &[],
+            Some(other) if self.points[other].base.is_none() => return false,
+            Some(other) => &self.points[other].known,
+        };
         let Some(hint_g) = self.hint_g(point, touch, Trust::Settled) else {
             return false;
         };
         let inheritance = match (companion, self.onset_index(point)) {
-            (Some(findings), Some(node)) => findings.bequeath(node, self.settings.range.high),
+            (Some(findings), Some(grid_point)) => {
+                findings.bequeath(grid_point, self.settings.range.high)
+            }
             _ => Inheritance::Nothing,
         };
         let start = |onset_index| Start {
             hint_g,
             onset_index,
             width_rank: relations.width_rank,
+            fail_below_m: self.fail_below_m[point],
         };
         let (stage, base) = match (inheritance, companion, self.onset_index(point)) {
             (Inheritance::Whole, Some(findings), Some(onset_index)) => (
@@ -313,6 +329,7 @@ impl Campaign {
             ),
             (Inheritance::Below { onset_index }, _, _) => {
                 let search = PointSearch::new(self.settings, start(Some(onset_index)));
+                let search = search.knowing(known);
                 (Stage::Searching(Box::new(search)), None)
             }
             _ => {
@@ -321,65 +338,40 @@ impl Campaign {
                     Touch::NoRamp => search.without_ramp(),
                     Touch::At { .. } | Touch::Unknown => search,
                 };
+                let search = search.knowing(known);
                 (Stage::Searching(Box::new(search)), None)
             }
         };
         self.changed.push(point);
         self.points[point].stage = stage;
         self.points[point].base = base;
+        // Nothing is left to ask where all is known.
+        if self.points[point].base.is_none() && self.ask(point).is_none() {
+            self.keep_answer(point);
+        }
         true
+    }
+
+    /// Records the base answer of a point that searches.
+    fn keep_answer(&mut self, point: usize) {
+        let Stage::Searching(search) = &self.points[point].stage else {
+            return;
+        };
+        let mut successors = self.successors[point].iter();
+        let has_larger = successors.any(|&other| self.is_smaller(point, other));
+        // As it is now: failures found at other widths come later, in whatever order runs are finished.
+        let known = has_larger.then(|| search.known_for_larger());
+        let base = Some(search.findings());
+        let state = &mut self.points[point];
+        (state.base, state.known) = (base, known.unwrap_or_default());
     }
 
     /// Records the base answer of a point and starts its successors.
     fn settle(&mut self, point: usize) {
-        if let Stage::Searching(search) = &self.points[point].stage {
-            self.points[point].base = Some(search.findings());
-        }
+        self.keep_answer(point);
         let successors = self.successors[point].clone();
         self.start_ready(successors);
         self.close_round(self.order.relations[point].chain);
-    }
-
-    /// Gives lower failures to neighbours when no width of a chain has a probe to request.
-    fn close_round(&mut self, chain: usize) {
-        let widths = self.order.chains[chain].clone();
-        let idle = |point: usize| self.points[point].base.is_some() && self.ask(point).is_none();
-        if self.chain_final[chain] || !widths.iter().all(|&point| idle(point)) {
-            return;
-        }
-        let spacing = (self.settings.scan_gap / 3).max(1);
-        let mut gifts = Vec::new();
-        for &neighbour in &widths {
-            let Some(other) = self.search(neighbour) else {
-                continue;
-            };
-            for source in self.order.relations[neighbour]
-                .neighbours
-                .into_iter()
-                .flatten()
-            {
-                let Some(search) = self.search(source) else {
-                    continue;
-                };
-                let Some(window) = follow::lower_window(search) else {
-                    continue;
-                };
-                let gift = (source, window.0, neighbour);
-                if !self.given.contains(&gift) {
-                    gifts.push((gift, follow::targets(search, window, other, spacing)));
-                }
-            }
-        }
-        for (gift, nodes) in gifts {
-            self.given.insert(gift);
-            let (.., neighbour) = gift;
-            if let Stage::Searching(search) = &mut self.points[neighbour].stage {
-                search.follow(&nodes);
-                self.changed.push(neighbour);
-            }
-        }
-        self.chain_final[chain] = widths.iter().all(|&point| self.ask(point).is_none());
-        self.n_final_chains += usize::from(self.chain_final[chain]);
     }
 
     /// Starting amplitude: `None` while a point it comes from is open, `Some(None)` when there is
@@ -429,12 +421,12 @@ impl Campaign {
                 .and(bracketed.evidence().lowest_failure())?;
             return Some(Some(grid.amplitude_g(failure)));
         };
-        let node = match findings.status {
+        let grid_point = match findings.status {
             Status::Ok => findings.failure,
             Status::AboveRange => Some(range.high),
             Status::BelowRange => Some(range.low),
             Status::Undecided | Status::Open => None,
         };
-        Some(node.map(|node| grid.amplitude_g(node)))
+        Some(grid_point.map(|grid_point| grid.amplitude_g(grid_point)))
     }
 }

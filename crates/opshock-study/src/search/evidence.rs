@@ -16,18 +16,18 @@ pub enum AmplitudeVerdict {
 /// Grid points tested, by index. Every verdict is kept; survival need not be monotone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
-    nodes: BTreeMap<i32, AmplitudeVerdict>,
+    grid_points: BTreeMap<i32, AmplitudeVerdict>,
     /// Of these the lowest that fails, and the number without verdict: needed at every probe.
     lowest_failure: Option<i32>,
     n_undecided: usize,
     /// Smallest clearances of survivors, bits of metres.
-    margins: BTreeMap<i32, u64>,
+    clearances: BTreeMap<i32, u64>,
 }
 
 impl Evidence {
     /// Records a grid point.
     pub fn insert(&mut self, index: i32, verdict: AmplitudeVerdict) {
-        let before = self.nodes.insert(index, verdict);
+        let before = self.grid_points.insert(index, verdict);
         self.n_undecided += usize::from(verdict == AmplitudeVerdict::Undecided);
         self.n_undecided -= usize::from(before == Some(AmplitudeVerdict::Undecided));
         let is_lower = self.lowest_failure.is_none_or(|lowest| index < lowest);
@@ -36,44 +36,52 @@ impl Evidence {
         } else if self.lowest_failure == Some(index) && verdict != AmplitudeVerdict::Fails {
             let fails =
                 |(_, verdict): &(&i32, &AmplitudeVerdict)| **verdict == AmplitudeVerdict::Fails;
-            self.lowest_failure = self.nodes.iter().find(fails).map(|(&index, _)| index);
+            self.lowest_failure = self.grid_points.iter().find(fails).map(|(&index, _)| index);
         }
     }
 
     /// Records the smallest clearance, m, of a grid point that survives.
-    pub fn insert_margin(&mut self, index: i32, h_min_m: f64) {
-        self.margins.insert(index, h_min_m.to_bits());
+    pub fn insert_clearance(&mut self, index: i32, h_min_m: f64) {
+        self.clearances.insert(index, h_min_m.to_bits());
     }
 
-    /// Where the clearance of the two highest survivors below `limit` (exclusive) would vanish on a straight line, in
-    /// grid steps; `None` when it does not fall, or one of the two has none.
-    pub fn vanishing_point(&self, limit: Option<i32>) -> Option<f64> {
+    /// All grid points tested, ascending, with the smallest clearances of survivors, m.
+    pub fn all(&self) -> impl Iterator<Item = (i32, AmplitudeVerdict, Option<f64>)> + '_ {
+        let clearance = |index| self.clearances.get(index).copied().map(f64::from_bits);
+        let all = self.grid_points.iter();
+        all.map(move |(index, &verdict)| (*index, verdict, clearance(index)))
+    }
+
+    /// Where the clearance of the two highest survivors below `limit` (exclusive) would fall to `fail_below_m` on a straight
+    /// line, in grid steps; `None` when it does not fall, or one of the two has none.
+    pub fn failing_point(&self, limit: Option<i32>, fail_below_m: f64) -> Option<f64> {
         let high = self.highest_survivor_below(limit)?;
         let low = self.highest_survivor_below(Some(high))?;
-        let margin = |index| self.margins.get(&index).copied().map(f64::from_bits);
-        let (h_low, h_high) = (margin(low)?, margin(high)?);
+        let clearance = |index| self.clearances.get(&index).copied().map(f64::from_bits);
+        let (h_low, h_high) = (clearance(low)?, clearance(high)?);
         let slope = (h_low - h_high) / f64::from(high - low);
-        (slope > 0.0 && h_high >= 0.0).then(|| f64::from(high) + h_high / slope)
+        let left = h_high - fail_below_m;
+        (slope > 0.0 && left >= 0.0).then(|| f64::from(high) + left / slope)
     }
 
     /// Verdict of a grid point, if tested.
     pub fn get(&self, index: i32) -> Option<AmplitudeVerdict> {
-        self.nodes.get(&index).copied()
+        self.grid_points.get(&index).copied()
     }
 
     /// Nothing was tested.
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
+        self.grid_points.is_empty()
     }
 
     /// Highest tested grid point, decided or not.
     pub fn top(&self) -> Option<i32> {
-        self.nodes.keys().next_back().copied()
+        self.grid_points.keys().next_back().copied()
     }
 
     /// Lowest tested grid point, decided or not.
     pub fn bottom(&self) -> Option<i32> {
-        self.nodes.keys().next().copied()
+        self.grid_points.keys().next().copied()
     }
 
     /// Lowest failing grid point.
@@ -81,21 +89,21 @@ impl Evidence {
         self.lowest_failure
     }
 
-    /// Lowest grid point of `nodes` with a verdict.
+    /// Lowest grid point of `grid_points` with a verdict.
     pub fn lowest_with(
         &self,
         verdict: AmplitudeVerdict,
-        nodes: std::ops::Range<i32>,
+        grid_points: std::ops::Range<i32>,
     ) -> Option<i32> {
-        let known = self.nodes.range(nodes);
+        let known = self.grid_points.range(grid_points);
         let mut with = known.filter(|(_, known)| **known == verdict);
         with.next().map(|(&index, _)| index)
     }
 
-    /// Lowest grid point, not below `floor`, down to which every one below `top` is known and none fails.
-    pub fn unbroken_below(&self, top: i32, floor: i32) -> i32 {
+    /// Lowest grid point, not below `lowest`, down to which every one below `top` is known and none fails.
+    pub fn unbroken_below(&self, top: i32, lowest: i32) -> i32 {
         let mut at = top;
-        for (&index, verdict) in self.nodes.range(floor.min(top)..top).rev() {
+        for (&index, verdict) in self.grid_points.range(lowest.min(top)..top).rev() {
             if index != at - 1 || *verdict == AmplitudeVerdict::Fails {
                 break;
             }
@@ -107,8 +115,8 @@ impl Evidence {
     /// Highest survivor below `limit` (exclusive), of all grid points when there is no limit.
     pub fn highest_survivor_below(&self, limit: Option<i32>) -> Option<i32> {
         let below = match limit {
-            Some(limit) => self.nodes.range(..limit),
-            None => self.nodes.range(..),
+            Some(limit) => self.grid_points.range(..limit),
+            None => self.grid_points.range(..),
         };
         below
             .rev()
@@ -121,7 +129,7 @@ impl Evidence {
         if low + 1 >= high {
             return Vec::new();
         }
-        self.nodes
+        self.grid_points
             .range(low + 1..high)
             .filter(|(_, verdict)| **verdict == AmplitudeVerdict::Undecided)
             .map(|(index, _)| *index)
@@ -137,7 +145,7 @@ impl Evidence {
     pub fn brackets(&self) -> Vec<(i32, i32)> {
         let mut brackets = Vec::new();
         let mut survivor = None;
-        for (&index, verdict) in &self.nodes {
+        for (&index, verdict) in &self.grid_points {
             match verdict {
                 AmplitudeVerdict::Survives => survivor = Some(index),
                 AmplitudeVerdict::Fails => {
@@ -161,11 +169,11 @@ impl Evidence {
 
     /// The lowest failure and the last grid point before the next higher survivor: where the lowest non-monotone
     /// interval lies.
-    pub fn window_of_failure(&self) -> Option<(i32, i32)> {
+    pub fn non_monotone_interval(&self) -> Option<(i32, i32)> {
         let low = self.lowest_failure()?;
         let top = self.top()?;
         let above = self
-            .nodes
+            .grid_points
             .range(low..)
             .find(|(_, verdict)| **verdict == AmplitudeVerdict::Survives)
             .map_or(top, |(index, _)| index - 1);
@@ -178,7 +186,7 @@ impl Evidence {
     pub fn largest_gap(&self, low: i32, high: i32) -> i32 {
         let mut last = low;
         let mut largest = 0;
-        for (&index, verdict) in self.nodes.range(low..=high) {
+        for (&index, verdict) in self.grid_points.range(low..=high) {
             if *verdict == AmplitudeVerdict::Survives {
                 largest = largest.max(index - last);
                 last = index;
@@ -189,7 +197,7 @@ impl Evidence {
 
     /// Lowest survivor.
     pub fn lowest_survivor(&self) -> Option<i32> {
-        self.nodes
+        self.grid_points
             .iter()
             .find(|(_, verdict)| **verdict == AmplitudeVerdict::Survives)
             .map(|(index, _)| *index)
@@ -226,7 +234,7 @@ mod tests {
         );
         assert_eq!(evidence.lowest_with(AmplitudeVerdict::Fails, 0..7), None);
         evidence.insert(6, AmplitudeVerdict::Undecided);
-        let below = |top, floor| evidence.unbroken_below(top, floor);
+        let below = |top, lowest| evidence.unbroken_below(top, lowest);
         assert_eq!(
             [below(7, 0), below(7, 6), below(8, 0), below(4, 9)],
             [5, 6, 8, 4]

@@ -9,7 +9,7 @@ use super::point::PointSearch;
 
 /// Grid points over which the lowest non-monotone interval of a point may extend, if it lies below its first bracket.
 pub(super) fn lower_window(source: &PointSearch) -> Option<(i32, i32)> {
-    let (low, high) = source.evidence().window_of_failure()?;
+    let (low, high) = source.evidence().non_monotone_interval()?;
     let lower = source.first_failure().is_none_or(|first| low < first);
     lower.then_some((low, high))
 }
@@ -25,21 +25,21 @@ pub(super) fn targets(
         (Some(from), Some(to)) => to - from,
         _ => 0,
     };
-    let mut nodes: Vec<i32> = Vec::new();
+    let mut grid_points: Vec<i32> = Vec::new();
     let mut offset = low;
     while offset <= high {
-        for node in [offset + shift, offset] {
-            let near = |other: i32| (other - node).abs() < spacing;
-            let known = (node - spacing + 1..node + spacing)
+        for grid_point in [offset + shift, offset] {
+            let near = |other: i32| (other - grid_point).abs() < spacing;
+            let known = (grid_point - spacing + 1..grid_point + spacing)
                 .any(|other| neighbour.evidence().get(other) == Some(AmplitudeVerdict::Survives));
             if !known
-                && !nodes.iter().any(|&other| near(other))
-                && neighbour.is_open_below_failure(node)
+                && !grid_points.iter().any(|&other| near(other))
+                && neighbour.is_open_below_failure(grid_point)
             {
-                nodes.push(node);
+                grid_points.push(grid_point);
             }
         }
         offset += spacing;
     }
-    nodes
+    grid_points
 }

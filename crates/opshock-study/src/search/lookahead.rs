@@ -35,7 +35,7 @@ const LEAST_LIKELIHOOD: f64 = 0.2;
 fn survival_chance(purpose: Purpose) -> f64 {
     match purpose {
         Purpose::Bracketing | Purpose::Bisect => 0.5,
-        Purpose::Scan | Purpose::Window | Purpose::Uncertainty => 0.95,
+        Purpose::Scan | Purpose::Window | Purpose::Uncertainty | Purpose::OwnRun => 0.95,
         Purpose::FollowUp => 0.6,
     }
 }

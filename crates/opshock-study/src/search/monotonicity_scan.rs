@@ -37,7 +37,7 @@ pub(super) struct Scan {
     /// step below grows; `None` keeps the gap everywhere.
     pub keep: Option<(i32, i32)>,
     /// Lowest grid point that may be tested.
-    pub floor: i32,
+    pub lowest: i32,
 }
 
 impl Scan {
@@ -52,21 +52,21 @@ impl Scan {
     pub(super) fn next(&self, evidence: &Evidence, top: i32) -> Option<i32> {
         // In a scan of every grid point, all that is done is found at once.
         let mut at = match self.gap {
-            1 => evidence.unbroken_below(top, self.floor),
+            1 => evidence.unbroken_below(top, self.lowest),
             _ => top,
         };
         loop {
             let gap = self.gap_at(top - at);
             // The grid point below the lower limit is answered without a run. An undecided one bridges nothing: below
             // one that ends the scan the limit itself is tested.
-            if at - gap < self.floor {
+            if at - gap < self.lowest {
                 let is_sound = evidence.get(at) != Some(AmplitudeVerdict::Undecided) || at == top;
-                let is_left = at > self.floor && evidence.get(self.floor).is_none();
-                return (!is_sound && is_left).then_some(self.floor);
+                let is_left = at > self.lowest && evidence.get(self.lowest).is_none();
+                return (!is_sound && is_left).then_some(self.lowest);
             }
             match highest_use(evidence, at - gap, at) {
                 Some(known) => at = known,
-                None => return Some(self.node_below(at, gap)),
+                None => return Some(self.grid_point_below(at, gap)),
             }
         }
     }
@@ -86,7 +86,7 @@ impl Scan {
     }
 
     /// The scanned grid point within `gap` below `at`.
-    fn node_below(&self, at: i32, gap: i32) -> i32 {
+    fn grid_point_below(&self, at: i32, gap: i32) -> i32 {
         if gap == self.gap {
             at - 1 - (at - 1 - self.phase).rem_euclid(self.gap)
         } else {

@@ -16,8 +16,13 @@
 //! Widths added in later rounds come after all points of the rounds before. Their answered neighbours are those of
 //! earlier rounds, whose starting amplitudes do not depend on them.
 //!
+//! A point whose like is called failed at a smaller clearance starts from what was found for that: runs of both are the
+//! same up to the failure.
+//!
 //! A point with a ramp also has a *companion*: the same point without ramp. Below the amplitude of
 //! first touch its answers are the companion's.
+
+use std::collections::BTreeMap;
 
 use super::probe::Sign;
 use serde::Serialize;
@@ -72,6 +77,10 @@ pub struct Coordinates {
     pub axes: Vec<String>,
     /// Round in which the width was added, 0 for the study's own.
     pub round: u32,
+    /// Clearance below which the interface has failed, m.
+    pub fail_below_m: f64,
+    /// Place among the axes of the one that varies that clearance.
+    pub clearance_axis: Option<usize>,
 }
 
 /// A point's relations.
@@ -83,6 +92,8 @@ pub struct Relations {
     pub reference: Option<usize>,
     /// The same point without ramp.
     pub companion: Option<usize>,
+    /// The same point with the next smaller clearance called failure.
+    pub smaller_clearance: Option<usize>,
     /// Next smaller and next larger width of the same ramp, sign and axes.
     pub neighbours: [Option<usize>; 2],
     /// Points of the same ramp, sign, axes and round, by width: a number naming the group.
@@ -96,6 +107,7 @@ impl Relations {
     pub fn predecessors(&self) -> Vec<usize> {
         // The references of answered widths are answered before these.
         let mut all: Vec<usize> = self.companion.into_iter().chain(self.reference).collect();
+        all.extend(self.smaller_clearance);
         all.extend(self.answered.into_iter().flatten());
         all.sort_unstable();
         all.dedup();
@@ -176,10 +188,12 @@ impl Order {
             answered: [None, None],
             reference: None,
             companion: None,
+            smaller_clearance: None,
             neighbours: [None, None],
             chain: 0,
             width_rank: 0,
         };
+        let smaller_clearances = smaller_clearances(points);
         let mut relations = vec![unknown; points.len()];
         // (axes, rank in ends-first order, ramp, sign) sorts into the canonical sequence.
         let mut keys: Vec<(usize, usize, usize, usize)> = vec![(0, 0, 0, 0); points.len()];
@@ -212,6 +226,7 @@ impl Order {
                     answered,
                     reference: reference(points, &chains[..number], at),
                     companion: companion(points, at),
+                    smaller_clearance: smaller_clearances[point],
                     neighbours,
                     chain: number,
                     width_rank: own.len() + place,
@@ -290,6 +305,30 @@ fn companion(points: &[Coordinates], at: &Coordinates) -> Option<usize> {
     })
 }
 
+/// For every point the one that differs from it in the next smaller clearance called failure alone, among those of its
+/// round and of earlier ones.
+fn smaller_clearances(points: &[Coordinates]) -> Vec<Option<usize>> {
+    let mut alike: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (place, at) in points.iter().enumerate() {
+        if let Some(axis) = at.clearance_axis {
+            let (before, after) = at.axes.split_at(axis);
+            let key = (at.ramp, at.sign, at.pulse_ms.to_bits(), before, &after[1..]);
+            alike.entry(key).or_default().push(place);
+        }
+    }
+    let mut smaller = vec![None; points.len()];
+    for mut places in alike.into_values() {
+        places.sort_by(|&a, &b| points[a].fail_below_m.total_cmp(&points[b].fail_below_m));
+        for (number, &place) in places.iter().enumerate() {
+            let below = places[..number].iter().rev().copied();
+            smaller[place] = below
+                .into_iter()
+                .find(|&other| points[other].round <= points[place].round);
+        }
+    }
+    smaller
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -305,6 +344,8 @@ mod tests {
                         sign,
                         axes: vec![],
                         round: 0,
+                        fail_below_m: 0.0,
+                        clearance_axis: None,
                     });
                 }
             }

@@ -1,13 +1,15 @@
 //! Search of one point: names the next probe (amplitude and way of running it) and takes its verdict.
 //!
-//! The next probe is a function of the verdicts so far, of the settings and of the start alone. In this order:
+//! The next probe is a function of the verdicts so far, those known before it began included, of the settings and of the
+//! start alone. In this order:
 //!
 //! 1. the retries of a grid point without verdict;
 //! 2. exponential search for a bracket, and its halving (`bracketing`);
 //! 3. the scan for lower failures (`monotonicity_scan`); a failure found becomes the bracket and is halved in turn, so
 //!    that in the end the lowest failure in the evidence has a survivor next to it;
 //! 4. failures of neighbouring widths to be looked for here;
-//! 5. the highest survivor below the lowest failure, in a doubled window.
+//! 5. the ends of the bracket, where they are known from elsewhere;
+//! 6. the highest survivor below it, in a doubled window.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,6 +32,19 @@ pub struct Start {
     pub onset_index: Option<i32>,
     /// Place of the width among the widths of the same ramp, sign and axes: shifts the scan.
     pub width_rank: usize,
+    /// Clearance below which the interface has failed, m.
+    pub fail_below_m: f64,
+}
+
+/// A grid point whose verdict is known from the runs of another point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownVerdict {
+    /// Grid point.
+    pub index: i32,
+    /// It failed there.
+    pub fails: bool,
+    /// Smallest clearance of a survivor, m.
+    pub h_min_m: Option<f64>,
 }
 
 /// A probe that was requested and answered.
@@ -45,17 +60,19 @@ pub struct Asked {
 #[derive(Clone, Debug)]
 pub struct PointSearch {
     settings: SearchSettings,
-    nodes: AmplitudeRange,
+    pub(super) fail_below_m: f64,
+    pub(super) grid_points: AmplitudeRange,
     assumed_survivor: Option<i32>,
-    bracketing: Bracketing,
+    pub(super) bracketing: Bracketing,
     scan: Scan,
-    evidence: Evidence,
+    pub(super) evidence: Evidence,
     windows: BTreeMap<i32, AmplitudeVerdict>,
     retry: Retry,
     targets: Vec<i32>,
     bracketed: bool,
     first_failure: Option<i32>,
-    log: Vec<Asked>,
+    pub(super) log: Vec<Asked>,
+    pub(super) known: Vec<i32>,
     undecided_runs: u64,
     flags: BTreeSet<Flag>,
 }
@@ -64,8 +81,10 @@ impl PointSearch {
     /// Search from a start.
     pub fn new(settings: SearchSettings, start: Start) -> PointSearch {
         let SearchSettings { grid, range, .. } = settings;
-        let own = start.onset_index.filter(|&node| node > range.low);
-        let nodes = AmplitudeRange {
+        let own = start
+            .onset_index
+            .filter(|&grid_point| grid_point > range.low);
+        let grid_points = AmplitudeRange {
             low: own.unwrap_or(range.low).min(range.high),
             high: range.high,
         };
@@ -75,15 +94,16 @@ impl PointSearch {
         };
         PointSearch {
             settings,
-            nodes,
-            assumed_survivor: own.map(|node| node - 1),
-            bracketing: Bracketing::new(&grid, nodes, start.hint_g),
+            fail_below_m: start.fail_below_m,
+            grid_points,
+            assumed_survivor: own.map(|grid_point| grid_point - 1),
+            bracketing: Bracketing::new(&grid, grid_points, start.hint_g, start.fail_below_m),
             scan: Scan {
                 gap,
                 phase: Scan::phase_of(start.width_rank, gap),
                 keep: (own.is_none() && settings.monotonicity_scan == MonotonicityScan::Sampled)
                     .then_some((grid.steps_per_octave / 2, 2)),
-                floor: nodes.low,
+                lowest: grid_points.low,
             },
             evidence: Evidence::default(),
             windows: BTreeMap::new(),
@@ -92,6 +112,7 @@ impl PointSearch {
             bracketed: false,
             first_failure: None,
             log: Vec::new(),
+            known: Vec::new(),
             undecided_runs: 0,
             flags: BTreeSet::new(),
         }
@@ -106,12 +127,12 @@ impl PointSearch {
 
     /// The next probe, `None` when the search has its answer.
     pub fn ask(&self) -> Option<Asked> {
-        let (node, window_factor, purpose) = self.next_node()?;
+        let (grid_point, window_factor, purpose) = self.next_grid_point()?;
         Some(Asked {
             probe: Probe {
                 window_factor,
                 retry: self.retry,
-                ..Probe::at(node)
+                ..Probe::at(grid_point)
             },
             purpose,
         })
@@ -141,6 +162,10 @@ impl PointSearch {
             Verdict::Undecided { cause, .. } => {
                 self.undecided_runs += 1;
                 self.flags.insert(Flag::from(*cause));
+                if asked.purpose == Purpose::OwnRun {
+                    // The verdict stays what is known.
+                    return;
+                }
                 if let Some(next) = asked.probe.retry.next() {
                     self.retry = next;
                     return;
@@ -161,14 +186,14 @@ impl PointSearch {
         }
         self.evidence.insert(asked.probe.index, amplitude_verdict);
         if let (AmplitudeVerdict::Survives, Some(h_min_m)) = (amplitude_verdict, h_min_m) {
-            self.evidence.insert_margin(asked.probe.index, h_min_m);
+            self.evidence.insert_clearance(asked.probe.index, h_min_m);
         }
         self.note_bracket();
     }
 
     /// Adds grid points that failed at a neighbouring width; those that cannot lower the answer are passed over later.
-    pub fn follow(&mut self, nodes: &[i32]) {
-        self.targets.extend_from_slice(nodes);
+    pub fn follow(&mut self, grid_points: &[i32]) {
+        self.targets.extend_from_slice(grid_points);
     }
 
     /// Evidence so far.
@@ -187,14 +212,16 @@ impl PointSearch {
     }
 
     /// Whether a grid point would be this point's own to test and could lower its answer.
-    pub fn is_open_below_failure(&self, node: i32) -> bool {
-        node >= self.nodes.low
-            && self.evidence.get(node).is_none()
+    pub fn is_open_below_failure(&self, grid_point: i32) -> bool {
+        grid_point >= self.grid_points.low
+            && self.evidence.get(grid_point).is_none()
             && self.bracketed
             && self
                 .evidence
                 .lowest_failure()
-                .map_or(node <= self.nodes.high, |failure| node < failure)
+                .map_or(grid_point <= self.grid_points.high, |failure| {
+                    grid_point < failure
+                })
     }
 
     /// The answer as the evidence has it now.
@@ -208,7 +235,7 @@ impl PointSearch {
         if self.evidence.n_undecided() > 0 {
             flags.insert(Flag::UndecidedAmplitude);
         }
-        match survivor.and_then(|node| self.windows.get(&node)) {
+        match survivor.and_then(|grid_point| self.windows.get(&grid_point)) {
             Some(AmplitudeVerdict::Fails) => {
                 flags.insert(Flag::Window);
             }
@@ -226,8 +253,10 @@ impl PointSearch {
         let scanned_from = (self.settings.monotonicity_scan != MonotonicityScan::Off
             && self.bracketed)
             .then(|| {
-                self.assumed_survivor
-                    .map_or_else(|| self.evidence.lowest_survivor(), |_| Some(self.nodes.low))
+                self.assumed_survivor.map_or_else(
+                    || self.evidence.lowest_survivor(),
+                    |_| Some(self.grid_points.low),
+                )
             })
             .flatten()
             .filter(|&low| survivor.is_some_and(|survivor| low <= survivor + 1));
@@ -250,7 +279,7 @@ impl PointSearch {
     }
 
     fn status(&self, survivor: Option<i32>, failure: Option<i32>) -> Status {
-        if self.next_node().is_some() {
+        if self.next_grid_point().is_some() {
             return Status::Open;
         }
         match (survivor, failure) {
@@ -262,7 +291,7 @@ impl PointSearch {
     }
 
     /// Highest survivor below the lowest failure, the grid point below first touch included.
-    fn survivor(&self) -> Option<i32> {
+    pub(super) fn survivor(&self) -> Option<i32> {
         let failure = self.evidence.lowest_failure();
         self.evidence
             .highest_survivor_below(failure)
@@ -279,53 +308,63 @@ impl PointSearch {
         }
         matches!(
             self.bracketing
-                .step(&self.evidence, self.nodes, self.assumed_survivor),
+                .step(&self.evidence, self.grid_points, self.assumed_survivor),
             BracketingStep::Bracketed { .. }
         )
     }
 
-    fn note_bracket(&mut self) {
+    pub(super) fn note_bracket(&mut self) {
         if self.bracketed {
             return;
         }
         match self
             .bracketing
-            .step(&self.evidence, self.nodes, self.assumed_survivor)
+            .step(&self.evidence, self.grid_points, self.assumed_survivor)
         {
             BracketingStep::Bracketed { survivor, failure } => {
                 if bisect(&self.evidence, survivor, failure).is_none() {
                     self.bracketed = true;
-                    self.first_failure = Some(failure);
+                    // What is known may hold a lower failure, which a search from nothing finds after its first bracket.
+                    let highest = self.evidence.brackets().last().map(|&(_, failure)| failure);
+                    let first = highest.filter(|_| !self.known.is_empty());
+                    self.first_failure = Some(first.unwrap_or(failure));
                 }
             }
             BracketingStep::Exhausted => {
-                self.bracketed = survives_at_top(&self.evidence, self.nodes)
+                self.bracketed = survives_at_top(&self.evidence, self.grid_points)
             }
             BracketingStep::Test(_) => {}
         }
     }
 
-    fn next_node(&self) -> Option<(i32, u8, Purpose)> {
+    fn next_grid_point(&self) -> Option<(i32, u8, Purpose)> {
         if self.evidence.n_undecided() > self.settings.max_undecided {
             return None;
         }
         if !self.bracketed {
-            return match self
-                .bracketing
-                .step(&self.evidence, self.nodes, self.assumed_survivor)
-            {
-                BracketingStep::Test(node) => Some((node, 1, Purpose::Bracketing)),
+            return match self.bracketing.step(
+                &self.evidence,
+                self.grid_points,
+                self.assumed_survivor,
+            ) {
+                BracketingStep::Test(grid_point) => Some((grid_point, 1, Purpose::Bracketing)),
                 BracketingStep::Bracketed { survivor, failure } => {
                     let halvings = self.log.iter().filter(|a| a.purpose == Purpose::Bisect);
-                    aimed(&self.evidence, survivor, failure, halvings.count())
-                        .or_else(|| bisect(&self.evidence, survivor, failure))
-                        .map(|node| (node, 1, Purpose::Bisect))
+                    aimed(
+                        &self.evidence,
+                        (survivor, failure),
+                        halvings.count(),
+                        self.fail_below_m,
+                    )
+                    .or_else(|| bisect(&self.evidence, survivor, failure))
+                    .map(|grid_point| (grid_point, 1, Purpose::Bisect))
                 }
                 BracketingStep::Exhausted => None,
             };
         }
         self.next_below()
             .or_else(|| self.next_target())
+            .or_else(|| self.next_own_run())
             .or_else(|| self.next_window())
     }
 
@@ -338,27 +377,27 @@ impl PointSearch {
             // A failure without a survivor below it: go on down to the end of the range.
             let failure = failure?;
             let next = self.scan.next(&self.evidence, failure);
-            let lowest = self.nodes.low;
+            let lowest = self.grid_points.low;
             return next
                 .or((self.evidence.get(lowest).is_none()).then_some(lowest))
-                .map(|node| (node, 1, Purpose::Scan));
+                .map(|grid_point| (grid_point, 1, Purpose::Scan));
         };
         if let Some(failure) = failure
-            && let Some(node) = bisect(&self.evidence, survivor, failure)
+            && let Some(grid_point) = bisect(&self.evidence, survivor, failure)
         {
-            return Some((node, 1, Purpose::Bisect));
+            return Some((grid_point, 1, Purpose::Bisect));
         }
         scans
             .then(|| self.scan.next(&self.evidence, survivor))
             .flatten()
-            .map(|node| (node, 1, Purpose::Scan))
+            .map(|grid_point| (grid_point, 1, Purpose::Scan))
     }
 
     fn next_target(&self) -> Option<(i32, u8, Purpose)> {
         self.targets
             .iter()
-            .find(|&&node| self.is_open_below_failure(node))
-            .map(|&node| (node, 1, Purpose::FollowUp))
+            .find(|&&grid_point| self.is_open_below_failure(grid_point))
+            .map(|&grid_point| (grid_point, 1, Purpose::FollowUp))
     }
 
     fn next_window(&self) -> Option<(i32, u8, Purpose)> {

@@ -139,8 +139,10 @@ pub enum Purpose {
     Bisect,
     /// Looking for lower failures.
     Scan,
-    /// A lower failure of a neighbouring width.
+    /// A lower failure of a neighbouring width, or of a smaller clearance called failure.
     FollowUp,
+    /// An end of the bracket whose verdict is known from a smaller clearance called failure.
+    OwnRun,
     /// The highest survivor in a doubled window.
     Window,
     /// What a discretisation parameter changes, for the uncertainty interval.
@@ -155,6 +157,7 @@ impl Purpose {
             Purpose::Bisect => "bisect",
             Purpose::Scan => "scan",
             Purpose::FollowUp => "follow_up",
+            Purpose::OwnRun => "own_run",
             Purpose::Window => "window",
             Purpose::Uncertainty => "uncertainty",
         }
@@ -167,6 +170,7 @@ impl Purpose {
             Purpose::Bisect,
             Purpose::Scan,
             Purpose::FollowUp,
+            Purpose::OwnRun,
             Purpose::Window,
             Purpose::Uncertainty,
         ]

@@ -195,7 +195,7 @@ impl<'a> Run<'a> {
 
     fn drive(mut self, simulator: &dyn Simulator, folder: &Path) -> Result<SweepEnd, StoreError> {
         for (code, message) in std::mem::take(&mut self.notes) {
-            self.tell(Event::Warning { code, message });
+            self.notify(Event::Warning { code, message });
         }
         let answered = self.registry.absorb_all();
         self.report(&answered, None);
@@ -216,7 +216,7 @@ impl<'a> Run<'a> {
         }
         let results = self.registry.results(&self.session);
         for message in lucky(self.input, &self.registry, &results) {
-            self.tell(Event::Warning {
+            self.notify(Event::Warning {
                 code: "lucky",
                 message,
             });
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
             core_use: self.busy_s / (wall_s * self.options.threads as f64),
         };
         self.send(Message::Checkpoint(Box::new(results)));
-        self.tell(Event::Finished {
+        self.notify(Event::Finished {
             totals: end.summary.totals,
             wall_s,
             core_use: end.core_use,
@@ -277,7 +277,7 @@ impl<'a> Run<'a> {
         for one in recorded {
             match one {
                 Ok(None) => {}
-                Ok(Some(message)) => self.tell(Event::Warning {
+                Ok(Some(message)) => self.notify(Event::Warning {
                     code: "history",
                     message,
                 }),
@@ -298,7 +298,7 @@ impl<'a> Run<'a> {
                 self.ask_neighbours();
                 let stopped = self.stopped();
                 if let (Some(ending), false) = (stopped, is_stopping) {
-                    self.tell(Event::Stopping { in_flight, ending });
+                    self.notify(Event::Stopping { in_flight, ending });
                     is_stopping = true;
                 }
                 while in_flight < threads && stopped.is_none() && !self.registry.is_done() {
@@ -311,12 +311,14 @@ impl<'a> Run<'a> {
                     let Some(job) = self.registry.next_job(self.options.speculate, &fits) else {
                         break;
                     };
-                    if let Job::Run { key, .. } = job
-                        && let Some(record) = self.others.get(&key).cloned()
-                    {
-                        self.reused_runs += 1;
-                        self.keep(record, None);
-                        continue;
+                    if let Job::Run { point, asked, key } = job {
+                        let elsewhere = self.registry.same_elsewhere(point, asked.probe);
+                        self.reused_runs += u64::from(self.others.contains_key(&key));
+                        let known = self.others.get(&key).cloned().or(elsewhere);
+                        if let Some(record) = known {
+                            self.keep(record, None);
+                            continue;
+                        }
                     }
                     let to_here = to_here.clone();
                     let (point, amplitude, digest) = match job {
@@ -429,7 +431,7 @@ impl<'a> Run<'a> {
         }
         let threads = self.options.threads;
         if let Some(left) = self.outlook.renew(self.input, &self.registry, threads) {
-            self.tell(Event::Estimated(left));
+            self.notify(Event::Estimated(left));
         }
     }
 
@@ -437,10 +439,10 @@ impl<'a> Run<'a> {
     fn report(&mut self, answered: &[AnsweredProbe], computed: Option<(RunKey, f64)>) {
         for &AnsweredProbe { point, asked, key } in answered {
             if self.registry.first_of(point, asked) {
-                self.tell(Event::PointStarted { point });
+                self.notify(Event::PointStarted { point });
             }
             let verdict = self.registry.runs()[&key].result.verdict.as_str();
-            self.tell(Event::ProbeDone {
+            self.notify(Event::ProbeDone {
                 point,
                 amplitude_g: self.registry.amplitude_g(asked.probe),
                 verdict,
@@ -459,7 +461,7 @@ impl<'a> Run<'a> {
             let bracket = (row.survived_g, row.failed_g);
             if bracket != self.brackets[point] {
                 self.brackets[point] = bracket;
-                self.tell(Event::Bracket {
+                self.notify(Event::Bracket {
                     point,
                     survived_g: row.survived_g,
                     failed_g: row.failed_g,
@@ -473,7 +475,7 @@ impl<'a> Run<'a> {
                 if !self.is_reported[point] && self.registry.is_final(point) {
                     self.is_reported[point] = true;
                     let summary = self.registry.row(point);
-                    self.tell(Event::PointDone {
+                    self.notify(Event::PointDone {
                         point,
                         summary,
                         is_stored: self.reports_stored,
@@ -486,8 +488,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn tell(&mut self, event: Event) {
-        self.send(Message::Tell(event));
+    fn notify(&mut self, event: Event) {
+        self.send(Message::Report(event));
     }
 
     fn send(&mut self, message: Message) {

@@ -185,9 +185,9 @@ fn measured(
         Touch::NoRamp | Touch::Unknown => range.low + (range.high - range.low) / 2,
     };
     let sign = input.points[point].coordinates.sign.factor();
-    let run = |node: i32| {
-        let amplitude = sign * m_per_s2_from_g(grid.amplitude_g(node));
-        let one = || guard::simulate(simulator, point, Probe::at(node), amplitude);
+    let run = |grid_point: i32| {
+        let amplitude = sign * m_per_s2_from_g(grid.amplitude_g(grid_point));
+        let one = || guard::simulate(simulator, point, Probe::at(grid_point), amplitude);
         let began = Instant::now();
         let result = std::thread::scope(|scope| {
             for _ in 1..workers {
@@ -199,33 +199,33 @@ fn measured(
         (seconds, result.verdict == Verdict::Survives)
     };
     let half_octave = (grid.steps_per_octave / 2).max(1);
-    let mut node = from.clamp(range.low, range.high);
-    run(node);
-    node = (node - 1).max(range.low);
-    let (mut seconds, mut survives) = run(node);
+    let mut grid_point = from.clamp(range.low, range.high);
+    run(grid_point);
+    grid_point = (grid_point - 1).max(range.low);
+    let (mut seconds, mut survives) = run(grid_point);
     let upwards = survives;
     // The last survivor and the one before.
-    let mut survivors = [(node, seconds); 2];
+    let mut survivors = [(grid_point, seconds); 2];
     let step = if upwards { half_octave } else { -half_octave };
-    while survives == upwards && (range.low..=range.high).contains(&(node + step)) {
-        node += step;
-        (seconds, survives) = run(node);
+    while survives == upwards && (range.low..=range.high).contains(&(grid_point + step)) {
+        grid_point += step;
+        (seconds, survives) = run(grid_point);
         if survives {
-            survivors = [survivors[1], (node, seconds)];
+            survivors = [survivors[1], (grid_point, seconds)];
         }
     }
     if !upwards {
-        let below = (node - half_octave).max(range.low);
-        survivors = [(node, seconds), (below, run(below).0)];
+        let below = (grid_point - half_octave).max(range.low);
+        survivors = [(grid_point, seconds), (below, run(below).0)];
     }
     let onset_g = touch.onset_g().unwrap_or(0.0);
     let at = &input.points[point].coordinates;
     let highest = survivors[0].0.max(survivors[1].0);
-    let units = survivors.map(|(node, _)| {
+    let units = survivors.map(|(grid_point, _)| {
         // The critical amplitude lies a quarter of an octave above the highest survivor on average.
-        let octaves = 0.25 + f64::from(highest - node) / f64::from(grid.steps_per_octave);
-        let run = RunTime::survivor(at, Probe::at(node));
-        run.at(grid.amplitude_g(node), onset_g, octaves).units
+        let octaves = 0.25 + f64::from(highest - grid_point) / f64::from(grid.steps_per_octave);
+        let run = RunTime::survivor(at, Probe::at(grid_point));
+        run.at(grid.amplitude_g(grid_point), onset_g, octaves).units
     });
     survivors.iter().map(|(_, seconds)| seconds).sum::<f64>() / units.iter().sum::<f64>()
 }

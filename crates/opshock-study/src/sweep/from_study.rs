@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use opshock_solver::scene::Window;
 use opshock_solver::scene::discretisation::Discretisation;
-use opshock_solver::scene::plan::Touch;
+use opshock_solver::scene::plan::{Mode, Touch};
 use serde_json::json;
 
 use super::input::{SweepInput, SweepPoint, UncertaintyPlan};
@@ -34,10 +34,15 @@ impl SweepInput {
             search.scan_gap_pct / 100.0,
             study.points.iter().any(is_fixed),
         )?;
+        let mut axes = study.axes.iter();
+        // A full model shares nothing.
+        let clearance_axis = axes
+            .position(|axis| axis.path == CLEARANCE)
+            .filter(|_| study.plan().mode == Mode::Auto);
         let points: Vec<SweepPoint> = study
             .table_order()
             .into_iter()
-            .map(|place| sweep_point(&study.points[place], search))
+            .map(|place| sweep_point(&study.points[place], search, clearance_axis))
             .collect();
         let is_decisive = search.uncertainty && search.uncertainty_of == UncertaintyOf::Decisive;
         Ok(SweepInput {
@@ -117,7 +122,14 @@ fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
     axes
 }
 
-fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoint {
+/// The key whose values are clearances called failure.
+const CLEARANCE: &str = "failure.clearance_nm";
+
+fn sweep_point(
+    point: &Point,
+    search: &crate::study::SearchSettings,
+    clearance_axis: Option<usize>,
+) -> SweepPoint {
     SweepPoint {
         coordinates: Coordinates {
             ramp: point.ramp,
@@ -129,6 +141,9 @@ fn sweep_point(point: &Point, search: &crate::study::SearchSettings) -> SweepPoi
                 .map(|(_, value)| sortable(value))
                 .collect(),
             round: point.round,
+            fail_below_m: point.scene.fail_below_m,
+            // Whether the slider follows a disk with run-out is judged by that clearance too.
+            clearance_axis: clearance_axis.filter(|_| point.scene.run_out.is_empty()),
         },
         axes: point.axes.iter().map(|(_, value)| value.into()).collect(),
         digest: digest(point, point.sign),

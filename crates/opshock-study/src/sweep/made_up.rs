@@ -67,9 +67,9 @@ pub(super) fn ended(
                     campaign.report_margin(point, &result.verdict, result.h_min_m);
                     continue;
                 }
-                let node = asked.probe.index;
-                let fails = known_to_fail(registry, point, node).unwrap_or_else(|| {
-                    let amplitude_g = input.settings.grid.amplitude_g(node);
+                let grid_point = asked.probe.index;
+                let fails = known_to_fail(registry, point, grid_point).unwrap_or_else(|| {
+                    let amplitude_g = input.settings.grid.amplitude_g(grid_point);
                     law.fails(&one.coordinates, touches[point], amplitude_g)
                 });
                 if counted.insert(key) {
@@ -83,14 +83,14 @@ pub(super) fn ended(
 }
 
 /// The side of the known bracket on which a grid point of the search lies; `None` inside.
-fn known_to_fail(registry: &Registry<'_>, point: usize, node: i32) -> Option<bool> {
+fn known_to_fail(registry: &Registry<'_>, point: usize, grid_point: i32) -> Option<bool> {
     let evidence = registry.campaign().search(point)?.evidence();
     let failure = evidence.lowest_failure();
-    if failure.is_some_and(|failure| node >= failure) {
+    if failure.is_some_and(|failure| grid_point >= failure) {
         return Some(true);
     }
     let survivor = evidence.highest_survivor_below(failure)?;
-    (node <= survivor).then_some(false)
+    (grid_point <= survivor).then_some(false)
 }
 
 fn verdict(fails: bool) -> Verdict {
@@ -120,16 +120,17 @@ impl Ended {
         probe: Probe,
         share: f64,
     ) -> ProbeResult {
+        let fail_below_m = input.points[point].coordinates.fail_below_m;
         let failure = self.campaign.findings(point).failure;
-        let nodes = failure.map_or(1, |failure| failure - probe.index);
+        let grid_points = failure.map_or(1, |failure| failure - probe.index);
         let of_event = match input.points[point].coordinates.ramp {
             Ramp::None => 0.5,
             Ramp::Rigid | Ramp::Deformable => 0.2,
         };
-        let octaves = f64::from(nodes) / f64::from(input.settings.grid.steps_per_octave);
+        let octaves = f64::from(grid_points) / f64::from(input.settings.grid.steps_per_octave);
         ProbeResult {
-            verdict: verdict(nodes <= 0),
-            h_min_m: (nodes > 0).then_some(CLEARANCE_PER_OCTAVE_M * octaves),
+            verdict: verdict(grid_points <= 0),
+            h_min_m: (grid_points > 0).then_some(fail_below_m + CLEARANCE_PER_OCTAVE_M * octaves),
             t_min_s: Some(if share < of_event {
                 EVENT_S
             } else {

@@ -149,20 +149,24 @@ impl<'a> MadeUpInterval<'a> {
     }
 
     /// Clearance and its time of the scene as it is, by the survivors known.
-    fn margin(&self, node: f64) -> Option<(f64, f64)> {
+    fn margin(&self, grid_point: f64) -> Option<(f64, f64)> {
         let known = &self.input.survivors;
-        let at_or_below = known.iter().filter(|known| f64::from(known.index) <= node);
+        let at_or_below = known
+            .iter()
+            .filter(|known| f64::from(known.index) <= grid_point);
         let below = at_or_below.max_by_key(|known| known.index);
-        let above = known.iter().filter(|known| f64::from(known.index) > node);
+        let above = known
+            .iter()
+            .filter(|known| f64::from(known.index) > grid_point);
         let above = above.min_by_key(|known| known.index);
         let nearest = below.or(above)?;
         let (from, to, to_m) = match (below, above) {
             (Some(below), Some(above)) => (below, f64::from(above.index), above.h_min_m),
-            (Some(below), None) => (below, self.critical.max(node), 0.0),
+            (Some(below), None) => (below, self.critical.max(grid_point), 0.0),
             (None, _) => return Some((nearest.h_min_m, nearest.t_min_s)),
         };
         let length = (to - f64::from(from.index)).max(1e-9);
-        let share = (node - f64::from(from.index)) / length;
+        let share = (grid_point - f64::from(from.index)) / length;
         Some((
             from.h_min_m + share * (to_m - from.h_min_m),
             nearest.t_min_s,
@@ -172,10 +176,10 @@ impl<'a> MadeUpInterval<'a> {
     /// The made-up answer of a run.
     pub(super) fn seen(&self, ask: Ask) -> Seen {
         let critical = self.critical(ask.levels);
-        let node = f64::from(ask.index);
-        let margin = self.margin(node + self.critical - critical);
+        let grid_point = f64::from(ask.index);
+        let margin = self.margin(grid_point + self.critical - critical);
         Seen {
-            verdict: if node <= critical {
+            verdict: if grid_point <= critical {
                 AmplitudeVerdict::Survives
             } else {
                 AmplitudeVerdict::Fails

@@ -64,7 +64,9 @@ impl Pace {
             let asked = asks.map(|&ask| uncertainty_asked(ask));
             for asked in searched.copied().chain(asked) {
                 let key = registry.key(point, asked.probe);
-                if let Some(run) = registry.runs().get(&key) {
+                let run = registry.runs().get(&key);
+                // One that was taken from another point took no time.
+                if let Some(run) = run.filter(|run| run.machine.wall_s > 0.0) {
                     let fails = matches!(run.result.verdict, Verdict::Fails { .. });
                     let time = RunTime::of(input, registry, campaign, point, &asked, fails);
                     all.push((run.machine.finished_unix_s, time, run.machine.wall_s));

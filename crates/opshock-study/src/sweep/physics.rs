@@ -29,7 +29,7 @@ use crate::study::{Point, RemeshedRamp, Study};
 type Built = Result<Arc<Model>, BuildError>;
 
 /// Models of one scene.
-struct Slot {
+struct Entry {
     scene: Scene,
     /// Its ramp on other meshes.
     remeshed: Option<RemeshedRamp>,
@@ -38,7 +38,7 @@ struct Slot {
     longer: Mutex<Option<Arc<Model>>>,
 }
 
-impl Slot {
+impl Entry {
     /// The scene at other refinement levels, of the ramp's mesh, too.
     fn at_levels(&self, levels: Levels) -> Scene {
         let mut scene = self.scene.at_levels(levels);
@@ -59,7 +59,7 @@ const MOST_END_BYTES: usize = 4 << 20;
 
 /// Runs the physics for the points of a study.
 pub struct Physics {
-    slots: Vec<Slot>,
+    entries: Vec<Entry>,
     /// Model place, sign of the shock, and sense of its axis along the scene's, of every point.
     points: Vec<(usize, f64, f64)>,
     plan: Plan,
@@ -100,9 +100,9 @@ impl Physics {
 
     /// Builds the films of its points, those of `study`, refined by `steps` in everything, for scenes that share them.
     pub fn build_films(&self, study: &Study, steps: i8) {
-        for (place, (slot, ..)) in study.table_order().into_iter().zip(&self.points) {
+        for (place, (entry, ..)) in study.table_order().into_iter().zip(&self.points) {
             // A scene that cannot be built has nothing to share.
-            let _ = self.refined_model(*slot, study.points[place].levels(steps));
+            let _ = self.refined_model(*entry, study.points[place].levels(steps));
         }
     }
 
@@ -133,30 +133,30 @@ impl Physics {
 
     /// Points with the sign of their shocks (1 or -1).
     fn new<'a>(points: impl IntoIterator<Item = (&'a Point, f64)>, plan: Plan) -> Self {
-        let mut slots: Vec<Slot> = Vec::new();
+        let mut entries: Vec<Entry> = Vec::new();
         let points = points
             .into_iter()
             .map(|(point, sign)| {
-                let known = slots
-                    .iter()
-                    .position(|slot| slot.scene == point.scene && slot.remeshed == point.remeshed);
-                let slot = known.unwrap_or_else(|| {
-                    slots.push(Slot {
+                let known = entries.iter().position(|entry| {
+                    entry.scene == point.scene && entry.remeshed == point.remeshed
+                });
+                let entry = known.unwrap_or_else(|| {
+                    entries.push(Entry {
                         scene: point.scene.clone(),
                         remeshed: point.remeshed.clone(),
                         plain: OnceLock::new(),
                         longer: Mutex::new(None),
                     });
-                    slots.len() - 1
+                    entries.len() - 1
                 });
-                (slot, sign, point.faces.factor())
+                (entry, sign, point.faces.factor())
             })
             .collect();
         let mut seen = HashSet::new();
-        let keys = slots.iter().map(|slot| structure_key(&slot.scene));
+        let keys = entries.iter().map(|entry| structure_key(&entry.scene));
         let shared_structures = keys.filter(|key| !seen.insert(*key)).collect();
         Self {
-            slots,
+            entries,
             points,
             plan,
             changed: Mutex::new(Latest::new(REFINED)),
@@ -171,11 +171,11 @@ impl Physics {
 
     /// The model of a point's own scene.
     fn model(&self, point: usize) -> Built {
-        let slot = &self.slots[self.points[point].0];
+        let entry = &self.entries[self.points[point].0];
         if !self.plan.shares_parts {
-            return self.build(&slot.scene);
+            return self.build(&entry.scene);
         }
-        slot.plain.get_or_init(|| self.build(&slot.scene)).clone()
+        entry.plain.get_or_init(|| self.build(&entry.scene)).clone()
     }
 
     fn build(&self, scene: &Scene) -> Built {
@@ -208,13 +208,13 @@ impl Physics {
     }
 
     /// A scene at other refinement levels in the study's window.
-    fn refined_model(&self, slot: usize, levels: Levels) -> Built {
-        let key = (slot, levels);
+    fn refined_model(&self, entry: usize, levels: Levels) -> Built {
+        let key = (entry, levels);
         let known = lock(&self.changed).get(&key).cloned();
         if let Some(model) = known {
             return Ok(model);
         }
-        let model = self.build(&self.slots[slot].at_levels(levels))?;
+        let model = self.build(&self.entries[entry].at_levels(levels))?;
         lock(&self.changed).keep(key, Arc::clone(&model), 1);
         Ok(model)
     }
@@ -227,8 +227,8 @@ impl Physics {
         if probe.retry == Retry::None && probe.window_factor == 1 {
             return self.model(point);
         }
-        let slot = &self.slots[self.points[point].0];
-        let scene = slot.at_levels(probe.levels);
+        let entry = &self.entries[self.points[point].0];
+        let scene = entry.at_levels(probe.levels);
         let longer = |scene: &Scene| {
             if probe.window_factor == 1 {
                 scene.clone()
@@ -239,11 +239,11 @@ impl Physics {
         match probe.retry {
             Retry::None if !self.plan.shares_parts => self.build(&longer(&scene)),
             Retry::None => {
-                if let Some(model) = lock(&slot.longer).clone() {
+                if let Some(model) = lock(&entry.longer).clone() {
                     return Ok(model);
                 }
                 let model = self.build(&longer(&scene))?;
-                *lock(&slot.longer) = Some(Arc::clone(&model));
+                *lock(&entry.longer) = Some(Arc::clone(&model));
                 Ok(model)
             }
             Retry::HalfStep => self.build(&longer(&scene.with_finer_steps(2.0))),
@@ -269,7 +269,7 @@ impl Physics {
                 ..Going::default()
             }
         } else {
-            let study = &self.slots[self.points[point].0].scene;
+            let study = &self.entries[self.points[point].0].scene;
             from = lock(&self.ends).take(&key).filter(|_| is_plain);
             Going {
                 restart_s: model.structure().end_of(study.window),
@@ -278,11 +278,11 @@ impl Physics {
             }
         };
         let (outcome, end) = if is_shared && !request.record {
-            let nodes = model.structure().n_steps() + 1;
+            let steps = model.structure().n_steps() + 1;
             let run = || run_structure(model, request, &mut workspace);
             let shared = self
                 .cache
-                .get_or_run((structure, amplitude_bits), nodes, run);
+                .get_or_run((structure, amplitude_bits), steps, run);
             let structure = shared.wait().as_ref();
             simulate_head_on(model, request, structure, going, &mut workspace)
         } else {
@@ -333,8 +333,8 @@ impl Simulator for Physics {
     }
 
     fn onset(&self, point: usize) -> Onset {
-        let (slot, sign, sense) = self.points[point];
-        if self.slots[slot].scene.ramp.model.is_absent() {
+        let (entry, sign, sense) = self.points[point];
+        if self.entries[entry].scene.ramp.model.is_absent() {
             return Onset::NoRamp;
         }
         // With the full model nothing is taken from the answers without ramp.

@@ -302,7 +302,8 @@ fn interval(
             .iter()
             .filter_map(|&ask| {
                 let key = registry.key(point, uncertainty_probe(ask));
-                Some((ask, seen(&registry.runs().get(&key)?.result)))
+                let fail_below_m = input.points[point].coordinates.fail_below_m;
+                Some((ask, seen(&registry.runs().get(&key)?.result, fail_below_m)))
             })
             .collect();
         if begun.is_done && registry.refinements(point) == refinements {
@@ -336,12 +337,12 @@ fn interval(
         return None;
     }
     let share = Random(seed ^ 0xe7e7).unit();
-    let result = |probe: Probe| -> ProbeResult {
+    let result = |probe: Probe| -> Option<ProbeResult> {
         let known = registry.runs().get(&registry.key(point, probe));
-        known.map_or_else(
+        Some(known.map_or_else(
             || ended.result(input, point, probe, share),
             |known| known.result.clone(),
-        )
+        ))
     };
     let from = interval_input(input, &ended.campaign, point, &result)?;
     let (asks, answer) = made_up(&from, &[]);

@@ -19,7 +19,7 @@ pub(super) fn row(
     onset_g: Option<f64>,
     grid: &AmplitudeGrid,
 ) -> PointSummary {
-    let amplitude = |node: i32| grid.amplitude_g(node);
+    let amplitude = |grid_point: i32| grid.amplitude_g(grid_point);
     let fine = grid.finer(SUBDIVISIONS);
     let is_found = findings.status == Status::Ok;
     let (survived_g, failed_g) = match (findings.status, uncertainty) {
@@ -89,8 +89,8 @@ pub(super) fn row(
             .map(|&(low, high)| [amplitude(low), amplitude(high)])
             .collect(),
         scanned_from_g: findings.scanned_from.map(amplitude),
-        largest_gap_pct: findings.largest_gap.map(|nodes| {
-            let octaves = f64::from(nodes) / f64::from(grid.steps_per_octave);
+        largest_gap_pct: findings.largest_gap.map(|grid_points| {
+            let octaves = f64::from(grid_points) / f64::from(grid.steps_per_octave);
             100.0 * (octaves.exp2() - 1.0)
         }),
     }
@@ -104,6 +104,8 @@ pub(super) fn coordinates(row: &PointSummary) -> Coordinates {
         sign: row.sign,
         axes: row.axes.iter().map(ToString::to_string).collect(),
         round: 0,
+        fail_below_m: 0.0,
+        clearance_axis: None,
     }
 }
 

@@ -178,7 +178,7 @@ impl RunTime {
 
 /// Grid steps from a grid point up to the critical amplitude that is known: the middle of the bracket, but at most half an
 /// octave above its survivor, or the highest survivor.
-fn steps_below(search: Option<&PointSearch>, node: i32, octave: f64) -> f64 {
+fn steps_below(search: Option<&PointSearch>, grid_point: i32, octave: f64) -> f64 {
     let evidence = search.map(PointSearch::evidence);
     let failure = evidence.and_then(Evidence::lowest_failure);
     let survivor = evidence.and_then(|evidence| evidence.highest_survivor_below(failure));
@@ -186,5 +186,5 @@ fn steps_below(search: Option<&PointSearch>, node: i32, octave: f64) -> f64 {
         return 0.0;
     };
     let above = f64::from(failure.unwrap_or(survivor) - survivor).min(octave) / 2.0;
-    f64::from(survivor - node) + above
+    f64::from(survivor - grid_point) + above
 }

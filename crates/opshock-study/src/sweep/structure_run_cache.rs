@@ -26,14 +26,14 @@ pub(super) struct StructureRunCache {
 #[derive(Default)]
 struct Inner {
     places: HashMap<Key, Place>,
-    nodes: usize,
+    steps: usize,
     clock: u64,
     counts: Counts,
 }
 
 struct Place {
     run: Shared,
-    nodes: usize,
+    steps: usize,
     used: u64,
 }
 
@@ -47,14 +47,14 @@ pub struct Counts {
 }
 
 impl StructureRunCache {
-    /// The run of `key`, by `run` when it is not in the cache; `nodes` is its length in time steps.
+    /// The run of `key`, by `run` when it is not in the cache; `steps` is its length in time steps.
     pub fn get_or_run(
         &self,
         key: Key,
-        nodes: usize,
+        steps: usize,
         run: impl FnOnce() -> Result<StructureRun, StructureError>,
     ) -> Shared {
-        let shared = self.place(key, nodes);
+        let shared = self.place(key, steps);
         // Outside the lock: others wait for this run only.
         shared.get_or_init(run);
         shared
@@ -65,7 +65,7 @@ impl StructureRunCache {
         self.lock().counts
     }
 
-    fn place(&self, key: Key, nodes: usize) -> Shared {
+    fn place(&self, key: Key, steps: usize) -> Shared {
         let mut inner = self.lock();
         inner.clock += 1;
         inner.counts.asked += 1;
@@ -76,16 +76,16 @@ impl StructureRunCache {
             inner.counts.shared += 1;
             return run;
         }
-        while inner.nodes + nodes > MOST_STEPS && !inner.places.is_empty() {
+        while inner.steps + steps > MOST_STEPS && !inner.places.is_empty() {
             inner.forget_oldest();
         }
         let run = Shared::default();
         let place = Place {
             run: Arc::clone(&run),
-            nodes,
+            steps,
             used: now,
         };
-        inner.nodes += nodes;
+        inner.steps += steps;
         inner.places.insert(key, place);
         run
     }
@@ -102,7 +102,7 @@ impl Inner {
         if let Some(key) = oldest.map(|(key, _)| *key)
             && let Some(place) = self.places.remove(&key)
         {
-            self.nodes -= place.nodes;
+            self.steps -= place.steps;
         }
     }
 }
@@ -119,17 +119,17 @@ mod tests {
     fn a_run_is_made_once_and_the_cache_stays_bounded() {
         let cache = StructureRunCache::default();
         let key = |i: u8| ([i; 16], 1);
-        let nodes = MOST_STEPS / 2;
-        cache.get_or_run(key(0), nodes, || failed(0.0));
-        cache.get_or_run(key(1), nodes, || failed(1.0));
-        let again = cache.get_or_run(key(0), nodes, || failed(9.0));
+        let steps = MOST_STEPS / 2;
+        cache.get_or_run(key(0), steps, || failed(0.0));
+        cache.get_or_run(key(1), steps, || failed(1.0));
+        let again = cache.get_or_run(key(0), steps, || failed(9.0));
         assert_eq!(again.get(), Some(&failed(0.0)));
         // The third evicts the second, the least recently used.
-        cache.get_or_run(key(2), nodes, || failed(2.0));
-        assert_eq!(cache.lock().nodes, MOST_STEPS);
-        let kept = cache.get_or_run(key(0), nodes, || failed(9.0));
+        cache.get_or_run(key(2), steps, || failed(2.0));
+        assert_eq!(cache.lock().steps, MOST_STEPS);
+        let kept = cache.get_or_run(key(0), steps, || failed(9.0));
         assert_eq!(kept.get(), Some(&failed(0.0)));
-        let gone = cache.get_or_run(key(1), nodes, || failed(8.0));
+        let gone = cache.get_or_run(key(1), steps, || failed(8.0));
         assert_eq!(gone.get(), Some(&failed(8.0)));
         let counts = Counts {
             asked: 6,

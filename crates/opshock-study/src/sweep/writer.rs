@@ -15,7 +15,7 @@ pub(super) enum Message {
     /// Keep this.
     Keep(Record),
     /// Send this event once everything before it is on the disk.
-    Tell(Event),
+    Report(Event),
     /// Replace `results.h5`.
     Checkpoint(Box<Results>),
 }
@@ -40,7 +40,7 @@ pub(super) fn write(
             .iter()
             .filter_map(|message| match message {
                 Message::Keep(record) => Some(record.clone()),
-                Message::Tell(_) | Message::Checkpoint(_) => None,
+                Message::Report(_) | Message::Checkpoint(_) => None,
             })
             .collect();
         if !records.is_empty() {
@@ -49,7 +49,7 @@ pub(super) fn write(
         for message in batch {
             match message {
                 Message::Keep(_) => {}
-                Message::Tell(event) => progress.event(&event),
+                Message::Report(event) => progress.event(&event),
                 Message::Checkpoint(results) => {
                     let path = store.checkpoint(&results)?;
                     progress.event(&Event::Checkpoint {

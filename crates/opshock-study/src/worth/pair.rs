@@ -301,9 +301,9 @@ mod tests {
     }
 
     /// Survives nothing between 99.8 and 100.2 G, where its critical shock is, but all of 100.2 to 104 G.
-    struct Island(Vec<i32>);
+    struct NonMonotone(Vec<i32>);
 
-    impl Shaken for Island {
+    impl Shaken for NonMonotone {
         type Interrupted = std::convert::Infallible;
 
         fn survives(
@@ -325,12 +325,12 @@ mod tests {
             survives: at(99.5),
             fails: at(100.0),
         };
-        let mut island = Island(Vec::new());
-        let Ok(pair) = find(&mut island, [known; 2], 2, &|_| false);
+        let mut non_monotone = NonMonotone(Vec::new());
+        let Ok(pair) = find(&mut non_monotone, [known; 2], 2, &|_| false);
         for found in pair.0.into_iter().flatten() {
             assert_eq!(found.map(|one| one.fails), Some(at(99.8)));
         }
-        assert!(island.0.iter().all(|step| *step <= known.fails));
+        assert!(non_monotone.0.iter().all(|step| *step <= known.fails));
     }
 
     #[test]

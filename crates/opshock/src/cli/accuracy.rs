@@ -233,7 +233,7 @@ fn studies_of(
         {
             continue;
         }
-        console.tell(&format!(
+        console.note(&format!(
             "{}: {} of {}, {} = {}",
             point.label(),
             place + 1,

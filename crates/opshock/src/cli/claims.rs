@@ -86,7 +86,7 @@ pub fn run(
                 console,
             )?
             else {
-                console.tell("saved; run again to go on");
+                console.note("saved; run again to go on");
                 return Ok(Exit::Budget);
             };
             Some(all)
@@ -111,7 +111,7 @@ pub fn run(
         written.extend(write_claims(out, &table)?);
     }
     for path in written {
-        console.tell(&format!("wrote {}", path.display()));
+        console.note(&format!("wrote {}", path.display()));
     }
     if console.json {
         console.result_json(&table)?;
@@ -128,14 +128,14 @@ fn known_sensitivity(out: &Path, study: &Study, console: &Console) -> Option<Sen
     match serde_json::from_str::<Sensitivity>(&text) {
         Ok(known) if known.is_of(study) => Some(known),
         Ok(_) => {
-            console.tell(&format!(
+            console.note(&format!(
                 "{}: of another study or physics version, not used",
                 path.display()
             ));
             None
         }
         Err(error) => {
-            console.tell(&format!("{}: {error}, not used", path.display()));
+            console.note(&format!("{}: {error}, not used", path.display()));
             None
         }
     }
@@ -236,7 +236,7 @@ impl Runner {
         let variants = Variant::all(study);
         let count = variants.len();
         for (place, variant) in variants.into_iter().enumerate() {
-            console.tell(&format!(
+            console.note(&format!(
                 "{} of {count}: {}",
                 place + 1,
                 variant.sets.join(" ")
@@ -246,7 +246,7 @@ impl Runner {
             let shocks = match self.run(&tasks, &known) {
                 Ok(cases) => Shocks::of(cases),
                 Err(error) => {
-                    console.tell(&format!("warning: no answer: {error}"));
+                    console.note(&format!("warning: no answer: {error}"));
                     found.push((variant, None));
                     continue;
                 }

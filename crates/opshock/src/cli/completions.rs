@@ -30,7 +30,7 @@ pub fn run(
         let mut pages = Vec::new();
         manual(&program, "opshock", &mut pages)?;
         let written = aside::write_all(folder, pages)?;
-        console.tell(&format!(
+        console.note(&format!(
             "wrote {} files into {}",
             written.len(),
             folder.display()

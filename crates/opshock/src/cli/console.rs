@@ -50,7 +50,7 @@ impl Console {
     }
 
     /// Prints a message on stderr, unless quiet.
-    pub fn tell(&self, text: &str) {
+    pub fn note(&self, text: &str) {
         if !self.quiet {
             // A message that nobody can read is no reason to stop.
             let _ = writeln!(std::io::stderr(), "{text}");

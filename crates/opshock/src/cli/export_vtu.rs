@@ -46,7 +46,7 @@ pub(super) fn run(
     };
     let shown = series.film.as_ref().map_or(0, |film| film.time_s.len());
     if shown < times_s.len() {
-        console.tell(&format!(
+        console.note(&format!(
             "{shown} of {} film fields: the head's run ends at touch",
             times_s.len()
         ));
@@ -57,7 +57,7 @@ pub(super) fn run(
         .filter(|path| path.extension().is_some_and(|ending| ending == "pvd"))
         .map(|path| path.display().to_string())
         .collect();
-    console.tell(&format!(
+    console.note(&format!(
         "wrote {} files into {}",
         written.len(),
         out.display()

@@ -113,7 +113,7 @@ pub(super) fn swept(
     match stored::read(&source, console) {
         Ok(stored) => Ok(Some((stored.summary, source.folder.display().to_string()))),
         Err(Failure::Store(error @ (StoreError::Empty { .. } | StoreError::OtherStudy { .. }))) => {
-            console.tell(&format!(
+            console.note(&format!(
                 "{without}: {error}; --critical names a table or another store"
             ));
             Ok(None)
@@ -160,7 +160,7 @@ fn cases(study: &Study, shock: Shock, console: &Console) -> Result<Vec<PaperCase
         })?;
         let outcome = simulated(study, &shot, true)?;
         for warning in &outcome.warnings {
-            console.tell(&format!(
+            console.note(&format!(
                 "warning: {}: {}: {}",
                 shot.point.label(),
                 warning.code,
@@ -215,12 +215,12 @@ fn drawings(
     if has(Ramp::Rigid) {
         drawn.push(rigid_ramp_drawing(&scene(Ramp::Rigid)?, program));
     } else {
-        console.tell("no figure 2: the study has no rigid ramp");
+        console.note("no figure 2: the study has no rigid ramp");
     }
     if has(Ramp::Deformable) {
         drawn.push(deformable_ramp_drawing(&scene(Ramp::Deformable)?, program));
     } else {
-        console.tell("no figures 3 and 7: the study has no deformable ramp");
+        console.note("no figures 3 and 7: the study has no deformable ramp");
     }
     Ok(drawn)
 }

@@ -44,13 +44,13 @@ impl<'a> LongRun<'a> {
     pub fn tell_progress(&self, words: impl FnOnce() -> String) {
         if self.last_line.get().elapsed() >= BETWEEN_LINES {
             self.last_line.set(Instant::now());
-            self.console.tell(&words());
+            self.console.note(&words());
         }
     }
 
     /// Says that it ended before its answer, and how to go on.
     pub fn ended_early(&self) -> Exit {
-        self.console.tell(
+        self.console.note(
             "saved, without an answer, and nothing written into --out; run the same command again to go on",
         );
         self.stopped()

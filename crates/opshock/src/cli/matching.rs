@@ -46,7 +46,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     let folder = stored::folder_of_study(&arguments.file, global);
     let store = problem.open_store(&folder)?;
     for note in &store.notes {
-        console.tell(&format!("warning: {note}"));
+        console.note(&format!("warning: {note}"));
     }
     let running = LongRun::begin(arguments.budget, console)?;
     let asked_to_stop = || running.until.is_over();
@@ -65,10 +65,10 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
         .iter()
         .map(|one| one.name.as_str())
         .collect();
-    let mut tell = |wave: &WaveReport| console.tell(&wave_words(wave, &names));
-    let found = search(&problem, &mut evaluations, &mut tell)?;
+    let mut report = |wave: &WaveReport| console.note(&wave_words(wave, &names));
+    let found = search(&problem, &mut evaluations, &mut report)?;
     let answer = MatchAnswer::of(&problem, &found);
-    console.tell(&format!(
+    console.note(&format!(
         "{} simulated sets of numbers, {} s",
         evaluations.computed,
         running.seconds()
@@ -78,7 +78,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
             .context("cannot draw a figure")?;
         let written = aside::write_all(folder, files)?;
         aside::remove_former(folder, &written, &problem.study.path, study_of_a_match)?;
-        console.tell(&format!(
+        console.note(&format!(
             "wrote {} files into {}",
             written.len(),
             folder.display()
@@ -92,7 +92,7 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     if found.ended == Ended::Complete {
         return Ok(Exit::Complete);
     }
-    console.tell(&format!(
+    console.note(&format!(
         "saved; resume with: opshock match {} --store {}{}",
         quoted(&arguments.file.display().to_string()),
         quoted(&folder.display().to_string()),

@@ -72,24 +72,24 @@ pub fn run(arguments: &MergeArgs, global: &GlobalArgs, console: &Console) -> Res
     match end {
         MergeEnd::Disagree(found) => {
             for disagreement in &found {
-                console.tell(&disagreement.to_string());
+                console.note(&disagreement.to_string());
             }
-            console.tell("nothing was merged: the stores are not of one program and one machine");
+            console.note("nothing was merged: the stores are not of one program and one machine");
             Ok(Exit::Difference)
         }
         MergeEnd::Merged(merged) => {
             for (path, taken) in from.iter().zip(&merged.taken) {
-                console.tell(&format!("{}: {taken} simulations", path.display()));
+                console.note(&format!("{}: {taken} simulations", path.display()));
             }
             if merged.rounding > 0 {
-                console.tell(&format!(
+                console.note(&format!(
                     "warning: rounding: {} simulations were made twice with the same verdict and \
                      other last digits; those of the first store are kept",
                     merged.rounding
                 ));
             }
             for damage in &merged.left {
-                console.tell(&format!("warning: history: {damage}"));
+                console.note(&format!("warning: history: {damage}"));
             }
             let summary = &merged.results.summary;
             if console.json {

@@ -65,13 +65,13 @@ pub fn run(arguments: &ModesArgs, global: &GlobalArgs, console: &Console) -> Res
         .transpose()?;
     if let Some(folder) = folder {
         let written = mode_shapes::write(folder, &study, &scene, &head)?;
-        console.tell(&format!(
+        console.note(&format!(
             "wrote {} files into {}",
             written.len(),
             folder.display()
         ));
         if !scene.suspension.modes.is_empty() {
-            console.tell("no shapes of the suspension: its modes describe its dimple alone");
+            console.note("no shapes of the suspension: its modes describe its dimple alone");
         }
     }
     if console.json {

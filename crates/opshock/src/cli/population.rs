@@ -89,7 +89,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         store.reuse(other)?;
     }
     for note in &store.notes {
-        console.tell(&format!("warning: {note}"));
+        console.note(&format!("warning: {note}"));
     }
     let running = LongRun::begin(arguments.budget, console)?;
     let nominal = spec.requirements.iter();
@@ -119,7 +119,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         }
     };
     if part != ALL {
-        console.tell(&format!(
+        console.note(&format!(
             "{} drives of this part are there; run without --shard, with --reuse for every part's store, for the answer",
             drives.len()
         ));
@@ -144,7 +144,7 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
             &arguments.study,
             populated::file_of_a_population,
         )?;
-        console.tell(&format!(
+        console.note(&format!(
             "wrote {} files into {}",
             written.len(),
             out.display()

@@ -83,7 +83,7 @@ pub fn run(arguments: &PulseArgs, global: &GlobalArgs, console: &Console) -> Res
         let spectrum = shock_response_spectrum(&pulse.used, &frequencies_hz, arguments.q);
         let figures = pulse_figures(pulse, &nominal, &spectrum, arguments.q);
         let written = write_figures(folder, &figures).context("no plots of the pulse")?;
-        console.tell(&format!(
+        console.note(&format!(
             "wrote {} files into {}",
             written.len(),
             folder.display()

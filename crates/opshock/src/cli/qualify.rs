@@ -83,7 +83,7 @@ pub fn run(
         match ending {
             Ending::Complete => boundary = Boundary::of(study, &summary),
             // The verdict does not rest on it.
-            _ => console.tell(
+            _ => console.note(
                 "the damage boundary is not finished; run the same command again to go on with it",
             ),
         }
@@ -104,7 +104,7 @@ pub fn run(
         let written = aside::write_all(out, files)?;
         aside::remove_former(out, &written, &arguments.study, qualified::optional_file)?;
         for path in written {
-            console.tell(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", path.display()));
         }
     }
     if console.json {
@@ -112,7 +112,7 @@ pub fn run(
     } else {
         console.result(&qualified::text(&qualified))?;
         if qualified.verdict() == Verdict::Undecided {
-            console.tell(
+            console.note(
                 "what its interval leaves undecided may be decided by a smaller target: --set search.target_uncertainty_pct=0.3, or --set resolution.preset=fine",
             );
         }

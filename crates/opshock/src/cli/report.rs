@@ -149,7 +149,7 @@ pub fn run(
         let bytes = results::bytes(&out.join(RESULTS_FILE), &results, &folder)?;
         files.push((RESULTS_FILE, bytes));
         for path in aside::write_all(out, files)? {
-            console.tell(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", path.display()));
         }
     }
     let format = match arguments.format {
@@ -162,17 +162,17 @@ pub fn run(
             let table = table::terminal(&stored.summary);
             console.result(&format!("{}\n\n{table}", source.answer()))?;
             for meaning in table::meanings(&stored.summary) {
-                console.tell(&meaning);
+                console.note(&meaning);
             }
             if let Some(values) = source.not_refined() {
-                console.tell(&values);
+                console.note(&values);
             }
             for crossing in &crossings {
-                console.tell(&crossing.line());
+                console.note(&crossing.line());
             }
             let saved = savings::lines(&stored.savings);
             for line in saved.iter().filter(|_| arguments.verbose) {
-                console.tell(line);
+                console.note(line);
             }
         }
         Some(TableFormat::Csv) => console.result(&table::csv(&stored.summary))?,

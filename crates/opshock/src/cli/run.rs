@@ -61,21 +61,21 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     let wall_s = started.elapsed().as_secs_f64();
 
     for warning in &outcome.warnings {
-        console.tell(&format!("warning: {}: {}", warning.code, warning.message));
+        console.note(&format!("warning: {}: {}", warning.code, warning.message));
     }
     if study.asks_for(Output::PressureField) && format.is_none() {
-        console.tell("pressure fields are kept with --history FILE");
+        console.note("pressure fields are kept with --history FILE");
     }
     if let Some(history) = &outcome.history {
         if let (Some(path), Some(format)) = (&arguments.history, format) {
             write_history(path, format, history, &study, &shot, &outcome)?;
-            console.tell(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", path.display()));
             report_fields(path, format, history, &study, console);
         }
         if let Some(folder) = &arguments.plots {
             let figures = run_figures(history, &caption(&study, &shot, &outcome));
             let written = write_figures(folder, &figures)?;
-            console.tell(&format!(
+            console.note(&format!(
                 "wrote {} files into {}",
                 written.len(),
                 folder.display()
@@ -127,9 +127,9 @@ fn report_fields(
         HistoryFormat::Csv => fields_path(path).display().to_string(),
     };
     let (kept, asked) = (fields.time_s.len(), study.field_times_s.len());
-    console.tell(&format!("{kept} of {asked} pressure fields in {place}"));
+    console.note(&format!("{kept} of {asked} pressure fields in {place}"));
     if kept < asked {
-        console.tell("the head's run ended before the others");
+        console.note("the head's run ended before the others");
     }
 }
 

@@ -123,7 +123,7 @@ fn film_to_hold(study: &Study, scene: &Scene, console: &Console) -> Result<Arc<F
     match Bearing::build(scene, None) {
         Ok(bearing) => Ok(bearing.film),
         Err(BuildError::Steady(error @ SteadyError::CannotFly { .. })) => {
-            console.tell(&format!("{error}; the film is taken as its grid has it"));
+            console.note(&format!("{error}; the film is taken as its grid has it"));
             let film = scene.film().map(Arc::new);
             film.map_err(|error| study_file::cannot_be_simulated(study, &error))
         }

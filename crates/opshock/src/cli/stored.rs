@@ -157,7 +157,7 @@ pub fn results(source: &Source, console: &Console) -> Result<Results, Failure> {
 pub fn load(source: &Source, console: &Console) -> Result<(Results, Option<String>), Failure> {
     loaded(source, &mut |code, message| {
         let code = code.map_or(String::new(), |code| format!("{code}: "));
-        console.tell(&format!("warning: {code}{message}"));
+        console.note(&format!("warning: {code}{message}"));
     })
 }
 

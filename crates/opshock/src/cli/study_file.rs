@@ -40,7 +40,7 @@ pub fn read(path: &Path, global: &GlobalArgs, console: &Console) -> Result<Study
         .filter(|remark| !global.accept.iter().any(|code| code.trim() == remark.code))
         .cloned()
         .collect();
-    tell(&reported, console);
+    report(&reported, console);
     Ok(study)
 }
 
@@ -120,7 +120,7 @@ pub fn cannot_be_simulated(study: &Study, error: &(dyn std::error::Error + 'stat
     StudyErrors::from(fault).into()
 }
 
-fn tell(remarks: &[StudyError], console: &Console) {
+fn report(remarks: &[StudyError], console: &Console) {
     if remarks.is_empty() || console.quiet || console.json {
         return;
     }
@@ -131,7 +131,7 @@ fn tell(remarks: &[StudyError], console: &Console) {
             .map(|remark| format!("{}: {remark}\n", label(remark.severity())))
             .collect(),
     };
-    console.tell(text.trim_end());
+    console.note(text.trim_end());
 }
 
 fn label(severity: Severity) -> &'static str {

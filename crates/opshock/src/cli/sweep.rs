@@ -82,12 +82,12 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     let observer = Observer {
         progress: &|study| kind.start(study),
-        message: &|message| console.tell(message),
+        message: &|message| console.note(message),
     };
     let Swept { study, input, end } = in_rounds(study, &folder, options, available, &observer)?;
 
     if !arguments.reuse.is_empty() {
-        console.tell(&format!(
+        console.note(&format!(
             "{} simulations taken from other stores, {} made",
             end.reused_runs, end.computed_runs
         ));
@@ -117,7 +117,7 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
     } else {
         console.result(&table::terminal(&summary))?;
         if let Some(values) = study.not_refined() {
-            console.tell(&values);
+            console.note(&values);
         }
     }
     match end.ending {
@@ -126,12 +126,12 @@ pub fn run(arguments: &SweepArgs, global: &GlobalArgs, console: &Console) -> Res
             |audit| report_audit(&audit, &summary, console),
         )),
         Ending::Stopped { signal } => {
-            console.tell(&resume(arguments, &folder, global));
+            console.note(&resume(arguments, &folder, global));
             let number = signal.and_then(|signal| u8::try_from(signal).ok());
             Ok(number.map_or(Exit::Budget, Exit::Signal))
         }
         Ending::Budget => {
-            console.tell(&resume(arguments, &folder, global));
+            console.note(&resume(arguments, &folder, global));
             Ok(Exit::Budget)
         }
     }
@@ -232,9 +232,9 @@ fn added(study: &Study, next: &Study) -> String {
 
 /// Prints what an audit showed.
 fn report_audit(audit: &Audit, summary: &Summary, console: &Console) -> Exit {
-    console.tell(&audit.sentence());
+    console.note(&audit.sentence());
     for difference in &audit.differences {
-        console.tell(&difference.to_string());
+        console.note(&difference.to_string());
     }
     if audit.differences.is_empty() {
         exit_of(summary)

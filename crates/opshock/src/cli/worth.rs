@@ -65,7 +65,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     let mut store = tolerances.open_store(&folder, STORE)?;
     for note in &store.notes {
-        console.tell(&format!("warning: {note}"));
+        console.note(&format!("warning: {note}"));
     }
     let running = LongRun::begin(arguments.budget, console)?;
     // Where the pairs begin: critical shocks as a sweep finds them.
@@ -97,7 +97,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     };
     if let Some(out) = out {
         for path in aside::write_all(out, valued::valued_files(&valued))? {
-            console.tell(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", path.display()));
         }
     }
     if console.json {

@@ -17,6 +17,8 @@ fn at(ramp: Ramp, pulse_ms: f64) -> Coordinates {
         sign: Sign::Plus,
         axes: Vec::new(),
         round: 0,
+        fail_below_m: 0.0,
+        clearance_axis: None,
     }
 }
 

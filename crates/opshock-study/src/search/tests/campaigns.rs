@@ -43,6 +43,8 @@ fn study(ramps: &[Ramp], widths: &[f64]) -> Vec<Coordinates> {
                     sign,
                     axes: Vec::new(),
                     round: 0,
+                    fail_below_m: 0.0,
+                    clearance_axis: None,
                 });
             }
         }

@@ -1,6 +1,7 @@
 //! Tests of the searches against laws of failure whose answers are known.
 
 mod campaigns;
+mod clearances;
 mod points;
 
 use super::probe::Verdict;

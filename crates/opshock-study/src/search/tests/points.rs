@@ -18,6 +18,7 @@ fn from(hint_g: Option<f64>, onset_index: Option<i32>) -> Start {
         hint_g,
         onset_index,
         width_rank: 0,
+        fail_below_m: 0.0,
     }
 }
 
@@ -42,7 +43,7 @@ fn threshold(critical_g: f64) -> impl Fn(Probe, f64) -> Verdict {
 }
 
 #[test]
-fn every_threshold_is_bracketed_by_neighbouring_nodes() {
+fn every_threshold_is_bracketed_by_neighbouring_grid_points() {
     let settings = settings();
     let grid = settings.grid;
     for step in 0..400 {
@@ -123,7 +124,7 @@ fn nothing_to_find_is_an_answer() {
 }
 
 #[test]
-fn a_window_of_failure_below_the_bracket_becomes_the_answer() {
+fn a_non_monotone_interval_below_the_bracket_becomes_the_answer() {
     let settings = settings();
     let grid = settings.grid;
     let onset = grid.at_or_above(100.0);
@@ -158,7 +159,7 @@ fn a_window_of_failure_below_the_bracket_becomes_the_answer() {
 }
 
 #[test]
-fn a_full_scan_finds_a_window_of_one_node() {
+fn a_full_scan_finds_a_non_monotone_interval_of_one_grid_point() {
     let settings = SearchSettings {
         monotonicity_scan: MonotonicityScan::Full,
         ..settings()
@@ -207,7 +208,7 @@ fn retries_are_tried_in_order_and_marked() {
 }
 
 #[test]
-fn undecided_nodes_widen_the_bracket_and_never_move_it() {
+fn undecided_grid_points_widen_the_bracket_and_never_move_it() {
     let settings = settings();
     let grid = settings.grid;
     let (first, last) = (grid.nearest(240.0) - 1, grid.nearest(240.0) + 1);

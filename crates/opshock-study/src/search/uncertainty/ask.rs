@@ -15,7 +15,7 @@ pub const SUBDIVISIONS: i32 = 16;
 pub struct Known {
     /// Grid point of the interval's amplitude grid.
     pub index: i32,
-    /// Smallest clearance, m.
+    /// Smallest clearance above that called failure, m.
     pub h_min_m: f64,
     /// Its time, s.
     pub t_min_s: f64,
@@ -64,7 +64,7 @@ pub struct Ask {
 pub struct Seen {
     /// Verdict.
     pub verdict: AmplitudeVerdict,
-    /// Smallest clearance, m.
+    /// Smallest clearance above that called failure, m.
     pub h_min_m: Option<f64>,
     /// Its time, s.
     pub t_min_s: Option<f64>,

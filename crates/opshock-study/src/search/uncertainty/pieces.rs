@@ -114,11 +114,11 @@ fn narrow_bracket(walk: &mut Walk<'_>, pieces: &Pieces) -> Result<(), Ask> {
     }
     loop {
         let from = bracket(walk);
-        let nodes = from.high - from.low;
-        if nodes <= 1 || others.relative_with(walk.share(nodes)) <= target {
+        let grid_points = from.high - from.low;
+        if grid_points <= 1 || others.relative_with(walk.share(grid_points)) <= target {
             return Ok(());
         }
-        if rebracketing::narrowed(walk, Levels::NONE, from, nodes / 2)?.is_none() {
+        if rebracketing::narrowed(walk, Levels::NONE, from, grid_points / 2)?.is_none() {
             return Ok(());
         }
     }

@@ -14,13 +14,13 @@ const GROWTH: i32 = 2;
 /// A bracket need not be narrower than its distance over this number: a large shift is known well enough.
 const DISTANCE_OVER: i32 = 4;
 
-/// Brackets the changed scene's answer beginning at `from`, to `nodes` grid steps or a part of its distance. `None`
+/// Brackets the changed scene's answer beginning at `from`, to `grid_points` grid steps or a part of its distance. `None`
 /// without verdicts or farther away than the share `farthest`.
 pub(super) fn locate(
     walk: &mut Walk<'_>,
     levels: Levels,
     from: Bracket,
-    nodes: i32,
+    grid_points: i32,
     farthest: f64,
 ) -> Result<Option<Bracket>, Ask> {
     let farthest = walk.input.grid.steps_within(farthest);
@@ -30,7 +30,7 @@ pub(super) fn locate(
         let next = match (low, high) {
             (Some(low), Some(high)) => {
                 let distance = (low - from.low).abs().max((high - from.high).abs());
-                if high - low <= nodes.max(distance / DISTANCE_OVER) {
+                if high - low <= grid_points.max(distance / DISTANCE_OVER) {
                     return Ok(Some(Bracket { low, high }));
                 }
                 low + (high - low) / 2
@@ -93,27 +93,27 @@ fn seen_about(walk: &Walk<'_>, levels: Levels, from: Bracket) -> (Option<i32>, O
     }
 }
 
-/// Brackets the changed scene's answer beginning at `from`, to `nodes` grid steps whatever its distance.
+/// Brackets the changed scene's answer beginning at `from`, to `grid_points` grid steps whatever its distance.
 pub(super) fn located(
     walk: &mut Walk<'_>,
     levels: Levels,
     from: Bracket,
-    nodes: i32,
+    grid_points: i32,
 ) -> Result<Option<Bracket>, Ask> {
-    match locate(walk, levels, from, nodes, FARTHEST)? {
-        Some(found) => narrowed(walk, levels, found, nodes),
+    match locate(walk, levels, from, grid_points, FARTHEST)? {
+        Some(found) => narrowed(walk, levels, found, grid_points),
         None => Ok(None),
     }
 }
 
-/// Halves a bracket down to `nodes` grid steps. `None` without verdicts.
+/// Halves a bracket down to `grid_points` grid steps. `None` without verdicts.
 pub(super) fn narrowed(
     walk: &mut Walk<'_>,
     levels: Levels,
     mut bracket: Bracket,
-    nodes: i32,
+    grid_points: i32,
 ) -> Result<Option<Bracket>, Ask> {
-    while bracket.high - bracket.low > nodes {
+    while bracket.high - bracket.low > grid_points {
         let middle = bracket.low + (bracket.high - bracket.low) / 2;
         match walk.see(levels, middle)?.verdict {
             AmplitudeVerdict::Undecided => return Ok(None),

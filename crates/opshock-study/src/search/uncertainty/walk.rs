@@ -87,9 +87,9 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Ratio of amplitudes `nodes` grid steps apart, minus one.
-    pub(super) fn share(&self, nodes: i32) -> f64 {
-        (f64::from(nodes) / f64::from(self.input.grid.steps_per_octave)).exp2() - 1.0
+    /// Ratio of amplitudes `grid_points` grid steps apart, minus one.
+    pub(super) fn share(&self, grid_points: i32) -> f64 {
+        (f64::from(grid_points) / f64::from(self.input.grid.steps_per_octave)).exp2() - 1.0
     }
 }
 

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 
 use super::stage::{Depth, UncertaintyStage};
-use crate::search::{Asked, Campaign, Probe, Touch, uncertainty};
-use crate::store::{Loaded, PointDigest, RunKey, RunRecord, StoredTouch};
+use crate::search::{Asked, Campaign, Probe, Touch, Verdict, uncertainty};
+use crate::store::{Loaded, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch};
 use crate::sweep::input::{SweepInput, SweepPoint};
 
 /// A probe whose verdict a search has taken.
@@ -29,6 +29,8 @@ pub(in crate::sweep) struct Registry<'a> {
     pub(super) in_flight: HashSet<RunKey>,
     pub(super) onsets_in_flight: HashSet<PointDigest>,
     pub(super) sharing: HashMap<PointDigest, Vec<usize>>,
+    /// Places that differ from each in the clearance called failure alone.
+    other_clearances: Vec<Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     pub(super) urgency: Vec<usize>,
     /// Rank of every place in that order.
@@ -73,6 +75,7 @@ impl<'a> Registry<'a> {
             sharing.entry(point.digest).or_default().push(place);
         }
         let urgency = urgency(&campaign);
+        let other_clearances = other_clearances(&campaign);
         let depth = |point: &SweepPoint| match input.decides {
             Some(_) => Depth::Bracket,
             None => Depth::Refined(
@@ -94,6 +97,7 @@ impl<'a> Registry<'a> {
             in_flight: HashSet::new(),
             onsets_in_flight: HashSet::new(),
             sharing,
+            other_clearances,
             urgency,
             rank: rank.clone(),
             asking: BTreeMap::new(),
@@ -223,6 +227,25 @@ impl<'a> Registry<'a> {
         }
     }
 
+    /// A simulation of the same point with another clearance called failure in which the slider comes below neither: a run of
+    /// this point is the same to the bit.
+    pub(in crate::sweep) fn same_elsewhere(&self, point: usize, probe: Probe) -> Option<RunRecord> {
+        let fail_below_m = self.input.points[point].coordinates.fail_below_m;
+        self.other_clearances[point].iter().find_map(|&other| {
+            let record = self.runs.get(&self.key(other, probe))?;
+            let survives = record.result.verdict == Verdict::Survives
+                && record.result.h_min_m? >= fail_below_m;
+            survives.then(|| RunRecord {
+                key: self.key(point, probe),
+                result: record.result.clone(),
+                machine: RunMachine {
+                    wall_s: 0.0,
+                    ..record.machine
+                },
+            })
+        })
+    }
+
     /// Amplitude of a probe without its sign, G.
     pub(in crate::sweep) fn amplitude_g(&self, probe: Probe) -> f64 {
         let grid = self.input.settings.grid;
@@ -256,6 +279,31 @@ fn searched(touch: StoredTouch) -> Touch {
         },
         StoredTouch::Unknown => Touch::Unknown,
     }
+}
+
+/// For every point those that differ from it in the clearance called failure alone.
+fn other_clearances(campaign: &Campaign) -> Vec<Vec<usize>> {
+    let relations = &campaign.order().relations;
+    let smaller = |point: &usize| relations[*point].smaller_clearance;
+    let mut alike: HashMap<usize, Vec<usize>> = HashMap::new();
+    for point in 0..relations.len() {
+        let smallest = std::iter::successors(Some(point), smaller).last();
+        alike
+            .entry(smallest.unwrap_or(point))
+            .or_default()
+            .push(point);
+    }
+    let mut others = vec![Vec::new(); relations.len()];
+    for places in alike.into_values() {
+        for &point in &places {
+            others[point] = places
+                .iter()
+                .copied()
+                .filter(|&other| other != point)
+                .collect();
+        }
+    }
+    others
 }
 
 /// Places of the points, the head of the longest chain of successors first.

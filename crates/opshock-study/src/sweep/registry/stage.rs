@@ -66,15 +66,15 @@ pub(in crate::sweep) fn uncertainty_asked(ask: uncertainty::Ask) -> Asked {
     }
 }
 
-/// A run as an uncertainty interval sees it.
-pub(in crate::sweep) fn seen(result: &ProbeResult) -> uncertainty::Seen {
+/// A run as an uncertainty interval sees it where clearances below `fail_below_m` are called failure.
+pub(in crate::sweep) fn seen(result: &ProbeResult, fail_below_m: f64) -> uncertainty::Seen {
     uncertainty::Seen {
         verdict: match result.verdict {
             Verdict::Survives => AmplitudeVerdict::Survives,
             Verdict::Fails { .. } => AmplitudeVerdict::Fails,
             Verdict::Undecided { .. } => AmplitudeVerdict::Undecided,
         },
-        h_min_m: result.h_min_m,
+        h_min_m: result.h_min_m.map(|h_min_m| h_min_m - fail_below_m),
         t_min_s: result.t_min_s,
     }
 }

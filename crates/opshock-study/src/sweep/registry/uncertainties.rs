@@ -85,9 +85,10 @@ impl Registry<'_> {
             if self.depths[point] == Depth::Bracket {
                 continue;
             }
+            let fail_below_m = self.input.points[point].coordinates.fail_below_m;
             let lookup = |ask: uncertainty::Ask| {
                 let record = self.runs.get(&self.key(point, uncertainty_probe(ask)))?;
-                Some(seen(&record.result))
+                Some(seen(&record.result, fail_below_m))
             };
             let refinements = self.refinements(point);
             let (now, mut progress) = uncertainty::answer(input, refinements, &lookup);
@@ -161,7 +162,9 @@ impl Registry<'_> {
     /// own.
     pub(super) fn uncertainty_input(&self, point: usize) -> Option<uncertainty::UncertaintyInput> {
         interval_input(self.input, &self.campaign, point, &|probe| {
-            self.runs[&self.key(point, probe)].result.clone()
+            let own = self.runs.get(&self.key(point, probe));
+            own.map(|record| record.result.clone())
+                .or_else(|| Some(self.same_elsewhere(point, probe)?.result))
         })
     }
 
@@ -245,13 +248,13 @@ impl Registry<'_> {
     }
 }
 
-/// What the interval of a point with a final search starts from, by the results of its probes; `None` without a
-/// bracket of its own.
+/// What the interval of a point with a final search starts from, by the results of its probes as far as they have one;
+/// `None` without a bracket of its own.
 pub(in crate::sweep) fn interval_input(
     input: &SweepInput,
     campaign: &Campaign,
     point: usize,
-    result: &dyn Fn(Probe) -> ProbeResult,
+    result: &dyn Fn(Probe) -> Option<ProbeResult>,
 ) -> Option<uncertainty::UncertaintyInput> {
     let plan = input.points[point].uncertainty.as_ref()?;
     let findings = campaign.findings(point);
@@ -261,23 +264,27 @@ pub(in crate::sweep) fn interval_input(
     let (survivor, failure) = (findings.survivor?, findings.failure?);
     let mut survivors = Vec::new();
     let mut t_fail_s = None;
-    for asked in campaign.search(point)?.log() {
-        if asked.probe.window_factor != 1 {
+    let fail_below_m = input.points[point].coordinates.fail_below_m;
+    let search = campaign.search(point)?;
+    let known = search.known().iter().map(|&index| Probe::at(index));
+    let own = search.log().iter().map(|asked| asked.probe);
+    for probe in known.chain(own.filter(|probe| probe.window_factor == 1)) {
+        let index = probe.index * uncertainty::SUBDIVISIONS;
+        // Of a failure known from elsewhere there is no run of this point.
+        let Some(result) = result(probe) else {
             continue;
-        }
-        let index = asked.probe.index * uncertainty::SUBDIVISIONS;
-        let result = result(asked.probe);
+        };
         match &result.verdict {
             Verdict::Fails {
                 t_fail_s: time_s, ..
-            } if asked.probe.index == failure => {
+            } if probe.index == failure => {
                 t_fail_s = Some(*time_s);
             }
             Verdict::Survives => {
                 if let (Some(h_min_m), Some(t_min_s)) = (result.h_min_m, result.t_min_s) {
                     survivors.push(uncertainty::Known {
                         index,
-                        h_min_m,
+                        h_min_m: h_min_m - fail_below_m,
                         t_min_s,
                     });
                 }

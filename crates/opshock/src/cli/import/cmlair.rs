@@ -104,11 +104,11 @@ pub fn run(
         _ => &[],
     };
     for (fields, keys) in map {
-        console.tell(&format!("{fields} -> {keys}"));
+        console.note(&format!("{fields} -> {keys}"));
     }
     let notes = [surface.left_out, study.left_out].concat();
     for note in &notes {
-        console.tell(&format!("note: {note}"));
+        console.note(&format!("note: {note}"));
     }
     if console.json {
         console.result_json(&json!({

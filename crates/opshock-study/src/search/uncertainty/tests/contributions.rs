@@ -133,12 +133,12 @@ fn a_uncertainty_asks_the_same_runs_whether_it_knows_many_or_few() {
     let grid = AmplitudeGrid::for_tolerance(0.01)
         .expect("amplitude grid")
         .finer(SUBDIVISIONS);
-    let node = |amplitude_g: f64| {
+    let grid_point = |amplitude_g: f64| {
         AmplitudeGrid::for_tolerance(0.01)
             .expect("amplitude grid")
             .at_or_below(amplitude_g)
     };
-    let survivor = node(law.critical_g(Levels::NONE)) * SUBDIVISIONS;
+    let survivor = grid_point(law.critical_g(Levels::NONE)) * SUBDIVISIONS;
     let input = UncertaintyInput {
         base: Levels::NONE,
         grid,
@@ -229,14 +229,22 @@ fn a_failure_met_below_the_answer_is_said() {
 /// quarter and an eighth of the cells do not resolve them, and the interval still contains the truth.
 #[test]
 fn errors_below_what_brackets_resolve_are_covered() {
-    let node = 0.01 / f64::from(SUBDIVISIONS);
+    let grid_point = 0.01 / f64::from(SUBDIVISIONS);
     for error in 0..=10 {
         for phase in 0..48 {
             let mut law = Law::formal(
-                [0.25 * f64::from(error) * node, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [
+                    0.25 * f64::from(error) * grid_point,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                ],
                 None,
             );
-            law.exact_g *= 1.0 + f64::from(phase) * node / 3.0;
+            law.exact_g *= 1.0 + f64::from(phase) * grid_point / 3.0;
             let (input, _) = law.input(3);
             for target in [0.0009, 0.0012, 0.0015, 0.002, 0.0025, 0.003, 0.004, 0.01] {
                 let input = UncertaintyInput {
@@ -295,8 +303,8 @@ fn modes_that_a_hard_contact_excites_are_confirmed_by_finer_ones() {
             uncertainty.flags.contains(&Flag::TargetNotMet),
         )
     };
-    let (confirmed_g, is_told) = low_g(true);
-    assert!(confirmed_g < 219.0 && is_told, "{confirmed_g}");
+    let (confirmed_g, is_reported) = low_g(true);
+    assert!(confirmed_g < 219.0 && is_reported, "{confirmed_g}");
     assert!(low_g(false).0 > 290.0);
     // Finer modes without a verdict: the contribution is not known.
     let undecided = |ask: Ask| {

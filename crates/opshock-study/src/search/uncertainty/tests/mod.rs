@@ -82,8 +82,8 @@ impl Law {
         let search = AmplitudeGrid::for_tolerance(0.01).expect("amplitude grid");
         let grid = search.finer(SUBDIVISIONS);
         let survivor = search.at_or_below(self.critical_g(Levels::NONE) * (1.0 - 1e-12));
-        let known = |node: i32| {
-            let index = node * SUBDIVISIONS;
+        let known = |grid_point: i32| {
+            let index = grid_point * SUBDIVISIONS;
             let seen = self.see(
                 grid,
                 Ask {

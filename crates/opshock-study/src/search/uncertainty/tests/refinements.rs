@@ -20,7 +20,7 @@ fn an_interval_above_target_refines_the_dominant_parameter() {
 
 /// An error of 6 % calls for two doublings, which leave 1.5 %; from there one at a time.
 #[test]
-fn climbs_take_two_steps_at_once_from_the_studys_own_discretisations_alone() {
+fn refinements_take_two_steps_at_once_from_the_studys_own_discretisations_alone() {
     let law = Law::formal([0.06, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], Some(1e-7));
     let level = |refinements| {
         law.refined(refinements)
@@ -34,8 +34,8 @@ fn climbs_take_two_steps_at_once_from_the_studys_own_discretisations_alone() {
 /// The others leave between half a grid step and a whole one for the scene's bracket: it is narrowed to one.
 #[test]
 fn the_scene_is_bracketed_to_a_node_where_that_meets_what_was_asked() {
-    let node = 0.01 / f64::from(SUBDIVISIONS);
-    let mut to_a_node = 0;
+    let grid_point = 0.01 / f64::from(SUBDIVISIONS);
+    let mut to_a_step = 0;
     for film in 0..60 {
         let law = Law::formal(
             [
@@ -53,16 +53,16 @@ fn the_scene_is_bracketed_to_a_node_where_that_meets_what_was_asked() {
         let search = contribution(&uncertainty, "search");
         let parts = uncertainty.contributions.iter();
         let others = parts.filter(|part| part.name != "search");
-        let (low, high) = others.fold((0.0, 0.99 * node), |sum, part| {
+        let (low, high) = others.fold((0.0, 0.99 * grid_point), |sum, part| {
             (sum.0 + part.low, sum.1 + part.high)
         });
         // Half of it over its middle.
         let relative = 0.5 * (low + high) / (1.0 + 0.5 * (high - low));
         let exceeds = uncertainty.flags.contains(&Flag::TargetNotMet);
         assert_eq!(exceeds, relative > 0.01, "{relative} {uncertainty:?}");
-        to_a_node += usize::from(search.high < 1.1 * node);
+        to_a_step += usize::from(search.high < 1.1 * grid_point);
     }
-    assert!(to_a_node > 1, "{to_a_node}");
+    assert!(to_a_step > 1, "{to_a_step}");
 }
 
 #[test]
