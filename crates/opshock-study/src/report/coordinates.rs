@@ -5,7 +5,7 @@
 use super::table::BEFORE_AXES;
 use crate::search::Sign;
 use crate::store::summary::{AxisValue, PointSummary, Summary};
-use crate::study::HEADS;
+use crate::study::{HEADS, keys};
 
 /// Place of the ramp model.
 pub const RAMP: usize = 0;
@@ -84,9 +84,9 @@ pub fn is_worst_case(summary: &Summary, place: usize) -> bool {
     place == SIGN || names(summary)[place] == HEADS
 }
 
-/// Whether a designer chooses among its values: everything but pulse width, sign and head.
+/// Whether a designer chooses among its values: everything of the drive but pulse width, sign and head.
 pub fn is_choice(summary: &Summary, place: usize) -> bool {
-    place != PULSE && !is_worst_case(summary, place)
+    place != PULSE && !is_worst_case(summary, place) && keys::is_of_the_drive(names(summary)[place])
 }
 
 /// The coordinate called `key`: a column of the table, or the key of the study that lists its values.

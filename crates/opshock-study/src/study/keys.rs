@@ -149,13 +149,23 @@ pub fn find(path: &str) -> Option<&'static Key> {
 /// What an axis of a study is, by the name of its column in tables ([`Axis::column`](super::Axis::column)): the key at
 /// that path, or those with that last name.
 pub fn described(column: &str) -> String {
-    let named = |key: &&Key| key.path == column || (key.may_be_axis() && key.name() == column);
-    let found: Vec<String> = KEYS
-        .iter()
-        .filter(named)
+    let found: Vec<String> = of_column(column)
         .map(|key| format!("{}: {}", key.path, key.help))
         .collect();
     found.join(" Or ")
+}
+
+/// Whether a column has values of the drive or its shock: what is called failure and how it is computed are none.
+pub fn is_of_the_drive(column: &str) -> bool {
+    let is_other = |key: &Key| ["failure", "resolution", "solver"].contains(&key.section());
+    let mut keys = of_column(column).peekable();
+    keys.peek().is_none() || keys.any(|key| !is_other(key))
+}
+
+fn of_column(column: &str) -> impl Iterator<Item = &'static Key> {
+    let is_named =
+        move |key: &&Key| key.path == column || (key.may_be_axis() && key.name() == column);
+    KEYS.iter().filter(is_named)
 }
 
 /// Whether some key lies below a path.

@@ -14,7 +14,7 @@ use crate::search::decisive::Question;
 use crate::search::uncertainty::MOST_STEPS;
 use crate::search::{AmplitudeGridError, Coordinates, SearchSettings, Sign};
 use crate::store::{PointDigest, StudyTexts};
-use crate::study::{Faces, HEADS, Point, Study, UncertaintyOf};
+use crate::study::{Faces, HEADS, Point, Study, UncertaintyOf, keys};
 
 impl SweepInput {
     /// The points of a study in the order of its tables ([`Study::table_order`]): point `i` here
@@ -94,7 +94,7 @@ fn plan_json(study: &Study) -> String {
     whole.to_string()
 }
 
-/// The axes of which a value is chosen: ramp models, and every further one but the heads of a drive, which must all
+/// The axes of which a value is chosen: ramp models, and every further one of the drive but its heads, which must all
 /// survive. For each the number of the value of every point; without any, one value of all.
 fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
     fn numbered<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
@@ -110,7 +110,7 @@ fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
     }
     let mut axes = vec![numbered(points.iter().map(|point| point.coordinates.ramp))];
     for (place, axis) in study.axes.iter().enumerate() {
-        if axis.path != HEADS {
+        if axis.path != HEADS && keys::is_of_the_drive(&axis.path) {
             let values = points.iter().map(|point| &point.coordinates.axes[place]);
             axes.push(numbered(values));
         }
