@@ -13,7 +13,6 @@ use opshock_study::study::{Choice, Shot};
 use opshock_study::sweep::StopFlag;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use serde_json::Value;
 use std::time::Instant;
 
 /// A column: name, unit, description, and its numbers as bytes of 64-bit floats.
@@ -146,7 +145,5 @@ fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> Bound<'py, PyBytes> {
 
 /// JSON of an answer; numbers that are not finite become null.
 fn json(answer: &RunJson) -> String {
-    serde_json::to_value(answer)
-        .unwrap_or(Value::Null)
-        .to_string()
+    serde_json::to_string(answer).unwrap_or_else(|_| "null".to_owned())
 }

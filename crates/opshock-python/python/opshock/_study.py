@@ -5,17 +5,22 @@ from __future__ import annotations
 import json
 import math
 import sys
-import tomllib
 import types
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import FrozenInstanceError
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
-from . import _html, _keys, _native
+from . import _html, _native
 from ._records import record
+
+if TYPE_CHECKING:
+    from ._keys import Study as _Settings
+else:
+    # Their classes take a third of the package's import, and are made when a setting is first read.
+    _Settings = object
 
 
 class OpshockWarning(UserWarning):
@@ -58,7 +63,7 @@ def _settings(settings: Mapping[str, Any] | None) -> list[str]:
     return [f"{key}={_toml_value(value)}" for key, value in (settings or {}).items()]
 
 
-class Study(_keys.Study):
+class Study(_Settings):
     """A study: a drive, its shocks, and how the critical shock of each is searched.
 
     The same as a study file in every respect. Its settings are attributes, with the unit in the name:
@@ -100,11 +105,33 @@ class Study(_keys.Study):
         own["_study"] = native
         own["_described"] = described
         own["_toml"] = native.resolved_toml()
-        own.update(vars(record(_keys.Study, tomllib.loads(own["_toml"]))))
         for remark in described["remarks"]:
             if remark["code"].startswith("W"):
                 message = f"{remark['code']}: {remark['key']} = {remark['value']}: {remark['message']}"
                 warnings.warn(message, OpshockWarning, stacklevel=_callers_level())
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            own = self.__dict__
+            if not name.startswith("_") and "_toml" in own and "name" not in own:
+                import tomllib
+
+                from . import _keys
+
+                own.update(vars(record(_keys.Study, tomllib.loads(own["_toml"]))))
+                return getattr(self, name)
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+
+        def __dir__(self) -> list[str]:
+            _ = self.name
+            return sorted({*super().__dir__(), *self.__dict__})
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and self.__dict__["_toml"] == other.__dict__["_toml"]
+
+    def __hash__(self) -> int:
+        return hash(self.__dict__["_toml"])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), self._study.parts())

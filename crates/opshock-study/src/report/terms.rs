@@ -58,7 +58,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Column, "survived_g", "survived (G)", "Lower end of the bracket: the largest amplitude survived below the smallest that failed."),
     term(Kind::Column, "failed_g", "failed (G)", "Upper end of the bracket: the smallest amplitude that failed: the clearance of the slider fell below failure.clearance_nm, 0 by default."),
     term(Kind::Column, "onset_g", "first touch (G)", "The amplitude from which on the disk reaches the ramp."),
-    term(Kind::Column, "runs", "runs", "Simulations behind the row, those for its uncertainty included."),
+    term(Kind::Column, "runs", "runs", "Simulations that the row asked for, those for its uncertainty included. Points that are answered before give it its starting amplitude, so that the same point takes other numbers in other studies."),
     term(Kind::Column, "status", "status", "How the search of the row ended."),
     term(Kind::Column, "flags", "flags", "What else a reader of the row must know; empty: nothing."),
 
@@ -127,6 +127,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Sign, "touched", "open mark (margin)", "A simulation that fails."),
 
     term(Kind::Word, "bracket", "bracket", "The largest amplitude survived below the smallest that failed, and that: the critical shock at the resolution of the simulations lies between."),
+    term(Kind::Word, "SF 3", "SF 3", "A contribution whose discretisation error is multiplied by 3 instead of 1.25, as safety_factor_3 says of the row when the contribution is more than a quarter of the target."),
     term(Kind::Word, "bracket alone", "bracket alone", "A critical shock whose uncertainty interval was not computed."),
     term(Kind::Word, "lead of the best", "lead of the best", "Whether the best value's worst case lies above that of this value beyond the uncertainty intervals, beyond the brackets, or not at all."),
     term(Kind::Word, "beyond brackets, no intervals", "beyond brackets, no intervals", "The brackets of two critical shocks do not overlap, but one of them has no uncertainty interval: the difference is not proven."),

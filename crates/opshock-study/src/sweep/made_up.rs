@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use super::input::SweepInput;
 use super::registry::Registry;
+use crate::search::evidence::AmplitudeVerdict;
 use crate::search::{
     Asked, Campaign, Coordinates, Probe, ProbeResult, Ramp, RunCost, Sign, Touch, Verdict,
 };
@@ -68,14 +69,27 @@ pub(super) fn ended(
                     continue;
                 }
                 let grid_point = asked.probe.index;
-                let fails = known_to_fail(registry, point, grid_point).unwrap_or_else(|| {
-                    let amplitude_g = input.settings.grid.amplitude_g(grid_point);
-                    law.fails(&one.coordinates, touches[point], amplitude_g)
+                let amplitude_g = input.settings.grid.amplitude_g(grid_point);
+                let (at, touch) = (&one.coordinates, touches[point]);
+                // An own run has the verdict that its search began with.
+                let own = campaign
+                    .search(point)
+                    .and_then(|search| search.evidence().get(grid_point));
+                let fails = match own {
+                    Some(own) => own == AmplitudeVerdict::Fails,
+                    None => known_to_fail(registry, point, grid_point)
+                        .unwrap_or_else(|| law.fails(at, touch, amplitude_g)),
+                };
+                // It says something to larger clearances called failure, and is no guide within a search.
+                let says = !fails && at.clearance_axis.is_some();
+                let h_min_m = says.then(|| {
+                    let octaves = (law.critical_g(at, touch) / amplitude_g).log2();
+                    at.fail_below_m + CLEARANCE_PER_OCTAVE_M * octaves.max(0.0)
                 });
                 if counted.insert(key) {
                     new[point].push((asked, fails));
                 }
-                campaign.tell(point, &verdict(fails));
+                campaign.report_margin(point, &verdict(fails), h_min_m);
             }
         }
     }
@@ -224,17 +238,26 @@ impl Law {
         self.none_g * sign * at.pulse_ms.powf(self.slope)
     }
 
-    fn fails(&self, at: &Coordinates, touch: Touch, amplitude_g: f64) -> bool {
+    /// Critical amplitude.
+    fn critical_g(&self, at: &Coordinates, touch: Touch) -> f64 {
         let none_g = self.none_g(at);
         let (Touch::At { onset_g }, false) = (touch, at.ramp == Ramp::None) else {
-            return amplitude_g >= none_g;
+            return none_g;
         };
         let place = self.place[usize::from(at.ramp == Ramp::Deformable)];
         let place = (place + self.drift * at.pulse_ms.ln()).clamp(0.02, 0.95);
         let critical_g = onset_g * (none_g / onset_g).max(1.0).powf(place);
+        critical_g.min(none_g)
+    }
+
+    fn fails(&self, at: &Coordinates, touch: Touch, amplitude_g: f64) -> bool {
+        let critical_g = self.critical_g(at, touch);
         let is_in = |(low, high): (f64, f64)| {
-            (low * critical_g..high * critical_g).contains(&amplitude_g) && amplitude_g > onset_g
+            let is_touched = touch.onset_g().is_some_and(|onset_g| amplitude_g > onset_g);
+            at.ramp != Ramp::None
+                && is_touched
+                && (low * critical_g..high * critical_g).contains(&amplitude_g)
         };
-        amplitude_g >= critical_g.min(none_g) || self.window.is_some_and(is_in)
+        amplitude_g >= critical_g || self.window.is_some_and(is_in)
     }
 }
