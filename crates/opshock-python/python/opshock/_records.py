@@ -23,8 +23,14 @@ def _attributes(cls: type) -> list[tuple[str, Converter | None]]:
 
 def record(cls: type[T], values: Mapping[str, Any]) -> T:
     """A dataclass of a JSON object; keys without an attribute are left out."""
-    known = [(name, convert) for name, convert in _attributes(cls) if name in values]  # type: ignore[arg-type]
-    return cls(**{name: convert(values[name]) if convert else values[name] for name, convert in known})
+    attributes = _attributes(cls)  # type: ignore[arg-type]
+    own = {name: convert(values[name]) if convert else values[name] for name, convert in attributes if name in values}
+    if len(own) < len(attributes):
+        return cls(**own)
+    # What its initialiser would do, attribute by attribute, since it is frozen.
+    made = object.__new__(cls)
+    made.__dict__.update(own)
+    return made
 
 
 def _converter(kind: Any) -> Converter | None:

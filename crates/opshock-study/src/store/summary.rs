@@ -37,6 +37,10 @@ impl From<&study::AxisValue> for AxisValue {
 impl std::fmt::Display for AxisValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            // A Hamaker constant takes twenty zeros otherwise.
+            AxisValue::Number(number) if (1e-30..1e-5).contains(&number.abs()) => {
+                write!(f, "{number:e}")
+            }
             AxisValue::Number(number) => write!(f, "{number}"),
             AxisValue::Text(text) => f.write_str(text),
         }
