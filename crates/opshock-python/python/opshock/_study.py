@@ -128,7 +128,9 @@ class Study(_Settings):
             return sorted({*super().__dir__(), *self.__dict__})
 
     def __eq__(self, other: object) -> bool:
-        return type(self) is type(other) and self.__dict__["_toml"] == other.__dict__["_toml"]
+        if type(self) is not type(other):
+            return NotImplemented
+        return bool(self.__dict__["_toml"] == other.__dict__["_toml"])
 
     def __hash__(self) -> int:
         return hash(self.__dict__["_toml"])

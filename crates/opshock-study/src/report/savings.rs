@@ -36,6 +36,12 @@ pub fn savings(results: &Results) -> Vec<Saving> {
         return Vec::new();
     }
     let made: u64 = results.runs.iter().map(steps).sum();
+    // Runs that were taken from another point took no time.
+    let timed = results
+        .runs
+        .iter()
+        .filter(|row| row.run.machine.wall_s > 0.0);
+    let timed: u64 = timed.map(steps).sum();
     let wall_s: f64 = results.runs.iter().map(|row| row.run.machine.wall_s).sum();
     let counted = |rule, runs: usize, method| Saving {
         rule,
@@ -53,7 +59,7 @@ pub fn savings(results: &Results) -> Vec<Saving> {
             0 => 0.0,
             all => head_steps as f64 / all as f64,
         },
-        seconds: (made > 0).then(|| wall_s * head_steps as f64 / made as f64),
+        seconds: (timed > 0).then(|| wall_s * head_steps as f64 / timed as f64),
         method,
     };
     let points = &results.summary.points;

@@ -3,7 +3,8 @@
 //! The search is run ahead on assumed verdicts. A result computed ahead only answers a probe sooner when the search
 //! requests it; it never enters the evidence by itself.
 
-use super::point::PointSearch;
+use super::evidence::AmplitudeVerdict;
+use super::point::{Asked, PointSearch};
 use super::probe::{Probe, Purpose, Verdict};
 
 /// Where a probe's answer is.
@@ -32,11 +33,15 @@ pub struct Candidate {
 const LEAST_LIKELIHOOD: f64 = 0.2;
 
 /// Chance that a probe survives.
-fn survival_chance(purpose: Purpose) -> f64 {
-    match purpose {
+fn survival_chance(search: &PointSearch, asked: Asked) -> f64 {
+    match asked.purpose {
         Purpose::Bracketing | Purpose::Bisect => 0.5,
-        Purpose::Scan | Purpose::Window | Purpose::Uncertainty | Purpose::OwnRun => 0.95,
+        Purpose::Scan | Purpose::Window | Purpose::Uncertainty => 0.95,
         Purpose::FollowUp => 0.6,
+        Purpose::OwnRun => match search.evidence().get(asked.probe.index) {
+            Some(AmplitudeVerdict::Fails) => 0.05,
+            _ => 0.95,
+        },
     }
 }
 
@@ -71,7 +76,7 @@ pub fn candidates(
                 }
             }
         }
-        let survives = survival_chance(asked.purpose);
+        let survives = survival_chance(&search, asked);
         for (verdict, chance) in [
             (Verdict::Survives, survives),
             (

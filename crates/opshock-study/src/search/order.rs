@@ -321,9 +321,10 @@ fn smaller_clearances(points: &[Coordinates]) -> Vec<Option<usize>> {
         places.sort_by(|&a, &b| points[a].fail_below_m.total_cmp(&points[b].fail_below_m));
         for (number, &place) in places.iter().enumerate() {
             let below = places[..number].iter().rev().copied();
-            smaller[place] = below
-                .into_iter()
-                .find(|&other| points[other].round <= points[place].round);
+            smaller[place] = below.into_iter().find(|&other| {
+                let (other, own) = (&points[other], &points[place]);
+                other.round <= own.round && other.fail_below_m < own.fail_below_m
+            });
         }
     }
     smaller

@@ -184,6 +184,11 @@ impl PointSearch {
         if asked.purpose == Purpose::Bracketing {
             self.bracketing.count(asked.probe.index);
         }
+        if asked.purpose == Purpose::OwnRun
+            && self.evidence.get(asked.probe.index) != Some(amplitude_verdict)
+        {
+            self.bracketed = false;
+        }
         self.evidence.insert(asked.probe.index, amplitude_verdict);
         if let (AmplitudeVerdict::Survives, Some(h_min_m)) = (amplitude_verdict, h_min_m) {
             self.evidence.insert_clearance(asked.probe.index, h_min_m);
@@ -359,7 +364,7 @@ impl PointSearch {
                     .or_else(|| bisect(&self.evidence, survivor, failure))
                     .map(|grid_point| (grid_point, 1, Purpose::Bisect))
                 }
-                BracketingStep::Exhausted => None,
+                BracketingStep::Exhausted => self.next_own_run(),
             };
         }
         self.next_below()

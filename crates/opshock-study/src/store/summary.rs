@@ -38,7 +38,7 @@ impl std::fmt::Display for AxisValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             // A Hamaker constant takes twenty zeros otherwise.
-            AxisValue::Number(number) if (1e-30..1e-5).contains(&number.abs()) => {
+            AxisValue::Number(number) if (f64::MIN_POSITIVE..1e-5).contains(&number.abs()) => {
                 write!(f, "{number:e}")
             }
             AxisValue::Number(number) => write!(f, "{number}"),

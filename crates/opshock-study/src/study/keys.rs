@@ -158,8 +158,7 @@ pub fn described(column: &str) -> String {
 /// Whether a column has values of the drive or its shock: what is called failure and how it is computed are none.
 pub fn is_of_the_drive(column: &str) -> bool {
     let is_other = |key: &Key| ["failure", "resolution", "solver"].contains(&key.section());
-    let mut keys = of_column(column).peekable();
-    keys.peek().is_none() || keys.any(|key| !is_other(key))
+    !of_column(column).any(is_other)
 }
 
 fn of_column(column: &str) -> impl Iterator<Item = &'static Key> {

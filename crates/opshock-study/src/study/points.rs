@@ -57,7 +57,9 @@ impl AxisValue {
 impl std::fmt::Display for AxisValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Number(value) if (1e-30..1e-5).contains(&value.abs()) => write!(f, "{value:e}"),
+            Self::Number(value) if (f64::MIN_POSITIVE..1e-5).contains(&value.abs()) => {
+                write!(f, "{value:e}")
+            }
             Self::Number(value) => write!(f, "{value}"),
             Self::Integer(value) => write!(f, "{value}"),
             Self::Word(word) => f.write_str(word),

@@ -3,6 +3,7 @@
 use super::{fails, settings};
 use crate::search::campaign::{Campaign, Touch};
 use crate::search::order::{Coordinates, Ramp};
+use crate::search::outcome::Status;
 use crate::search::probe::{Sign, Verdict};
 
 const CLEARANCES_NM: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
@@ -32,7 +33,7 @@ fn points(clearances_nm: &[f64]) -> Vec<Coordinates> {
 
 /// Smallest clearance of a shock, m: falls on a curve, with a dip for the deformable ramp and sign - at 0.5 ms and, a `narrow` one,
 /// at 1 ms.
-fn clearance_m(at: &Coordinates, amplitude_g: f64, narrow: bool) -> f64 {
+fn law(at: &Coordinates, amplitude_g: f64, narrow: bool) -> f64 {
     let own = if at.sign == Sign::Plus { 500.0 } else { 420.0 };
     let critical_g = match at.ramp {
         Ramp::None => 1.3 * own * at.pulse_ms.powf(0.4),
@@ -49,10 +50,10 @@ fn clearance_m(at: &Coordinates, amplitude_g: f64, narrow: bool) -> f64 {
     4e-9 * (1.0 - (amplitude_g / critical_g).powi(2)) - if is_dip { 3.5e-9 } else { 0.0 }
 }
 
-/// Searches all points, the answered one chosen by `choose`.
+/// Searches all points by their smallest clearance, m, the answered one chosen by `choose`.
 fn searched(
     points: &[Coordinates],
-    narrow: bool,
+    clearance_m: impl Fn(&Coordinates, f64) -> f64,
     mut choose: impl FnMut(usize) -> usize,
 ) -> Campaign {
     let settings = settings();
@@ -71,11 +72,7 @@ fn searched(
         assert!(!asking.is_empty(), "nobody asks and nothing is final");
         let point = asking[choose(asking.len())];
         let probe = campaign.ask(point).expect("asks").probe;
-        let h_m = clearance_m(
-            &points[point],
-            settings.grid.amplitude_g(probe.index),
-            narrow,
-        );
+        let h_m = clearance_m(&points[point], settings.grid.amplitude_g(probe.index));
         if h_m < points[point].fail_below_m {
             campaign.report_margin(point, &fails(), Some(points[point].fail_below_m));
         } else {
@@ -88,11 +85,11 @@ fn searched(
 #[test]
 fn larger_clearances_start_from_the_runs_of_smaller_ones_and_keep_their_answers() {
     let all = points(&CLEARANCES_NM);
-    let together = searched(&all, false, |_| 0);
+    let together = searched(&all, |at, a| law(at, a, false), |_| 0);
     let mut runs = [0, 0];
     for (k, clearance_nm) in CLEARANCES_NM.into_iter().enumerate() {
         let own = points(&[clearance_nm]);
-        let alone = searched(&own, false, |_| 0);
+        let alone = searched(&own, |at, a| law(at, a, false), |_| 0);
         for (place, at) in own.iter().enumerate() {
             let found = [
                 together.findings(k * own.len() + place),
@@ -111,7 +108,7 @@ fn larger_clearances_start_from_the_runs_of_smaller_ones_and_keep_their_answers(
 #[test]
 fn both_ends_of_every_bracket_have_a_run_of_their_own() {
     let all = points(&CLEARANCES_NM);
-    let together = searched(&all, true, |_| 0);
+    let together = searched(&all, |at, a| law(at, a, true), |_| 0);
     for (point, at) in all.iter().enumerate() {
         let Some(search) = together.search(point) else {
             continue;
@@ -128,7 +125,7 @@ fn both_ends_of_every_bracket_have_a_run_of_their_own() {
 #[test]
 fn critical_shocks_never_rise_with_the_clearance_called_failure() {
     let all = points(&CLEARANCES_NM);
-    let together = searched(&all, true, |_| 0);
+    let together = searched(&all, |at, a| law(at, a, true), |_| 0);
     let per_clearance = all.len() / CLEARANCES_NM.len();
     let failure = |point: usize| together.findings(point).failure.expect("fails");
     let mut narrow = 0;
@@ -144,16 +141,46 @@ fn critical_shocks_never_rise_with_the_clearance_called_failure() {
 #[test]
 fn any_order_of_answers_gives_the_same_probes() {
     let all = points(&CLEARANCES_NM);
-    let reference = searched(&all, true, |_| 0);
+    let reference = searched(&all, |at, a| law(at, a, true), |_| 0);
     for seed in 1..20 {
         let mut state = seed;
-        let other = searched(&all, true, |n| {
-            state = (state * 48271) % 2_147_483_647;
-            state % n
-        });
+        let other = searched(
+            &all,
+            |at, a| law(at, a, true),
+            |n| {
+                state = (state * 48271) % 2_147_483_647;
+                state % n
+            },
+        );
         for (point, at) in all.iter().enumerate() {
             let logs = [&other, &reference].map(|c| c.search(point).map(|s| s.log().to_vec()));
             assert_eq!(logs[0], logs[1], "{at:?}");
         }
+    }
+}
+
+/// Both signs fail at the start of the range when 0.9 nm is called failure, which the slider never has.
+#[test]
+fn a_clearance_that_is_never_reached_is_below_the_range_by_a_run_of_its_own() {
+    let all = points(&[0.0, 0.9]);
+    let flat = |_: &Coordinates, a: f64| 0.8e-9 * (1.0 - (a / 500.0).powi(2));
+    let together = searched(&all, flat, |_| 0);
+    let n = all.len() / 2;
+    for (point, at) in all
+        .iter()
+        .enumerate()
+        .filter(|(_, at)| at.ramp == Ramp::None)
+    {
+        let found = together.findings(point);
+        let expected = if point < n {
+            Status::Ok
+        } else {
+            Status::BelowRange
+        };
+        assert_eq!(found.status, expected, "{at:?}");
+        let low = settings().range.low;
+        let log = together.search(point).expect("searches").log();
+        let own = log.iter().any(|asked| asked.probe.index == low);
+        assert!(point < n || own, "{at:?}");
     }
 }
