@@ -234,3 +234,21 @@ def test_studies_can_be_copied_and_sent(study_file: Path) -> None:
     assert isinstance(again, Scene)
     assert (again.digest, again.label, again.disk.thickness_mm) == (thin.digest, "rigid 2 ms +", 0.5)
     assert copy.deepcopy(thin).with_settings({"disk.thickness_mm": 0.6}).disk.thickness_mm == 0.6
+
+
+def test_equal_studies_are_those_with_equal_settings(study: Study) -> None:
+    """Equality and hash are of all settings; a scene is no study, and nothing else is one."""
+    other = Study.from_toml(study.toml)
+    assert other == study and hash(other) == hash(study)
+    assert study.with_settings({"disk.rpm": 7200.0}) != study
+    assert study != study.toml
+    assert study.scenes()[0] != study
+
+
+def test_settings_are_listed_and_unknown_ones_are_none(study: Study) -> None:
+    """Settings are made when one is read: before that they are listed, and what is no setting is refused."""
+    fresh = Study.from_toml(study.toml)
+    assert {"disk", "ramp", "pulse", "with_settings"} <= set(dir(fresh))
+    fresh = Study.from_toml(study.toml)
+    assert not hasattr(fresh, "dsik")
+    assert fresh.disk == study.disk
