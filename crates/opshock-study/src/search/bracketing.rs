@@ -25,7 +25,7 @@ pub(super) struct Bracketing {
     ups: u32,
     downs: u32,
     /// Clearance below which the interface has failed, m.
-    fail_below_m: f64,
+    pub(super) fail_below_m: f64,
 }
 
 /// Next step of the exponential search from the evidence.
@@ -85,16 +85,16 @@ impl Bracketing {
             // Nothing decided yet: smaller shocks are easier to compute.
             if !any_survivor && bottom > grid_points.low {
                 return BracketingStep::Test(
-                    (bottom - self.stride(self.downs)).max(grid_points.low),
+                    (bottom - self.step_size(self.downs)).max(grid_points.low),
                 );
             }
             if top < grid_points.high {
-                let stride = self.stride(self.ups);
+                let step_size = self.step_size(self.ups);
                 let step = match evidence.failing_point(None, self.fail_below_m) {
                     Some(place) if top > self.start => {
-                        ((place - f64::from(top)).ceil() as i32).clamp(1, stride)
+                        ((place - f64::from(top)).ceil() as i32).clamp(1, step_size)
                     }
-                    _ => stride,
+                    _ => step_size,
                 };
                 return BracketingStep::Test((top + step).min(grid_points.high));
             }
@@ -103,7 +103,7 @@ impl Bracketing {
         if let Some(survivor) = evidence.highest_survivor_below(Some(failure)) {
             return BracketingStep::Bracketed { survivor, failure };
         }
-        let next = bottom - self.stride(self.downs);
+        let next = bottom - self.step_size(self.downs);
         match assumed_survivor {
             Some(survivor) if next < grid_points.low => {
                 BracketingStep::Bracketed { survivor, failure }
@@ -118,6 +118,30 @@ impl Bracketing {
         self.start = failure;
     }
 
+    /// Grid point next to the place in a bracket where the clearance falls to that called failure, after `halvings` grid points tested
+    /// in it; `None` when the clearance is no guide (any more) or grid points without verdict lie between.
+    pub(super) fn aimed(
+        &self,
+        evidence: &Evidence,
+        survivor: i32,
+        failure: i32,
+        halvings: usize,
+    ) -> Option<i32> {
+        if failure - survivor < 3
+            || halvings >= AIMED
+            || !evidence.undecided_between(survivor, failure).is_empty()
+        {
+            return None;
+        }
+        let place = evidence.failing_point(Some(failure), self.fail_below_m)?;
+        let last = place.floor();
+        if !(f64::from(survivor) <= last && last < f64::from(failure)) {
+            return None;
+        }
+        // The last grid point expected to survive, or if that is known, the one above it.
+        Some((last as i32).max(survivor + 1).min(failure - 1))
+    }
+
     /// Notes a step whose verdict is known.
     pub(super) fn count(&mut self, tested: i32) {
         if tested > self.start {
@@ -127,33 +151,10 @@ impl Bracketing {
         }
     }
 
-    fn stride(&self, steps: u32) -> i32 {
+    fn step_size(&self, steps: u32) -> i32 {
         // Beyond 2^20 the octave has long been reached.
         (self.first_step << steps.min(20)).min(self.octave.max(self.first_step))
     }
-}
-
-/// Grid point next to the place in a bracket where the clearance falls to that called failure, after `halvings` grid points tested
-/// in it; `None` when the clearance is no guide (any more) or grid points without verdict lie between.
-pub(super) fn aimed(
-    evidence: &Evidence,
-    (survivor, failure): (i32, i32),
-    halvings: usize,
-    fail_below_m: f64,
-) -> Option<i32> {
-    if failure - survivor < 3
-        || halvings >= AIMED
-        || !evidence.undecided_between(survivor, failure).is_empty()
-    {
-        return None;
-    }
-    let place = evidence.failing_point(Some(failure), fail_below_m)?;
-    let last = place.floor();
-    if !(f64::from(survivor) <= last && last < f64::from(failure)) {
-        return None;
-    }
-    // The last grid point expected to survive, or if that is known, the one above it.
-    Some((last as i32).max(survivor + 1).min(failure - 1))
 }
 
 /// Next grid point between a survivor and a failure, `None` when nothing testable is left between them.

@@ -16,13 +16,14 @@ impl PointSearch {
         let own = known.iter().filter(|one| range.contains(&one.index));
         self.known = own.map(|one| one.index).collect();
         for one in known.iter().filter(|one| range.contains(&one.index)) {
-            let survives = one.h_min_m.filter(|&h_min_m| h_min_m >= self.fail_below_m);
-            if let (false, Some(h_min_m)) = (one.fails, survives) {
-                let verdict = AmplitudeVerdict::Survives;
-                self.evidence.insert(one.index, verdict);
-                self.evidence.insert_clearance(one.index, h_min_m);
-            } else {
-                self.evidence.insert(one.index, AmplitudeVerdict::Fails);
+            let limit_m = self.bracketing.fail_below_m;
+            match one.h_min_m.filter(|&h_min_m| h_min_m >= limit_m) {
+                Some(h_min_m) => {
+                    let verdict = AmplitudeVerdict::Survives;
+                    self.evidence.insert(one.index, verdict);
+                    self.evidence.insert_clearance(one.index, h_min_m);
+                }
+                None => self.evidence.insert(one.index, AmplitudeVerdict::Fails),
             }
         }
         if let Some(failure) = self.evidence.lowest_failure()
@@ -52,17 +53,16 @@ impl PointSearch {
         let one = |(index, verdict, h_min_m): (i32, AmplitudeVerdict, Option<f64>)| {
             let fails = verdict == AmplitudeVerdict::Fails;
             let says = fails || (verdict == AmplitudeVerdict::Survives && h_min_m.is_some());
-            (says && is_plain(index)).then_some(KnownVerdict {
-                index,
-                fails,
-                h_min_m,
-            })
+            (says && is_plain(index)).then_some(KnownVerdict { index, h_min_m })
         };
         self.evidence.all().filter_map(one).collect()
     }
 
     /// An end of the bracket that is known from another point: the failure's time and place only a run of this point has.
     pub(super) fn next_own_run(&self) -> Option<(i32, u8, Purpose)> {
+        if self.known.is_empty() {
+            return None;
+        }
         let ends = [self.evidence.lowest_failure(), self.survivor()];
         ends.into_iter().flatten().find_map(|index| {
             let mut asked = self.log.iter().map(|asked| asked.probe);

@@ -156,6 +156,15 @@ pub fn ends_first(count: usize) -> Vec<(usize, Option<usize>, Option<usize>)> {
 }
 
 impl Order {
+    /// The point that differs in the clearance called failure alone and has the smallest.
+    pub fn smallest_clearance(&self, point: usize) -> usize {
+        let mut smallest = point;
+        while let Some(smaller) = self.relations[smallest].smaller_clearance {
+            smallest = smaller;
+        }
+        smallest
+    }
+
     /// Order of the points.
     pub fn of(points: &[Coordinates]) -> Order {
         let mut by_value: Vec<usize> = (0..points.len()).collect();

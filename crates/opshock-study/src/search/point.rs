@@ -14,7 +14,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::amplitude_grid::AmplitudeRange;
-use super::bracketing::{Bracketing, BracketingStep, aimed, bisect, survives_at_top};
+use super::bracketing::{Bracketing, BracketingStep, bisect, survives_at_top};
 use super::evidence::{AmplitudeVerdict, Evidence};
 use super::findings::Findings;
 use super::monotonicity_scan::Scan;
@@ -41,9 +41,7 @@ pub struct Start {
 pub struct KnownVerdict {
     /// Grid point.
     pub index: i32,
-    /// It failed there.
-    pub fails: bool,
-    /// Smallest clearance of a survivor, m.
+    /// Smallest clearance of a survivor, m; `None`: it failed.
     pub h_min_m: Option<f64>,
 }
 
@@ -60,7 +58,6 @@ pub struct Asked {
 #[derive(Clone, Debug)]
 pub struct PointSearch {
     settings: SearchSettings,
-    pub(super) fail_below_m: f64,
     pub(super) grid_points: AmplitudeRange,
     assumed_survivor: Option<i32>,
     pub(super) bracketing: Bracketing,
@@ -94,7 +91,6 @@ impl PointSearch {
         };
         PointSearch {
             settings,
-            fail_below_m: start.fail_below_m,
             grid_points,
             assumed_survivor: own.map(|grid_point| grid_point - 1),
             bracketing: Bracketing::new(&grid, grid_points, start.hint_g, start.fail_below_m),
@@ -355,14 +351,10 @@ impl PointSearch {
                 BracketingStep::Test(grid_point) => Some((grid_point, 1, Purpose::Bracketing)),
                 BracketingStep::Bracketed { survivor, failure } => {
                     let halvings = self.log.iter().filter(|a| a.purpose == Purpose::Bisect);
-                    aimed(
-                        &self.evidence,
-                        (survivor, failure),
-                        halvings.count(),
-                        self.fail_below_m,
-                    )
-                    .or_else(|| bisect(&self.evidence, survivor, failure))
-                    .map(|grid_point| (grid_point, 1, Purpose::Bisect))
+                    self.bracketing
+                        .aimed(&self.evidence, survivor, failure, halvings.count())
+                        .or_else(|| bisect(&self.evidence, survivor, failure))
+                        .map(|grid_point| (grid_point, 1, Purpose::Bisect))
                 }
                 BracketingStep::Exhausted => self.next_own_run(),
             };

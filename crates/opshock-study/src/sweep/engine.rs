@@ -312,10 +312,10 @@ impl<'a> Run<'a> {
                         break;
                     };
                     if let Job::Run { point, asked, key } = job {
-                        let elsewhere = self.registry.same_elsewhere(point, asked.probe);
-                        self.reused_runs += u64::from(self.others.contains_key(&key));
-                        let known = self.others.get(&key).cloned().or(elsewhere);
-                        if let Some(record) = known {
+                        let reused = self.others.get(&key).cloned();
+                        self.reused_runs += u64::from(reused.is_some());
+                        let elsewhere = || self.registry.same_elsewhere(point, asked.probe);
+                        if let Some(record) = reused.or_else(elsewhere) {
                             self.keep(record, None);
                             continue;
                         }

@@ -1,35 +1,24 @@
 //! Tests of the searches of all points of a study together.
 
-use super::{fails, settings};
+use super::{fails, searched};
 use crate::search::campaign::{Campaign, Touch};
 use crate::search::order::{Coordinates, Ramp};
 use crate::search::outcome::{Flag, Status};
 use crate::search::point::Asked;
 use crate::search::probe::{Probe, Purpose, Sign, Verdict};
 
-/// Runs a campaign, always serving the point that `choose` picks among those with a request.
 fn campaign(
     points: &[Coordinates],
     touch: impl Fn(&Coordinates) -> Touch,
     law: impl Fn(&Coordinates, Probe, f64) -> Verdict,
-    mut choose: impl FnMut(usize) -> usize,
+    choose: impl FnMut(usize) -> usize,
 ) -> Campaign {
-    let settings = settings();
-    let mut campaign = Campaign::new(settings, points);
-    for (point, at) in points.iter().enumerate() {
-        campaign.set_touch(point, touch(at));
-    }
-    while !campaign.is_done() {
-        let asking: Vec<usize> = (0..points.len())
-            .filter(|&point| campaign.ask(point).is_some())
-            .collect();
-        assert!(!asking.is_empty(), "nobody asks and nothing is final");
-        let point = asking[choose(asking.len())];
-        let probe = campaign.ask(point).expect("asks").probe;
-        let amplitude_g = settings.grid.amplitude_g(probe.index);
-        campaign.tell(point, &law(&points[point], probe, amplitude_g));
-    }
-    campaign
+    searched(
+        points,
+        touch,
+        |at, probe, a| (law(at, probe, a), None),
+        choose,
+    )
 }
 
 fn study(ramps: &[Ramp], widths: &[f64]) -> Vec<Coordinates> {

@@ -50,36 +50,25 @@ fn law(at: &Coordinates, amplitude_g: f64, narrow: bool) -> f64 {
     4e-9 * (1.0 - (amplitude_g / critical_g).powi(2)) - if is_dip { 3.5e-9 } else { 0.0 }
 }
 
-/// Searches all points by their smallest clearance, m, the answered one chosen by `choose`.
+/// Searches all points by their smallest clearance, m.
 fn searched(
     points: &[Coordinates],
     clearance_m: impl Fn(&Coordinates, f64) -> f64,
-    mut choose: impl FnMut(usize) -> usize,
+    choose: impl FnMut(usize) -> usize,
 ) -> Campaign {
-    let settings = settings();
-    let mut campaign = Campaign::new(settings, points);
-    for (point, at) in points.iter().enumerate() {
-        let touch = match at.ramp {
-            Ramp::None => Touch::NoRamp,
-            _ => Touch::At { onset_g: 150.0 },
-        };
-        campaign.set_touch(point, touch);
-    }
-    while !campaign.is_done() {
-        let asking: Vec<usize> = (0..points.len())
-            .filter(|&point| campaign.ask(point).is_some())
-            .collect();
-        assert!(!asking.is_empty(), "nobody asks and nothing is final");
-        let point = asking[choose(asking.len())];
-        let probe = campaign.ask(point).expect("asks").probe;
-        let h_m = clearance_m(&points[point], settings.grid.amplitude_g(probe.index));
-        if h_m < points[point].fail_below_m {
-            campaign.report_margin(point, &fails(), Some(points[point].fail_below_m));
+    let touch = |at: &Coordinates| match at.ramp {
+        Ramp::None => Touch::NoRamp,
+        _ => Touch::At { onset_g: 150.0 },
+    };
+    let law = |at: &Coordinates, _, amplitude_g: f64| {
+        let h_m = clearance_m(at, amplitude_g);
+        if h_m < at.fail_below_m {
+            (fails(), Some(at.fail_below_m))
         } else {
-            campaign.report_margin(point, &Verdict::Survives, Some(h_m));
+            (Verdict::Survives, Some(h_m))
         }
-    }
-    campaign
+    };
+    super::searched(points, touch, law, choose)
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use opshock_solver::quantity::{STANDARD_GRAVITY_M_PER_S2, m_per_s2_from_g};
 
 use super::stage::{Depth, UncertaintyStage};
-use crate::search::{Asked, Campaign, Probe, Touch, Verdict, uncertainty};
+use crate::search::{Asked, Campaign, Order, Probe, Touch, Verdict, uncertainty};
 use crate::store::{Loaded, PointDigest, RunKey, RunMachine, RunRecord, StoredTouch};
 use crate::sweep::input::{SweepInput, SweepPoint};
 
@@ -29,8 +29,8 @@ pub(in crate::sweep) struct Registry<'a> {
     pub(super) in_flight: HashSet<RunKey>,
     pub(super) onsets_in_flight: HashSet<PointDigest>,
     pub(super) sharing: HashMap<PointDigest, Vec<usize>>,
-    /// Places that differ from each in the clearance called failure alone.
-    other_clearances: Vec<Vec<usize>>,
+    /// Places that differ in the clearance called failure alone, by the one with the smallest.
+    clearances: HashMap<usize, Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     pub(super) urgency: Vec<usize>,
     /// Rank of every place in that order.
@@ -75,7 +75,7 @@ impl<'a> Registry<'a> {
             sharing.entry(point.digest).or_default().push(place);
         }
         let urgency = urgency(&campaign);
-        let other_clearances = other_clearances(&campaign);
+        let clearances = clearances(campaign.order());
         let depth = |point: &SweepPoint| match input.decides {
             Some(_) => Depth::Bracket,
             None => Depth::Refined(
@@ -97,7 +97,7 @@ impl<'a> Registry<'a> {
             in_flight: HashSet::new(),
             onsets_in_flight: HashSet::new(),
             sharing,
-            other_clearances,
+            clearances,
             urgency,
             rank: rank.clone(),
             asking: BTreeMap::new(),
@@ -231,7 +231,8 @@ impl<'a> Registry<'a> {
     /// this point is the same to the bit.
     pub(in crate::sweep) fn same_elsewhere(&self, point: usize, probe: Probe) -> Option<RunRecord> {
         let fail_below_m = self.input.points[point].coordinates.fail_below_m;
-        self.other_clearances[point].iter().find_map(|&other| {
+        let smallest = self.campaign.order().smallest_clearance(point);
+        self.clearances.get(&smallest)?.iter().find_map(|&other| {
             let record = self.runs.get(&self.key(other, probe))?;
             let survives = record.result.verdict == Verdict::Survives
                 && record.result.h_min_m? >= fail_below_m;
@@ -281,29 +282,17 @@ fn searched(touch: StoredTouch) -> Touch {
     }
 }
 
-/// For every point those that differ from it in the clearance called failure alone.
-fn other_clearances(campaign: &Campaign) -> Vec<Vec<usize>> {
-    let relations = &campaign.order().relations;
-    let smaller = |point: &usize| relations[*point].smaller_clearance;
+/// Points that differ in the clearance called failure alone, by the one with the smallest.
+fn clearances(order: &Order) -> HashMap<usize, Vec<usize>> {
     let mut alike: HashMap<usize, Vec<usize>> = HashMap::new();
-    for point in 0..relations.len() {
-        let smallest = std::iter::successors(Some(point), smaller).last();
+    for point in 0..order.relations.len() {
         alike
-            .entry(smallest.unwrap_or(point))
+            .entry(order.smallest_clearance(point))
             .or_default()
             .push(point);
     }
-    let mut others = vec![Vec::new(); relations.len()];
-    for places in alike.into_values() {
-        for &point in &places {
-            others[point] = places
-                .iter()
-                .copied()
-                .filter(|&other| other != point)
-                .collect();
-        }
-    }
-    others
+    alike.retain(|_, points| points.len() > 1);
+    alike
 }
 
 /// Places of the points, the head of the longest chain of successors first.
