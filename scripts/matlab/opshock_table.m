@@ -6,6 +6,7 @@ function [critical, units] = opshock_table(source)
 %      a_crit_g                critical shock in G, NaN where none was found
 %      uncertainty_g           half-width of the uncertainty interval in G
 %      low_g, high_g           ends of that interval in G
+%      half_min_height_g       change with half the minimum film height in G
 %      survived_g, failed_g    the bracket in G
 %      onset_g                 amplitude of the first touch of disk and ramp in G
 %      runs                    simulations behind the answer
@@ -47,7 +48,7 @@ function [critical, units] = opshock_table(source)
         units.(name) = units.a_crit_g;
         says.(name) = [ends{k, 3} ' end of the uncertainty interval'];
     end
-    take({'survived_g', 'failed_g', 'onset_g', 'runs', 'status', 'flags'}, data.points, about.points);
+    take({'half_min_height_g', 'survived_g', 'failed_g', 'onset_g', 'runs', 'status', 'flags'}, data.points, about.points);
 
     if exist('struct2table', 'file')
         critical = struct2table(critical);

@@ -133,9 +133,9 @@ fn rows_of_the_first_page_are_those_of_the_committed_table() {
         for expected in [
             of(3, ""),
             of(4, "+-"),
-            of(5, ""),
             of(6, ""),
-            values[8].to_owned(),
+            of(7, ""),
+            values[9].to_owned(),
         ] {
             assert!(words.contains(&expected.as_str()), "{row}: {expected}");
         }

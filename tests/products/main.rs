@@ -36,6 +36,7 @@ mod matching_files;
 mod matching_truths;
 mod measured_pulse;
 mod memory;
+mod min_film_height;
 mod mode_shapes;
 mod multi_body;
 mod outside_ramp;

@@ -116,6 +116,7 @@ fn row(status: Status, found: [Option<f64>; 4], flags: &[Flag], sign: Sign) -> P
         axes: vec![AxisValue::Number(0.0)],
         a_crit_g,
         uncertainty_g,
+        half_min_height_g: None,
         survived_g,
         failed_g,
         contributions: vec![],

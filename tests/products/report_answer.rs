@@ -29,6 +29,7 @@ fn five_clearances(half_g: f64) -> Summary {
                     axes: vec![AxisValue::Number(um)],
                     a_crit_g: Some(crit),
                     uncertainty_g: Some(half_g),
+                    half_min_height_g: None,
                     survived_g: Some(crit - 0.5),
                     failed_g: Some(crit + 0.5),
                     contributions: vec![],

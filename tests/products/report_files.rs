@@ -20,6 +20,7 @@ fn point(ramp: &str, pulse_ms: f64, sign: Sign, status: Status) -> PointSummary 
         axes: vec![AxisValue::Number(60.0)],
         a_crit_g: known.then_some(367.125),
         uncertainty_g: known.then_some(2.375),
+        half_min_height_g: None,
         survived_g: (status != Status::BelowRange).then_some(366.25),
         failed_g: (status != Status::AboveRange).then_some(369.5),
         contributions: vec![],
@@ -113,21 +114,21 @@ fn csv_has_the_documented_header_and_empty_cells_for_what_is_missing() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         lines[0],
-        "ramp,pulse_ms,sign,ramp.clearance_um,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
+        "ramp,pulse_ms,sign,ramp.clearance_um,a_crit_g,uncertainty_g,half_min_height_g,survived_g,failed_g,onset_g,runs,status,flags"
     );
     assert_eq!(
         lines[1],
-        "none,0.5,+,60,,,366.25,,,12,above_range,retry;non_monotone"
+        "none,0.5,+,60,,,,366.25,,,12,above_range,retry;non_monotone"
     );
-    assert_eq!(lines[2], "none,2,+,60,367.125,2.375,366.25,369.5,,12,ok,");
+    assert_eq!(lines[2], "none,2,+,60,367.125,2.375,,366.25,369.5,,12,ok,");
     assert_eq!(
         lines[8],
-        "rigid,2,-,60,,,,369.5,195.5,12,below_range,retry;non_monotone"
+        "rigid,2,-,60,,,,,369.5,195.5,12,below_range,retry;non_monotone"
     );
 }
 
 #[test]
-fn csv_without_further_axes_has_exactly_twelve_less_one_columns() {
+fn csv_without_further_axes_has_exactly_twelve_columns() {
     let mut summary = summary();
     summary.axes.clear();
     summary
@@ -138,7 +139,7 @@ fn csv_without_further_axes_has_exactly_twelve_less_one_columns() {
     assert_eq!(
         text.lines().next(),
         Some(
-            "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
+            "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,half_min_height_g,survived_g,failed_g,onset_g,runs,status,flags"
         )
     );
 }

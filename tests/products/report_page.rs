@@ -34,6 +34,7 @@ fn summary() -> Summary {
                     axes: vec![],
                     a_crit_g: Some(crit),
                     uncertainty_g: Some(0.055 * crit),
+                    half_min_height_g: None,
                     survived_g: Some(0.995 * crit),
                     failed_g: Some(1.005 * crit),
                     contributions: vec![],

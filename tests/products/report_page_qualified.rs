@@ -42,6 +42,7 @@ fn table(widths_ms: &[f64], required_g: f64) -> Summary {
                     axes: vec![],
                     a_crit_g: (!is_far).then_some(value_g),
                     uncertainty_g: (!is_far).then_some(0.02 * value_g),
+                    half_min_height_g: None,
                     survived_g: Some(if is_far {
                         1.99 * required_g
                     } else {

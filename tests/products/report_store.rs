@@ -45,7 +45,7 @@ fn report_prints_table_csv_markdown_and_json_that_agree() {
     let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(
         lines[0].join(","),
-        "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,runs,status,flags"
+        "ramp,pulse_ms,sign,a_crit_g,uncertainty_g,half_min_height_g,survived_g,failed_g,onset_g,runs,status,flags"
     );
     assert_eq!(lines.len(), 37);
     for (line, point) in lines[1..].iter().zip(points) {

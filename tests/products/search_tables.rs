@@ -198,6 +198,7 @@ fn input(table: &Table) -> SweepInput {
             coordinates: point.at.clone(),
             axes: Vec::new(),
             digest: mock_sweep::digest(&format!("{} {}", point.at.ramp, point.at.pulse_ms)),
+            below_continuum: false,
             uncertainty: None,
         })
         .collect();

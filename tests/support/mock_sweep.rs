@@ -36,6 +36,7 @@ pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
                     },
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),
+                    below_continuum: false,
                     uncertainty: None,
                 });
             }

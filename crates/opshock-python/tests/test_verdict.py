@@ -18,6 +18,7 @@ def row(**values: object) -> CriticalShock:
         axes={},
         a_crit_g=500.0,
         uncertainty_g=20.0,
+        half_min_height_g=None,
         survived_g=495.0,
         failed_g=505.0,
         onset_g=250.0,

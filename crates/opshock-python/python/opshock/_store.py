@@ -56,6 +56,9 @@ class CriticalShock:
     """Critical shock: the middle of the interval, or of the bracket where there is none; ``None`` unless bracketed."""
     uncertainty_g: float | None
     """Half-width of the uncertainty interval; ``None`` where there is none."""
+    half_min_height_g: float | None
+    """Change of the critical shock with half the minimum film height, no part of the interval; ``None`` where it was not computed,
+    or the clearance called failure is above twice that height."""
     survived_g: float | None
     """Highest survivor below the lowest failure."""
     failed_g: float | None
@@ -238,7 +241,7 @@ class Store(Sequence[CriticalShock]):
 
         axes = list(self._rows[0].axes) if self._rows else []
         index = ["ramp", "pulse_ms", "sign", *axes]
-        numbers = ["a_crit_g", "uncertainty_g", "survived_g", "failed_g", "onset_g"]
+        numbers = ["a_crit_g", "uncertainty_g", "half_min_height_g", "survived_g", "failed_g", "onset_g"]
         frame = self.to_pandas().set_index(index)[[*numbers, "status"]]
         dataset = xr.Dataset.from_dataframe(frame.astype(dict.fromkeys(numbers, float)))
         for name in numbers:

@@ -18,6 +18,9 @@
 //! A ramp enters a scene as oscillators. Whoever computes them from a geometry computes them from another mesh too;
 //! [`Scene::at_levels`](super::Scene::at_levels) leaves them as they are, and `ramp_mesh` is not in
 //! [`Discretisation::ALL`]. Oscillators that the study itself gives are part of the model and are not refined.
+//!
+//! `min_film_height` is a regularisation, not a source of discretisation error, and not in [`Discretisation::ALL`] either: a level
+//! halves it, so that its effect can be stated.
 
 /// A discretisation parameter, which trades time for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,10 +41,12 @@ pub enum Discretisation {
     CouplingTolerance,
     /// Elements of the solid that the ramp's oscillators were made of.
     RampMesh,
+    /// Minimum film height, a regularisation.
+    MinFilmHeight,
 }
 
 /// All that can be refined; the parameters of a scene come first.
-const EVERY: [Discretisation; 8] = [
+const EVERY: [Discretisation; 9] = [
     Discretisation::FilmGrid,
     Discretisation::FilmCorrection,
     Discretisation::DiskModes,
@@ -50,6 +55,7 @@ const EVERY: [Discretisation; 8] = [
     Discretisation::HeadTolerance,
     Discretisation::CouplingTolerance,
     Discretisation::RampMesh,
+    Discretisation::MinFilmHeight,
 ];
 
 impl Discretisation {
@@ -67,6 +73,7 @@ impl Discretisation {
             Discretisation::HeadTolerance => "head_tolerance",
             Discretisation::CouplingTolerance => "coupling_tolerance",
             Discretisation::RampMesh => "ramp_mesh",
+            Discretisation::MinFilmHeight => "min_film_height",
         }
     }
 
@@ -77,14 +84,15 @@ impl Discretisation {
             .find(|discretisation| discretisation.as_str() == word)
     }
 
-    /// Factor by which one level finer divides the parameter's error at its formal order.
+    /// Factor by which one level finer divides the parameter's error at its formal order; the minimum film height itself.
     pub const fn formal_ratio(self) -> f64 {
         match self {
             Discretisation::FilmGrid
             | Discretisation::FilmCorrection
             | Discretisation::DiskModes
             | Discretisation::StructureStep
-            | Discretisation::RampMesh => 2.0,
+            | Discretisation::RampMesh
+            | Discretisation::MinFilmHeight => 2.0,
             Discretisation::SuspensionModes | Discretisation::HeadTolerance => 4.0,
             Discretisation::CouplingTolerance => 8.0,
         }

@@ -84,6 +84,11 @@ impl Scene {
             .collect()
     }
 
+    /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
+    pub fn fails_below_continuum(&self) -> bool {
+        self.fail_below_m < 2.0 * self.film_resolution.min_height_m
+    }
+
     /// The same scene at other refinement levels; parameters in `not_refined` keep their values. See
     /// [`super::discretisation`].
     #[must_use]
@@ -105,6 +110,7 @@ impl Scene {
             let factor = power(2.0, Discretisation::FilmCorrection);
             *correction = scaled(*correction, factor, 16);
         }
+        scene.film_resolution.min_height_m /= power(2.0, Discretisation::MinFilmHeight);
         let disk = power(2.0, Discretisation::DiskModes);
         scene.disk_resolution.cut_hz *= disk;
         // Frequencies of a plate grow with the square of its wave numbers.

@@ -218,6 +218,10 @@ fn differing(a: &PointSummary, b: &PointSummary) -> Vec<&'static str> {
     [
         ("a_crit_g", a.a_crit_g != b.a_crit_g),
         ("uncertainty_g", a.uncertainty_g != b.uncertainty_g),
+        (
+            "half_min_height_g",
+            a.half_min_height_g != b.half_min_height_g,
+        ),
         ("survived_g", a.survived_g != b.survived_g),
         ("failed_g", a.failed_g != b.failed_g),
         ("onset_g", a.onset_g != b.onset_g),
@@ -351,6 +355,7 @@ fn answer(row: &PointSummary) -> Value {
     json!({
         "a_crit_g": row.a_crit_g,
         "uncertainty_g": row.uncertainty_g,
+        "half_min_height_g": row.half_min_height_g,
         "survived_g": row.survived_g,
         "failed_g": row.failed_g,
         "onset_g": row.onset_g,

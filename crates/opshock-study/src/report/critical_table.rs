@@ -67,8 +67,8 @@ fn parse(text: &str, path: &str) -> Result<Summary, TableError> {
             line: 1,
             key: "header".into(),
             value: header.join(","),
-            allowed: "ramp,pulse_ms,sign, further axes, a_crit_g,uncertainty_g,survived_g,failed_g,\
-                      onset_g,runs,status,flags",
+            allowed: "ramp,pulse_ms,sign, further axes, a_crit_g,uncertainty_g,half_min_height_g,\
+                      survived_g,failed_g,onset_g,runs,status,flags",
         });
     };
     let points = lines
@@ -110,7 +110,7 @@ fn point(
         "" => Ok(None),
         text => number(AFTER_AXES[column], text).map(Some),
     };
-    let flags = after[7].split(';').filter(|word| !word.is_empty());
+    let flags = after[8].split(';').filter(|word| !word.is_empty());
     Ok(PointSummary {
         ramp: cells[0].clone(),
         pulse_ms: number("pulse_ms", &cells[1])?,
@@ -124,16 +124,17 @@ fn point(
             .collect(),
         a_crit_g: maybe(0)?,
         uncertainty_g: maybe(1)?,
-        survived_g: maybe(2)?,
-        failed_g: maybe(3)?,
+        half_min_height_g: maybe(2)?,
+        survived_g: maybe(3)?,
+        failed_g: maybe(4)?,
         contributions: Vec::new(),
         levels: String::new(),
-        onset_g: maybe(4)?,
-        runs: after[5]
+        onset_g: maybe(5)?,
+        runs: after[6]
             .parse()
-            .map_err(|_| fault("runs", &after[5], "a whole number"))?,
-        status: Status::parse(&after[6])
-            .ok_or_else(|| fault("status", &after[6], "a status of the report"))?,
+            .map_err(|_| fault("runs", &after[6], "a whole number"))?,
+        status: Status::parse(&after[7])
+            .ok_or_else(|| fault("status", &after[7], "a status of the report"))?,
         flags: flags
             .map(|word| {
                 Flag::parse(word).ok_or_else(|| fault("flags", word, "flags of the report"))
@@ -170,10 +171,10 @@ mod tests {
     use super::*;
     use crate::report::table;
 
-    const TABLE: &str = "ramp,pulse_ms,sign,\"a, b\",a_crit_g,uncertainty_g,survived_g,failed_g,\
-                         onset_g,runs,status,flags\n\
-                         rigid,0.5,+,60,202.9,1,201.9,203.9,195.3,4,ok,retry;window\n\
-                         none,3,-,\"say \"\"x\"\"\",,,2000,,,7,above_range,\n";
+    const TABLE: &str = "ramp,pulse_ms,sign,\"a, b\",a_crit_g,uncertainty_g,half_min_height_g,\
+                         survived_g,failed_g,onset_g,runs,status,flags\n\
+                         rigid,0.5,+,60,202.9,1,-0.5,201.9,203.9,195.3,4,ok,retry;window\n\
+                         none,3,-,\"say \"\"x\"\"\",,,,2000,,,7,above_range,\n";
 
     #[test]
     fn a_table_read_back_is_written_the_same() {
@@ -201,7 +202,7 @@ mod tests {
             (
                 ",ok,",
                 ",",
-                "t.csv, line 2: cells = \"11\" must be as many as the header has",
+                "t.csv, line 2: cells = \"12\" must be as many as the header has",
             ),
         ] {
             let error = parse(&TABLE.replace(from, to), "t.csv").expect_err("a fault");

@@ -6,9 +6,10 @@ use crate::store::summary::{CONTRIBUTIONS, PointSummary, Status, Summary};
 /// Columns of the table before those of the study's axes.
 pub(super) const BEFORE_AXES: [&str; 3] = ["ramp", "pulse_ms", "sign"];
 /// Columns behind them.
-pub(super) const AFTER_AXES: [&str; 8] = [
+pub(super) const AFTER_AXES: [&str; 9] = [
     "a_crit_g",
     "uncertainty_g",
+    "half_min_height_g",
     "survived_g",
     "failed_g",
     "onset_g",
@@ -17,8 +18,8 @@ pub(super) const AFTER_AXES: [&str; 8] = [
     "flags",
 ];
 
-/// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,uncertainty_g,survived_g,failed_g,onset_g,
-/// runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
+/// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,uncertainty_g,half_min_height_g,survived_g,
+/// failed_g,onset_g,runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
 /// digits. Nothing in it depends on the machine.
 pub fn csv(summary: &Summary) -> String {
     let mut header: Vec<String> = BEFORE_AXES.map(String::from).to_vec();
@@ -36,6 +37,7 @@ pub fn csv(summary: &Summary) -> String {
         row.extend([
             number(point.a_crit_g),
             number(point.uncertainty_g),
+            number(point.half_min_height_g),
             number(point.survived_g),
             number(point.failed_g),
             number(point.onset_g),
@@ -320,14 +322,18 @@ fn parts_table(summary: &Summary) -> String {
     text
 }
 
-/// Header and rows as a person reads them.
+/// Header and rows as a person reads them; without the change by half the minimum film height where no row has it.
 pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
     let mut header: Vec<String> = ["ramp", "pulse (ms)", "sign"].map(String::from).to_vec();
     header.extend(summary.axes.iter().cloned());
+    let changes = summary
+        .points
+        .iter()
+        .any(|point| point.half_min_height_g.is_some());
+    header.extend(["A_crit (G)", "uncertainty (G)"].map(String::from));
+    header.extend(changes.then(|| "half min. height (G)".to_owned()));
     header.extend(
         [
-            "A_crit (G)",
-            "uncertainty (G)",
             "survived (G)",
             "failed (G)",
             "first touch (G)",
@@ -347,9 +353,9 @@ pub(super) fn readable(summary: &Summary) -> (Vec<String>, Vec<Vec<String>>) {
                 point.sign.as_str().to_owned(),
             ];
             row.extend(point.axes.iter().map(ToString::to_string));
+            row.extend([critical_words(point), uncertainty_words(point)]);
+            row.extend(changes.then(|| half_min_height_words(point)));
             row.extend([
-                critical_words(point),
-                uncertainty_words(point),
                 tenths(point.survived_g),
                 tenths(point.failed_g),
                 tenths(point.onset_g),
@@ -379,6 +385,12 @@ fn critical_words(row: &PointSummary) -> String {
 pub(super) fn uncertainty_words(row: &PointSummary) -> String {
     row.uncertainty_g
         .map_or(String::new(), |half| format!("+-{half:.1}"))
+}
+
+/// Change of the critical shock with half the minimum film height, G; empty where it is not known.
+fn half_min_height_words(row: &PointSummary) -> String {
+    row.half_min_height_g
+        .map_or(String::new(), |change| format!("{change:+.1}"))
 }
 
 fn tenths(value: Option<f64>) -> String {

@@ -55,6 +55,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Column, "sign", "sign", "Direction of the shock: + moves the disk towards the slider first, - away from it first."),
     term(Kind::Column, "a_crit_g", "A_crit (G)", "Estimate of the critical shock, in multiples of 9.80665 m/s2: the middle of its uncertainty interval, or of the bracket where there is no interval. \"> A\": no failure up to A, the end of the searched range; \"< A\": failure already at A, its start."),
     term(Kind::Column, "uncertainty_g", "uncertainty (G)", "Half-width of the numerical uncertainty interval of A_crit. The interval has the bracket of the search and the discretisation errors. Empty: not computed."),
+    term(Kind::Column, "half_min_height_g", "half min. height (G)", "Change of the critical shock with half the minimum film height (resolution.min_film_height_nm). No part of the uncertainty interval. Empty: not computed, or the clearance called failure is above twice that height."),
     term(Kind::Column, "survived_g", "survived (G)", "Lower end of the bracket: the largest amplitude survived below the smallest that failed."),
     term(Kind::Column, "failed_g", "failed (G)", "Upper end of the bracket: the smallest amplitude that failed: the clearance of the slider fell below failure.clearance_nm, 0 by default."),
     term(Kind::Column, "onset_g", "first touch (G)", "The amplitude from which on the disk reaches the ramp."),
@@ -86,6 +87,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Note, "no_touch", "no_touch", "The disk does not reach the ramp below the critical shock: the answer is that without ramp."),
     term(Kind::Note, "safety_factor_3", "safety_factor_3", "A discretisation error did not fall as its method predicts, or one step alone does not show how it falls; the interval has it times 3 instead of 1.25."),
     term(Kind::Note, "refined", "refined", "The answer is that of discretisation parameters refined beyond the study's resolution, to meet the target uncertainty."),
+    term(Kind::Note, "below_continuum", "below_continuum", "Failure is decided below twice the minimum film height, where the film's pressure is that of a limited height and not of the gap: half_min_height_g says what half of it changes. A larger failure.clearance_nm avoids it."),
 
     term(Kind::Contribution, "search", "search", "The bracket of the search."),
     term(Kind::Contribution, "film_correction", "film_correction", "Grid of the film's defect correction."),
@@ -178,6 +180,7 @@ pub(super) fn legend_columns() -> impl Iterator<Item = &'static Term> {
     [
         "a_crit_g",
         "uncertainty_g",
+        "half_min_height_g",
         "survived_g",
         "failed_g",
         "onset_g",

@@ -87,11 +87,13 @@ pub enum Flag {
     RefinementLimit,
     /// The answer is that of parameters refined beyond the study's, named in `levels`.
     Refined,
+    /// The clearance called failure is below twice the minimum film height: the film's pressure there is that of a limited height.
+    BelowContinuum,
 }
 
 impl Flag {
     /// All flags, in the order of the table's rows.
-    pub const ALL: [Flag; 17] = [
+    pub const ALL: [Flag; 18] = [
         Flag::NonMonotone,
         Flag::Window,
         Flag::WindowUndecided,
@@ -109,6 +111,7 @@ impl Flag {
         Flag::TargetNotMet,
         Flag::RefinementLimit,
         Flag::Refined,
+        Flag::BelowContinuum,
     ];
 
     /// Name in output files.
@@ -131,6 +134,7 @@ impl Flag {
             Flag::TargetNotMet => "target_not_met",
             Flag::RefinementLimit => "refinement_limit",
             Flag::Refined => "refined",
+            Flag::BelowContinuum => "below_continuum",
         }
     }
 

@@ -1,7 +1,7 @@
 //! Table of a study's critical shocks as rows: the source of tables, curves and JSON.
 //!
 //! The JSON is `{"study", "digest", "points": [{"ramp", "pulse_ms", "sign", ...axes, "a_crit_g",
-//! "uncertainty_g", "survived_g", "failed_g", "contributions", "levels", "onset_g", "runs", "status", "flags",
+//! "uncertainty_g", "half_min_height_g", "survived_g", "failed_g", "contributions", "levels", "onset_g", "runs", "status", "flags",
 //! "brackets_g", "scanned_from_g", "largest_gap_pct"}], "totals": {...}}`. A missing value is
 //! null. Nothing in it depends on the machine, the number of threads or the time of day, so that
 //! equal results are equal bytes.
@@ -94,6 +94,9 @@ pub struct PointSummary {
     pub a_crit_g: Option<f64>,
     /// Half-width of the uncertainty interval, G; `None` where it was not computed.
     pub uncertainty_g: Option<f64>,
+    /// Change of the critical shock with half the minimum film height, G; no part of the interval. `None` where the clearance
+    /// called failure is above twice that height, or it was not computed.
+    pub half_min_height_g: Option<f64>,
     /// Highest survivor below the lowest failure, G.
     pub survived_g: Option<f64>,
     /// Lowest failure, G.
@@ -251,6 +254,7 @@ impl Serialize for Row<'_> {
         }
         map.serialize_entry("a_crit_g", &point.a_crit_g)?;
         map.serialize_entry("uncertainty_g", &point.uncertainty_g)?;
+        map.serialize_entry("half_min_height_g", &point.half_min_height_g)?;
         map.serialize_entry("survived_g", &point.survived_g)?;
         map.serialize_entry("failed_g", &point.failed_g)?;
         map.serialize_entry("contributions", &Contributions(&point.contributions))?;
@@ -314,6 +318,7 @@ mod tests {
                 axes: vec![AxisValue::Number(60.0)],
                 a_crit_g: None,
                 uncertainty_g: None,
+                half_min_height_g: None,
                 survived_g: Some(2000.0),
                 failed_g: None,
                 contributions: vec![],
@@ -330,7 +335,7 @@ mod tests {
         };
         let text = serde_json::to_string(&summary).expect("serialises");
         assert!(text.starts_with(
-            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":null,"uncertainty_g":null,"survived_g":2000.0,"failed_g":null,"contributions":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
+            r#"{"study":"s","digest":"d","points":[{"ramp":"rigid","pulse_ms":0.5,"sign":"-","clearance_um":60.0,"a_crit_g":null,"uncertainty_g":null,"half_min_height_g":null,"survived_g":2000.0,"failed_g":null,"contributions":{},"levels":"","onset_g":null,"runs":3,"status":"above_range","flags":["non_monotone"]"#
         ), "{text}");
     }
 }

@@ -147,6 +147,7 @@ fn sweep_point(
         },
         axes: point.axes.iter().map(|(_, value)| value.into()).collect(),
         digest: digest(point, point.sign),
+        below_continuum: point.scene.fails_below_continuum(),
         uncertainty: search
             .uncertainty
             .then(|| uncertainty_plan(point, search.max_refinements)),

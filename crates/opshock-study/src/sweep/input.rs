@@ -36,6 +36,8 @@ pub struct SweepPoint {
     pub axes: Vec<AxisValue>,
     /// Digest of the scene, the sign and the physics versions.
     pub digest: PointDigest,
+    /// The clearance called failure is below twice the minimum film height.
+    pub below_continuum: bool,
     /// How its uncertainty interval is made; `None`: the search bracket alone.
     pub uncertainty: Option<UncertaintyPlan>,
 }

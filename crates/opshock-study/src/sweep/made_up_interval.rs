@@ -24,6 +24,8 @@ fn median_error(discretisation: Discretisation, ramp: Ramp, target: f64) -> f64 
         Discretisation::StructureStep | Discretisation::RampMesh => 0.4,
         Discretisation::HeadTolerance if has_ramp => 0.25,
         Discretisation::FilmCorrection if !has_ramp => 0.15,
+        // A regularisation: what it changes is no error.
+        Discretisation::MinFilmHeight => 0.0,
         Discretisation::FilmCorrection
         | Discretisation::HeadTolerance
         | Discretisation::SuspensionModes

@@ -68,6 +68,10 @@ pub(super) fn row(
     if !levels.is_empty() {
         flags.insert(Flag::Refined);
     }
+    if point.below_continuum && is_found {
+        flags.insert(Flag::BelowContinuum);
+    }
+    let half_min_height = uncertainty.and_then(|(answer, _)| answer.half_min_height);
     PointSummary {
         ramp: point.coordinates.ramp.to_string(),
         pulse_ms: point.coordinates.pulse_ms,
@@ -75,6 +79,9 @@ pub(super) fn row(
         axes: point.axes.clone(),
         a_crit_g: reported_g.map(|[low_g, high_g]| f64::midpoint(low_g, high_g)),
         uncertainty_g: interval_g.map(|[low_g, high_g]| 0.5 * (high_g - low_g)),
+        half_min_height_g: half_min_height
+            .zip(reported_g)
+            .map(|(share, [low_g, high_g])| share * f64::midpoint(low_g, high_g)),
         survived_g,
         failed_g,
         contributions,

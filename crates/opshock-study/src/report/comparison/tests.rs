@@ -12,6 +12,7 @@ fn row(survived_g: f64, failed_g: f64, half_g: Option<f64>, axes: Vec<AxisValue>
         axes,
         a_crit_g: Some(f64::midpoint(survived_g, failed_g)),
         uncertainty_g: half_g,
+        half_min_height_g: None,
         survived_g: Some(survived_g),
         failed_g: Some(failed_g),
         contributions: vec![],

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 pub(super) fn section(summary: &Summary) -> String {
     let (header, rows) = table::readable(summary);
     let words = 3 + summary.axes.len();
-    let numeric = |column: usize| column == 1 || (words..words + 6).contains(&column);
+    let numeric = |column: usize| column == 1 || (words..header.len() - 2).contains(&column);
     let mut text = String::from(
         "<p class=\"screen\">A heading says on hover what its column is, and sorts by it when clicked; flags say theirs too. \
          Shaded rows have a reservation. <a href=\"#words\">All words</a>.</p>\n\
@@ -34,7 +34,7 @@ pub(super) fn section(summary: &Summary) -> String {
         let _ = write!(text, "<tr data-point=\"{place}\"{class}>");
         for (column, cell) in row.iter().enumerate() {
             let class = if numeric(column) { " class=\"n\"" } else { "" };
-            let value = sort_value(point, column, words)
+            let value = sort_value(point, &header[column])
                 .map_or(String::new(), |value| format!(" data-v=\"{value}\""));
             let cell = signed(cell);
             let _ = match column {
@@ -78,12 +78,13 @@ pub(super) fn flags(point: &PointSummary) -> String {
 }
 
 /// The number a cell sorts by, where its text is not one.
-fn sort_value(point: &PointSummary, column: usize, words: usize) -> Option<f64> {
-    match column.checked_sub(words)? {
-        0 => point.known_g(),
-        1 => point.uncertainty_g,
-        2 => point.survived_g,
-        3 => point.failed_g,
+fn sort_value(point: &PointSummary, heading: &str) -> Option<f64> {
+    match heading {
+        "A_crit (G)" => point.known_g(),
+        "uncertainty (G)" => point.uncertainty_g,
+        "half min. height (G)" => point.half_min_height_g,
+        "survived (G)" => point.survived_g,
+        "failed (G)" => point.failed_g,
         _ => None,
     }
 }

@@ -39,6 +39,12 @@ fn facts(point: &PointSummary) -> String {
             format!("{half:.1} G"),
         );
     }
+    if let Some(change) = point.half_min_height_g {
+        entry(
+            "change with half the minimum film height, no part of the interval",
+            format!("{change:+.1} G"),
+        );
+    }
     entry("highest survivor", grams(point.survived_g));
     entry("lowest failure", grams(point.failed_g));
     if let Some(onset) = point.onset_g {

@@ -44,6 +44,8 @@ pub struct UncertaintyInput {
     pub mesh_halvings: i8,
     /// The ramp's contact has no stiffness: each impact excites every disk mode.
     pub hard_contact: bool,
+    /// The clearance called failure is below twice the minimum film height.
+    pub below_continuum: bool,
     /// Target uncertainty, a share.
     pub target: f64,
 }

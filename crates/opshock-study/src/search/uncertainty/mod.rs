@@ -35,6 +35,9 @@
 //! Contributions add up, below and above the answer; none makes another smaller. Where they exceed the target, the largest
 //! are refined and the answer is bracketed anew (`refinement`).
 //!
+//! A row that is decided below twice the minimum film height also has the change of A with half that height
+//! (`min_film_height`). It is no part of the interval: that height is a regularisation, without a value to converge to.
+//!
 //! [`answer`] is a function of finished runs. Called with more runs it goes further and asks for the next run that it lacks:
 //! the same runs in the same order, whatever the number of threads.
 
@@ -44,6 +47,7 @@ mod clearance_sensitivity;
 mod contributions;
 mod judge;
 mod measure;
+mod min_film_height;
 mod pieces;
 mod rebracketing;
 mod refinement;

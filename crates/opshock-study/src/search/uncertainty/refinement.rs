@@ -9,6 +9,7 @@ use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
 use super::ask::{Ask, Known, Progress, SUBDIVISIONS, Seen, UncertaintyInput};
 use super::contributions::Uncertainty;
+use super::min_film_height;
 use super::pieces::{self, GROUPS, MOST_FINER, Pieces};
 use super::rebracketing;
 use super::walk::{self, Walk};
@@ -47,6 +48,8 @@ pub struct Answer {
     pub failure: i32,
     /// Its interval.
     pub uncertainty: Uncertainty,
+    /// Change of the critical shock with half the minimum film height, a share, where it is asked for and known.
+    pub half_min_height: Option<f64>,
 }
 
 /// The answer of `input` with its interval, as far as `lookup` knows the runs it needs, after at most `refinements`
@@ -56,17 +59,58 @@ pub fn answer(
     refinements: u8,
     lookup: &dyn Fn(Ask) -> Option<Seen>,
 ) -> (Vec<Ask>, Progress<Answer>) {
-    let mut log = Vec::new();
-    let progress = match refined(input, refinements, lookup, &mut log) {
+    let (mut log, mut beside) = (Vec::new(), Beside::default());
+    let progress = match refined(input, refinements, lookup, &mut log, &mut beside) {
         Ok(mut answer) => {
             if log.iter().any(|ask| ask.retry != Retry::None) {
                 answer.uncertainty.flags.insert(Flag::Retry);
             }
+            answer.half_min_height = beside.change;
             Progress::Done(answer)
         }
         Err(ask) => Progress::Wants(ask),
     };
-    (log, progress)
+    (beside.joined(log), progress)
+}
+
+/// The change with half the minimum film height, measured between the first interval and the first refinement. Its runs are
+/// kept apart, so that the interval is the same without it.
+#[derive(Default)]
+struct Beside {
+    change: Option<f64>,
+    /// Runs that the interval had requested before.
+    from: usize,
+    log: Vec<Ask>,
+}
+
+impl Beside {
+    fn measure(
+        &mut self,
+        input: &UncertaintyInput,
+        lookup: &dyn Fn(Ask) -> Option<Seen>,
+        log: &[Ask],
+    ) -> Result<(), Ask> {
+        self.from = log.len();
+        let mut whole = log.to_vec();
+        let change = min_film_height::change(&mut Walk::new(input, lookup, &mut whole));
+        self.log = whole.split_off(self.from);
+        self.change = change?;
+        Ok(())
+    }
+
+    /// All runs in the order in which they were requested, each once.
+    fn joined(self, log: Vec<Ask>) -> Vec<Ask> {
+        let later = log[self.from..].iter();
+        let later: Vec<Ask> = later
+            .filter(|ask| !self.log.contains(ask))
+            .copied()
+            .collect();
+        let mut all = log;
+        all.truncate(self.from);
+        all.extend(self.log);
+        all.extend(later);
+        all
+    }
 }
 
 fn refined(
@@ -74,6 +118,7 @@ fn refined(
     refinements: u8,
     lookup: &dyn Fn(Ask) -> Option<Seen>,
     log: &mut Vec<Ask>,
+    beside: &mut Beside,
 ) -> Result<Answer, Ask> {
     let mut at = input.clone();
     let mut kept = Default::default();
@@ -84,6 +129,9 @@ fn refined(
         let exceeds = uncertainty.flags.contains(&Flag::TargetNotMet);
         let found = walk::bracket(&walk);
         (at.survivor, at.failure) = (found.low, found.high);
+        if input.below_continuum && left == refinements {
+            beside.measure(&at, lookup, log)?;
+        }
         if !exceeds || refinements == 0 {
             return Ok(Answer::of(&at, uncertainty));
         }
@@ -115,6 +163,7 @@ impl Answer {
             survivor: at.survivor,
             failure: at.failure,
             uncertainty,
+            half_min_height: None,
         }
     }
 }

@@ -34,6 +34,13 @@ pub(super) fn point_columns(summary: &Summary) -> Vec<Column> {
             |row| row.uncertainty_g,
         ),
         numbers(
+            "half_min_height_g",
+            "G",
+            "change of the critical shock with half the minimum film height; no part of the interval",
+            rows,
+            |row| row.half_min_height_g,
+        ),
+        numbers(
             "survived_g",
             "G",
             "highest surviving amplitude below the lowest failing one",

@@ -201,6 +201,11 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
         .iter()
         .map(|name| get(group, name))
         .collect::<hdf5::Result<_>>()?;
+    // Not in files of earlier programs.
+    let half_min_height: Option<Vec<f64>> = match group.link_exists("half_min_height_g") {
+        true => Some(get(group, "half_min_height_g")?),
+        false => None,
+    };
     let contributions = contribution_columns(group)?;
     let columns = axes
         .iter()
@@ -219,6 +224,7 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
     for length in lengths
         .into_iter()
         .chain(numbers.iter().map(Vec::len))
+        .chain(half_min_height.iter().map(Vec::len))
         .chain(columns.iter().map(Vec::len))
         .chain(
             contributions
@@ -248,6 +254,10 @@ fn rows(group: &Group, axes: &[String]) -> hdf5::Result<Vec<PointSummary>> {
                 axes: columns.iter().map(|column| column[i].clone()).collect(),
                 a_crit_g: number(1),
                 uncertainty_g: number(2),
+                half_min_height_g: half_min_height
+                    .as_ref()
+                    .map(|column| column[i])
+                    .filter(|value| !value.is_nan()),
                 survived_g: number(3),
                 failed_g: number(4),
                 contributions: contributions.iter().filter_map(contribution).collect(),

@@ -303,6 +303,7 @@ pub(in crate::sweep) fn interval_input(
         film_halvings: plan.film_halvings,
         mesh_halvings: plan.mesh_halvings,
         hard_contact: plan.hard_contact,
+        below_continuum: input.points[point].below_continuum,
         target: plan.target,
     })
 }

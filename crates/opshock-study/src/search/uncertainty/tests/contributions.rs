@@ -114,6 +114,7 @@ fn what_cannot_be_read_is_said() {
         film_halvings: 3,
         mesh_halvings: 0,
         hard_contact: false,
+        below_continuum: false,
         target: 0.01,
     };
     let undecided = Seen {
@@ -150,6 +151,7 @@ fn a_uncertainty_asks_the_same_runs_whether_it_knows_many_or_few() {
         film_halvings: 3,
         mesh_halvings: 0,
         hard_contact: false,
+        below_continuum: false,
         target: 0.01,
     };
     let (whole, _) = uncertainty(&input, &|ask| Some(law.see(grid, ask)));

@@ -2,6 +2,7 @@
 
 mod contributions;
 mod film;
+mod min_film_height;
 mod refinements;
 
 use super::pieces::{pieces, whole};
@@ -109,6 +110,7 @@ impl Law {
             film_halvings,
             mesh_halvings: 0,
             hard_contact: false,
+            below_continuum: false,
             target: 0.01,
         };
         (input, search.amplitude_g(survivor))
