@@ -37,6 +37,7 @@ mod plate;
 mod pressure_fields;
 mod responses;
 mod run_out;
+mod similarity;
 mod surface_forces;
 mod suspension;
 mod viscoelastic;
