@@ -1,16 +1,15 @@
-//! Dynamic decks of version 6.4 of the CMLAir family: each becomes a study by one command, whose shocks are those of the
-//! decks' own program (`tests/reference/cml_decks/`).
+//! Dynamic decks of version 6.4 of the CMLAir family (`tests/reference/cml_decks/`): each becomes a study by one command.
 
 use crate::cli::{Done, files};
 use opshock_study::study::Study;
 use std::path::{Path, PathBuf};
 
-fn decks() -> PathBuf {
+pub fn decks() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/cml_decks")
 }
 
 /// Imports a deck of `folder` into `out`.
-fn import(at: &Path, folder: &Path, deck: &str, more: &[&str]) -> Done {
+pub fn import(at: &Path, folder: &Path, deck: &str, more: &[&str]) -> Done {
     let [rail, deck] =
         ["rail_own_rectangular_abs.dat", deck].map(|name| folder.join(name).display().to_string());
     let words = [
@@ -86,107 +85,6 @@ fn a_deck_becomes_a_study_and_says_what_became_what() {
             (found / wanted - 1.0).abs() < 1e-4,
             "{what}: {found} {wanted}"
         );
-    }
-}
-
-/// Columns of a table by name.
-fn column(text: &str, name: &str) -> Vec<f64> {
-    let mut lines = text.lines();
-    let at = lines
-        .next()
-        .unwrap()
-        .split(',')
-        .position(|title| title == name)
-        .unwrap();
-    lines
-        .map(|line| line.split(',').nth(at).unwrap().parse().unwrap())
-        .collect()
-}
-
-/// A column of a history at an instant, by straight lines.
-fn at_time(time_s: &[f64], values: &[f64], t_s: f64) -> f64 {
-    let after = time_s
-        .partition_point(|t| *t < t_s)
-        .clamp(1, time_s.len() - 1);
-    let share = (t_s - time_s[after - 1]) / (time_s[after] - time_s[after - 1]);
-    let share = share.clamp(0.0, 1.0);
-    values[after - 1] + share * (values[after] - values[after - 1])
-}
-
-/// Disk and dimple of three shocks without ramp, RMS and peak of the difference over the peak; smallest clearance over
-/// ours, mean. The second program's slider rings in the last one.
-#[test]
-fn shocks_without_ramp_are_those_of_the_decks_own_program() {
-    for (name, sign, amplitude, disk, dimple) in [
-        ("P400", "+", "400", [0.25e-2, 0.5e-2], [0.2e-2, 0.7e-2]),
-        ("P200", "+", "200", [0.25e-2, 0.65e-2], [0.25e-2, 0.7e-2]),
-        ("N400", "-", "400", [0.25e-2, 0.5e-2], [0.9e-2, 5e-2]),
-    ] {
-        let at = tempfile::tempdir().unwrap();
-        let done = import(
-            at.path(),
-            &decks(),
-            &format!("dynluls_{name}_none.def"),
-            &[],
-        );
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let words = [
-            "run",
-            "out/study.toml",
-            "--ramp",
-            "none",
-            "--sign",
-            sign,
-            "--amplitude-g",
-            amplitude,
-        ];
-        let done = Done::of(
-            at.path(),
-            &[&words[..], &["--history", "history.csv"]].concat(),
-        );
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let ours = std::fs::read_to_string(at.path().join("history.csv")).unwrap();
-        let peer = std::fs::read_to_string(decks().join(format!("peer_{name}_none.csv"))).unwrap();
-        let (time_s, peer_s) = (column(&ours, "time_s"), column(&peer, "t_s"));
-        let end_s = *time_s.last().unwrap();
-        for (our, other, [rms, most]) in [
-            ("disk_slider_m", "w_slider_m", disk),
-            ("dimple_force_n", "dimple_n", dimple),
-        ] {
-            let (our, other) = (column(&ours, our), column(&peer, other));
-            let pairs = peer_s.iter().zip(&other).filter(|(t, _)| **t <= end_s);
-            let errors: Vec<f64> = pairs
-                .map(|(t, value)| at_time(&time_s, &our, *t) - value)
-                .collect();
-            let peak = other
-                .iter()
-                .fold(0.0, |most, value| f64::max(most, value.abs()));
-            let mean = errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64;
-            let largest = errors
-                .iter()
-                .fold(0.0, |most, error| f64::max(most, error.abs()));
-            println!(
-                "{name}: {:.4} {:.4} of {peak:e}",
-                mean.sqrt() / peak,
-                largest / peak
-            );
-            assert!(
-                mean.sqrt() < rms * peak && largest < most * peak,
-                "{name}: {mean:e} {largest:e} of {peak:e}"
-            );
-        }
-        let (our, other) = (
-            column(&ours, "min_clearance_m"),
-            column(&peer, "clearance_m"),
-        );
-        let ratios: Vec<f64> = peer_s
-            .iter()
-            .zip(&other)
-            .filter(|(t, _)| **t <= end_s)
-            .map(|(t, value)| value / at_time(&time_s, &our, *t))
-            .collect();
-        let ratio = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        assert!((ratio - 0.93).abs() < 0.02, "{name}: {ratio}");
     }
 }
 

@@ -53,6 +53,7 @@ mod report_run;
 mod report_store;
 mod search_critical_shock;
 mod search_tables;
+mod second_program;
 mod slurm;
 mod store_damage;
 mod store_identity;
