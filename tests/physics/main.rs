@@ -31,6 +31,7 @@ mod head_shock;
 mod head_touch;
 mod hub;
 mod limiters;
+mod mechanism;
 mod mirror;
 mod oblique;
 mod plate;

@@ -56,6 +56,12 @@ def test_a_shock_that_is_not(failed: Run) -> None:
     assert failed.t_fail_s == failed.t_min_clearance_s
     assert failed.min_clearance_m == 0.0
     assert 0 <= place.x_m <= 0.85e-3 and 0 <= place.y_m <= 0.70e-3
+    mechanism: opshock.Mechanism | None = failed.mechanism
+    assert mechanism is not None and mechanism.name == "ramp_impact", "600 G is far beyond first touch"
+    assert mechanism.ramp_contact_before_s is not None and 7e-6 < mechanism.ramp_contact_before_s < 1e-4
+    assert mechanism.swing_over_steady > 0.25
+    head = held(failed)["bearing_force_n"]
+    assert mechanism.bearing_over_steady == pytest.approx(head[~np.isnan(head)][-1] / held(failed)["dimple_force_n"][0], rel=0.2)
 
 
 def test_contact_and_energy(failed: Run) -> None:

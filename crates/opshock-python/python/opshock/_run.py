@@ -40,6 +40,28 @@ class Place:
 
 
 @dataclass(frozen=True)
+class Mechanism:
+    """Why a shock failed, by its forces and times at the touch. Forces are over the steady force of the dimple."""
+
+    name: str
+    """``limiter``, ``lift_tab``, ``dimple_separation``, ``ramp_impact``, ``lift_loss``, ``compression`` or ``other``."""
+    dimple_open_before_s: float | None
+    """Since the dimple was last open, s; ``None``: it never was."""
+    limiter_before_s: float | None
+    """Since a limiter was last closed, s."""
+    lift_tab_before_s: float | None
+    """Since the lift tab's stop was last closed, s."""
+    ramp_contact_before_s: float | None
+    """Since the last contact of disk and ramp began, s."""
+    dimple_over_steady: float
+    """Force of the dimple, dimensionless."""
+    bearing_over_steady: float
+    """Net force of the air bearing, dimensionless; negative: suction."""
+    swing_over_steady: float
+    """Largest less smallest net force of the air bearing in the last 50 us, dimensionless."""
+
+
+@dataclass(frozen=True)
 class Steady:
     """Steady flight before the shock."""
 
@@ -279,6 +301,8 @@ class Run:
     """The hub, of a disk on a bearing."""
     base: Base | None = None
     """The base, when it vibrates."""
+    mechanism: Mechanism | None = field(default=None, compare=False)
+    """Why it failed; of a shock that failed and whose history was asked for."""
     history: History | None = field(default=None, compare=False)
     """Columns over time, when they were asked for; left out when runs are compared."""
 

@@ -9,12 +9,14 @@
 //! when the plan says so, to the end of the window.
 
 mod critical;
+mod mechanism;
 mod model;
 mod outcome;
 mod run;
 
 pub use crate::head::HeadState;
 pub use critical::{CriticalShock, CriticalShockError, critical_shock};
+pub use mechanism::{FailureEvidence, Mechanism};
 pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;
 pub use run::{

@@ -45,7 +45,7 @@ pub use match_files::{STUDY_OF_A_MATCH, match_files};
 pub use match_tables::match_text;
 pub use outcome_map::{RunDot, outcome_map};
 pub use pulse_figures::pulse_figures;
-pub use run_json::{RunJson, verdict_word};
+pub use run_json::{MechanismJson, RunJson, verdict_word};
 pub use run_plots::{NamedFigure, RunCaption, column_named, picture, run_figures, write_figures};
 pub use run_text::run_text;
 pub use savings::{Saving, savings};

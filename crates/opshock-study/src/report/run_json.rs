@@ -1,8 +1,8 @@
 //! The result of one simulation as JSON: what `opshock run --json` prints.
 
 use opshock_solver::simulation::{
-    ArmContact, BaseRecord, Complementarity, EnergyBalance, HubRecord, Outcome, StopRecord,
-    Verdict, Warning,
+    ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HubRecord, Outcome,
+    StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -17,6 +17,9 @@ pub struct RunJson {
     pub cause: Option<String>,
     pub t_fail_s: Option<f64>,
     pub place: Option<PlaceJson>,
+    /// Of a failing run that was recorded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mechanism: Option<MechanismJson>,
     pub min_clearance_m: Option<f64>,
     pub t_min_clearance_s: Option<f64>,
     pub steady: Option<SteadyJson>,
@@ -53,6 +56,39 @@ pub struct RunJson {
 pub struct PlaceJson {
     pub x_m: f64,
     pub y_m: f64,
+}
+
+/// Mechanism of a failure and what decided it; forces over the steady force of the dimple.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct MechanismJson {
+    pub name: &'static str,
+    pub dimple_open_before_s: Option<f64>,
+    pub limiter_before_s: Option<f64>,
+    pub lift_tab_before_s: Option<f64>,
+    pub ramp_contact_before_s: Option<f64>,
+    pub dimple_over_steady: f64,
+    pub bearing_over_steady: f64,
+    pub swing_over_steady: f64,
+}
+
+impl MechanismJson {
+    /// That of a failing run that was recorded.
+    pub fn of(outcome: &Outcome) -> Option<MechanismJson> {
+        FailureEvidence::of(outcome).map(|evidence| MechanismJson {
+            name: evidence.mechanism().as_str(),
+            dimple_open_before_s: evidence.dimple_open_s,
+            limiter_before_s: evidence.limiter_s,
+            lift_tab_before_s: evidence.lift_tab_s,
+            ramp_contact_before_s: evidence.ramp_contact_s,
+            dimple_over_steady: evidence.dimple,
+            bearing_over_steady: evidence.bearing,
+            swing_over_steady: evidence.swing,
+        })
+    }
 }
 
 /// Steady flight before the shock.
@@ -258,6 +294,7 @@ impl RunJson {
             },
             t_fail_s,
             place,
+            mechanism: MechanismJson::of(outcome),
             min_clearance_m: outcome.min_clearance_m.and_then(finite),
             t_min_clearance_s: outcome.t_min_clearance_s.map(at).and_then(finite),
             steady: outcome.steady.map(|steady| SteadyJson {

@@ -1,6 +1,6 @@
 //! The result of one simulation as text, for people.
 
-use super::run_json::{ArmJson, RunJson};
+use super::run_json::{ArmJson, MechanismJson, RunJson};
 use std::fmt::Write as _;
 
 /// Verdict, clearance, disk, contacts, energy and cost, a line each.
@@ -11,6 +11,9 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
     };
     line("shock", title.to_owned());
     line("verdict", verdict(run));
+    if let Some(mechanism) = &run.mechanism {
+        line("mechanism", mechanism_words(mechanism));
+    }
     if let (Some(clearance), Some(time)) = (run.min_clearance_m, run.t_min_clearance_s) {
         let steady = run.steady.map_or(String::new(), |steady| {
             format!(
@@ -162,4 +165,25 @@ fn arm_summary(arm: &ArmJson) -> String {
             }
         ),
     }
+}
+
+/// The mechanism with the figures that decided it.
+fn mechanism_words(mechanism: &MechanismJson) -> String {
+    let before = |time_s: Option<f64>, what: &str| {
+        time_s.map_or(String::new(), |time_s| match time_s > 5e-8 {
+            true => format!("{what} {:.1} us before the touch; ", 1e6 * time_s),
+            false => format!("{what} the touch; "),
+        })
+    };
+    format!(
+        "{}: {}{}{}{}dimple {:.2}, air bearing {:.2} of the steady dimple force, swing {:.2}",
+        mechanism.name.replace('_', " "),
+        before(mechanism.limiter_before_s, "limiter closed until"),
+        before(mechanism.lift_tab_before_s, "lift tab closed until"),
+        before(mechanism.dimple_open_before_s, "dimple open until"),
+        before(mechanism.ramp_contact_before_s, "ramp contact began"),
+        mechanism.dimple_over_steady,
+        mechanism.bearing_over_steady,
+        mechanism.swing_over_steady
+    )
 }

@@ -14,7 +14,7 @@ use opshock_solver::shock::PulseShape;
 use opshock_solver::simulation::{History, Model, Outcome, Request, Verdict, Workspace, simulate};
 use opshock_study::provenance;
 use opshock_study::report::{
-    RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures,
+    MechanismJson, RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures,
 };
 use opshock_study::store::history::{HistoryHeader, fields_path, write_csv, write_hdf5};
 use opshock_study::study::memory::Demand;
@@ -57,7 +57,8 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     let record = format.is_some() || arguments.plots.is_some();
 
     let started = Instant::now();
-    let outcome = simulated(&study, &shot, record)?;
+    let model = assembled(&study, &shot, record)?;
+    let outcome = run_on(&model, &shot, record);
     let wall_s = started.elapsed().as_secs_f64();
 
     for warning in &outcome.warnings {
@@ -82,7 +83,11 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
             ));
         }
     }
-    let answer = RunJson::new(&outcome, study.start_s, wall_s);
+    let mut answer = RunJson::new(&outcome, study.start_s, wall_s);
+    if !record && matches!(outcome.verdict, Some(Verdict::Fails { .. })) {
+        // The mechanism is seen in a history.
+        answer.mechanism = MechanismJson::of(&run_on(&model, &shot, true));
+    }
     if console.json {
         console.result_json(&answer)?;
     } else {
@@ -100,15 +105,23 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
 ///
 /// The run does not fit into the memory; the scene cannot be simulated.
 pub fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Failure> {
+    let model = assembled(study, shot, record)?;
+    Ok(run_on(&model, shot, record))
+}
+
+fn assembled(study: &Study, shot: &Shot, record: bool) -> Result<Model, Failure> {
     let plan = study.plan();
     memory::check("the run", Demand::run(&shot.point.scene, &plan, record), 1)?;
-    let model = Model::assemble(&shot.point.scene, &plan, None)
-        .map_err(|error| study_file::cannot_be_simulated(study, &error))?;
+    Model::assemble(&shot.point.scene, &plan, None)
+        .map_err(|error| study_file::cannot_be_simulated(study, &error))
+}
+
+fn run_on(model: &Model, shot: &Shot, record: bool) -> Outcome {
     let request = Request {
         amplitude_m_per_s2: shot.amplitude_m_per_s2,
         record,
     };
-    Ok(simulate(&model, &request, &mut Workspace::default()))
+    simulate(model, &request, &mut Workspace::default())
 }
 
 /// What became of the pressure fields asked for: where they are, and which the run did not reach.

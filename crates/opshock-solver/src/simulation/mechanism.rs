@@ -1,0 +1,198 @@
+//! Why a shock failed: the mechanism of a failing run, by its own forces and times.
+//!
+//! The first of these that holds at the touch names it:
+//!
+//! 1. `limiter`, `lift_tab`: a stop of the suspension was closed within the last [`RECENT_S`].
+//! 2. `dimple_separation`: the dimple was open within the last [`RECENT_S`]. The slider, held by the flexure and the suction of the
+//!    film alone, is thrown onto the disk when the load beam comes back (pitch slap).
+//! 3. `ramp_impact`: a contact of disk and ramp began within the last [`IMPACT_S`], and the net force of the air bearing has
+//!    swung since by more than [`SWING`] of the steady one: bending waves pass under the slider.
+//! 4. `lift_loss`: the net force of the air bearing pulls the slider down.
+//! 5. `compression`: the dimple presses with more than its steady force, and the bearing carries it until its film is gone.
+//! 6. `other`.
+//!
+//! The limits were chosen on the lowest failures of Fig. 13's 36 points. There an open dimple closes at most 2.1 us before the touch,
+//! or else it never opened; the bearing force swings by at most 0.14 without a contact of the ramp, by 0.38 to 3.7 behind one, which
+//! began 14 to 72 us before. Bending waves of 0.5 kHz and more travel from ramp to slider in 93 us there.
+
+use super::outcome::{Outcome, Verdict};
+
+/// Time before a touch in which an open dimple or a closed stop counts, s.
+const RECENT_S: f64 = 20e-6;
+/// Longest time between the begin of a contact with the ramp and a touch that it causes, s.
+const IMPACT_S: f64 = 100e-6;
+/// Time before a touch over which the swing of the bearing force is taken, s.
+const SWING_S: f64 = 50e-6;
+/// Smallest swing that bending waves make, over the steady dimple force.
+const SWING: f64 = 0.25;
+
+/// Mechanism of a failure; see the module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mechanism {
+    /// A limiter of the suspension was closed.
+    Limiter,
+    /// The lift tab's stop was closed.
+    LiftTab,
+    /// The dimple had opened.
+    DimpleSeparation,
+    /// Bending waves of a contact with the ramp.
+    RampImpact,
+    /// Suction is larger than lift.
+    LiftLoss,
+    /// Load beyond what the bearing carries.
+    Compression,
+    /// None of these.
+    Other,
+}
+
+impl Mechanism {
+    /// Name in output files.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Mechanism::Limiter => "limiter",
+            Mechanism::LiftTab => "lift_tab",
+            Mechanism::DimpleSeparation => "dimple_separation",
+            Mechanism::RampImpact => "ramp_impact",
+            Mechanism::LiftLoss => "lift_loss",
+            Mechanism::Compression => "compression",
+            Mechanism::Other => "other",
+        }
+    }
+}
+
+/// Times and forces that decide the mechanism. Forces are over the steady force of the dimple, times before the touch, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FailureEvidence {
+    /// Since the dimple was last open; `None`: it never was.
+    pub dimple_open_s: Option<f64>,
+    /// Since a limiter was last closed.
+    pub limiter_s: Option<f64>,
+    /// Since the lift tab's stop was last closed.
+    pub lift_tab_s: Option<f64>,
+    /// Since the last contact of disk and ramp began.
+    pub ramp_contact_s: Option<f64>,
+    /// Force of the dimple at the touch.
+    pub dimple: f64,
+    /// Net force of the air bearing at the touch; negative: suction.
+    pub bearing: f64,
+    /// Largest less smallest net force of the air bearing in the last 50 us.
+    pub swing: f64,
+}
+
+impl FailureEvidence {
+    /// Of a run that failed and was recorded; `None` of any other, or without the columns.
+    pub fn of(outcome: &Outcome) -> Option<FailureEvidence> {
+        let Some(Verdict::Fails { t_fail_s, .. }) = outcome.verdict else {
+            return None;
+        };
+        let history = outcome.history.as_ref()?;
+        let (head, structure) = (&history.head, &history.structure);
+        // What was recorded up to the touch.
+        let end = head.time_s.partition_point(|&time_s| time_s <= t_fail_s);
+        let (dimple_n, bearing_n) = (
+            head.dimple_force_n.get(..end)?,
+            head.bearing_force_n.get(..end)?,
+        );
+        let (first_n, last) = (*dimple_n.first()?, end.checked_sub(1)?);
+        if first_n <= 0.0 {
+            return None;
+        }
+        let before = |time_s: f64| (t_fail_s - time_s).max(0.0);
+        let last_where = |column: &[f64], holds: fn(f64) -> bool| {
+            let place = column.iter().take(end).rposition(|&value| holds(value))?;
+            Some(before(head.time_s[place]))
+        };
+        let from = head
+            .time_s
+            .partition_point(|&time_s| time_s < t_fail_s - SWING_S);
+        let recent = &bearing_n[from.min(last)..];
+        let largest = recent.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let smallest = recent.iter().copied().fold(f64::INFINITY, f64::min);
+        let pressed = |node: usize| {
+            let columns = [&structure.contact_top_n, &structure.contact_bottom_n];
+            let force_n = columns.map(|column| column.get(node).copied().unwrap_or(0.0));
+            force_n.iter().any(|&force_n| force_n != 0.0)
+        };
+        let steps = structure
+            .time_s
+            .partition_point(|&time_s| time_s <= t_fail_s);
+        let begins = (1..steps)
+            .rev()
+            .find(|&node| pressed(node) && !pressed(node - 1));
+        Some(FailureEvidence {
+            dimple_open_s: last_where(dimple_n, |force_n| force_n <= 0.0),
+            limiter_s: last_where(&head.limiter_force_n, |force_n| force_n != 0.0),
+            lift_tab_s: last_where(&head.lift_tab_force_n, |force_n| force_n != 0.0),
+            ramp_contact_s: begins.map(|node| before(structure.time_s[node])),
+            dimple: dimple_n[last] / first_n,
+            bearing: bearing_n[last] / first_n,
+            swing: (largest - smallest) / first_n,
+        })
+    }
+
+    /// The mechanism that these name.
+    pub fn mechanism(&self) -> Mechanism {
+        let recent = |time_s: Option<f64>| time_s.is_some_and(|time_s| time_s <= RECENT_S);
+        let is_behind_impact = self.ramp_contact_s.is_some_and(|time_s| time_s <= IMPACT_S);
+        if recent(self.limiter_s) {
+            Mechanism::Limiter
+        } else if recent(self.lift_tab_s) {
+            Mechanism::LiftTab
+        } else if recent(self.dimple_open_s) {
+            Mechanism::DimpleSeparation
+        } else if is_behind_impact && self.swing > SWING {
+            Mechanism::RampImpact
+        } else if self.bearing < 0.0 {
+            Mechanism::LiftLoss
+        } else if self.dimple > 1.0 {
+            Mechanism::Compression
+        } else {
+            Mechanism::Other
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The order of the rules, one figure at a time.
+    #[test]
+    fn the_first_rule_that_holds_names_the_mechanism() {
+        let mut evidence = FailureEvidence {
+            dimple: 0.9,
+            bearing: 0.4,
+            ..FailureEvidence::default()
+        };
+        let mut named = vec![evidence.mechanism()];
+        let changes: [fn(&mut FailureEvidence); 8] = [
+            |evidence| evidence.dimple = 2.1,
+            |evidence| evidence.bearing = -0.1,
+            // Too far back, then without a swing.
+            |evidence| (evidence.ramp_contact_s, evidence.swing) = (Some(1.2e-4), 3.0),
+            |evidence| (evidence.ramp_contact_s, evidence.swing) = (Some(5e-5), 0.2),
+            |evidence| evidence.swing = 0.4,
+            |evidence| evidence.dimple_open_s = Some(2e-6),
+            |evidence| evidence.lift_tab_s = Some(0.0),
+            |evidence| evidence.limiter_s = Some(1.9e-5),
+        ];
+        for change in changes {
+            change(&mut evidence);
+            named.push(evidence.mechanism());
+        }
+        let expected = [
+            Mechanism::Other,
+            Mechanism::Compression,
+            Mechanism::LiftLoss,
+            Mechanism::LiftLoss,
+            Mechanism::LiftLoss,
+            Mechanism::RampImpact,
+            Mechanism::DimpleSeparation,
+            Mechanism::LiftTab,
+            Mechanism::Limiter,
+        ];
+        assert_eq!(named, expected);
+        evidence.limiter_s = Some(2.1e-5);
+        assert_eq!(evidence.mechanism(), Mechanism::LiftTab);
+    }
+}

@@ -1,0 +1,53 @@
+//! Mechanisms of failure of whole drives, one shock of each: those that `docs/mechanisms.md` shows.
+
+use opshock_solver::scene::plan::{Mode, Output, Plan};
+use opshock_solver::simulation::{FailureEvidence, Mechanism};
+use opshock_tests::{pairs, scenes};
+
+fn evidence(ramp: &str, pulse_ms: f64, amplitude_g: f64, sets: &[(&str, &str)]) -> FailureEvidence {
+    let mut all = vec![("resolution.preset", "\"coarse\"")];
+    all.extend(sets);
+    let scene = scenes::scene("fig13", ramp, pulse_ms, &all);
+    let outputs = [
+        Output::CriticalShock,
+        Output::BearingForce,
+        Output::DimpleForce,
+        Output::ContactForce,
+    ];
+    let (_, outcome) = pairs::run(&scene, &Plan::new(&outputs, Mode::Auto), amplitude_g, None);
+    FailureEvidence::of(&outcome).expect("a failure")
+}
+
+#[test]
+fn shocks_fail_by_the_mechanism_that_their_forces_show() {
+    let limiters = [("suspension.limiters.gap_um", "10.0")];
+    for (expected, found) in [
+        (Mechanism::Compression, evidence("none", 2.0, -671.0, &[])),
+        (
+            Mechanism::DimpleSeparation,
+            evidence("none", 1.0, 417.0, &[]),
+        ),
+        (Mechanism::RampImpact, evidence("rigid", 2.0, -327.0, &[])),
+        (Mechanism::Limiter, evidence("none", 1.0, 600.0, &limiters)),
+    ] {
+        println!("{expected:?}: {found:?}");
+        assert_eq!(found.mechanism(), expected, "{found:?}");
+        match expected {
+            // A load of more than twice the steady one, carried to the end.
+            Mechanism::Compression => {
+                assert!(found.bearing > 2.0 && found.dimple > 2.0 && found.swing < 0.25);
+                assert_eq!((found.dimple_open_s, found.ramp_contact_s), (None, None));
+            }
+            // Suction holds the slider while the dimple is open.
+            Mechanism::DimpleSeparation => {
+                assert!(found.bearing < 0.0 && found.ramp_contact_s.is_none())
+            }
+            Mechanism::RampImpact => {
+                assert!(found.swing > 1.0 && found.dimple_open_s.is_none());
+                // Not before the fastest waves that the disk's modes have (80 kHz) have come 10.5 mm.
+                assert!(found.ramp_contact_s.expect("a contact") > 7e-6);
+            }
+            _ => assert!(found.limiter_s.expect("closed") < 20e-6),
+        }
+    }
+}
