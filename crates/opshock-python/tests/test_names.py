@@ -21,7 +21,13 @@ MODULES = sorted(path for path in SOURCE.glob("_*.py") if path.name not in ("__i
 UNITS = re.compile(r"_(g|m|s|ms|pct|rad|n|j|pa|n_s|n_s_m)$")
 
 # Floats without a unit, and the words of their docstring that say what they are a share or factor of.
-PURE = {"Energy.closure": "a share of the largest H", "Contribution.factor": "Safety factor"}
+PURE = {
+    "Mechanism.dimple_over_steady": "dimensionless",
+    "Mechanism.bearing_over_steady": "dimensionless",
+    "Mechanism.swing_over_steady": "dimensionless",
+    "Energy.closure": "a share of the largest H",
+    "Contribution.factor": "Safety factor",
+}
 PURE |= {f"{owner}.momentum_closure": "a share of the largest momentum" for owner in ("Hub", "Base")}
 # Of the study's further axes: the name of each ends in the unit.
 PURE |= {"CriticalShock.axes": "in the unit that the name of each ends in"}

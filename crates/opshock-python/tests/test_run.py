@@ -59,7 +59,10 @@ def test_a_shock_that_is_not(failed: Run) -> None:
     mechanism: opshock.Mechanism | None = failed.mechanism
     assert mechanism is not None and mechanism.name == "ramp_impact", "600 G is far beyond first touch"
     assert mechanism.ramp_contact_before_s is not None and 7e-6 < mechanism.ramp_contact_before_s < 1e-4
-    assert mechanism.swing_over_steady > 0.25
+    assert mechanism.swing_over_steady > 0.25 and 0 < mechanism.dimple_over_steady < 10
+    others = (mechanism.dimple_open_before_s, mechanism.limiter_before_s, mechanism.lift_tab_before_s)
+    assert others[1:] == (None, None), "it has neither"
+    assert others[0] is None or others[0] > 2e-5
     head = held(failed)["bearing_force_n"]
     assert mechanism.bearing_over_steady == pytest.approx(head[~np.isnan(head)][-1] / held(failed)["dimple_force_n"][0], rel=0.2)
 

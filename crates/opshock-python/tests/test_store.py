@@ -23,6 +23,7 @@ def test_the_table(store: Store, study: opshock.Study) -> None:
         assert row.a_crit_g == pytest.approx((row.survived_g + row.failed_g) / 2, rel=1e-12)
         assert row.brackets_g == ((row.survived_g, row.failed_g),)
         assert (row.uncertainty_g, row.interval_g, row.levels, dict(row.axes)) == (None, None, "", {})
+        assert row.half_min_height_g is None and "below_continuum" in row.flags
         assert (row.onset_g is None) == (row.ramp == "none")
         assert row.scanned_from_g is None and row.largest_gap_pct is None, "no scan"
         assert dict(row.contributions) == {}

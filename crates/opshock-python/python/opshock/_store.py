@@ -57,8 +57,9 @@ class CriticalShock:
     uncertainty_g: float | None
     """Half-width of the uncertainty interval; ``None`` where there is none."""
     half_min_height_g: float | None
-    """Change of the critical shock with half the minimum film height, no part of the interval; ``None`` where it was not computed,
-    or the clearance called failure is above twice that height."""
+    """Change of the critical shock with half the minimum film height, no part of the interval.
+
+    ``None`` where it was not computed, or the clearance called failure is above twice that height."""
     survived_g: float | None
     """Highest survivor below the lowest failure."""
     failed_g: float | None
