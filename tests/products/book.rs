@@ -26,7 +26,7 @@ impl Reader {
         fs::create_dir_all(&bin).unwrap();
         for (name, text) in [("opshock", opshock), ("make", MAKE), ("sbatch", SBATCH)] {
             let text = format!(
-                "#!/bin/bash\nPROGRAM={OPSHOCK} ROOT={}\n{text}",
+                "#!/bin/bash\nPROGRAM=\"{OPSHOCK}\" ROOT=\"{}\"\n{text}",
                 root().display()
             );
             fs::write(bin.join(name), text).unwrap();

@@ -60,6 +60,14 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
     let model = assembled(&study, &shot, record)?;
     let outcome = run_on(&model, &shot, record);
     let wall_s = started.elapsed().as_secs_f64();
+    let mut answer = RunJson::new(&outcome, study.start_s, wall_s);
+    let fails = matches!(outcome.verdict, Some(Verdict::Fails { .. }));
+    // The mechanism is seen in a history, if that has room.
+    if fails && !record && has_room(&study, &shot, true).is_ok() {
+        answer.mechanism = MechanismJson::of(&run_on(&model, &shot, true));
+    }
+    // Its memory is wanted for the pictures.
+    drop(model);
 
     for warning in &outcome.warnings {
         console.note(&format!("warning: {}: {}", warning.code, warning.message));
@@ -83,11 +91,6 @@ pub fn run(arguments: &RunArgs, global: &GlobalArgs, console: &Console) -> Resul
             ));
         }
     }
-    let mut answer = RunJson::new(&outcome, study.start_s, wall_s);
-    if !record && matches!(outcome.verdict, Some(Verdict::Fails { .. })) {
-        // The mechanism is seen in a history.
-        answer.mechanism = MechanismJson::of(&run_on(&model, &shot, true));
-    }
     if console.json {
         console.result_json(&answer)?;
     } else {
@@ -110,10 +113,14 @@ pub fn simulated(study: &Study, shot: &Shot, record: bool) -> Result<Outcome, Fa
 }
 
 fn assembled(study: &Study, shot: &Shot, record: bool) -> Result<Model, Failure> {
-    let plan = study.plan();
-    memory::check("the run", Demand::run(&shot.point.scene, &plan, record), 1)?;
-    Model::assemble(&shot.point.scene, &plan, None)
+    has_room(study, shot, record)?;
+    Model::assemble(&shot.point.scene, &study.plan(), None)
         .map_err(|error| study_file::cannot_be_simulated(study, &error))
+}
+
+fn has_room(study: &Study, shot: &Shot, record: bool) -> Result<(), Failure> {
+    let demand = Demand::run(&shot.point.scene, &study.plan(), record);
+    memory::check("the run", demand, 1)
 }
 
 fn run_on(model: &Model, shot: &Shot, record: bool) -> Outcome {
