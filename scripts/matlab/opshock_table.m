@@ -48,7 +48,9 @@ function [critical, units] = opshock_table(source)
         units.(name) = units.a_crit_g;
         says.(name) = [ends{k, 3} ' end of the uncertainty interval'];
     end
-    take({'half_min_height_g', 'survived_g', 'failed_g', 'onset_g', 'runs', 'status', 'flags'}, data.points, about.points);
+    names = {'half_min_height_g', 'survived_g', 'failed_g', 'onset_g', 'runs', 'status', 'flags'};
+    % Files of earlier programs lack the first one.
+    take(names(isfield(data.points, names)), data.points, about.points);
 
     if exist('struct2table', 'file')
         critical = struct2table(critical);

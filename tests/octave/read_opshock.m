@@ -72,7 +72,7 @@ json = fileread('report.json');
 [data, about] = opshock_read('my-drive.opshock/results.h5');
 n_points = numel(of_points(json, 'status'));
 n_equal = 0;
-numbers = {'pulse_ms', 'clearance_um', 'a_crit_g', 'uncertainty_g', 'survived_g', 'failed_g', 'onset_g', 'runs'};
+numbers = {'pulse_ms', 'clearance_um', 'a_crit_g', 'uncertainty_g', 'half_min_height_g', 'survived_g', 'failed_g', 'onset_g', 'runs'};
 for key = numbers
     % null is NaN
     reported = str2double(of_points(json, key{1}));

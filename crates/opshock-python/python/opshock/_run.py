@@ -52,7 +52,9 @@ class Mechanism:
     lift_tab_before_s: float | None
     """Since the lift tab's stop was last closed, s."""
     ramp_contact_before_s: float | None
-    """Since the last contact of disk and ramp began, s."""
+    """Since disk and ramp were last in contact, s; 0 while they are."""
+    ramp_began_before_s: float | None
+    """Since that contact began, s."""
     dimple_over_steady: float
     """Force of the dimple, dimensionless."""
     bearing_over_steady: float
