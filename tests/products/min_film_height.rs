@@ -1,8 +1,9 @@
 //! The change of a critical shock with half the minimum film height, against searches with either, and the rows that have it.
 
-use opshock_study::store::{AxisValue, Flag, PointSummary};
+use opshock_study::store::{AxisValue, Flag, PointSummary, results};
 use opshock_study::study::Sign;
 use opshock_study::sweep::{Ending, Physics, Silent, SweepInput, SweepOptions, sweep};
+use opshock_tests::hdf5_dump::open_rw;
 use opshock_tests::scenes;
 
 /// No ramp, 2 ms, both signs.
@@ -69,4 +70,37 @@ fn half_the_minimum_film_height_changes_an_answer_as_a_search_with_it_does() {
             assert_eq!(row.half_min_height_g.is_some(), is_below);
         }
     }
+}
+
+/// A file of a program without the column is read as before: where it is empty it is no content.
+#[test]
+fn results_without_the_change_are_read() {
+    let sets = [
+        ("pulse.widths_ms", "[1.0]"),
+        ("ramp.models", "[\"none\"]"),
+        ("pulse.signs", "[\"+\"]"),
+        ("resolution.film_cells", "200"),
+        ("search.uncertainty", "false"),
+    ];
+    let study = scenes::study("fig13", &sets);
+    let folder = tempfile::tempdir().expect("a folder");
+    let input = SweepInput::of(&study).expect("input");
+    let options = SweepOptions::with_threads(1);
+    let physics = Physics::of(&study);
+    sweep(&input, &physics, folder.path(), &options, &Silent).expect("sweeps");
+    let path = folder.path().join("results.h5");
+    let rows = || {
+        results::read(&path)
+            .expect("reads")
+            .expect("a file")
+            .summary
+            .points
+    };
+    let before = rows();
+    let file = open_rw(&path);
+    let points = file.group("points").expect("a table");
+    points.unlink("half_min_height_g").expect("a column");
+    drop((points, file));
+    assert_eq!(rows(), before);
+    assert_eq!(before[0].half_min_height_g, None);
 }

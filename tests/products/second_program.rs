@@ -30,53 +30,65 @@ fn at_time(time_s: &[f64], values: &[f64], t_s: f64) -> f64 {
     values[after - 1] + share.clamp(0.0, 1.0) * (values[after] - values[after - 1])
 }
 
-/// A deck's shock by opshock, its history, and the history of the second program.
-fn both(
-    deck: &str,
-    peer: &str,
-    ramp: &str,
-    sign: &str,
-    amplitude_g: &str,
-) -> (serde_json::Value, String, String) {
-    let at = tempfile::tempdir().expect("a folder");
-    let done = import(at.path(), &decks(), deck, &[]);
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let words = [
-        "run",
-        "out/study.toml",
-        "--ramp",
-        ramp,
-        "--sign",
-        sign,
-        "--amplitude-g",
-        amplitude_g,
-    ];
-    let done = Done::of(
-        at.path(),
-        &[&words[..], &["--history", "history.csv", "--json"]].concat(),
-    );
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let ours = std::fs::read_to_string(at.path().join("history.csv")).expect("a history");
-    let peer = std::fs::read_to_string(decks().join(peer)).expect("a history");
-    (done.json(), ours, peer)
+/// A deck's shock by both programs.
+struct Shock {
+    /// What opshock prints, as JSON.
+    found: serde_json::Value,
+    ours: String,
+    peer: String,
 }
 
-/// Root mean square and largest of the difference of two columns, over the peak of the second program's.
-fn difference(ours: &str, our: &str, peer: &str, other: &str) -> [f64; 2] {
-    let (time_s, peer_s) = (column(ours, "time_s"), column(peer, "t_s"));
-    let (our, other) = (column(ours, our), column(peer, other));
-    let end_s = time_s[time_s.len() - 1];
-    let pairs = peer_s.iter().zip(&other).filter(|(t, _)| **t <= end_s);
-    let errors: Vec<f64> = pairs
-        .map(|(t, value)| at_time(&time_s, &our, *t) - value)
-        .collect();
-    let largest = |values: &[f64]| {
-        values
-            .iter()
-            .fold(0.0, |most: f64, value| most.max(value.abs()))
-    };
-    let mean = errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64;
-    [mean.sqrt(), largest(&errors)].map(|error| error / largest(&other))
+impl Shock {
+    fn run(deck: &str, peer: &str, [ramp, sign, amplitude_g]: [&str; 3]) -> Shock {
+        let at = tempfile::tempdir().expect("a folder");
+        let done = import(at.path(), &decks(), deck, &[]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let words = [
+            "run",
+            "out/study.toml",
+            "--ramp",
+            ramp,
+            "--sign",
+            sign,
+            "--amplitude-g",
+            amplitude_g,
+            "--history",
+            "history.csv",
+            "--json",
+        ];
+        let done = Done::of(at.path(), &words);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let read = |path: std::path::PathBuf| std::fs::read_to_string(path).expect("a history");
+        Shock {
+            found: done.json(),
+            ours: read(at.path().join("history.csv")),
+            peer: read(decks().join(peer)),
+        }
+    }
+
+    /// Values of two columns at the instants of the second program: ours and its own.
+    fn pairs(&self, our: &str, other: &str) -> Vec<[f64; 2]> {
+        let (time_s, our) = (column(&self.ours, "time_s"), column(&self.ours, our));
+        let (peer_s, other) = (column(&self.peer, "t_s"), column(&self.peer, other));
+        let end_s = time_s[time_s.len() - 1];
+        let both = peer_s.iter().zip(other).filter(|(t, _)| **t <= end_s);
+        both.map(|(t, value)| [at_time(&time_s, &our, *t), value])
+            .collect()
+    }
+
+    /// Holds root mean square and largest of the difference of two columns, over the second program's peak.
+    fn hold(&self, case: &str, what: &str, [our, other]: [&str; 2], bounds: [f64; 2]) {
+        let pairs = self.pairs(our, other);
+        let largest = |of: fn(&[f64; 2]) -> f64| pairs.iter().map(of).fold(0.0, f64::max);
+        let squares: f64 = pairs.iter().map(|[our, other]| (our - other).powi(2)).sum();
+        let mean = squares / pairs.len() as f64;
+        let errors = [mean.sqrt(), largest(|[our, other]| (our - other).abs())];
+        let peak = largest(|[_, other]| other.abs());
+        for ((kind, error), bound) in ["rms", "largest"].into_iter().zip(errors).zip(bounds) {
+            let what = format!("{case}: {what}, {kind} difference over the peak");
+            at_most(SHEET, &what, error / peak, bound);
+        }
+    }
 }
 
 /// Three shocks without ramp. The second program's slider rings in the last one.
@@ -88,36 +100,20 @@ fn shocks_without_ramp_are_those_of_the_decks_own_program() {
         ("N400", "-", "400", [0.25e-2, 0.5e-2], [0.9e-2, 5e-2]),
     ] {
         let deck = format!("dynluls_{name}_none.def");
-        let (_, ours, peer) = both(
-            &deck,
-            &format!("peer_{name}_none.csv"),
-            "none",
-            sign,
-            amplitude_g,
-        );
+        let peer = format!("peer_{name}_none.csv");
+        let shock = Shock::run(&deck, &peer, ["none", sign, amplitude_g]);
         let case = format!("{sign}{amplitude_g} G, no ramp");
-        for (what, our, other, bounds) in [
-            ("disk under the slider", "disk_slider_m", "w_slider_m", disk),
-            ("dimple force", "dimple_force_n", "dimple_n", dimple),
-        ] {
-            let found = difference(&ours, our, &peer, other);
-            for ((kind, found), bound) in ["rms", "largest"].into_iter().zip(found).zip(bounds) {
-                at_most(
-                    SHEET,
-                    &format!("{case}: {what}, {kind} difference over the peak"),
-                    found,
-                    bound,
-                );
-            }
-        }
-        let (time_s, our) = (column(&ours, "time_s"), column(&ours, "min_clearance_m"));
-        let (peer_s, other) = (column(&peer, "t_s"), column(&peer, "clearance_m"));
-        let end_s = time_s[time_s.len() - 1];
-        let pairs = peer_s.iter().zip(&other).filter(|(t, _)| **t <= end_s);
-        let ratios: Vec<f64> = pairs
-            .map(|(t, value)| value / at_time(&time_s, &our, *t))
-            .collect();
-        let ratio = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        let columns = ["disk_slider_m", "w_slider_m"];
+        shock.hold(&case, "disk under the slider", columns, disk);
+        shock.hold(
+            &case,
+            "dimple force",
+            ["dimple_force_n", "dimple_n"],
+            dimple,
+        );
+        let pairs = shock.pairs("min_clearance_m", "clearance_m");
+        let ratios = pairs.iter().map(|[our, other]| other / our);
+        let ratio = ratios.sum::<f64>() / pairs.len() as f64;
         at_most(
             SHEET,
             &format!("{case}: mean ratio of the smallest clearances, distance from 0.93"),
@@ -130,33 +126,16 @@ fn shocks_without_ramp_are_those_of_the_decks_own_program() {
 /// Disk and rigid ramp. The impulse of the second program rises in as many contacts, at the same times.
 #[test]
 fn a_shock_with_a_rigid_ramp_is_that_of_the_decks_own_program() {
-    let (found, ours, peer) = both(
-        "dynluls_D400_rigid.def",
-        "peer_D400_fix.csv",
-        "rigid",
-        "+",
-        "400",
-    );
+    let shock = ["rigid", "+", "400"];
+    let shock = Shock::run("dynluls_D400_rigid.def", "peer_D400_fix.csv", shock);
     let case = "+400 G, rigid ramp";
-    for (what, our, other, bounds) in [
-        ("disk at the ramp", "disk_ramp_m", "w_ramp_m", [3e-3, 1e-2]),
-        (
-            "disk under the slider",
-            "disk_slider_m",
-            "w_slider_m",
-            [3e-3, 1e-2],
-        ),
+    for (what, columns) in [
+        ("disk at the ramp", ["disk_ramp_m", "w_ramp_m"]),
+        ("disk under the slider", ["disk_slider_m", "w_slider_m"]),
     ] {
-        let found = difference(&ours, our, &peer, other);
-        for ((kind, found), bound) in ["rms", "largest"].into_iter().zip(found).zip(bounds) {
-            at_most(
-                SHEET,
-                &format!("{case}: {what}, {kind} difference over the peak"),
-                found,
-                bound,
-            );
-        }
+        shock.hold(case, what, columns, [3e-3, 1e-2]);
     }
+    let Shock { found, peer, .. } = shock;
     let (peer_s, impulse_n_s) = (column(&peer, "t_s"), column(&peer, "ramp_impulse_n_s"));
     let mut begins_s: Vec<f64> = Vec::new();
     let mut last_s = f64::NEG_INFINITY;

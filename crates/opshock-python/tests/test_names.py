@@ -24,7 +24,7 @@ UNITS = re.compile(r"_(g|m|s|ms|pct|rad|n|j|pa|n_s|n_s_m)$")
 PURE = {
     "Mechanism.dimple_over_steady": "dimensionless",
     "Mechanism.bearing_over_steady": "dimensionless",
-    "Mechanism.swing_over_steady": "dimensionless",
+    "Mechanism.bearing_range_over_steady": "dimensionless",
     "Energy.closure": "a share of the largest H",
     "Contribution.factor": "Safety factor",
 }

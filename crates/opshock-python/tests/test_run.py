@@ -60,7 +60,7 @@ def test_a_shock_that_is_not(failed: Run) -> None:
     assert mechanism is not None and mechanism.name == "ramp_impact", "600 G is far beyond first touch"
     assert mechanism.ramp_contact_before_s is not None and mechanism.ramp_began_before_s is not None
     assert mechanism.ramp_contact_before_s < 1e-4 and mechanism.ramp_contact_before_s <= mechanism.ramp_began_before_s
-    assert mechanism.swing_over_steady > 0.25 and 0 < mechanism.dimple_over_steady < 10
+    assert mechanism.bearing_range_over_steady > 0.25 and 0 < mechanism.dimple_over_steady < 10
     others = (mechanism.dimple_open_before_s, mechanism.limiter_before_s, mechanism.lift_tab_before_s)
     assert others[1:] == (None, None), "it has neither"
     assert others[0] is None or others[0] > 2e-5

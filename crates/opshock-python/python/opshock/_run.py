@@ -59,7 +59,7 @@ class Mechanism:
     """Force of the dimple, dimensionless."""
     bearing_over_steady: float
     """Net force of the air bearing, dimensionless; negative: suction."""
-    swing_over_steady: float
+    bearing_range_over_steady: float
     """Largest less smallest net force of the air bearing in the last 50 us, dimensionless."""
 
 

@@ -66,6 +66,11 @@ impl Scene {
         (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
     }
 
+    /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
+    pub fn fails_below_continuum(&self) -> bool {
+        self.fail_below_m < 2.0 * self.film_resolution.min_height_m
+    }
+
     /// Disk, ramp, pulse and window, observed under the slider.
     pub fn structure(&self) -> StructureParameters<'_> {
         StructureParameters {

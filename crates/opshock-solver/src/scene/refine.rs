@@ -84,11 +84,6 @@ impl Scene {
             .collect()
     }
 
-    /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
-    pub fn fails_below_continuum(&self) -> bool {
-        self.fail_below_m < 2.0 * self.film_resolution.min_height_m
-    }
-
     /// The same scene at other refinement levels; parameters in `not_refined` keep their values. See
     /// [`super::discretisation`].
     #[must_use]

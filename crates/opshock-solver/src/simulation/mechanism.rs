@@ -6,7 +6,7 @@
 //! 2. `dimple_separation`: the dimple was open within the last [`RECENT_S`]. The slider, held by the flexure and the suction of the
 //!    film alone, is thrown onto the disk when the load beam comes back (pitch slap).
 //! 3. `ramp_impact`: disk and ramp were in contact within the last [`IMPACT_S`], and the net force of the air bearing has varied by
-//!    more than [`SWING`] of the steady dimple force within the last [`SWING_S`]: bending waves pass under the slider.
+//!    more than [`LEAST_RANGE`] of the steady dimple force within the last [`RANGE_S`]: bending waves pass under the slider.
 //! 4. `lift_loss`: the net force of the air bearing pulls the slider down.
 //! 5. `compression`: dimple and air bearing both press with more than the steady force of the dimple.
 //! 6. `other`.
@@ -20,10 +20,10 @@ use super::outcome::{Outcome, Verdict};
 const RECENT_S: f64 = 20e-6;
 /// Longest time between a contact with the ramp and a touch that it causes, s.
 const IMPACT_S: f64 = 100e-6;
-/// Time before a touch over which the swing of the bearing force is taken, s.
-const SWING_S: f64 = 50e-6;
-/// Smallest swing that bending waves make, over the steady dimple force.
-const SWING: f64 = 0.25;
+/// Time before a touch over which the range of the bearing force is taken, s.
+const RANGE_S: f64 = 50e-6;
+/// Least range that bending waves make, over the steady dimple force.
+const LEAST_RANGE: f64 = 0.25;
 
 /// Mechanism of a failure; see the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,24 +60,24 @@ impl Mechanism {
 }
 
 /// Times and forces that decide the mechanism. Forces are over the steady force of the dimple, times before the touch, s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct FailureEvidence {
     /// Since the dimple was last open; `None`: it never was.
-    pub dimple_open_s: Option<f64>,
+    pub dimple_open_before_s: Option<f64>,
     /// Since a limiter was last closed.
-    pub limiter_s: Option<f64>,
+    pub limiter_before_s: Option<f64>,
     /// Since the lift tab's stop was last closed.
-    pub lift_tab_s: Option<f64>,
+    pub lift_tab_before_s: Option<f64>,
     /// Since disk and ramp were last in contact; 0 while they are.
-    pub ramp_contact_s: Option<f64>,
+    pub ramp_contact_before_s: Option<f64>,
     /// Since that contact began; impulses less than 30 us apart are one contact.
-    pub ramp_began_s: Option<f64>,
+    pub ramp_began_before_s: Option<f64>,
     /// Force of the dimple at the touch.
-    pub dimple: f64,
+    pub dimple_over_steady: f64,
     /// Net force of the air bearing at the touch; negative: suction.
-    pub bearing: f64,
+    pub bearing_over_steady: f64,
     /// Largest less smallest net force of the air bearing in the last 50 us.
-    pub swing: f64,
+    pub bearing_range_over_steady: f64,
 }
 
 impl FailureEvidence {
@@ -105,7 +105,7 @@ impl FailureEvidence {
         };
         let from = head
             .time_s
-            .partition_point(|&time_s| time_s < t_fail_s - SWING_S);
+            .partition_point(|&time_s| time_s < t_fail_s - RANGE_S);
         let recent = &bearing_n[from.min(last)..];
         let largest = recent.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let smallest = recent.iter().copied().fold(f64::INFINITY, f64::min);
@@ -114,32 +114,34 @@ impl FailureEvidence {
             .filter(|episode| episode.on_s <= t_fail_s)
             .max_by(|a, b| a.off_s.total_cmp(&b.off_s));
         Some(FailureEvidence {
-            dimple_open_s: last_where(dimple_n, |force_n| force_n <= 0.0),
-            limiter_s: last_where(&head.limiter_force_n, |force_n| force_n != 0.0),
-            lift_tab_s: last_where(&head.lift_tab_force_n, |force_n| force_n != 0.0),
-            ramp_contact_s: contact.map(|episode| before(episode.off_s)),
-            ramp_began_s: contact.map(|episode| before(episode.on_s)),
-            dimple: dimple_n[last] / first_n,
-            bearing: bearing_n[last] / first_n,
-            swing: (largest - smallest) / first_n,
+            dimple_open_before_s: last_where(dimple_n, |force_n| force_n <= 0.0),
+            limiter_before_s: last_where(&head.limiter_force_n, |force_n| force_n != 0.0),
+            lift_tab_before_s: last_where(&head.lift_tab_force_n, |force_n| force_n != 0.0),
+            ramp_contact_before_s: contact.map(|episode| before(episode.off_s)),
+            ramp_began_before_s: contact.map(|episode| before(episode.on_s)),
+            dimple_over_steady: dimple_n[last] / first_n,
+            bearing_over_steady: bearing_n[last] / first_n,
+            bearing_range_over_steady: (largest - smallest) / first_n,
         })
     }
 
     /// The mechanism that these name.
     pub fn mechanism(&self) -> Mechanism {
         let recent = |time_s: Option<f64>| time_s.is_some_and(|time_s| time_s <= RECENT_S);
-        let is_behind_impact = self.ramp_contact_s.is_some_and(|time_s| time_s <= IMPACT_S);
-        if recent(self.limiter_s) {
+        let is_behind_impact = self
+            .ramp_contact_before_s
+            .is_some_and(|time_s| time_s <= IMPACT_S);
+        if recent(self.limiter_before_s) {
             Mechanism::Limiter
-        } else if recent(self.lift_tab_s) {
+        } else if recent(self.lift_tab_before_s) {
             Mechanism::LiftTab
-        } else if recent(self.dimple_open_s) {
+        } else if recent(self.dimple_open_before_s) {
             Mechanism::DimpleSeparation
-        } else if is_behind_impact && self.swing > SWING {
+        } else if is_behind_impact && self.bearing_range_over_steady > LEAST_RANGE {
             Mechanism::RampImpact
-        } else if self.bearing < 0.0 {
+        } else if self.bearing_over_steady < 0.0 {
             Mechanism::LiftLoss
-        } else if self.dimple > 1.0 && self.bearing > 1.0 {
+        } else if self.dimple_over_steady > 1.0 && self.bearing_over_steady > 1.0 {
             Mechanism::Compression
         } else {
             Mechanism::Other
@@ -155,22 +157,32 @@ mod tests {
     #[test]
     fn the_first_rule_that_holds_names_the_mechanism() {
         let mut evidence = FailureEvidence {
-            dimple: 0.9,
-            bearing: 0.4,
+            dimple_over_steady: 0.9,
+            bearing_over_steady: 0.4,
             ..FailureEvidence::default()
         };
         let mut named = vec![evidence.mechanism()];
         let changes: [fn(&mut FailureEvidence); 9] = [
-            |evidence| evidence.dimple = 2.1,
-            |evidence| evidence.bearing = 2.3,
-            |evidence| evidence.bearing = -0.1,
-            // Too far back, then without a swing.
-            |evidence| (evidence.ramp_contact_s, evidence.swing) = (Some(1.2e-4), 3.0),
-            |evidence| (evidence.ramp_contact_s, evidence.swing) = (Some(5e-5), 0.2),
-            |evidence| evidence.swing = 0.4,
-            |evidence| evidence.dimple_open_s = Some(2e-6),
-            |evidence| evidence.lift_tab_s = Some(0.0),
-            |evidence| evidence.limiter_s = Some(1.9e-5),
+            |evidence| evidence.dimple_over_steady = 2.1,
+            |evidence| evidence.bearing_over_steady = 2.3,
+            |evidence| evidence.bearing_over_steady = -0.1,
+            // Too far back, then with a small range.
+            |evidence| {
+                (
+                    evidence.ramp_contact_before_s,
+                    evidence.bearing_range_over_steady,
+                ) = (Some(1.2e-4), 3.0)
+            },
+            |evidence| {
+                (
+                    evidence.ramp_contact_before_s,
+                    evidence.bearing_range_over_steady,
+                ) = (Some(5e-5), 0.2)
+            },
+            |evidence| evidence.bearing_range_over_steady = 0.4,
+            |evidence| evidence.dimple_open_before_s = Some(2e-6),
+            |evidence| evidence.lift_tab_before_s = Some(0.0),
+            |evidence| evidence.limiter_before_s = Some(1.9e-5),
         ];
         for change in changes {
             change(&mut evidence);
@@ -189,7 +201,7 @@ mod tests {
             Mechanism::Limiter,
         ];
         assert_eq!(named, expected);
-        evidence.limiter_s = Some(2.1e-5);
+        evidence.limiter_before_s = Some(2.1e-5);
         assert_eq!(evidence.mechanism(), Mechanism::LiftTab);
     }
 }

@@ -58,22 +58,16 @@ pub struct PlaceJson {
     pub y_m: f64,
 }
 
-/// Mechanism of a failure and what decided it; forces over the steady force of the dimple.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// Mechanism of a failure and what decided it.
+#[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
     missing_docs,
     reason = "the names are the documented JSON keys: docs/files.md"
 )]
 pub struct MechanismJson {
     pub name: &'static str,
-    pub dimple_open_before_s: Option<f64>,
-    pub limiter_before_s: Option<f64>,
-    pub lift_tab_before_s: Option<f64>,
-    pub ramp_contact_before_s: Option<f64>,
-    pub ramp_began_before_s: Option<f64>,
-    pub dimple_over_steady: f64,
-    pub bearing_over_steady: f64,
-    pub swing_over_steady: f64,
+    #[serde(flatten)]
+    pub evidence: FailureEvidence,
 }
 
 impl MechanismJson {
@@ -81,14 +75,7 @@ impl MechanismJson {
     pub fn of(outcome: &Outcome) -> Option<MechanismJson> {
         FailureEvidence::of(outcome).map(|evidence| MechanismJson {
             name: evidence.mechanism().as_str(),
-            dimple_open_before_s: evidence.dimple_open_s,
-            limiter_before_s: evidence.limiter_s,
-            lift_tab_before_s: evidence.lift_tab_s,
-            ramp_contact_before_s: evidence.ramp_contact_s,
-            ramp_began_before_s: evidence.ramp_began_s,
-            dimple_over_steady: evidence.dimple,
-            bearing_over_steady: evidence.bearing,
-            swing_over_steady: evidence.swing,
+            evidence,
         })
     }
 }

@@ -169,13 +169,14 @@ fn arm_summary(arm: &ArmJson) -> String {
 
 /// The mechanism with the figures that decided it.
 fn mechanism_words(mechanism: &MechanismJson) -> String {
+    let evidence = &mechanism.evidence;
     let until = |time_s: Option<f64>, what: &str| {
         time_s.map_or(String::new(), |time_s| match time_s > 5e-8 {
             true => format!("{what} until {:.1} us before the touch; ", 1e6 * time_s),
             false => format!("{what} until the touch; "),
         })
     };
-    let began = mechanism
+    let began = evidence
         .ramp_began_before_s
         .map_or(String::new(), |time_s| {
             format!("ramp contact from {:.1} us before the touch", 1e6 * time_s)
@@ -183,12 +184,12 @@ fn mechanism_words(mechanism: &MechanismJson) -> String {
     format!(
         "{}: {}{}{}{began}{}dimple {:.2}, air bearing {:.2} of the steady dimple force, varied by {:.2}",
         mechanism.name.replace('_', " "),
-        until(mechanism.limiter_before_s, "limiter closed"),
-        until(mechanism.lift_tab_before_s, "lift tab closed"),
-        until(mechanism.dimple_open_before_s, "dimple open"),
-        until(mechanism.ramp_contact_before_s, ""),
-        mechanism.dimple_over_steady,
-        mechanism.bearing_over_steady,
-        mechanism.swing_over_steady
+        until(evidence.limiter_before_s, "limiter closed"),
+        until(evidence.lift_tab_before_s, "lift tab closed"),
+        until(evidence.dimple_open_before_s, "dimple open"),
+        until(evidence.ramp_contact_before_s, ""),
+        evidence.dimple_over_steady,
+        evidence.bearing_over_steady,
+        evidence.bearing_range_over_steady
     )
 }

@@ -10,7 +10,8 @@ use super::walk::Walk;
 const GRAIN: i32 = SUBDIVISIONS / 2;
 
 /// The change, a share of the critical shock; `None` without verdicts or where it is too large. Both scenes have the cheaper
-/// film of other comparisons, but where no defect correction makes up for the cells that it lacks. Both are bracketed: below twice the minimum film height clearances do not fall steadily.
+/// film of other comparisons, but where no defect correction makes up for the cells that it lacks. Both are bracketed: below
+/// twice the minimum film height clearances do not fall steadily.
 pub(super) fn change(walk: &mut Walk<'_>) -> Result<Option<f64>, Ask> {
     let measure = Measure {
         reference: None,
