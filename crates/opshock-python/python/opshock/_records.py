@@ -6,7 +6,7 @@ import functools
 import types
 import typing
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 T = TypeVar("T")
 
@@ -14,19 +14,36 @@ T = TypeVar("T")
 Converter = Callable[[Any], Any]
 
 
+class _Attributes(NamedTuple):
+    """What is known of a dataclass: found once, since that takes longer than a record."""
+
+    names: frozenset[str]
+    """Names of all attributes."""
+    defaults: dict[str, Any]
+    """Values of those that have a default."""
+    converters: list[tuple[str, Converter]]
+    """What makes an attribute of its JSON value, for those that are not the JSON value itself."""
+
+
 @functools.cache
-def _attributes(cls: type) -> list[tuple[str, Converter | None]]:
-    """Attributes of a dataclass with what converts their JSON values: found once, since that takes longer than a record."""
+def _attributes(cls: type) -> _Attributes:
     hints = typing.get_type_hints(cls)
-    return [(field.name, _converter(hints[field.name])) for field in dataclasses.fields(cls)]
+    fields = dataclasses.fields(cls)
+    defaults = {field.name: field.default for field in fields if field.default is not dataclasses.MISSING}
+    # Immutable, so that one serves all.
+    defaults |= {field.name: field.default_factory() for field in fields if field.default_factory is not dataclasses.MISSING}
+    converters = [(field.name, converter) for field in fields if (converter := _converter(hints[field.name]))]
+    return _Attributes(frozenset(hints), defaults, converters)
 
 
 def record(cls: type[T], values: Mapping[str, Any]) -> T:
     """A dataclass of a JSON object; keys without an attribute are left out."""
-    attributes = _attributes(cls)  # type: ignore[arg-type]
-    own = {name: convert(values[name]) if convert else values[name] for name, convert in attributes if name in values}
-    if len(own) < len(attributes):
-        return cls(**own)
+    names, defaults, converters = _attributes(cls)  # type: ignore[arg-type]
+    own = {**defaults, **values}
+    if own.keys() != names:
+        own = {name: own[name] for name in names}
+    for name, convert in converters:
+        own[name] = convert(own[name])
     # What its initialiser would do, attribute by attribute, since it is frozen.
     made = object.__new__(cls)
     made.__dict__.update(own)
@@ -48,7 +65,7 @@ def _converter(kind: Any) -> Converter | None:
         convert = _each(inner[1])
         return lambda value: None if value is None else types.MappingProxyType({key: convert(one) for key, one in value.items()})
     if isinstance(kind, type) and dataclasses.is_dataclass(kind):
-        return lambda value: record(kind, value) if isinstance(value, Mapping) else value
+        return lambda value: record(kind, value) if isinstance(value, dict) else value
     if isinstance(kind, type) and issubclass(kind, enum.Enum):
         return lambda value: None if value is None else kind(value)
     return None

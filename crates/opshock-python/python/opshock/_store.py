@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-import tempfile
 import types
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -322,6 +321,9 @@ def critical_shock(
     A store holds one study: give none that another study was swept into.
     """
     only_point(scene)
+    # Imported here as NumPy is: it is felt at the package's start.
+    import tempfile
+
     with tempfile.TemporaryDirectory() as folder:
         swept = sweep(scene, store or Path(folder) / "store", threads=threads, progress=progress, accept=accept)
         row: CriticalShock = swept[0]
