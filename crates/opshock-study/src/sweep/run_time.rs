@@ -13,7 +13,7 @@
 //! | V | factor of a failure, which ends early | 1 for survivors; 0.2 without ramp, or with a rigid one and a positive pulse; else 0.6 up to 1 ms, 0.3 beyond |
 //! | A | factor of a survivor at the amplitude a below the critical one a_c | (a / a_c)^0.45 without ramp; with one 0.25 below the first touch a_t, above it 0.25 + 0.75 ((a - a_t) / (a_c - a_t))^0.5 |
 //! | h, s | shares of the head and of disk and ramp | 0.87, 0 without ramp; 0.78, 0.09 with one |
-//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.7, 0.42, 0.38; 3^n |
+//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.7, 0.42, 0.38; 2.2^n |
 //! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n; 0.8 |
 //! | n | refinement level of the time step of disk and ramp | |
 //!
@@ -69,7 +69,7 @@ impl Kind {
             ..=-3 => 0.38,
             -2 => 0.42,
             -1 => 0.7,
-            finer => 3.0_f64.powi(finer),
+            finer => 2.2_f64.powi(finer),
         };
         let tolerance = match level(Discretisation::HeadTolerance) {
             ..=-1 => 0.8,
