@@ -3,6 +3,7 @@
 //! A pair is one scene as reduced and as full model: [`opshock_tests::pairs`].
 
 use opshock_solver::air_bearing::SurfaceForces;
+use opshock_solver::air_bearing::gap_forces::AsperityContact;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Effect, Mode, Needs, Output, Plan, State, Touch};
 use opshock_solver::simulation::Model;
@@ -105,7 +106,7 @@ struct Poison {
 
 /// Every effect that a plan can leave out, but arms, hub, oblique shock, base, limiters and lift tab: where a scene has none it has
 /// no numbers of them.
-const POISONS: [Poison; 10] = [
+const POISONS: [Poison; 11] = [
     Poison {
         effect: "disk.travelling_waves",
         ramp: "none",
@@ -168,6 +169,21 @@ const POISONS: [Poison; 10] = [
             s.gap_forces.viscous_shear.is_on = true;
             s.slider.height_m = f64::NAN;
             s.gas.viscosity_pa_s = f64::NAN;
+        },
+    },
+    Poison {
+        effect: "head.asperity_contact",
+        ramp: "rigid",
+        asked: Output::ContactForce,
+        poison: |s| {
+            s.gap_forces.asperity_contact = AsperityContact {
+                roughness_m: 0.5e-9,
+                asperities_per_m2: f64::NAN,
+                tip_radius_m: f64::NAN,
+                modulus_pa: f64::NAN,
+                yield_pressure_pa: f64::NAN,
+                friction: f64::NAN,
+            };
         },
     },
     Poison {

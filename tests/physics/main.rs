@@ -1,5 +1,6 @@
 //! Physics against references, invariants and relations.
 
+mod asperity_contact;
 mod base;
 mod base_chain;
 mod base_pivot;

@@ -52,6 +52,7 @@ fn failing() -> Outcome {
         }),
         limiters: None,
         lift_tab: None,
+        slider_contact: None,
         energy: EnergyBalance::default(),
         complementarity: Complementarity::default(),
         rules: vec!["R2", "R10"],

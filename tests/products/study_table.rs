@@ -28,6 +28,7 @@ fn the_table_of_keys_is_consistent() {
         "in_plane_x",
         "in_plane_y",
         "share",
+        "friction",
     ];
     for (position, key) in KEYS.iter().enumerate() {
         assert!(
@@ -166,6 +167,7 @@ fn every_value_changes_the_digest_and_is_written_out() {
             "ramp.contact_frequency_khz" | "ramp.contact_damping_ratio" => {
                 &["ramp.contact_stiffness_n_per_m=1.0e6"]
             }
+            path if path.starts_with("asperity_contact.") => &["asperity_contact.roughness_nm=0.4"],
             // A repulsion ends an attraction.
             "surface_forces.repulsion_j_m6" => &["surface_forces.hamaker_j=1.0e-19"],
             _ => &[],

@@ -16,6 +16,7 @@ const SOLVER: &[(&str, u8)] = &[
     ("complementarity", 1),
     ("integrator", 1),
     ("fixed_point", 1),
+    ("rough_contact", 1),
     ("shock", 2),
     ("disk", 2),
     ("ramp", 2),

@@ -263,6 +263,7 @@ impl Simulator for MockSimulator<'_> {
             bottom: Default::default(),
             limiters: None,
             lift_tab: None,
+            slider_contact: None,
             dimple: None,
             energy: Default::default(),
             complementarity: Default::default(),

@@ -54,7 +54,10 @@ pub fn is_answered(output: Output, outcome: &Outcome) -> bool {
     let recorded =
         |column: fn(&HeadColumns) -> &Vec<f64>| head.is_some_and(|head| !column(head).is_empty());
     match output {
-        Output::CriticalShock | Output::MinClearance => outcome.min_clearance_m.is_some(),
+        // A drive without asperities has no contact to tell of.
+        Output::CriticalShock | Output::MinClearance | Output::SliderContact => {
+            outcome.min_clearance_m.is_some()
+        }
         Output::SliderAttitude => recorded(|head| &head.slider_z_m),
         Output::Pitch => recorded(|head| &head.slider_pitch_rad),
         Output::BearingForce => recorded(|head| &head.bearing_force_n),

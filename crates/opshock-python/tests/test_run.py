@@ -47,6 +47,25 @@ def test_a_shock_that_is_survived(survived: Run, rigid: opshock.Scene) -> None:
     assert survived.warnings == ()
 
 
+def test_what_comes_after_the_touch_of_rough_surfaces(study: opshock.Study) -> None:
+    """The slider bounces on the disk, which never bears more than the yield pressure."""
+    settings = {"outputs": ["critical_shock", "slider_contact"], "asperity_contact.roughness_nm": 0.5}
+    run = opshock.simulate(study.scene(ramp="none", pulse_ms=2, settings=settings), 900)
+    assert run.verdict is Verdict.FAILS and run.t_fail_s is not None
+    contact: opshock.SliderContact | None = run.slider_contact
+    assert contact is not None and contact.end in ("flying", "in_contact") and contact.yielded_j > 0
+    assert len(contact.spells) > 3, "it bounces"
+    first: opshock.SliderSpell = contact.spells[0]
+    assert first.on_s < first.off_s and abs(first.on_s - run.t_fail_s) < 0.3e-3
+    assert all(spell.off_s <= later.on_s for spell, later in zip(contact.spells, contact.spells[1:], strict=False))
+    for spell in contact.spells:
+        assert 0 < spell.peak_pressure_pa <= 12e9 and spell.peak_force_n > 0 and spell.impulse_n_s > 0
+        # Friction: 0.3 of the impulse, at the disk's speed under the slider.
+        assert 2 < spell.friction_j / (0.3 * spell.impulse_n_s) < 30
+        assert 0 <= spell.place.x_m <= 0.85e-3 and spell.closest_m < 5e-9
+    assert max(spell.approach_m_per_s for spell in contact.spells) > 0
+
+
 def test_a_shock_that_is_not(failed: Run) -> None:
     """The slider touches at a place on it, in time."""
     assert failed.verdict is Verdict.FAILS
@@ -106,6 +125,7 @@ def test_a_stronger_shock_bends_the_disk_more(free: opshock.Scene) -> None:
 def test_the_optional_parts(equipped: Run, survived: Run) -> None:
     """Each has its record, whose numbers balance; without the part there is none."""
     assert (survived.hub, survived.base, survived.limiters, survived.lift_tab) == (None,) * 4
+    assert survived.slider_contact is None
     hub, base, tab = equipped.hub, equipped.base, equipped.lift_tab
     assert isinstance(hub, opshock.Hub) and isinstance(base, opshock.Base) and isinstance(tab, opshock.Stop)
     assert abs(hub.momentum_closure) < 1e-9 and abs(base.momentum_closure) < 1e-9

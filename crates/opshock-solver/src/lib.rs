@@ -24,6 +24,7 @@ pub mod gas;
 pub mod head;
 pub mod quantity;
 pub mod ramp;
+pub mod rough_contact;
 pub mod scene;
 pub mod shock;
 pub mod simulation;

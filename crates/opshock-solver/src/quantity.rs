@@ -75,6 +75,12 @@ pub fn hz_from_khz(khz: f64) -> f64 {
     khz * 1e3
 }
 
+/// 1/µm² to 1/m².
+#[inline]
+pub fn per_m2_from_per_um2(per_um2: f64) -> f64 {
+    per_um2 * 1e12
+}
+
 /// Pa from gigapascals.
 pub fn pa_from_gpa(gpa: f64) -> f64 {
     gpa * 1e9

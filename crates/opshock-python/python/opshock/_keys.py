@@ -9,6 +9,24 @@ MISSING: Any = None
 
 
 @dataclass(frozen=True)
+class AsperityContact:
+    """Settings `asperity_contact`."""
+
+    asperities_per_um2: float | tuple[float, ...] | None = None
+    """Asperities per area. The default makes roughness x tip radius x density 0.05 (Greenwood and Williamson 1966: 0.03 to 0.05); doubtful for a disk. In 1/µm². Absent: 100.0."""
+    friction: float | tuple[float, ...] | None = None
+    """Coefficient of friction (0.3 in that sample). Absent: 0.3."""
+    modulus_gpa: float | tuple[float, ...] | None = None
+    """E' with 1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 of the two surfaces; doubtful, since coatings are thinner than what is pressed in. In GPa. Absent: 100.0."""
+    roughness_nm: float | tuple[float, ...] | None = None
+    """Standard deviation of the sum of the heights of slider and disk. With it asperities bear, and the film's height is the mean gap. In nm. Absent: smooth surfaces without contact."""
+    tip_radius_um: float | tuple[float, ...] | None = None
+    """Radius of their tips (1 um in a sample of the CML Dynamic Simulator). In µm. Absent: 1.0."""
+    yield_pressure_gpa: float | tuple[float, ...] | None = None
+    """Largest contact pressure of an asperity, at which it yields: about the hardness of the softer surface; doubtful. In GPa. Absent: 12.0."""
+
+
+@dataclass(frozen=True)
 class BaseImported:
     """Settings `base.imported`."""
 
@@ -1104,6 +1122,8 @@ class Suspension:
 class Study:
     """Settings of a study."""
 
+    asperity_contact: AsperityContact | None = None
+    """Settings `asperity_contact`."""
     base: Base | None = None
     """Settings `base`."""
     disk: Disk = field(default_factory=Disk)

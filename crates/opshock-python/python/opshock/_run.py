@@ -150,6 +150,42 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class SliderSpell:
+    """One spell of contact between slider and disk."""
+
+    on_s: float
+    """Begin, s."""
+    off_s: float
+    """End, s."""
+    approach_m_per_s: float
+    """Speed at which the clearance fell as it began, m/s."""
+    impulse_n_s: float
+    """Impulse of the asperities on the slider, N s."""
+    peak_force_n: float
+    """Largest normal force, N."""
+    peak_pressure_pa: float
+    """Largest pressure of a nominal area, Pa."""
+    closest_m: float
+    """Smallest distance of the mean planes, m; negative where they overlap."""
+    place: Place
+    """Place of the smallest clearance at the largest force."""
+    friction_j: float
+    """Work of friction, J."""
+
+
+@dataclass(frozen=True)
+class SliderContact:
+    """Contact of slider and disk by their asperities; also after the first touch, if ``slider_contact`` is among the outputs."""
+
+    spells: tuple[SliderSpell, ...]
+    """The spells: a force above 1 % of the dimple's steady force."""
+    end: str
+    """``flying`` or ``in_contact``."""
+    yielded_j: float
+    """Work that yielded asperities do not give back, J."""
+
+
+@dataclass(frozen=True)
 class Energy:
     """Energy balance of disk and ramp."""
 
@@ -299,6 +335,8 @@ class Run:
     """The suspension's limiters, if there are some."""
     lift_tab: Stop | None = None
     """The lift tab, if there is one."""
+    slider_contact: SliderContact | None = None
+    """Contact of slider and disk, if asperities bear."""
     hub: Hub | None = None
     """The hub, of a disk on a bearing."""
     base: Base | None = None

@@ -167,7 +167,7 @@ impl Film {
             storage: Diagonals::zeros(0, Vec::new()),
             mesh,
             flow,
-            height_limit: HeightLimit { h0: min_height_m },
+            height_limit: HeightLimit::new(min_height_m),
             gas: gas.clone(),
             ambient_pa: gas.pressure_pa,
             disk_velocity_m_per_s: direction.map(|part| speed * part),

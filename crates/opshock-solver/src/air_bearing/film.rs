@@ -22,6 +22,7 @@ use crate::gas::GasParameters;
 use crate::lanes::{Kernel, widest};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::diagonals::Diagonals;
+use crate::rough_contact::nominal::ContactState;
 use crate::slider::clearance::{Clearance, ClearanceMap};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -64,6 +65,8 @@ pub struct CellStates<'a> {
     pub inverse_h: &'a [f64],
     /// Its derivative by the true height.
     pub h_slope: &'a [f64],
+    /// Smallest true height so far of every place that an [`Element`] remembers, m; infinite where there is none yet.
+    pub closest_m: &'a [f64],
 }
 
 impl CellStates<'_> {
@@ -81,6 +84,24 @@ pub trait Element: Debug + Send + Sync {
 
     /// The same with derivatives; those by ψ are added to `by_psi`, one column for each force.
     fn load(&self, film: &Film, cells: &CellStates<'_>, by_psi: &mut [Vec<f64>; 3]) -> GapLoad;
+
+    /// Places whose smallest height so far it depends on; at most one force of a film has some.
+    fn n_remembered(&self) -> usize {
+        0
+    }
+
+    /// Takes the heights at `attitude` into the smallest ones so far.
+    fn remember(&self, _attitude: &Attitude, _closest_m: &mut [f64]) {}
+
+    /// What the asperities bear at `attitude`; `None` for a force that is no contact.
+    fn contact(&self, _attitude: &Attitude, _closest_m: &[f64]) -> Option<ContactState> {
+        None
+    }
+
+    /// Work of bringing the surfaces to the smallest heights so far that they do not give back, J.
+    fn yielded_j(&self, _closest_m: &[f64]) -> f64 {
+        0.0
+    }
 
     /// `share` of a force that may pull the slider onto the disk and so end its flight; `None` for any other force.
     fn share_of_attraction(&self, _share: f64) -> Option<Arc<dyn Element>> {
@@ -161,9 +182,9 @@ impl Film {
         })
     }
 
-    /// Minimum film height h0, m.
+    /// Minimum film height h0 between smooth surfaces, the roughness between rough ones, m.
     pub fn min_height_m(&self) -> f64 {
-        self.height_limit.h0
+        self.height_limit.scale_m()
     }
 
     /// Height the film sees in a cell and its derivative by the true height.

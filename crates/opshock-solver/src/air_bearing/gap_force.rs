@@ -8,6 +8,7 @@ use super::attitude::Attitude;
 use super::film::{Element, Film};
 use super::gap_load::GapLoad;
 use super::state::FilmScratch;
+use crate::rough_contact::nominal::ContactState;
 use crate::slider::SliderParameters;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -35,6 +36,11 @@ pub trait GapForce: Debug + Send + Sync {
         self.clone()
     }
 
+    /// Roughness of the surfaces whose mean gap the film sees, m; 0: smooth ones.
+    fn roughness_m(&self) -> f64 {
+        0.0
+    }
+
     /// The force over the cells of `film`, a film under `slider`.
     fn over(&self, film: &Film, slider: &SliderParameters) -> Arc<dyn Element>;
 }
@@ -48,6 +54,9 @@ impl Film {
         if force.is_active() {
             let element = force.over(&self, slider);
             self.gap_forces.push((force.key(), element));
+            if force.roughness_m() > 0.0 {
+                self.height_limit = self.height_limit.of_rough(force.roughness_m());
+            }
         }
         self
     }
@@ -87,6 +96,33 @@ impl Film {
         loads
             .map(|(key, force)| (*key, force.load(self, &cells, &mut by_psi)))
             .collect()
+    }
+
+    /// Places whose smallest height so far a force depends on.
+    pub(super) fn n_remembered(&self) -> usize {
+        let all = self.gap_forces.iter();
+        all.map(|(_, force)| force.n_remembered()).sum()
+    }
+
+    /// Takes the heights at `attitude` into the smallest ones so far.
+    pub(crate) fn remember(&self, attitude: &Attitude, closest_m: &mut [f64]) {
+        for (_, force) in &self.gap_forces {
+            if force.n_remembered() > 0 {
+                force.remember(attitude, closest_m);
+            }
+        }
+    }
+
+    /// What the asperities bear at `attitude`, where the scene has their contact.
+    pub(crate) fn contact(&self, attitude: &Attitude, closest_m: &[f64]) -> Option<ContactState> {
+        let mut all = self.gap_forces.iter();
+        all.find_map(|(_, force)| force.contact(attitude, closest_m))
+    }
+
+    /// Work of the asperities that yielded, J.
+    pub(crate) fn yielded_j(&self, closest_m: &[f64]) -> f64 {
+        let all = self.gap_forces.iter();
+        all.map(|(_, force)| force.yielded_j(closest_m)).sum()
     }
 
     /// Force and moments of all of them at the state in `scratch`.

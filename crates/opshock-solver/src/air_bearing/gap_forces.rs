@@ -2,10 +2,13 @@
 //!
 //! A new force needs a file here, its entry below, and its keys in a study with the code that reads them.
 
+mod asperity_contact;
+mod quadrature;
 mod surface_forces;
 mod viscous_shear;
 
 use super::gap_force::GapForce;
+pub use asperity_contact::AsperityContact;
 pub use surface_forces::SurfaceForces;
 pub use viscous_shear::ViscousShear;
 
@@ -18,6 +21,9 @@ pub struct GapForces {
     /// Shear of the film on the slider.
     #[serde(skip_serializing_if = "is_off")]
     pub viscous_shear: ViscousShear,
+    /// Contact of asperities.
+    #[serde(skip_serializing_if = "is_off")]
+    pub asperity_contact: AsperityContact,
 }
 
 /// A force that is off is no part of a scene's identity, so adding one keeps the identities of stored results.
@@ -32,8 +38,9 @@ impl GapForces {
         let Self {
             surface_forces,
             viscous_shear,
+            asperity_contact,
         } = self;
-        let all: [&dyn GapForce; _] = [surface_forces, viscous_shear];
+        let all: [&dyn GapForce; _] = [surface_forces, viscous_shear, asperity_contact];
         all.into_iter()
     }
 
@@ -48,6 +55,7 @@ impl GapForces {
         Self {
             surface_forces: self.surface_forces.mirrored(),
             viscous_shear: self.viscous_shear.mirrored(),
+            asperity_contact: self.asperity_contact.mirrored(),
         }
     }
 }

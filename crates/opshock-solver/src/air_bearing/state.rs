@@ -28,6 +28,8 @@ pub struct FilmScratch {
     rows: PickedRows,
     /// Residual that the caller does not use.
     pub(super) spare: Vec<f64>,
+    /// Smallest heights so far of the places that a force remembers, m.
+    pub(crate) closest_m: Vec<f64>,
 }
 
 impl FilmScratch {
@@ -48,6 +50,7 @@ impl FilmScratch {
             flux: [0, 1].map(|_| vec![0.0; columns.padded]),
             rows: PickedRows::new(columns.n_cells),
             spare: vec![0.0; columns.n_cells],
+            closest_m: vec![f64::INFINITY; film.n_remembered()],
         }
     }
 
@@ -60,6 +63,7 @@ impl FilmScratch {
             h: &self.h[cells.clone()],
             inverse_h: &self.inverse_h[cells.clone()],
             h_slope: &self.h_slope[cells],
+            closest_m: &self.closest_m,
         }
     }
 

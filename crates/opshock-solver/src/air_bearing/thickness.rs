@@ -8,13 +8,38 @@
 //! The Reynolds equation has no solution at h <= 0, yet iterates and touching sliders go there. f
 //! has a continuous derivative and stays above h0; the clearance that decides a verdict is always
 //! the true height.
+//!
+//! Between rough surfaces h is their mean gap, which never reaches 0, and h0 only keeps numbers in range.
 
 use super::faces::{BLOCK, Block};
+use crate::rough_contact::roughness::{FAR, mean_gap};
 
-/// The minimum height h0 of a film, m.
+/// h0 between rough surfaces over the minimum film height: their mean gap at h = −σ is 0.083 σ.
+const ROUGH_SHARE: f64 = 0.1;
+
+/// The minimum height h0 of a film, and the roughness of the surfaces (0: smooth), m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HeightLimit {
-    pub(super) h0: f64,
+    h0: f64,
+    sigma: f64,
+}
+
+impl HeightLimit {
+    /// Of smooth surfaces.
+    pub(super) fn new(h0: f64) -> Self {
+        Self { h0, sigma: 0.0 }
+    }
+
+    /// The same film between surfaces of the roughness `sigma`, m.
+    pub(super) fn of_rough(self, sigma: f64) -> Self {
+        let h0 = ROUGH_SHARE * self.h0;
+        Self { h0, sigma }
+    }
+
+    /// Height below which the film sees another than there is, m, for smooth surfaces over two.
+    pub(super) fn scale_m(self) -> f64 {
+        self.h0.max(self.sigma)
+    }
 }
 
 impl HeightLimit {
@@ -22,6 +47,11 @@ impl HeightLimit {
     #[inline(always)]
     pub(super) fn apply(self, h: f64) -> (f64, f64) {
         let h0 = self.h0;
+        if self.sigma > 0.0 {
+            let (gap, by_height) = mean_gap(h, self.sigma);
+            let (limited, slope) = Self::new(h0).apply(gap);
+            return (limited, slope * by_height);
+        }
         if h >= 2.0 * h0 {
             (h, 1.0)
         } else {
@@ -31,6 +61,16 @@ impl HeightLimit {
     }
 }
 
+/// Whether a film of the minimum height `min_height_m` between surfaces of the roughness `roughness_m` (0: smooth) sees more than
+/// there is where the clearance is `clearance_m`.
+pub fn sees_more(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool {
+    if roughness_m > 0.0 {
+        let limit = HeightLimit::new(min_height_m).of_rough(roughness_m);
+        return mean_gap(clearance_m, roughness_m).0 < 2.0 * limit.h0;
+    }
+    clearance_m < 2.0 * min_height_m
+}
+
 impl HeightLimit {
     /// f and f′ of `base` + `recess` for a block. Where the whole block lies above 2 h0 no division is made; the
     /// numbers are the same.
@@ -38,9 +78,10 @@ impl HeightLimit {
     pub(super) fn apply_block(self, base: &Block, recess: &Block) -> [Block; 2] {
         let mut h = [0.0; BLOCK];
         let mut low = false;
+        let from = f64::max(2.0 * self.h0, FAR * self.sigma);
         for k in 0..BLOCK {
             h[k] = base[k] + recess[k];
-            low |= h[k] < 2.0 * self.h0;
+            low |= h[k] < from;
         }
         let mut slope = [1.0; BLOCK];
         if low {
@@ -58,7 +99,7 @@ mod tests {
 
     #[test]
     fn floor_is_c1_monotone_and_above_h0() {
-        let height_limit = HeightLimit { h0: 3e-10 };
+        let height_limit = HeightLimit::new(3e-10);
         let (below, above) = (
             height_limit.apply(6e-10 * (1.0 - 1e-12)),
             height_limit.apply(6e-10),

@@ -34,6 +34,7 @@ pub mod response;
 mod run;
 #[cfg(test)]
 mod sample;
+mod slider_contact;
 mod stage;
 mod stage_matrix;
 mod stage_scratch;
@@ -41,7 +42,8 @@ mod stops;
 
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
-    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, PressureFields, StopRecord, Verdict,
+    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, PressureFields, SliderContact,
+    SliderSpell, StopRecord, Verdict,
 };
 pub use resolution::{Coupling, HeadResolution};
 pub use run::{HeadState, HeadWorkspace, Stretch};

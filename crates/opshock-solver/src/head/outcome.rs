@@ -116,6 +116,40 @@ impl StopRecord {
     }
 }
 
+/// One spell of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderSpell {
+    /// Begin, s.
+    pub on_s: f64,
+    /// End, s; that of the run for a spell that goes on.
+    pub off_s: f64,
+    /// Speed at which the smallest clearance fell in the step that began it, m/s.
+    pub approach_m_per_s: f64,
+    /// Impulse of the asperities on the slider, N s.
+    pub impulse_n_s: f64,
+    /// Largest force, N.
+    pub peak_force_n: f64,
+    /// Largest pressure of a nominal area, Pa.
+    pub peak_pressure_pa: f64,
+    /// Smallest distance of the mean planes at a point of the film's grid, m; negative where they overlap.
+    pub closest_m: f64,
+    /// Place of the smallest clearance at the largest force.
+    pub place: Place,
+    /// Work of friction, J.
+    pub friction_j: f64,
+}
+
+/// Contact of slider and disk over a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SliderContact {
+    /// Spells, in order.
+    pub spells: Vec<SliderSpell>,
+    /// The last one goes on at the end of the run.
+    pub goes_on: bool,
+    /// Work that yielded asperities do not give back, J.
+    pub yielded_j: f64,
+}
+
 /// Columns at the head's accepted steps and at its first touch; a run that stops at touch ends with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadColumns {
@@ -142,6 +176,8 @@ pub struct HeadColumns {
     pub limiter_force_n: Vec<f64>,
     /// Contact force of the lift tab, N; empty without one.
     pub lift_tab_force_n: Vec<f64>,
+    /// Force of the asperities on the slider, N; empty without their contact.
+    pub asperity_force_n: Vec<f64>,
 }
 
 /// Cost of a run, and diagnostics.
@@ -207,6 +243,8 @@ pub struct HeadRun {
     pub limiters: Option<StopRecord>,
     /// Lift tab, if there is one.
     pub lift_tab: Option<StopRecord>,
+    /// Contact with the disk over the whole run, of a scene with contact of asperities.
+    pub slider_contact: Option<SliderContact>,
     /// Histories, when requested.
     pub columns: Option<HeadColumns>,
     /// Pressure fields, when the head is set to keep them.

@@ -1,7 +1,7 @@
 //! Describes one simulation, all but its amplitude, as plain data, and builds the film from it.
 
 use super::discretisation::Discretisation;
-use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces};
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces, sees_more};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
 use crate::head::HeadResolution;
@@ -68,7 +68,12 @@ impl Scene {
 
     /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
     pub fn fails_below_continuum(&self) -> bool {
-        self.fail_below_m < 2.0 * self.film_resolution.min_height_m
+        let roughness_m = self.gap_forces.asperity_contact.roughness_m;
+        sees_more(
+            self.fail_below_m,
+            self.film_resolution.min_height_m,
+            roughness_m,
+        )
     }
 
     /// Disk, ramp, pulse and window, observed under the slider.

@@ -27,11 +27,13 @@ pub enum Output {
     ContactForce,
     /// Pressure and height of the film at [requested times](super::plan::Plan::with_field_times).
     PressureField,
+    /// Contact of slider and disk, also after the first touch.
+    SliderContact,
 }
 
 impl Output {
     /// Every output.
-    pub const ALL: [Output; 12] = [
+    pub const ALL: [Output; 13] = [
         Output::CriticalShock,
         Output::MinClearance,
         Output::SliderAttitude,
@@ -44,6 +46,7 @@ impl Output {
         Output::ContactForce,
         Output::TouchThreshold,
         Output::PressureField,
+        Output::SliderContact,
     ];
 
     /// Its name in a study.
@@ -61,6 +64,7 @@ impl Output {
             Output::RampDisplacement => "ramp_displacement",
             Output::ContactForce => "contact_force",
             Output::PressureField => "pressure_field",
+            Output::SliderContact => "slider_contact",
         }
     }
 
@@ -80,7 +84,8 @@ impl Output {
             | Output::Pitch
             | Output::BearingForce
             | Output::DimpleForce
-            | Output::PressureField => Needs::Head,
+            | Output::PressureField
+            | Output::SliderContact => Needs::Head,
             Output::SteadyAttitude => Needs::Flight,
             Output::TouchThreshold
             | Output::DiskDisplacement

@@ -146,7 +146,8 @@ impl Plan {
                 needs: asked.unwrap_or(Needs::Structure),
                 activation: Activation::AtTouch,
                 shares_parts: true,
-                stops_at_touch: true,
+                // Contact goes on after it.
+                stops_at_touch: !outputs.contains(&Output::SliderContact),
                 field_times_s: Vec::new(),
             },
             Mode::Full => Self {

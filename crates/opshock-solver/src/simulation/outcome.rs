@@ -2,7 +2,8 @@
 
 use crate::air_bearing::Attitude;
 pub use crate::head::{
-    Cause, DimpleRecord, HeadColumns, Place, PressureFields, StopRecord, Verdict,
+    Cause, DimpleRecord, HeadColumns, Place, PressureFields, SliderContact, SliderSpell,
+    StopRecord, Verdict,
 };
 pub use crate::structure::{
     ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBalance, Episode, HubRecord,
@@ -69,6 +70,8 @@ pub struct Outcome {
     pub limiters: Option<StopRecord>,
     /// Lift tab.
     pub lift_tab: Option<StopRecord>,
+    /// Contact of slider and disk over the simulated time, of a scene with contact of asperities.
+    pub slider_contact: Option<SliderContact>,
     /// Energy balance of the structure.
     pub energy: EnergyBalance,
     /// Complementarity numbers.

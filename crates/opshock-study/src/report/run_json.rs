@@ -2,7 +2,7 @@
 
 use opshock_solver::simulation::{
     ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HubRecord, Outcome,
-    StopRecord, Verdict, Warning,
+    SliderContact, SliderSpell, StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -32,6 +32,9 @@ pub struct RunJson {
     /// Lift tab, when there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lift_tab: Option<StopJson>,
+    /// Contact of slider and disk, of a scene with contact of asperities.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slider_contact: Option<SliderContactJson>,
     pub energy: EnergyJson,
     pub complementarity: ComplementarityJson,
     /// Hub, of a disk on a bearing.
@@ -162,6 +165,65 @@ pub struct StopJson {
     pub first_s: Option<f64>,
     /// Total time closed, s.
     pub closed_s: f64,
+}
+
+/// Contact of slider and disk over the simulated time.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct SliderContactJson {
+    pub spells: Vec<SliderSpellJson>,
+    /// `flying` or `in_contact`.
+    pub end: &'static str,
+    pub yielded_j: f64,
+}
+
+/// One spell of it.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(
+    missing_docs,
+    reason = "the names are the documented JSON keys: docs/files.md"
+)]
+pub struct SliderSpellJson {
+    pub on_s: f64,
+    pub off_s: f64,
+    pub approach_m_per_s: f64,
+    pub impulse_n_s: f64,
+    pub peak_force_n: f64,
+    pub peak_pressure_pa: f64,
+    pub closest_m: f64,
+    pub place: PlaceJson,
+    pub friction_j: f64,
+}
+
+impl SliderContactJson {
+    /// Of a run whose pulse begins at `start_s` on the study's axis.
+    fn new(contact: &SliderContact, start_s: f64) -> Self {
+        let spell = |spell: &SliderSpell| SliderSpellJson {
+            on_s: spell.on_s + start_s,
+            off_s: spell.off_s + start_s,
+            approach_m_per_s: spell.approach_m_per_s,
+            impulse_n_s: spell.impulse_n_s,
+            peak_force_n: spell.peak_force_n,
+            peak_pressure_pa: spell.peak_pressure_pa,
+            closest_m: spell.closest_m,
+            place: PlaceJson {
+                x_m: spell.place.x_m,
+                y_m: spell.place.y_m,
+            },
+            friction_j: spell.friction_j,
+        };
+        Self {
+            spells: contact.spells.iter().map(spell).collect(),
+            end: match contact.goes_on {
+                true => "in_contact",
+                false => "flying",
+            },
+            yielded_j: contact.yielded_j,
+        }
+    }
 }
 
 /// Energy balance of disk and ramp.
@@ -308,6 +370,10 @@ impl RunJson {
             }),
             limiters: outcome.limiters.map(|record| stop(&record, start_s)),
             lift_tab: outcome.lift_tab.map(|record| stop(&record, start_s)),
+            slider_contact: outcome
+                .slider_contact
+                .as_ref()
+                .map(|contact| SliderContactJson::new(contact, start_s)),
             energy: energy(&outcome.energy),
             complementarity: complementarity(&outcome.complementarity),
             hub: outcome.hub.as_ref().map(hub),

@@ -91,6 +91,52 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
             );
         }
     }
+    if let Some(contact) = &run.slider_contact {
+        let end = match contact.end {
+            "in_contact" => "in contact at the end",
+            _ => "flying at the end",
+        };
+        let count = contact.spells.len();
+        line(
+            "slider contact",
+            format!(
+                "{count} spells, {end}, {:.3e} uJ yielded",
+                1e6 * contact.yielded_j
+            ),
+        );
+        if count > 0 {
+            line(
+                "",
+                format!(
+                    "{:>10} {:>10} {:>12} {:>14} {:>11} {:>13} {:>12} {:>11}",
+                    "on_ms",
+                    "off_ms",
+                    "approach_mm_s",
+                    "impulse_un_s",
+                    "peak_mn",
+                    "peak_gpa",
+                    "closest_nm",
+                    "friction_uj"
+                ),
+            );
+        }
+        for spell in &contact.spells {
+            line(
+                "",
+                format!(
+                    "{:>10.4} {:>10.4} {:>12.3} {:>14.4} {:>11.3} {:>13.4} {:>12.3} {:>11.3}",
+                    1e3 * spell.on_s,
+                    1e3 * spell.off_s,
+                    1e3 * spell.approach_m_per_s,
+                    1e6 * spell.impulse_n_s,
+                    1e3 * spell.peak_force_n,
+                    1e-9 * spell.peak_pressure_pa,
+                    1e9 * spell.closest_m,
+                    1e6 * spell.friction_j
+                ),
+            );
+        }
+    }
     let energy = run.energy;
     line(
         "energy",

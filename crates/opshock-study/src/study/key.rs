@@ -377,7 +377,7 @@ impl Key {
 
     /// Whether a list of values makes an axis of the study.
     pub fn may_be_axis(&self) -> bool {
-        const SCENE: [&str; 11] = [
+        const SCENE: [&str; 12] = [
             "pulse",
             "disk",
             "hub",
@@ -386,6 +386,7 @@ impl Key {
             "suspension",
             "gas",
             "surface_forces",
+            "asperity_contact",
             "solver",
             "resolution",
             "failure",

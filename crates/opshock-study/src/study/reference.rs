@@ -8,7 +8,11 @@ use super::unit;
 use std::fmt::Write as _;
 
 /// What the keys of a section act on, by the beginning of their names; the longest that fits counts.
-const ACTS: [(&str, &str); 29] = [
+const ACTS: [(&str, &str); 30] = [
+    (
+        "asperity_contact",
+        "the contact of slider and disk, and the height that the film sees",
+    ),
     ("base", "the motion of spindle, ramp mount and pivot"),
     ("disk", "the disk's bending, and the wind under the slider"),
     ("disk.damping", "the decay of the disk's vibration"),

@@ -62,6 +62,8 @@ pub enum Dimension {
     Repulsion,
     /// Electric potential.
     Potential,
+    /// Number per area.
+    PerArea,
 }
 
 impl Dimension {
@@ -94,6 +96,7 @@ impl Dimension {
             Self::Energy => "energy",
             Self::Repulsion => "energy times a length to the sixth",
             Self::Potential => "potential",
+            Self::PerArea => "number per area",
         }
     }
 }
@@ -204,6 +207,12 @@ pub static UNITS: &[Unit] = &[
     unit("j", "J", Dimension::Energy, same),
     unit("j_m6", "J m⁶", Dimension::Repulsion, same),
     unit("v", "V", Dimension::Potential, same),
+    unit(
+        "per_um2",
+        "1/µm²",
+        Dimension::PerArea,
+        quantity::per_m2_from_per_um2,
+    ),
     foreign("ns", "ns", Dimension::Time),
     foreign("min", "min", Dimension::Time),
     foreign("m_per_s2", "m/s²", Dimension::Acceleration),
@@ -313,6 +322,7 @@ mod tests {
             ("r_per_m", 1.0),
             ("a_j", 1.0),
             ("b_j_m6", 1.0),
+            ("n_per_um2", 1e12),
             ("u_v", 1.0),
             ("a_deg", std::f64::consts::PI / 180.0),
             ("a_urad", 1e-6),

@@ -40,7 +40,7 @@ pub const RAMPS: [(&str, Ramp); 3] = worded!(Ramp::ALL);
 /// `pulse.signs`, in canonical order.
 pub const SIGNS: [(&str, Sign); 2] = worded!(Sign::ALL);
 /// `outputs`.
-pub const OUTPUTS: [(&str, Output); 12] = worded!(Output::ALL);
+pub const OUTPUTS: [(&str, Output); 13] = worded!(Output::ALL);
 /// `solver.leave_out`.
 pub const LEAVE_OUT: [(&str, LeftOut); 1] = [("air_bearing", LeftOut::AirBearing)];
 /// `resolution.not_refined`: discretisation parameters of a scene.

@@ -23,19 +23,18 @@
 //! 562; Thornton and Bogy, IEEE Trans. Magn. 39 (2003) 2420. Neglected: overcoats and lubricant as layers of their own,
 //! roughness, retardation (beyond some tens of nanometres).
 
+use super::quadrature::CellPoints;
 use crate::air_bearing::attitude::Attitude;
 use crate::air_bearing::balance::Moments;
 use crate::air_bearing::derivatives::height_by_attitude;
-use crate::air_bearing::faces::{BLOCK, Places, block};
+use crate::air_bearing::faces::{BLOCK, block};
 use crate::air_bearing::film::{CellStates, Element, Film};
 use crate::air_bearing::gap_force::GapForce;
 use crate::air_bearing::gap_load::GapLoad;
 use crate::air_bearing::linearise::Totals;
-use crate::air_bearing::mesh::{Mesh, Place};
 use crate::lanes::{Kernel, total, widest};
 use crate::quantity::VACUUM_PERMITTIVITY_F_PER_M;
 use crate::slider::SliderParameters;
-use crate::slider::surface::Surface;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -88,8 +87,10 @@ impl GapForce for SurfaceForces {
     }
 
     fn over(&self, film: &Film, slider: &SliderParameters) -> Arc<dyn Element> {
-        let surface = Surface::new(slider);
-        Arc::new(Interaction::new(*self, &surface, &film.mesh))
+        Arc::new(Interaction {
+            forces: *self,
+            points: CellPoints::new(slider, &film.mesh),
+        })
     }
 }
 
@@ -97,51 +98,10 @@ impl GapForce for SurfaceForces {
 #[derive(Clone, Debug)]
 struct Interaction {
     forces: SurfaceForces,
-    /// The points; their form includes the recess.
-    places: Places,
-    area: Vec<f64>,
+    points: CellPoints,
 }
 
 impl Interaction {
-    /// Points of the cells of `mesh`.
-    fn new(forces: SurfaceForces, surface: &Surface, mesh: &Mesh) -> Self {
-        let mut places = Places::default();
-        let mut area = Vec::with_capacity(4 * mesh.cells.len());
-        let offset = 0.5 / 3.0_f64.sqrt();
-        let [nx, ny] = mesh.counts();
-        for i in 0..nx {
-            for j in 0..ny {
-                let cell = &mesh.cells[mesh.index(i, j)];
-                let [x, y] = [(0, i), (1, j)].map(|(d, k)| {
-                    let (middle, width) = (mesh.lines[d].centre(k), mesh.lines[d].width(k));
-                    [middle - offset * width, middle + offset * width]
-                });
-                for x in x {
-                    for y in y {
-                        let mut place = Place::new(surface, x, y);
-                        place.form += cell.recess;
-                        places.push(&place);
-                        area.push(0.25 * cell.area);
-                    }
-                }
-            }
-        }
-        // Points without area, far from the disk, fill the last block.
-        while area.len() % BLOCK != 0 {
-            places.push(&Place {
-                form: 1.0,
-                x: 0.0,
-                y: 0.0,
-            });
-            area.push(0.0);
-        }
-        Self {
-            forces,
-            places,
-            area,
-        }
-    }
-
     fn posed<'a>(&'a self, film: &'a Film, cells: &CellStates<'a>) -> Posed<'a> {
         Posed {
             film,
@@ -178,15 +138,15 @@ impl Posed<'_> {
     /// First points of the blocks.
     #[inline(always)]
     fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.interaction.area.len()).step_by(BLOCK)
+        (0..self.interaction.points.area.len()).step_by(BLOCK)
     }
 
     /// Height that the film sees, its slope by the true height, and area of a block of points.
     #[inline(always)]
     fn block(&self, first: usize) -> ([f64; BLOCK], [f64; BLOCK], &[f64; BLOCK]) {
-        let height = self.interaction.places.heights(first, self.attitude);
+        let height = self.interaction.points.places.heights(first, self.attitude);
         let [h, limit_slope] = self.film.limited_block(&height, &[0.0; BLOCK]);
-        (h, limit_slope, block(&self.interaction.area, first))
+        (h, limit_slope, block(&self.interaction.points.area, first))
     }
 }
 
@@ -206,7 +166,7 @@ impl Kernel for Loads<'_> {
             for k in 0..BLOCK {
                 load[k] = area[k] * forces.pressure(h[k]).0;
             }
-            moments.add(&load, &self.0.interaction.places, first);
+            moments.add(&load, &self.0.interaction.points.places, first);
         }
         moments.total()
     }
@@ -220,7 +180,8 @@ impl Kernel for Linearised<'_> {
 
     #[inline(always)]
     fn call(self) -> GapLoad {
-        let Interaction { forces, places, .. } = self.0.interaction;
+        let Interaction { forces, points } = self.0.interaction;
+        let places = &points.places;
         let mut totals = Totals::default();
         for first in self.0.blocks() {
             let (h, limit_slope, area) = self.0.block(first);

@@ -3,6 +3,8 @@
 use super::running::Run;
 use crate::air_bearing::Attitude;
 use crate::head::fields::StepEnds;
+use crate::head::outcome::Place;
+use crate::head::slider_contact::{ContactWatch, Instant};
 
 impl Run<'_> {
     /// Records the state reached `dt_s` after the last: dimple and stops up to the touch, pressure, columns.
@@ -36,10 +38,28 @@ impl Run<'_> {
                 }
             }
         }
-        let psi = &w.y[..n_cells];
+        if let Some(now) = self.instant(attitude) {
+            self.contact.as_mut().expect("made at the start").add(now);
+        }
+        let psi = &self.w.y[..n_cells];
         let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
         self.record(attitude);
+    }
+
+    /// What the asperities bear in the present state, where the scene has their contact.
+    pub(super) fn instant(&self, attitude: &Attitude) -> Option<Instant> {
+        let closest_m = &self.w.scratch.film.closest_m;
+        let state = self.model.film.contact(attitude, closest_m)?;
+        Some(Instant {
+            time_s: self.time_s,
+            clearance_m: self.clearance.value_m,
+            place: Place {
+                x_m: self.clearance.x_m,
+                y_m: self.clearance.y_m,
+            },
+            state,
+        })
     }
 
     pub(super) fn record(&mut self, attitude: &Attitude) {
@@ -68,6 +88,10 @@ impl Run<'_> {
         let [limiters, lift_tab] = &self.stops;
         columns.limiter_force_n.extend(limiters.map(|(_, f)| f));
         columns.lift_tab_force_n.extend(lift_tab.map(|(_, f)| f));
+        let contact = self.contact.as_ref();
+        columns
+            .asperity_force_n
+            .extend(contact.map(ContactWatch::force_n));
     }
 
     /// Keeps the requested pressure fields of the trial step, from the present state up to `until_s`.

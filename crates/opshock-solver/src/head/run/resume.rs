@@ -9,6 +9,7 @@ use super::workspace::{HeadWorkspace, pulse_events};
 use crate::disk::DiskMotion;
 use crate::head::model::{HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
+use crate::head::slider_contact::ContactWatch;
 use crate::head::stage_scratch::Counters;
 use crate::slider::clearance::Clearance;
 
@@ -31,11 +32,14 @@ pub struct HeadState {
     time_s: f64,
     y: Vec<f64>,
     rate: Vec<f64>,
+    /// Smallest heights so far where asperities touched, m.
+    closest_m: Vec<f64>,
     clearance: Clearance,
     smallest: Lowest,
     dimple: DimpleRecord,
     dimple_force_n: f64,
     stops: [Option<(StopRecord, f64)>; 2],
+    contact: Option<ContactWatch>,
     cost: HeadCost,
     counters: Counters,
 }
@@ -43,7 +47,8 @@ pub struct HeadState {
 impl HeadState {
     /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
-        size_of::<Self>() + size_of::<f64>() * (self.y.len() + self.rate.len())
+        size_of::<Self>()
+            + size_of::<f64>() * (self.y.len() + self.rate.len() + self.closest_m.len())
     }
 }
 
@@ -59,6 +64,7 @@ impl<'a> Run<'a> {
         w.y.copy_from_slice(&state.y);
         w.rate.copy_from_slice(&state.rate);
         w.scratch.reset();
+        w.scratch.film.closest_m.copy_from_slice(&state.closest_m);
         w.scratch.counters = state.counters;
         w.stepper.forget();
         pulse_events(load.pulse, &mut w.pulse_events_s);
@@ -74,6 +80,7 @@ impl<'a> Run<'a> {
             dimple: state.dimple,
             dimple_force_n: state.dimple_force_n,
             stops: state.stops,
+            contact: state.contact.clone(),
             columns: None,
             fields: None,
             cost: state.cost,
@@ -86,11 +93,13 @@ impl<'a> Run<'a> {
             time_s: self.time_s,
             y: self.w.y.clone(),
             rate: self.w.rate.clone(),
+            closest_m: self.w.scratch.film.closest_m.clone(),
             clearance: self.clearance,
             smallest: self.smallest,
             dimple: self.dimple,
             dimple_force_n: self.dimple_force_n,
             stops: self.stops,
+            contact: self.contact.clone(),
             cost: self.cost,
             counters: self.w.scratch.counters,
         }

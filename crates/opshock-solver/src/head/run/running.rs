@@ -6,6 +6,7 @@ use crate::disk::DiskMotion;
 use crate::head::fields::FieldRecord;
 use crate::head::model::{Following, HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadColumns, HeadCost, Place, StopRecord};
+use crate::head::slider_contact::ContactWatch;
 use crate::slider::clearance::Clearance;
 
 pub(super) struct Run<'a> {
@@ -22,6 +23,8 @@ pub(super) struct Run<'a> {
     pub(super) dimple_force_n: f64,
     /// Limiters and lift tab: record, and the latest force.
     pub(super) stops: [Option<(StopRecord, f64)>; 2],
+    /// Contact with the disk, where the scene has asperities.
+    pub(super) contact: Option<ContactWatch>,
     pub(super) columns: Option<HeadColumns>,
     pub(super) fields: Option<FieldRecord<'a>>,
     pub(super) cost: HeadCost,
@@ -64,6 +67,7 @@ impl<'a> Run<'a> {
         }
         w.rate.fill(0.0);
         w.scratch.reset();
+        w.scratch.film.closest_m.fill(f64::INFINITY);
         w.stepper.forget();
         pulse_events(load.pulse, &mut w.pulse_events_s);
         let attitude = model.attitude(&w.y[n_cells..], &motion.pose(0.0));
@@ -92,6 +96,7 @@ impl<'a> Run<'a> {
                 let record = StopRecord::default();
                 is_there.then_some((record, 0.0))
             }),
+            contact: None,
             columns: record.then(HeadColumns::default),
             fields: (record && !model.field_times_s.is_empty())
                 .then(|| FieldRecord::new(model, &model.field_times_s)),
@@ -100,6 +105,9 @@ impl<'a> Run<'a> {
         if let Some(fields) = &mut run.fields {
             fields.keep_steady(model, motion, &run.w.y);
         }
+        run.contact = run
+            .instant(&attitude)
+            .map(|first| ContactWatch::new(preload, first));
         run.initial_rate(&attitude);
         run.record(&attitude);
         run

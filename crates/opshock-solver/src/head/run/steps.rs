@@ -186,6 +186,9 @@ impl Run<'_> {
         w.rate.copy_from_slice(w.stepper.rate());
         w.stepper.accept(dt_s);
         self.clearance = step.clearance;
+        model
+            .film
+            .remember(&step.attitude, &mut w.scratch.film.closest_m);
 
         let da = self.load.jump(self.time_s);
         if da != 0.0 {
@@ -250,6 +253,10 @@ impl Run<'_> {
             (None, End::Window | End::Touch) => (Verdict::Survives, None),
         };
         let counters = self.w.scratch.counters;
+        let (film, closest_m) = (&self.model.film, &self.w.scratch.film.closest_m);
+        let slider_contact = self
+            .contact
+            .map(|watch| watch.finish(film.yielded_j(closest_m)));
         let Lowest {
             clearance,
             time_s,
@@ -269,6 +276,7 @@ impl Run<'_> {
             dimple: self.dimple,
             limiters: self.stops[0].map(|(record, _)| record),
             lift_tab: self.stops[1].map(|(record, _)| record),
+            slider_contact,
             columns: self.columns,
             fields: self.fields.map(FieldRecord::finish),
             cost: HeadCost {

@@ -277,8 +277,8 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
             &columns.dimple_force_n,
         ),
     ];
-    // Only of suspensions that have them.
-    let stops = [
+    // Only of drives that have them.
+    let optional = [
         column(
             "limiter_force_n",
             "N",
@@ -291,8 +291,18 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
             "contact force of the lift tab on its stop; 0 while it is free",
             &columns.lift_tab_force_n,
         ),
+        column(
+            "asperity_force_n",
+            "N",
+            "normal force of the disk's asperities on the slider",
+            &columns.asperity_force_n,
+        ),
     ];
-    list.extend(stops.into_iter().filter(|stop| !stop.values.is_empty()));
+    list.extend(
+        optional
+            .into_iter()
+            .filter(|column| !column.values.is_empty()),
+    );
     list
 }
 

@@ -207,6 +207,30 @@ impl Check<'_, '_> {
         }
     }
 
+    /// Asperities are those of rough surfaces.
+    pub(super) fn asperity_contact(&mut self) {
+        const ROUGHNESS: &str = fields::ASPERITY_CONTACT_ROUGHNESS_NM.path();
+        if !self.sound(&[ROUGHNESS]) || self.view.settings.has(ROUGHNESS) {
+            return;
+        }
+        let alone: Vec<&str> = [
+            fields::ASPERITY_CONTACT_ASPERITIES_PER_UM2.path(),
+            fields::ASPERITY_CONTACT_TIP_RADIUS_UM.path(),
+            fields::ASPERITY_CONTACT_MODULUS_GPA.path(),
+            fields::ASPERITY_CONTACT_YIELD_PRESSURE_GPA.path(),
+            fields::ASPERITY_CONTACT_FRICTION.path(),
+        ]
+        .into_iter()
+        .filter(|path| self.view.settings.has(path))
+        .collect();
+        for path in alone {
+            let message = "asperities of surfaces without roughness";
+            let fault = self.fault("E125", &[path], message);
+            fault.allowed = "with asperity_contact.roughness_nm".to_string();
+            fault.hint = "give roughness_nm, or leave the key out".to_string();
+        }
+    }
+
     /// Parts of a ramp's geometry fit together, and its model can be solved.
     pub(super) fn ramp_geometry(&mut self) {
         let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();

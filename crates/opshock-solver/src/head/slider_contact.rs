@@ -1,0 +1,87 @@
+//! Spells of contact between slider and disk, while their asperities bear.
+
+use super::outcome::{Place, SliderContact, SliderSpell};
+use crate::rough_contact::nominal::ContactState;
+
+/// Share of the steady force of the dimple from which the asperities' force is a spell of contact: their heights have no end, so
+/// that some of them bear a little in flight.
+const SPELL_SHARE: f64 = 0.01;
+
+/// An accepted state of a run with contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instant {
+    pub(super) time_s: f64,
+    pub(super) clearance_m: f64,
+    pub(super) place: Place,
+    pub(super) state: ContactState,
+}
+
+/// Contact in progress.
+#[derive(Clone, Debug)]
+pub(super) struct ContactWatch {
+    /// Force from which it is a spell, N.
+    least_n: f64,
+    latest: Instant,
+    record: SliderContact,
+}
+
+impl ContactWatch {
+    /// From the first instant of a run, at a steady force of the dimple.
+    pub(super) fn new(steady_n: f64, first: Instant) -> Self {
+        Self {
+            least_n: SPELL_SHARE * steady_n,
+            latest: first,
+            record: SliderContact::default(),
+        }
+    }
+
+    /// Adds the next accepted state.
+    pub(super) fn add(&mut self, now: Instant) {
+        let before = std::mem::replace(&mut self.latest, now);
+        let dt_s = now.time_s - before.time_s;
+        if dt_s <= 0.0 {
+            return;
+        }
+        let is_on = now.state.force_n >= self.least_n;
+        if is_on && !self.record.goes_on {
+            self.record.spells.push(SliderSpell {
+                on_s: before.time_s,
+                off_s: now.time_s,
+                approach_m_per_s: (before.clearance_m - now.clearance_m) / dt_s,
+                impulse_n_s: 0.0,
+                peak_force_n: 0.0,
+                peak_pressure_pa: 0.0,
+                closest_m: f64::INFINITY,
+                place: now.place,
+                friction_j: 0.0,
+            });
+        }
+        if is_on || self.record.goes_on {
+            let Some(spell) = self.record.spells.last_mut() else {
+                unreachable!("a spell that is on was begun");
+            };
+            spell.off_s = now.time_s;
+            let ends = [&before.state, &now.state];
+            spell.impulse_n_s += 0.5 * dt_s * ends.map(|state| state.force_n).iter().sum::<f64>();
+            spell.friction_j += 0.5 * dt_s * ends.map(|state| state.friction_w).iter().sum::<f64>();
+            if now.state.force_n > spell.peak_force_n {
+                spell.peak_force_n = now.state.force_n;
+                spell.place = now.place;
+            }
+            spell.peak_pressure_pa = spell.peak_pressure_pa.max(now.state.peak_pressure_pa);
+            spell.closest_m = spell.closest_m.min(now.state.closest_m);
+        }
+        self.record.goes_on = is_on;
+    }
+
+    /// Force at the latest instant, N.
+    pub(super) fn force_n(&self) -> f64 {
+        self.latest.state.force_n
+    }
+
+    /// The record, with the work of yielding.
+    pub(super) fn finish(mut self, yielded_j: f64) -> SliderContact {
+        self.record.yielded_j = yielded_j;
+        self.record
+    }
+}

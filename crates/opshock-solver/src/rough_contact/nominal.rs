@@ -1,0 +1,316 @@
+//! Contact of a nominal area: many asperities whose heights have a normal distribution.
+//!
+//! ```text
+//! p(h) = η ∫_h^∞ P(s − h) φ(s/σ)/σ ds                 where the surfaces were never closer
+//! p(h; d) = η ∫_d^∞ P(s − h; ω* = s − d) φ(s/σ)/σ ds   after the smallest distance d <= h
+//! p_n(h; d) = p(h; d) S(p(d))/p(d),   S(p) = p_y tanh(p/p_y)
+//! ```
+//!
+//! P is the law of one asperity ([`super::asperity`]). An asperity of height s was pressed in by s − d at most, so that the
+//! smallest distance of a place is all that it remembers. Without yielding both are Greenwood and Williamson's
+//! 4/3 η E′ √R σ^(3/2) F_(3/2)(h/σ).
+//!
+//! The pressure p_n of the nominal area is p as long as few asperities touch. Where they touch everywhere, slider and disk yield
+//! as wholes, and their pressure stays below p_y: S is within 1 % of p up to p_y/6. That is a bound, not a law of bulk contact.
+//!
+//! Integrals run over τ = (s − d)/σ from τ*, the first asperity that still touches: τ* = u + r(τ*), with u = (h − d)/σ and
+//! the interference r σ that is left without force. Gauss's rule acts on two parts, below and above the limit of
+//! elasticity; each in the root of the distance from its lower end, in which the integrand is smooth.
+//!
+//! | symbol | name here | unit |
+//! |---|---|---|
+//! | σ | `sigma_m`: standard deviation of the sum of both surfaces' heights | m |
+//! | η | `per_m2`: asperities per area | 1/m² |
+//! | R, E′, p_y | those of one asperity | m, Pa, Pa |
+//!
+//! Source: Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300. Neglected: asperities deform independently, also
+//! where so many touch that they would be one body; heights are those of one surface against a smooth one (misalignment of tips).
+
+use super::asperity::AsperityLaw;
+use super::roughness::normal_density;
+
+/// Points of Gauss's rule in each part.
+const POINTS: usize = 32;
+
+/// Heights beyond these many σ from the mean are left out: 1e-16 of all asperities.
+const HIGHEST: f64 = 8.3;
+
+/// Contact of a nominal area.
+#[derive(Clone, Debug)]
+pub struct NominalContact {
+    sigma_m: f64,
+    per_m2: f64,
+    law: AsperityLaw,
+    /// p_y, Pa.
+    most_pa: f64,
+    /// Gauss's points and weights on [0, 1].
+    rule: [(f64, f64); POINTS],
+}
+
+/// What a nominal area bears.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Borne {
+    /// Pressure, Pa.
+    pub pressure_pa: f64,
+    /// Its derivative by the distance, Pa/m.
+    pub slope_pa_per_m: f64,
+    /// Elastic energy, J/m2.
+    pub elastic_j_per_m2: f64,
+}
+
+/// What the asperities of all cells bear at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactState {
+    /// Normal force, N.
+    pub force_n: f64,
+    /// Largest pressure of a nominal area, Pa.
+    pub peak_pressure_pa: f64,
+    /// Smallest distance of the mean planes, m; infinite where nothing touches.
+    pub closest_m: f64,
+    /// Power of friction, W.
+    pub friction_w: f64,
+}
+
+impl NominalContact {
+    /// With the roughness `sigma_m` > 0 and `per_m2` asperities of `law`, which yield at `most_pa`.
+    pub fn new(sigma_m: f64, per_m2: f64, law: AsperityLaw, most_pa: f64) -> Self {
+        Self {
+            sigma_m,
+            per_m2,
+            law,
+            most_pa,
+            rule: gauss_rule(),
+        }
+    }
+
+    /// Distance from which nothing touches, m.
+    pub fn reach_m(&self) -> f64 {
+        HIGHEST * self.sigma_m
+    }
+
+    /// Pressure, slope and energy at the distance `h_m` of the mean planes, `closest_m` the smallest so far.
+    pub fn at(&self, h_m: f64, closest_m: f64) -> Borne {
+        let closest_m = closest_m.min(h_m);
+        let free = self.unbounded(h_m, closest_m);
+        let is_loading = closest_m == h_m;
+        let deepest_pa = match is_loading {
+            true => free.pressure_pa,
+            false => self.unbounded(closest_m, closest_m).pressure_pa,
+        };
+        if deepest_pa <= 0.0 {
+            return Borne::default();
+        }
+        let bound = (deepest_pa / self.most_pa).tanh();
+        let share = bound * self.most_pa / deepest_pa;
+        let slope_share = match is_loading {
+            true => 1.0 - bound * bound,
+            false => share,
+        };
+        Borne {
+            pressure_pa: share * free.pressure_pa,
+            slope_pa_per_m: slope_share * free.slope_pa_per_m,
+            elastic_j_per_m2: share * free.elastic_j_per_m2,
+        }
+    }
+
+    /// p, its slope and its energy.
+    fn unbounded(&self, h_m: f64, closest_m: f64) -> Borne {
+        let (sigma, law) = (self.sigma_m, &self.law);
+        let (d, u) = (closest_m / sigma, (h_m - closest_m) / sigma);
+        let limit = law.limit_m / sigma;
+        let is_loading = u == 0.0;
+        // The part of the asperities that matters.
+        let highest = HIGHEST - d;
+        let lowest = (-HIGHEST - d).max(0.0);
+        let first = self.first_touching(u).max(lowest);
+        let mut borne = Borne::default();
+        let mut add = |tau: f64, weight: f64| {
+            let deepest_m = sigma * tau;
+            let after = law.unloading(deepest_m);
+            let share = ((tau - u) * sigma - after.left_m) / (deepest_m - after.left_m);
+            if share <= 0.0 {
+                return;
+            }
+            let weight = weight * normal_density(d + tau);
+            let root = share.sqrt();
+            let force = weight * after.deepest_n * share * root;
+            borne.pressure_pa += force;
+            borne.elastic_j_per_m2 += 0.4 * force * share * (deepest_m - after.left_m);
+            borne.slope_pa_per_m -= if is_loading {
+                force * (d + tau) / sigma
+            } else {
+                1.5 * weight * after.deepest_n * root / (deepest_m - after.left_m)
+            };
+        };
+        let middle = limit.clamp(first, highest.max(first));
+        for (begin, end) in [(first, middle), (middle, highest)] {
+            if begin < end {
+                // In q with τ = begin + (end − begin) q², dτ = 2 (end − begin) q dq.
+                let length = end - begin;
+                for (q, weight) in self.rule {
+                    add(q.mul_add(q * length, begin), 2.0 * length * q * weight);
+                }
+            }
+        }
+        borne.pressure_pa *= self.per_m2;
+        borne.slope_pa_per_m *= self.per_m2;
+        borne.elastic_j_per_m2 *= self.per_m2;
+        borne
+    }
+
+    /// Work of bringing the surfaces to `h_m` for the first time, J/m2.
+    pub fn work_j_per_m2(&self, h_m: f64) -> f64 {
+        // Pieces of a few σ, of which the first one ends where nothing touches.
+        let length_m = (self.reach_m() - h_m).max(0.0);
+        let pieces = (length_m / (2.0 * self.sigma_m)).ceil().max(1.0);
+        let piece_m = length_m / pieces;
+        let pressures = (0..pieces as usize).flat_map(|piece| {
+            self.rule.map(|(q, weight)| {
+                let at_m = h_m + piece_m * (piece as f64 + q);
+                weight * piece_m * self.at(at_m, at_m).pressure_pa
+            })
+        });
+        pressures.sum()
+    }
+
+    /// τ*: the lowest asperity that touches after the surfaces were drawn apart by `u` σ.
+    fn first_touching(&self, u: f64) -> f64 {
+        let limit = self.law.limit_m / self.sigma_m;
+        if u <= limit {
+            return u;
+        }
+        // What an asperity recovers, τ − r(τ), rises with τ; in units of the limit (3 t/2 − 1/2)/√t = u/limit with
+        // t = τ/limit, of which √t is the root of a parabola.
+        let recovered = u / limit;
+        let root = (recovered + recovered.mul_add(recovered, 3.0).sqrt()) / 3.0;
+        root * root * limit
+    }
+}
+
+/// Points and weights of Gauss's rule on [0, 1]: the roots of Legendre's polynomial by Newton's method.
+fn gauss_rule() -> [(f64, f64); POINTS] {
+    std::array::from_fn(|k| {
+        let n = POINTS as f64;
+        let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (n + 0.5)).cos();
+        let mut slope = 0.0;
+        for _ in 0..8 {
+            let (mut before, mut value) = (1.0, x);
+            for order in 2..=POINTS {
+                let order = order as f64;
+                let next = ((2.0 * order - 1.0) * x * value - (order - 1.0) * before) / order;
+                (before, value) = (value, next);
+            }
+            slope = n * (x * value - before) / (x * x - 1.0);
+            x -= value / slope;
+        }
+        (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIGMA_M: f64 = 0.5e-9;
+    const RADIUS_M: f64 = 2e-6;
+    const MODULUS_PA: f64 = 1e11;
+    const PER_M2: f64 = 5e13;
+
+    fn contact(yield_pa: f64) -> NominalContact {
+        let law = AsperityLaw::new(RADIUS_M, MODULUS_PA, yield_pa);
+        NominalContact::new(SIGMA_M, PER_M2, law, yield_pa)
+    }
+
+    /// F_(3/2)(x) by 30-digit arithmetic.
+    const GREENWOOD_WILLIAMSON: [(f64, f64); 6] = [
+        (-4.0, 8.189_959_426_789_36),
+        (-1.0, 1.404_597_470_473_95),
+        (0.0, 0.430_019_993_662_26),
+        (1.0, 0.075_668_177_390_975_1),
+        (2.5, 0.001_469_938_239_537_99),
+        (4.0, 4.439_155_958_539_25e-6),
+    ];
+
+    #[test]
+    fn elastic_pressure_is_greenwood_and_williamsons() {
+        let contact = contact(1e15);
+        let unit = 4.0 / 3.0 * PER_M2 * MODULUS_PA * RADIUS_M.sqrt() * SIGMA_M.powf(1.5);
+        for (x, integral) in GREENWOOD_WILLIAMSON {
+            let borne = contact.at(x * SIGMA_M, f64::INFINITY);
+            let error = borne.pressure_pa / (unit * integral) - 1.0;
+            assert!(error.abs() < 1e-8, "{x}: {error:e}");
+            // Nothing yields, so that nothing is remembered.
+            let after = contact.at(x * SIGMA_M, (x - 1.5) * SIGMA_M);
+            let error = after.pressure_pa / borne.pressure_pa - 1.0;
+            assert!(error.abs() < 1e-8, "{x}, after: {error:e}");
+        }
+    }
+
+    #[test]
+    fn slopes_and_energies_belong_to_the_pressure() {
+        for yield_pa in [1e9, 4e9, 1e15] {
+            let contact = contact(yield_pa);
+            for closest in [f64::INFINITY, -2.0, 0.5] {
+                for x in [-1.0, 0.7, 1.6, 3.0] {
+                    let at = |x: f64| contact.at(x * SIGMA_M, closest * SIGMA_M);
+                    let step = 1e-4;
+                    let (below, above, here) = (at(x - step), at(x + step), at(x));
+                    let scale = at(x - 0.5).pressure_pa.max(1.0);
+                    let slope = (above.pressure_pa - below.pressure_pa) / (2.0 * step * SIGMA_M);
+                    let error = (slope - here.slope_pa_per_m) * SIGMA_M / scale;
+                    assert!(error.abs() < 1e-6, "{yield_pa} {closest} {x}: {error:e}");
+                    if x > closest {
+                        let fall = below.elastic_j_per_m2 - above.elastic_j_per_m2;
+                        let error = fall / (2.0 * step * SIGMA_M) - here.pressure_pa;
+                        assert!(
+                            error.abs() < 1e-6 * scale,
+                            "{yield_pa} {closest} {x}: {error:e}"
+                        );
+                    }
+                }
+            }
+            let step = 1e-4;
+            for x in [-1.0, 0.7, 3.0] {
+                let [below, above] =
+                    [x - step, x + step].map(|x| contact.work_j_per_m2(x * SIGMA_M));
+                let pressure = contact.at(x * SIGMA_M, f64::INFINITY).pressure_pa;
+                let error = (below - above) / (2.0 * step * SIGMA_M) / pressure - 1.0;
+                assert!(error.abs() < 1e-6, "{yield_pa} {x}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn surfaces_give_back_less_than_they_took_where_they_yield() {
+        for (yield_pa, most) in [(1e9, 0.8), (4e9, 1.0 - 1e-4), (1e15, 1.0 + 1e-9)] {
+            let contact = contact(yield_pa);
+            let closest_m = -SIGMA_M;
+            let returned = contact.at(closest_m, closest_m).elastic_j_per_m2;
+            let share = returned / contact.work_j_per_m2(closest_m);
+            assert!((0.1..=most).contains(&share), "{yield_pa}: {share}");
+            // Pressed again to where they were, they bear what they bore.
+            let [first, again] = [f64::INFINITY, closest_m]
+                .map(|closest_m| contact.at(-SIGMA_M, closest_m).pressure_pa);
+            assert!((first / again - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn pressure_stays_below_that_of_yielding() {
+        let contact = contact(4e9);
+        let deep = contact.at(-400.0 * SIGMA_M, f64::INFINITY);
+        assert!((deep.pressure_pa / 4e9 - 1.0).abs() < 1e-6, "{deep:?}");
+        let again = contact.at(-390.0 * SIGMA_M, -400.0 * SIGMA_M);
+        assert!(again.pressure_pa < deep.pressure_pa && again.slope_pa_per_m < 0.0);
+    }
+
+    #[test]
+    fn deep_overlap_bears_what_the_mean_asperity_bears() {
+        // At −40 σ all asperities are pressed in by 40 ± 1 σ; the law's curvature adds (3/8)/40² of it.
+        let contact = contact(1e15);
+        let borne = contact.at(-40.0 * SIGMA_M, f64::INFINITY);
+        let law = AsperityLaw::new(RADIUS_M, MODULUS_PA, 1e15);
+        let mean = PER_M2 * law.force(40.0 * SIGMA_M) * (1.0 + 0.375 / 1600.0);
+        assert!((borne.pressure_pa / mean - 1.0).abs() < 1e-6);
+    }
+}

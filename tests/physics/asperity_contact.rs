@@ -1,0 +1,319 @@
+//! Contact of asperities: closed forms on plates, derivatives, bounces, and a head that touches and flies again.
+
+use nalgebra::Vector3;
+use opshock_solver::air_bearing::gap_forces::AsperityContact;
+use opshock_solver::air_bearing::{Attitude, Film, FlowModel, GapLoad};
+use opshock_solver::quantity::rad_per_s_from_rpm;
+use opshock_solver::rough_contact::nominal::NominalContact;
+use opshock_solver::scene::plan::{Mode, Output, Plan};
+use opshock_solver::simulation::{Model, Outcome, Request, Verdict, Workspace, simulate};
+use opshock_solver::slider::{SliderParameters, SurfaceParameters};
+use opshock_tests::heads::{default_slider, standard_gas};
+use opshock_tests::scenes;
+use opshock_tests::sheet::at_most;
+
+/// Its sheet in the verification manual.
+const SHEET: &str = "asperity-contact";
+
+/// Surfaces that hardly yield.
+const ROUGH: AsperityContact = AsperityContact {
+    roughness_m: 0.5e-9,
+    asperities_per_m2: 1e14,
+    tip_radius_m: 1e-6,
+    modulus_pa: 1e11,
+    yield_pressure_pa: 12e9,
+    friction: 0.3,
+};
+
+/// A plane slider at a skew.
+fn plate(skew_deg: f64) -> SliderParameters {
+    SliderParameters {
+        surface: SurfaceParameters::default(),
+        skew_rad: skew_deg.to_radians(),
+        ..default_slider()
+    }
+}
+
+fn film(slider: &SliderParameters, contact: AsperityContact) -> Film {
+    let lines =
+        |extent_m: f64| -> Vec<f64> { (0..=12).map(|k| extent_m * f64::from(k) / 12.0).collect() };
+    let (x, y) = (lines(slider.length_m), lines(slider.width_m));
+    let spin = rad_per_s_from_rpm(5400.0);
+    let film = Film::on_grid(
+        slider,
+        &standard_gas(),
+        FlowModel::FukuiKaneko,
+        spin,
+        0.3e-9,
+        [&x, &y],
+    );
+    film.unwrap().with_gap_force(slider, &contact)
+}
+
+fn level(height_m: f64) -> Attitude {
+    Attitude {
+        centre_height_m: height_m,
+        ..Attitude::default()
+    }
+}
+
+fn contact_load(film: &Film, attitude: &Attitude) -> GapLoad {
+    let mut psi = vec![0.0; film.n_cells()];
+    film.ambient_psi(attitude, &mut psi);
+    film.gap_loads(&psi, attitude, &mut film.scratch())[0].1
+}
+
+/// F_(3/2)(x) of Greenwood and Williamson, by 30-digit arithmetic.
+const INTEGRALS: [(f64, f64); 3] = [
+    (0.0, 0.430_019_993_662_26),
+    (1.0, 0.075_668_177_390_975_1),
+    (2.5, 0.001_469_938_239_537_99),
+];
+
+#[test]
+fn plates_bear_greenwood_and_williamsons_load_with_coulombs_friction() {
+    // Nothing yields, and no pressure comes near the bound.
+    let elastic = AsperityContact {
+        yield_pressure_pa: 1e15,
+        ..ROUGH
+    };
+    let (mut force_error, mut moment_error) = (0.0_f64, 0.0_f64);
+    for skew_deg in [0.0, 12.0, -7.0] {
+        let slider = plate(skew_deg);
+        let film = film(&slider, elastic);
+        let area = slider.length_m * slider.width_m;
+        let unit = 4.0 / 3.0 * 1e14 * 1e11 * 1e-6_f64.sqrt() * 0.5e-9_f64.powf(1.5);
+        for (x, integral) in INTEGRALS {
+            let load = contact_load(&film, &level(x * 0.5e-9));
+            let force = area * unit * integral;
+            force_error = force_error.max((load.force[0] / force - 1.0).abs());
+            // Friction μ F along the disk's motion, which the skew turns; its lever is the slider's height.
+            let [vx, vy] = film.disk_velocity_m_per_s();
+            let couple = 0.3 * force * slider.height_m / vx.hypot(vy);
+            let expected = [-couple * vx, couple * vy];
+            for (moment, expected) in load.force[1..].iter().zip(expected) {
+                moment_error =
+                    moment_error.max((moment - expected).abs() / (couple * vx.hypot(vy)));
+            }
+            let along = load.in_plane_n.expect("friction is in the plane");
+            moment_error = moment_error.max((along[0].hypot(along[1]) / (0.3 * force) - 1.0).abs());
+        }
+    }
+    at_most(SHEET, "normal force, relative", force_error, 1e-8);
+    at_most(SHEET, "friction, relative", moment_error, 1e-8);
+}
+
+#[test]
+fn derivatives_are_those_of_the_loads() {
+    let slider = plate(9.0);
+    let film = film(&slider, ROUGH);
+    for (pitch_rad, roll_rad) in [(0.0, 0.0), (1e-6, 0.0), (2e-6, -1.5e-6)] {
+        let at = Attitude {
+            centre_height_m: 0.8e-9,
+            pitch_rad,
+            roll_rad,
+        };
+        let load = contact_load(&film, &at);
+        let steps = [1e-13, 2e-10, 2e-10];
+        for q in 0..3 {
+            let moved = |by: f64| {
+                let mut moved = at;
+                *[
+                    &mut moved.centre_height_m,
+                    &mut moved.pitch_rad,
+                    &mut moved.roll_rad,
+                ][q] += by;
+                Vector3::from(contact_load(&film, &moved).force)
+            };
+            let slopes = (moved(steps[q]) - moved(-steps[q])) / (2.0 * steps[q]);
+            for f in 0..3 {
+                // Relative to the load's own over the step's reach: moments of a level plate cancel.
+                let lengths = [1.0, 0.5e-3, 0.5e-3];
+                let size = load.by_attitude[0][0].abs() * lengths[f] * lengths[q];
+                let error = (load.by_attitude[f][q] - slopes[f]).abs() / size;
+                assert!(error < 1e-5, "force {f} by {q}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_drive_without_asperities_has_every_bit_it_had() {
+    let slider = default_slider();
+    let attitude = level(2e-9);
+    let plain = film(&slider, AsperityContact::default());
+    let far = film(&slider, ROUGH);
+    let mut psi = vec![0.0; plain.n_cells()];
+    plain.ambient_psi(&attitude, &mut psi);
+    assert!(
+        plain
+            .gap_loads(&psi, &attitude, &mut plain.scratch())
+            .is_empty()
+    );
+    // Rough surfaces that fly 20 σ apart have the film of smooth ones.
+    let attitude = level(10e-9);
+    plain.ambient_psi(&attitude, &mut psi);
+    let [smooth, rough] =
+        [&plain, &far].map(|film| film.force(&psi, &attitude, &mut film.scratch()));
+    assert_eq!(smooth.map(f64::to_bits), rough.map(f64::to_bits));
+}
+
+/// A mass that falls onto a rough area of 1 mm2 again and again.
+struct Bounces<'a> {
+    contact: &'a NominalContact,
+    mass_kg: f64,
+    weight_n: f64,
+    area_m2: f64,
+    /// Height, velocity, smallest height so far.
+    state: [f64; 3],
+}
+
+impl Bounces<'_> {
+    /// One spell of contact by Runge and Kutta's rule; true until it flies again.
+    fn step(&mut self, dt_s: f64) -> bool {
+        let [h, v, closest] = self.state;
+        let acceleration = |h: f64| {
+            (self.area_m2 * self.contact.at(h, closest).pressure_pa - self.weight_n) / self.mass_kg
+        };
+        let rate = |[h, v]: [f64; 2]| [v, acceleration(h)];
+        let moved = |k: [f64; 2], share: f64| [h + share * dt_s * k[0], v + share * dt_s * k[1]];
+        let k1 = rate([h, v]);
+        let k2 = rate(moved(k1, 0.5));
+        let k3 = rate(moved(k2, 0.5));
+        let k4 = rate(moved(k3, 1.0));
+        let sum = |q: usize| (k1[q] + 2.0 * k2[q] + 2.0 * k3[q] + k4[q]) / 6.0;
+        let (h, v) = (h + dt_s * sum(0), v + dt_s * sum(1));
+        self.state = [h, v, closest.min(h)];
+        v <= 0.0 || h < self.contact.reach_m()
+    }
+
+    /// Motion, height and what the contact keeps and has kept, J.
+    fn energy_j(&self) -> f64 {
+        let [h, v, closest] = self.state;
+        let contact = self.contact;
+        let of_area = match closest < contact.reach_m() {
+            true => {
+                contact.at(h, closest).elastic_j_per_m2 + contact.work_j_per_m2(closest)
+                    - contact.at(closest, closest).elastic_j_per_m2
+            }
+            false => 0.0,
+        };
+        0.5 * self.mass_kg * v * v + self.weight_n * h + self.area_m2 * of_area
+    }
+}
+
+#[test]
+fn energy_closes_through_a_hundred_bounces() {
+    let soft = AsperityContact {
+        yield_pressure_pa: 1e9,
+        tip_radius_m: 20e-9,
+        ..ROUGH
+    };
+    let elastic = AsperityContact {
+        yield_pressure_pa: 1e15,
+        ..ROUGH
+    };
+    for (contact, yields) in [(elastic, false), (soft, true)] {
+        let contact = contact.nominal();
+        let reach_m = contact.reach_m();
+        let mut bounces = Bounces {
+            contact: &contact,
+            mass_kg: 1.6e-6,
+            weight_n: 2.5e-4,
+            area_m2: 1e-8,
+            state: [reach_m, -5e-3, f64::INFINITY],
+        };
+        let began_j = bounces.energy_j();
+        let scale_j = 0.5 * 1.6e-6 * 25e-6;
+        let mut worst = 0.0_f64;
+        let mut first = None;
+        for _ in 0..100 {
+            while bounces.step(5e-10) {}
+            worst = worst.max((bounces.energy_j() - began_j).abs() / scale_j);
+            let [h, v, closest] = bounces.state;
+            let left = 0.5 * 1.6e-6 * v * v + 2.5e-4 * (h - reach_m);
+            first.get_or_insert(left / scale_j);
+            // The flight up and down again, in closed form.
+            let fall = (v * v + 2.0 * 2.5e-4 / 1.6e-6 * (h - reach_m)).sqrt();
+            bounces.state = [reach_m, -fall, closest];
+        }
+        at_most(
+            SHEET,
+            "energy not accounted for, over the kinetic energy",
+            worst,
+            1e-9,
+        );
+        let returned = first.expect("bounced");
+        match yields {
+            false => assert!((returned - 1.0).abs() < 1e-9, "{returned}"),
+            true => assert!(returned < 0.9, "{returned}"),
+        }
+    }
+}
+
+/// A shock of Fig. 13's drive without ramp, with rough surfaces.
+fn shocked(outputs: &[Output], amplitude_g: f64, settings: &[(&str, &str)]) -> Outcome {
+    let rough = ("asperity_contact.roughness_nm", "0.5");
+    let coarse = ("resolution.preset", "\"coarse\"");
+    let settings: Vec<(&str, &str)> = [rough, coarse]
+        .into_iter()
+        .chain(settings.iter().copied())
+        .collect();
+    let scene = scenes::scene("fig13", "none", 2.0, &settings);
+    let model = Model::assemble(&scene, &Plan::new(outputs, Mode::Auto), None).expect("a scene");
+    let request = Request {
+        amplitude_m_per_s2: 9.80665 * amplitude_g,
+        record: false,
+    };
+    simulate(&model, &request, &mut Workspace::default())
+}
+
+#[test]
+fn what_comes_after_touch_changes_nothing_before_it() {
+    let [stops, goes_on] = [
+        vec![Output::CriticalShock],
+        vec![Output::CriticalShock, Output::SliderContact],
+    ]
+    .map(|outputs| shocked(&outputs, 700.0, &[]));
+    assert!(matches!(stops.verdict, Some(Verdict::Fails { .. })));
+    assert_eq!(stops.verdict, goes_on.verdict);
+    assert_eq!(stops.min_clearance_m, goes_on.min_clearance_m);
+    assert_eq!(stops.dimple, goes_on.dimple);
+    assert!(goes_on.cost.steps > 10 * stops.cost.steps);
+}
+
+/// The first contact after touch, before a cascade of bounces makes small differences large.
+#[test]
+fn first_contact_converges_with_the_tolerance_and_needs_no_minimum_film_height() {
+    let first = |settings: &[(&str, &str)]| {
+        let outcome = shocked(&[Output::SliderContact], 700.0, settings);
+        let contact = outcome.slider_contact.expect("rough surfaces");
+        assert!(contact.spells.len() > 10 && !contact.goes_on, "{contact:?}");
+        contact.spells[0].impulse_n_s
+    };
+    let fine = first(&[("resolution.head_tolerance", "2.5e-4")]);
+    let coarse = (first(&[]) / fine - 1.0).abs();
+    let finer = (first(&[("resolution.head_tolerance", "1e-3")]) / fine - 1.0).abs();
+    at_most(
+        SHEET,
+        "impulse at the preset's tolerance, relative",
+        coarse,
+        0.02,
+    );
+    at_most(
+        SHEET,
+        "impulse at a tolerance of 1e-3, relative",
+        finer,
+        2e-3,
+    );
+    let halved = first(&[
+        ("resolution.head_tolerance", "2.5e-4"),
+        ("resolution.min_film_height_nm", "0.15"),
+    ]);
+    at_most(
+        SHEET,
+        "half the minimum film height, relative",
+        (halved / fine - 1.0).abs(),
+        2e-3,
+    );
+}
