@@ -209,5 +209,5 @@ fn commands_of_all_pages_run() {
             println!("{name}: the commands of {own} blocks run");
         }
     }
-    assert_eq!(n_blocks, 55);
+    assert_eq!(n_blocks, 56);
 }
