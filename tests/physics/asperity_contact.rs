@@ -63,7 +63,7 @@ fn contact_load(film: &Film, attitude: &Attitude) -> GapLoad {
     film.gap_loads(&psi, attitude, &mut film.scratch())[0].1
 }
 
-/// F_(3/2)(x) of Greenwood and Williamson, by 30-digit arithmetic.
+/// F_(3/2)(x) of Greenwood and Williamson, by 35-digit arithmetic.
 const INTEGRALS: [(f64, f64); 3] = [
     (0.0, 0.430_019_993_662_26),
     (1.0, 0.075_668_177_390_975_1),

@@ -59,7 +59,7 @@ def test_what_comes_after_the_touch_of_rough_surfaces(study: opshock.Study) -> N
     assert first.on_s < first.off_s and abs(first.on_s - run.t_fail_s) < 0.3e-3
     assert all(spell.off_s <= later.on_s for spell, later in zip(contact.spells, contact.spells[1:], strict=False))
     for spell in contact.spells:
-        assert 0 < spell.peak_pressure_pa < 12.0001e9 and spell.peak_force_n > 0 and spell.impulse_n_s > 0
+        assert 0 < spell.peak_pressure_pa <= 12e9 and spell.peak_force_n > 0 and spell.impulse_n_s > 0
         # Friction: 0.3 of the impulse, at the disk's speed under the slider.
         assert 2 < spell.friction_j / (0.3 * spell.impulse_n_s) < 30
         assert 0 <= spell.place.x_m <= 0.85e-3 and spell.closest_m < 5e-9

@@ -158,7 +158,7 @@ class SliderSpell:
     off_s: float
     """End, s."""
     approach_m_per_s: float
-    """Speed at which the clearance fell as it began, m/s."""
+    """Speed at which the clearance fell in the step that began it, m/s; negative where it rose again."""
     impulse_n_s: float
     """Impulse of the asperities on the slider, N s."""
     peak_force_n: float
@@ -182,7 +182,7 @@ class SliderContact:
     end: str
     """``flying`` or ``in_contact``."""
     yielded_j: float
-    """Work that yielded asperities do not give back, J."""
+    """Work that the asperities do not give back, J."""
 
 
 @dataclass(frozen=True)

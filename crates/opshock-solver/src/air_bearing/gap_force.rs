@@ -36,9 +36,9 @@ pub trait GapForce: Debug + Send + Sync {
         self.clone()
     }
 
-    /// Roughness of the surfaces whose mean gap the film sees, m; 0: smooth ones.
-    fn roughness_m(&self) -> f64 {
-        0.0
+    /// Roughness of the surfaces whose mean gap the film sees, m, 0 for smooth ones; `None` for a force that has no say in it.
+    fn roughness_m(&self) -> Option<f64> {
+        None
     }
 
     /// The force over the cells of `film`, a film under `slider`.
@@ -54,9 +54,9 @@ impl Film {
         if force.is_active() {
             let element = force.over(&self, slider);
             self.gap_forces.push((force.key(), element));
-            if force.roughness_m() > 0.0 {
-                self.height_limit = self.height_limit.of_rough(force.roughness_m());
-            }
+        }
+        if let Some(roughness_m) = force.roughness_m() {
+            self.height_limit = self.height_limit.of_rough(roughness_m);
         }
         self
     }

@@ -17,7 +17,7 @@ use crate::rough_contact::roughness::{FAR, mean_gap};
 /// h0 between rough surfaces over the minimum film height: their mean gap at h = −σ is 0.083 σ.
 const ROUGH_SHARE: f64 = 0.1;
 
-/// The minimum height h0 of a film, and the roughness of the surfaces (0: smooth), m.
+/// The minimum height h0 of a film between smooth surfaces, and the roughness of its surfaces (0: smooth), m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HeightLimit {
     h0: f64,
@@ -32,13 +32,15 @@ impl HeightLimit {
 
     /// The same film between surfaces of the roughness `sigma`, m.
     pub(super) fn of_rough(self, sigma: f64) -> Self {
-        let h0 = ROUGH_SHARE * self.h0;
-        Self { h0, sigma }
+        Self { sigma, ..self }
     }
 
-    /// Height below which the film sees another than there is, m, for smooth surfaces over two.
+    /// Height over the disk from which steps and tolerances are measured, m: h0, or the roughness.
     pub(super) fn scale_m(self) -> f64 {
-        self.h0.max(self.sigma)
+        match self.sigma > 0.0 {
+            true => self.sigma.max(ROUGH_SHARE * self.h0),
+            false => self.h0,
+        }
     }
 }
 
@@ -49,7 +51,7 @@ impl HeightLimit {
         let h0 = self.h0;
         if self.sigma > 0.0 {
             let (gap, by_height) = mean_gap(h, self.sigma);
-            let (limited, slope) = Self::new(h0).apply(gap);
+            let (limited, slope) = Self::new(ROUGH_SHARE * h0).apply(gap);
             return (limited, slope * by_height);
         }
         if h >= 2.0 * h0 {
@@ -66,7 +68,7 @@ impl HeightLimit {
 pub fn sees_more(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool {
     if roughness_m > 0.0 {
         let limit = HeightLimit::new(min_height_m).of_rough(roughness_m);
-        return mean_gap(clearance_m, roughness_m).0 < 2.0 * limit.h0;
+        return mean_gap(clearance_m, limit.sigma).0 < 2.0 * ROUGH_SHARE * limit.h0;
     }
     clearance_m < 2.0 * min_height_m
 }

@@ -123,7 +123,7 @@ pub struct SliderSpell {
     pub on_s: f64,
     /// End, s; that of the run for a spell that goes on.
     pub off_s: f64,
-    /// Speed at which the smallest clearance fell in the step that began it, m/s.
+    /// Speed at which the smallest clearance fell in the step that began it, m/s, on average: negative where it rose again.
     pub approach_m_per_s: f64,
     /// Impulse of the asperities on the slider, N s.
     pub impulse_n_s: f64,

@@ -7,6 +7,9 @@ use crate::rough_contact::nominal::ContactState;
 /// that some of them bear a little in flight.
 const SPELL_SHARE: f64 = 0.01;
 
+/// Share of that force below which a spell ends, so that a force near it makes one spell and not many.
+const LEAVE_SHARE: f64 = 0.5;
+
 /// An accepted state of a run with contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instant {
@@ -42,7 +45,11 @@ impl ContactWatch {
         if dt_s <= 0.0 {
             return;
         }
-        let is_on = now.state.force_n >= self.least_n;
+        let least_n = match self.record.goes_on {
+            true => LEAVE_SHARE * self.least_n,
+            false => self.least_n,
+        };
+        let is_on = now.state.force_n >= least_n;
         if is_on && !self.record.goes_on {
             self.record.spells.push(SliderSpell {
                 on_s: before.time_s,

@@ -107,7 +107,7 @@ impl NominalContact {
             false => share,
         };
         Borne {
-            pressure_pa: share * free.pressure_pa,
+            pressure_pa: (share * free.pressure_pa).min(self.most_pa),
             slope_pa_per_m: slope_share * free.slope_pa_per_m,
             elastic_j_per_m2: share * free.elastic_j_per_m2,
         }
@@ -221,7 +221,7 @@ mod tests {
         NominalContact::new(SIGMA_M, PER_M2, law, yield_pa)
     }
 
-    /// F_(3/2)(x) by 30-digit arithmetic.
+    /// F_(3/2)(x) by 35-digit arithmetic.
     const GREENWOOD_WILLIAMSON: [(f64, f64); 6] = [
         (-4.0, 8.189_959_426_789_36),
         (-1.0, 1.404_597_470_473_95),

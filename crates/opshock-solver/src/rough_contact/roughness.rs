@@ -7,8 +7,8 @@
 //! h is the distance of the mean planes, s the sum of both roughnesses, Gaussian with the standard deviation σ. Where
 //! the planes overlap, the valleys are left: h_T falls as σ³/h² φ(h/σ) for h → −∞ and never reaches 0.
 //!
-//! Source: Patir and Cheng, J. Lubrication Technology 100 (1978) 12. Pressure flow factors are taken as 1: they differ
-//! from it by less than 10 % for h > 3 σ of an isotropic surface (the same, fig. 3).
+//! Source: Patir and Cheng, J. Lubrication Technology 100 (1978) 12. Pressure and shear flow factors are
+//! taken as 1; their fit for isotropic pressure flow, 1 − 0.9 exp(−0.56 h/σ), is 0.83 at 3 σ and 0.49 at σ.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -55,7 +55,7 @@ fn overlap(y: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// h_T/σ to 16 digits, by 30-digit arithmetic.
+    /// h_T/σ to 16 digits, by 40-digit arithmetic.
     const EXACT: [(f64, f64); 7] = [
         (-6.0, 1.563_569_795_970_966_4e-10),
         (-4.0, 7.145_258_432_405_667e-6),

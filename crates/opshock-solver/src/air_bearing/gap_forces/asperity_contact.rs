@@ -17,8 +17,9 @@
 //!
 //! The integral uses Gauss's rule of two by two points per cell, at the true height.
 //!
-//! Neglected: elastic deformation of slider and disk as wholes, the lubricant, adhesion of tips (of
-//! flat areas: `head.surface_forces`), the disk's motion under the contact force.
+//! Neglected: elastic deformation of slider and disk as wholes, the lubricant, flow factors of the film, that friction has half the lever
+//! about a slider whose dimple is open, adhesion,
+//! the disk's motion under the contact force.
 
 use super::quadrature::CellPoints;
 use crate::air_bearing::attitude::Attitude;
@@ -86,8 +87,8 @@ impl GapForce for AsperityContact {
         self.roughness_m > 0.0
     }
 
-    fn roughness_m(&self) -> f64 {
-        self.roughness_m
+    fn roughness_m(&self) -> Option<f64> {
+        Some(self.roughness_m)
     }
 
     fn over(&self, film: &Film, slider: &SliderParameters) -> Arc<dyn Element> {

@@ -105,6 +105,8 @@ impl<'a> Run<'a> {
         if let Some(fields) = &mut run.fields {
             fields.keep_steady(model, motion, &run.w.y);
         }
+        let closest_m = &mut run.w.scratch.film.closest_m;
+        model.film.remember(&attitude, closest_m);
         run.contact = run
             .instant(&attitude)
             .map(|first| ContactWatch::new(preload, first));

@@ -207,27 +207,44 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Asperities are those of rough surfaces.
+    /// Asperities are those of rough surfaces, between which no other force is known.
     pub(super) fn asperity_contact(&mut self) {
         const ROUGHNESS: &str = fields::ASPERITY_CONTACT_ROUGHNESS_NM.path();
-        if !self.sound(&[ROUGHNESS]) || self.view.settings.has(ROUGHNESS) {
-            return;
-        }
-        let alone: Vec<&str> = [
+        const ASPERITIES: [&str; 5] = [
             fields::ASPERITY_CONTACT_ASPERITIES_PER_UM2.path(),
             fields::ASPERITY_CONTACT_TIP_RADIUS_UM.path(),
             fields::ASPERITY_CONTACT_MODULUS_GPA.path(),
             fields::ASPERITY_CONTACT_YIELD_PRESSURE_GPA.path(),
             fields::ASPERITY_CONTACT_FRICTION.path(),
-        ]
-        .into_iter()
-        .filter(|path| self.view.settings.has(path))
-        .collect();
-        for path in alone {
-            let message = "asperities of surfaces without roughness";
-            let fault = self.fault("E125", &[path], message);
-            fault.allowed = "with asperity_contact.roughness_nm".to_string();
-            fault.hint = "give roughness_nm, or leave the key out".to_string();
+        ];
+        const FORCES: [&str; 2] = [
+            fields::SURFACE_FORCES_HAMAKER_J.path(),
+            fields::SURFACE_FORCES_POTENTIAL_V.path(),
+        ];
+        if !self.sound(&[ROUGHNESS]) {
+            return;
+        }
+        let is_rough = self.view.settings.has(ROUGHNESS);
+        let (paths, message, allowed, hint): (&[&str], _, _, _) = match is_rough {
+            false => (
+                &ASPERITIES,
+                "asperities of surfaces without roughness",
+                "with asperity_contact.roughness_nm",
+                "give roughness_nm, or leave the key out",
+            ),
+            true => (
+                &FORCES,
+                "a force between smooth surfaces, which are rough here",
+                "without asperity_contact.roughness_nm",
+                "leave roughness_nm or this key out: the force between rough surfaces is not that at their mean gap",
+            ),
+        };
+        for path in paths {
+            if self.view.settings.has(path) {
+                let fault = self.fault("E125", &[path], message);
+                fault.allowed = allowed.to_string();
+                fault.hint = hint.to_string();
+            }
         }
     }
 

@@ -48,6 +48,14 @@ impl Check<'_, '_> {
             let fault = self.fault("E159", &["outputs"], format!("asks for {twice} twice"));
             fault.allowed = "each output once".to_string();
         }
+        const ROUGHNESS: &str = fields::ASPERITY_CONTACT_ROUGHNESS_NM.path();
+        let has_contact = outputs.contains(&Output::SliderContact);
+        if has_contact && self.sound(&[ROUGHNESS]) && !self.view.settings.has(ROUGHNESS) {
+            let message = "slider_contact of smooth surfaces, which bear nothing";
+            let fault = self.fault("E158", &["outputs"], message);
+            fault.allowed = "with asperity_contact.roughness_nm".to_string();
+            fault.hint = "give roughness_nm, or do not ask for slider_contact".to_string();
+        }
         if !self.sound(&[
             fields::SOLVER_LEAVE_OUT.path(),
             fields::SOLVER_EFFECTS.path(),
