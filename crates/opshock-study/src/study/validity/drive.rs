@@ -189,65 +189,6 @@ impl Check<'_, '_> {
         }
     }
 
-    /// A repulsion belongs to the attraction that it ends.
-    pub(super) fn surface_forces(&mut self) {
-        const PATHS: [&str; 2] = [
-            fields::SURFACE_FORCES_HAMAKER_J.path(),
-            fields::SURFACE_FORCES_REPULSION_J_M6.path(),
-        ];
-        if !self.sound(&PATHS) {
-            return;
-        }
-        let [attraction, repulsion] = PATHS.map(|path| self.view.maybe_number(path).unwrap_or(0.0));
-        if repulsion > 0.0 && attraction == 0.0 {
-            let message = "a repulsion without the attraction that it ends";
-            let fault = self.fault("E125", &PATHS[1..], message);
-            fault.allowed = "a repulsion beside hamaker_j > 0".to_string();
-            fault.hint = "give hamaker_j, or leave the repulsion out".to_string();
-        }
-    }
-
-    /// Asperities are those of rough surfaces, between which no other force is known.
-    pub(super) fn asperity_contact(&mut self) {
-        const ROUGHNESS: &str = fields::ASPERITY_CONTACT_ROUGHNESS_NM.path();
-        const ASPERITIES: [&str; 5] = [
-            fields::ASPERITY_CONTACT_ASPERITIES_PER_UM2.path(),
-            fields::ASPERITY_CONTACT_TIP_RADIUS_UM.path(),
-            fields::ASPERITY_CONTACT_MODULUS_GPA.path(),
-            fields::ASPERITY_CONTACT_YIELD_PRESSURE_GPA.path(),
-            fields::ASPERITY_CONTACT_FRICTION.path(),
-        ];
-        const FORCES: [&str; 2] = [
-            fields::SURFACE_FORCES_HAMAKER_J.path(),
-            fields::SURFACE_FORCES_POTENTIAL_V.path(),
-        ];
-        if !self.sound(&[ROUGHNESS]) {
-            return;
-        }
-        let is_rough = self.view.settings.has(ROUGHNESS);
-        let (paths, message, allowed, hint): (&[&str], _, _, _) = match is_rough {
-            false => (
-                &ASPERITIES,
-                "asperities of surfaces without roughness",
-                "with asperity_contact.roughness_nm",
-                "give roughness_nm, or leave the key out",
-            ),
-            true => (
-                &FORCES,
-                "a force between smooth surfaces, which are rough here",
-                "without asperity_contact.roughness_nm",
-                "leave roughness_nm or this key out: the force between rough surfaces is not that at their mean gap",
-            ),
-        };
-        for path in paths {
-            if self.view.settings.has(path) {
-                let fault = self.fault("E125", &[path], message);
-                fault.allowed = allowed.to_string();
-                fault.hint = hint.to_string();
-            }
-        }
-    }
-
     /// Parts of a ramp's geometry fit together, and its model can be solved.
     pub(super) fn ramp_geometry(&mut self) {
         let mut looked_at: Vec<&str> = ramp_geometry::paths().collect();

@@ -8,6 +8,7 @@ mod check;
 mod drive;
 mod fields;
 mod gap;
+mod gap_forces;
 mod heads;
 mod pulse;
 mod rails;
