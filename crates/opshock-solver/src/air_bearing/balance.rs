@@ -41,16 +41,7 @@ impl Film {
         scratch: &mut FilmScratch,
     ) -> [f64; 3] {
         assert_eq!(out.len(), self.n_cells());
-        let force = widest(Balance {
-            film: self,
-            psi,
-            attitude,
-            out,
-            cell_loads: None,
-            scratch,
-        })
-        .total();
-        let mut force = force;
+        let mut force = self.balance(psi, attitude, out, None, scratch).total();
         let mut add = |more: [f64; 3]| (0..3).for_each(|f| force[f] += more[f]);
         let cells = scratch.cell_states(attitude);
         for (_, gap_force) in &self.gap_forces {
@@ -119,20 +110,42 @@ impl Film {
     ) {
         assert_eq!(out.len(), self.n_cells());
         let mut residual = std::mem::take(&mut scratch.spare);
-        widest(Balance {
-            film: self,
-            psi,
-            attitude,
-            out: &mut residual,
-            cell_loads: Some(out),
-            scratch,
-        });
+        self.balance(psi, attitude, &mut residual, Some(out), scratch);
         scratch.spare = residual;
+    }
+
+    fn balance(
+        &self,
+        psi: &[f64],
+        attitude: &Attitude,
+        out: &mut [f64],
+        cell_loads: Option<&mut [f64]>,
+        scratch: &mut FilmScratch,
+    ) -> Moments {
+        let film = self;
+        match self.height_limit.is_rough() {
+            true => widest(Balance::<true> {
+                film,
+                psi,
+                attitude,
+                out,
+                cell_loads,
+                scratch,
+            }),
+            false => widest(Balance::<false> {
+                film,
+                psi,
+                attitude,
+                out,
+                cell_loads,
+                scratch,
+            }),
+        }
     }
 }
 
 /// The balance as a kernel.
-struct Balance<'a> {
+struct Balance<'a, const ROUGH: bool> {
     film: &'a Film,
     psi: &'a [f64],
     attitude: &'a Attitude,
@@ -141,7 +154,7 @@ struct Balance<'a> {
     scratch: &'a mut FilmScratch,
 }
 
-impl Kernel for Balance<'_> {
+impl<const ROUGH: bool> Kernel for Balance<'_, ROUGH> {
     /// Added up outside, so that the sums stay in whole registers ([`crate::lanes::abreast`]).
     type Output = Moments;
 
@@ -156,7 +169,7 @@ impl Kernel for Balance<'_> {
             scratch,
         } = self;
         let columns = &film.columns;
-        scratch.fill(film, psi, attitude);
+        scratch.fill::<ROUGH>(film, psi, attitude);
         let mut moments = Moments::default();
         let front = columns.front;
 
@@ -183,8 +196,8 @@ impl Kernel for Balance<'_> {
                 let [up, down] = faces.sides(film, scratch, first, &mut kept);
                 let base = faces.places.heights(first, attitude);
                 let h_faces = [
-                    film.limited_block(&base, up.recess)[0],
-                    film.limited_block(&base, down.recess)[0],
+                    film.limited_block::<ROUGH>(&base, up.recess)[0],
+                    film.limited_block::<ROUGH>(&base, down.recess)[0],
                 ];
                 let length = block(&faces.length, first);
                 let values = if faces.wind == 0.0 {
@@ -223,7 +236,7 @@ impl Kernel for Balance<'_> {
                 let mut kept = None;
                 let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
                 let base = faces.places.heights(first, attitude);
-                let h_face = film.limited_block(&base, side.recess)[0];
+                let h_face = film.limited_block::<ROUGH>(&base, side.recess)[0];
                 let side = FaceConductance::of_edge(film, side, &h_face, &mut kept);
                 let values = edge(film, &side, &h_face, block(&faces.length, first));
                 moments.add(&values.loads[0], &faces.places, first);

@@ -203,8 +203,12 @@ impl Film {
     /// Heights the film sees in a block where the true ones are `base` + `recess`, and their
     /// derivatives.
     #[inline(always)]
-    pub(super) fn limited_block(&self, base: &Block, recess: &Block) -> [Block; 2] {
-        self.height_limit.apply_block(base, recess)
+    pub(super) fn limited_block<const ROUGH: bool>(
+        &self,
+        base: &Block,
+        recess: &Block,
+    ) -> [Block; 2] {
+        self.height_limit.apply_block::<ROUGH>(base, recess)
     }
 
     /// Half cell of `side` where the height is `h_centre` at the centre and `base` at the face, without recess, and ψ
@@ -285,11 +289,18 @@ impl Film {
     pub fn lowest_pressure_pa(&self, psi: &[f64], attitude: &Attitude) -> f64 {
         assert_eq!(psi.len(), self.n_cells());
         let film = self;
-        let lowest = widest(LowestPressure {
-            film,
-            psi,
-            attitude,
-        });
+        let lowest = match self.height_limit.is_rough() {
+            true => widest(LowestPressure::<true> {
+                film,
+                psi,
+                attitude,
+            }),
+            false => widest(LowestPressure::<false> {
+                film,
+                psi,
+                attitude,
+            }),
+        };
         lowest.into_iter().fold(f64::INFINITY, f64::min)
     }
 
@@ -340,13 +351,13 @@ impl Film {
     }
 }
 
-struct LowestPressure<'a> {
+struct LowestPressure<'a, const ROUGH: bool> {
     film: &'a Film,
     psi: &'a [f64],
     attitude: &'a Attitude,
 }
 
-impl Kernel for LowestPressure<'_> {
+impl<const ROUGH: bool> Kernel for LowestPressure<'_, ROUGH> {
     type Output = Block;
 
     #[inline(always)]
@@ -358,7 +369,7 @@ impl Kernel for LowestPressure<'_> {
             let base = columns.places.heights(first, self.attitude);
             let [h, _] = self
                 .film
-                .limited_block(&base, block(&columns.recess, first));
+                .limited_block::<ROUGH>(&base, block(&columns.recess, first));
             // The unused rest of the last block holds no gas and must not give the lowest pressure.
             let mut psi = [f64::INFINITY; BLOCK];
             psi[..cells.len()].copy_from_slice(cells);

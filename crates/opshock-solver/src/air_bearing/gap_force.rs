@@ -89,7 +89,10 @@ impl Film {
         attitude: &Attitude,
         scratch: &mut FilmScratch,
     ) -> Vec<(&'static str, GapLoad)> {
-        scratch.fill(self, psi, attitude);
+        match self.height_limit.is_rough() {
+            true => scratch.fill::<true>(self, psi, attitude),
+            false => scratch.fill::<false>(self, psi, attitude),
+        }
         let cells = scratch.cell_states(attitude);
         let mut by_psi = [(); 3].map(|()| vec![0.0; self.n_cells()]);
         let loads = self.gap_forces.iter();

@@ -91,13 +91,23 @@ impl Film {
         scratch: &mut FilmScratch,
     ) {
         assert_eq!(out.residual.len(), self.n_cells());
-        let totals = widest(Linearise {
-            film: self,
-            psi,
-            attitude,
-            out,
-            scratch,
-        });
+        let film = self;
+        let totals = match self.height_limit.is_rough() {
+            true => widest(Linearise::<true> {
+                film,
+                psi,
+                attitude,
+                out,
+                scratch,
+            }),
+            false => widest(Linearise::<false> {
+                film,
+                psi,
+                attitude,
+                out,
+                scratch,
+            }),
+        };
         out.force_by_attitude = totals.force_by_attitude.map(|row| row.map(total));
         out.force = totals.moments.total();
         let cells = scratch.cell_states(attitude);
@@ -116,7 +126,7 @@ impl Film {
     }
 }
 
-struct Linearise<'a> {
+struct Linearise<'a, const ROUGH: bool> {
     film: &'a Film,
     psi: &'a [f64],
     attitude: &'a Attitude,
@@ -124,7 +134,7 @@ struct Linearise<'a> {
     scratch: &'a mut FilmScratch,
 }
 
-impl Kernel for Linearise<'_> {
+impl<const ROUGH: bool> Kernel for Linearise<'_, ROUGH> {
     type Output = Totals;
 
     #[inline(always)]
@@ -138,14 +148,14 @@ impl Kernel for Linearise<'_> {
         } = self;
         let columns = &film.columns;
         let mut totals = Totals::default();
-        scratch.fill(film, psi, attitude);
+        scratch.fill::<ROUGH>(film, psi, attitude);
         centres(film, scratch, &mut totals);
         for d in 0..2 {
-            between_cells(film, attitude, d, scratch, out, &mut totals);
+            between_cells::<ROUGH>(film, attitude, d, scratch, out, &mut totals);
         }
         gather_rows(columns, scratch, out);
         gather_gradients(columns, scratch, out);
-        on_edges(film, attitude, scratch, out, &mut totals);
+        on_edges::<ROUGH>(film, attitude, scratch, out, &mut totals);
         totals
     }
 }
@@ -173,7 +183,7 @@ fn centres(film: &Film, state: &FilmScratch, totals: &mut Totals) {
 }
 
 #[inline(always)]
-fn between_cells(
+fn between_cells<const ROUGH: bool>(
     film: &Film,
     attitude: &Attitude,
     d: usize,
@@ -190,8 +200,8 @@ fn between_cells(
         let [up, down] = faces.sides(film, state, first, &mut kept);
         let base = faces.places.heights(first, attitude);
         let faces_at = [
-            film.limited_block(&base, up.recess),
-            film.limited_block(&base, down.recess),
+            film.limited_block::<ROUGH>(&base, up.recess),
+            film.limited_block::<ROUGH>(&base, down.recess),
         ];
         let length = block(&faces.length, first);
         let centre = |cell: usize| {
@@ -343,7 +353,7 @@ impl Interior {
 }
 
 #[inline(always)]
-fn on_edges(
+fn on_edges<const ROUGH: bool>(
     film: &Film,
     attitude: &Attitude,
     state: &FilmScratch,
@@ -361,7 +371,7 @@ fn on_edges(
             let mut kept = None;
             let side = SideBlock::new(picked.cells(), &faces.side, first, faces.wind);
             let base = faces.places.heights(first, attitude);
-            let at_face = film.limited_block(&base, side.recess);
+            let at_face = film.limited_block::<ROUGH>(&base, side.recess);
             let side = FaceConductance::of_edge(film, side, &at_face[0], &mut kept);
             let length = block(&faces.length, first);
             let [x, y] = [&columns.centre_x, &columns.centre_y].map(|column| {

@@ -69,7 +69,12 @@ impl FilmScratch {
 
     /// Sets the state (ψ, attitude).
     #[inline(always)]
-    pub(super) fn fill(&mut self, film: &Film, psi: &[f64], attitude: &Attitude) {
+    pub(super) fn fill<const ROUGH: bool>(
+        &mut self,
+        film: &Film,
+        psi: &[f64],
+        attitude: &Attitude,
+    ) {
         let columns = &film.columns;
         assert_eq!(psi.len(), columns.n_cells);
         assert_eq!(self.psi.len(), columns.padded);
@@ -82,7 +87,7 @@ impl FilmScratch {
             let height = columns.places.heights(first, attitude);
             let recess = block(&columns.recess, first);
             let at = front + first;
-            let [h, slope] = film.limited_block(&height, recess);
+            let [h, slope] = film.limited_block::<ROUGH>(&height, recess);
             let (psi, g) = (block(&self.psi, at), block(&self.g, at));
             // Three inverses by one division, which takes as long as a dozen products.
             let mut inverse = [[0.0; BLOCK]; 3];

@@ -12,7 +12,7 @@
 //! Between rough surfaces h is their mean gap, which never reaches 0, and h0 only keeps numbers in range.
 
 use super::faces::{BLOCK, Block};
-use crate::rough_contact::roughness::{FAR, mean_gap};
+use crate::rough_contact::roughness::mean_gap;
 
 /// h0 between rough surfaces over the minimum film height: their mean gap at h = −σ is 0.083 σ.
 const ROUGH_SHARE: f64 = 0.1;
@@ -44,25 +44,6 @@ impl HeightLimit {
     }
 }
 
-impl HeightLimit {
-    /// f(h) and f′(h).
-    #[inline(always)]
-    pub(super) fn apply(self, h: f64) -> (f64, f64) {
-        let h0 = self.h0;
-        if self.sigma > 0.0 {
-            let (gap, by_height) = mean_gap(h, self.sigma);
-            let (limited, slope) = Self::new(ROUGH_SHARE * h0).apply(gap);
-            return (limited, slope * by_height);
-        }
-        if h >= 2.0 * h0 {
-            (h, 1.0)
-        } else {
-            let s = h0 / (3.0 * h0 - h);
-            (h0 * (1.0 + s), s * s)
-        }
-    }
-}
-
 /// Whether a film of the minimum height `min_height_m` between surfaces of the roughness `roughness_m` (0: smooth) sees more than
 /// there is where the clearance is `clearance_m`.
 pub fn sees_more(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool {
@@ -74,24 +55,61 @@ pub fn sees_more(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool 
 }
 
 impl HeightLimit {
-    /// f and f′ of `base` + `recess` for a block. Where the whole block lies above 2 h0 no division is made; the
-    /// numbers are the same.
+    /// Whether the surfaces are rough: the argument of what follows, chosen once a pass, so that a kernel over smooth surfaces has
+    /// nothing of the others.
+    pub(super) fn is_rough(self) -> bool {
+        self.sigma > 0.0
+    }
+
+    /// f(h) and f′(h).
     #[inline(always)]
-    pub(super) fn apply_block(self, base: &Block, recess: &Block) -> [Block; 2] {
+    pub(super) fn apply(self, h: f64) -> (f64, f64) {
+        match self.is_rough() {
+            true => self.between_rough(h),
+            false => limited(self.h0, h),
+        }
+    }
+
+    /// The same between rough surfaces.
+    #[inline(never)]
+    fn between_rough(self, h: f64) -> (f64, f64) {
+        let (gap, by_height) = mean_gap(h, self.sigma);
+        let (limited, slope) = limited(ROUGH_SHARE * self.h0, gap);
+        (limited, slope * by_height)
+    }
+
+    /// f and f′ of `base` + `recess` for a block. Where a whole block of smooth surfaces lies above 2 h0 no division is
+    /// made; the numbers are the same.
+    #[inline(always)]
+    pub(super) fn apply_block<const ROUGH: bool>(self, base: &Block, recess: &Block) -> [Block; 2] {
         let mut h = [0.0; BLOCK];
         let mut low = false;
-        let from = f64::max(2.0 * self.h0, FAR * self.sigma);
         for k in 0..BLOCK {
             h[k] = base[k] + recess[k];
-            low |= h[k] < from;
+            low |= h[k] < 2.0 * self.h0;
         }
         let mut slope = [1.0; BLOCK];
-        if low {
+        if ROUGH {
             for k in 0..BLOCK {
-                (h[k], slope[k]) = self.apply(h[k]);
+                (h[k], slope[k]) = self.between_rough(h[k]);
+            }
+        } else if low {
+            for k in 0..BLOCK {
+                (h[k], slope[k]) = limited(self.h0, h[k]);
             }
         }
         [h, slope]
+    }
+}
+
+/// f and f′ of the minimum height h0.
+#[inline(always)]
+fn limited(h0: f64, h: f64) -> (f64, f64) {
+    if h >= 2.0 * h0 {
+        (h, 1.0)
+    } else {
+        let s = h0 / (3.0 * h0 - h);
+        (h0 * (1.0 + s), s * s)
     }
 }
 

@@ -145,7 +145,7 @@ impl Posed<'_> {
     #[inline(always)]
     fn block(&self, first: usize) -> ([f64; BLOCK], [f64; BLOCK], &[f64; BLOCK]) {
         let height = self.interaction.points.places.heights(first, self.attitude);
-        let [h, limit_slope] = self.film.limited_block(&height, &[0.0; BLOCK]);
+        let [h, limit_slope] = self.film.limited_block::<false>(&height, &[0.0; BLOCK]);
         (h, limit_slope, block(&self.interaction.points.area, first))
     }
 }
