@@ -8,6 +8,7 @@ use opshock_solver::rough_contact::nominal::NominalContact;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Verdict, Workspace, simulate};
 use opshock_solver::slider::{SliderParameters, SurfaceParameters};
+use opshock_tests::films::uniform;
 use opshock_tests::heads::{default_slider, standard_gas};
 use opshock_tests::scenes;
 use opshock_tests::sheet::at_most;
@@ -35,9 +36,7 @@ fn plate(skew_deg: f64) -> SliderParameters {
 }
 
 fn film(slider: &SliderParameters, contact: AsperityContact) -> Film {
-    let lines =
-        |extent_m: f64| -> Vec<f64> { (0..=12).map(|k| extent_m * f64::from(k) / 12.0).collect() };
-    let (x, y) = (lines(slider.length_m), lines(slider.width_m));
+    let [x, y] = [slider.length_m, slider.width_m].map(|extent_m| uniform(12, extent_m));
     let spin = rad_per_s_from_rpm(5400.0);
     let film = Film::on_grid(
         slider,
@@ -169,7 +168,7 @@ struct Bounces<'a> {
 }
 
 impl Bounces<'_> {
-    /// One spell of contact by Runge and Kutta's rule; true until it flies again.
+    /// One episode of contact by Runge and Kutta's rule; true until it flies again.
     fn step(&mut self, dt_s: f64) -> bool {
         let [h, v, closest] = self.state;
         let acceleration = |h: f64| {
@@ -288,8 +287,11 @@ fn first_contact_converges_with_the_tolerance_and_needs_no_minimum_film_height()
     let first = |settings: &[(&str, &str)]| {
         let outcome = shocked(&[Output::SliderContact], 700.0, settings);
         let contact = outcome.slider_contact.expect("rough surfaces");
-        assert!(contact.spells.len() > 10 && !contact.goes_on, "{contact:?}");
-        contact.spells[0].impulse_n_s
+        assert!(
+            contact.episodes.len() > 10 && !contact.goes_on,
+            "{contact:?}"
+        );
+        contact.episodes[0].impulse_n_s
     };
     let fine = first(&[("resolution.head_tolerance", "2.5e-4")]);
     let coarse = (first(&[]) / fine - 1.0).abs();

@@ -54,16 +54,16 @@ def test_what_comes_after_the_touch_of_rough_surfaces(study: opshock.Study) -> N
     assert run.verdict is Verdict.FAILS and run.t_fail_s is not None
     contact: opshock.SliderContact | None = run.slider_contact
     assert contact is not None and contact.end in ("flying", "in_contact") and contact.yielded_j > 0
-    assert len(contact.spells) > 3, "it bounces"
-    first: opshock.SliderSpell = contact.spells[0]
+    assert len(contact.episodes) > 3, "it bounces"
+    first: opshock.SliderEpisode = contact.episodes[0]
     assert first.on_s < first.off_s and abs(first.on_s - run.t_fail_s) < 0.3e-3
-    assert all(spell.off_s <= later.on_s for spell, later in zip(contact.spells, contact.spells[1:], strict=False))
-    for spell in contact.spells:
-        assert 0 < spell.peak_pressure_pa <= 12e9 and spell.peak_force_n > 0 and spell.impulse_n_s > 0
+    assert all(episode.off_s <= later.on_s for episode, later in zip(contact.episodes, contact.episodes[1:], strict=False))
+    for episode in contact.episodes:
+        assert 0 < episode.peak_pressure_pa <= 12e9 and episode.peak_force_n > 0 and episode.impulse_n_s > 0
         # Friction: 0.3 of the impulse, at the disk's speed under the slider.
-        assert 2 < spell.friction_j / (0.3 * spell.impulse_n_s) < 30
-        assert 0 <= spell.place.x_m <= 0.85e-3 and spell.closest_m < 5e-9
-    assert max(spell.approach_m_per_s for spell in contact.spells) > 0
+        assert 2 < episode.friction_j / (0.3 * episode.impulse_n_s) < 30
+        assert 0 <= episode.place.x_m <= 0.85e-3 and episode.closest_m < 5e-9
+    assert max(episode.approach_m_per_s for episode in contact.episodes) > 0
 
 
 def test_a_shock_that_is_not(failed: Run) -> None:
@@ -88,14 +88,14 @@ def test_a_shock_that_is_not(failed: Run) -> None:
 
 
 def test_contact_and_energy(failed: Run) -> None:
-    """Impulses of spells add up, the contact does not attract, and the energy balances."""
-    spells: tuple[opshock.ContactSpell, ...] = failed.contact.top.episodes
+    """Impulses of episodes add up, the contact does not attract, and the energy balances."""
+    episodes: tuple[opshock.ContactSpell, ...] = failed.contact.top.episodes
     arm: opshock.ArmContact = failed.contact.top
     both: opshock.RampContact = failed.contact
-    assert arm.impulse_n_s == pytest.approx(sum(one.impulse_n_s for one in spells), rel=1e-9)
+    assert arm.impulse_n_s == pytest.approx(sum(one.impulse_n_s for one in episodes), rel=1e-9)
     assert arm.impulse_n_s > 0
-    assert arm.first_touch_s == spells[0].on_s
-    assert all(one.on_s < one.off_s and one.peak_20us_n > 0 for one in spells)
+    assert arm.first_touch_s == episodes[0].on_s
+    assert all(one.on_s < one.off_s and one.peak_20us_n > 0 for one in episodes)
     assert both.bottom.impulse_n_s == 0.0
     energy: opshock.Energy = failed.energy
     assert abs(energy.closure) < 1e-10

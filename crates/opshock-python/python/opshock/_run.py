@@ -150,8 +150,8 @@ class Stop:
 
 
 @dataclass(frozen=True)
-class SliderSpell:
-    """One spell of contact between slider and disk."""
+class SliderEpisode:
+    """One contact of slider and disk."""
 
     on_s: float
     """Begin, s."""
@@ -177,8 +177,8 @@ class SliderSpell:
 class SliderContact:
     """Contact of slider and disk by their asperities; also after the first touch, if ``slider_contact`` is among the outputs."""
 
-    spells: tuple[SliderSpell, ...]
-    """The spells: a force above 1 % of the dimple's steady force."""
+    episodes: tuple[SliderEpisode, ...]
+    """The contacts: from a force above 1 % of the dimple's steady force until one below half of that."""
     end: str
     """``flying`` or ``in_contact``."""
     yielded_j: float

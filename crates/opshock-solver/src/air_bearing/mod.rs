@@ -43,4 +43,4 @@ pub use gap_forces::{GapForces, SurfaceForces};
 pub use gap_load::GapLoad;
 pub use linearise::FilmLinearisation;
 pub use state::FilmScratch;
-pub use thickness::sees_more;
+pub use thickness::is_limited;

@@ -46,7 +46,7 @@ impl HeightLimit {
 
 /// Whether a film of the minimum height `min_height_m` between surfaces of the roughness `roughness_m` (0: smooth) sees more than
 /// there is where the clearance is `clearance_m`.
-pub fn sees_more(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool {
+pub fn is_limited(clearance_m: f64, min_height_m: f64, roughness_m: f64) -> bool {
     if roughness_m > 0.0 {
         let limit = HeightLimit::new(min_height_m).of_rough(roughness_m);
         return mean_gap(clearance_m, limit.sigma).0 < 2.0 * ROUGH_SHARE * limit.h0;

@@ -43,7 +43,7 @@ mod stops;
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
     Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, PressureFields, SliderContact,
-    SliderSpell, StopRecord, Verdict,
+    SliderEpisode, StopRecord, Verdict,
 };
 pub use resolution::{Coupling, HeadResolution};
 pub use run::{HeadState, HeadWorkspace, Stretch};

@@ -116,12 +116,12 @@ impl StopRecord {
     }
 }
 
-/// One spell of contact.
+/// One episode of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SliderSpell {
+pub struct SliderEpisode {
     /// Begin, s.
     pub on_s: f64,
-    /// End, s; that of the run for a spell that goes on.
+    /// End, s; that of the run for an episode that goes on.
     pub off_s: f64,
     /// Speed at which the smallest clearance fell in the step that began it, m/s, on average: negative where it rose again.
     pub approach_m_per_s: f64,
@@ -142,8 +142,8 @@ pub struct SliderSpell {
 /// Contact of slider and disk over a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SliderContact {
-    /// Spells, in order.
-    pub spells: Vec<SliderSpell>,
+    /// Its episodes, in order.
+    pub episodes: Vec<SliderEpisode>,
     /// The last one goes on at the end of the run.
     pub goes_on: bool,
     /// Work that yielded asperities do not give back, J.

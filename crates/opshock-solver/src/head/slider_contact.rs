@@ -1,13 +1,13 @@
-//! Spells of contact between slider and disk, while their asperities bear.
+//! Episodes of contact between slider and disk, while their asperities bear.
 
-use super::outcome::{Place, SliderContact, SliderSpell};
+use super::outcome::{Place, SliderContact, SliderEpisode};
 use crate::rough_contact::nominal::ContactState;
 
-/// Share of the steady force of the dimple from which the asperities' force is a spell of contact: their heights have no end, so
+/// Share of the steady force of the dimple from which the asperities' force is an episode of contact: their heights have no end, so
 /// that some of them bear a little in flight.
-const SPELL_SHARE: f64 = 0.01;
+const EPISODE_SHARE: f64 = 0.01;
 
-/// Share of that force below which a spell ends, so that a force near it makes one spell and not many.
+/// Share of that force below which an episode ends, so that a force near it makes one episode and not many.
 const LEAVE_SHARE: f64 = 0.5;
 
 /// An accepted state of a run with contact.
@@ -22,7 +22,7 @@ pub(super) struct Instant {
 /// Contact in progress.
 #[derive(Clone, Debug)]
 pub(super) struct ContactWatch {
-    /// Force from which it is a spell, N.
+    /// Force from which it is an episode, N.
     least_n: f64,
     latest: Instant,
     record: SliderContact,
@@ -32,7 +32,7 @@ impl ContactWatch {
     /// From the first instant of a run, at a steady force of the dimple.
     pub(super) fn new(steady_n: f64, first: Instant) -> Self {
         Self {
-            least_n: SPELL_SHARE * steady_n,
+            least_n: EPISODE_SHARE * steady_n,
             latest: first,
             record: SliderContact::default(),
         }
@@ -51,7 +51,7 @@ impl ContactWatch {
         };
         let is_on = now.state.force_n >= least_n;
         if is_on && !self.record.goes_on {
-            self.record.spells.push(SliderSpell {
+            self.record.episodes.push(SliderEpisode {
                 on_s: before.time_s,
                 off_s: now.time_s,
                 approach_m_per_s: (before.clearance_m - now.clearance_m) / dt_s,
@@ -64,19 +64,20 @@ impl ContactWatch {
             });
         }
         if is_on || self.record.goes_on {
-            let Some(spell) = self.record.spells.last_mut() else {
-                unreachable!("a spell that is on was begun");
+            let Some(episode) = self.record.episodes.last_mut() else {
+                unreachable!("an episode that is on was begun");
             };
-            spell.off_s = now.time_s;
+            episode.off_s = now.time_s;
             let ends = [&before.state, &now.state];
-            spell.impulse_n_s += 0.5 * dt_s * ends.map(|state| state.force_n).iter().sum::<f64>();
-            spell.friction_j += 0.5 * dt_s * ends.map(|state| state.friction_w).iter().sum::<f64>();
-            if now.state.force_n > spell.peak_force_n {
-                spell.peak_force_n = now.state.force_n;
-                spell.place = now.place;
+            episode.impulse_n_s += 0.5 * dt_s * ends.map(|state| state.force_n).iter().sum::<f64>();
+            episode.friction_j +=
+                0.5 * dt_s * ends.map(|state| state.friction_w).iter().sum::<f64>();
+            if now.state.force_n > episode.peak_force_n {
+                episode.peak_force_n = now.state.force_n;
+                episode.place = now.place;
             }
-            spell.peak_pressure_pa = spell.peak_pressure_pa.max(now.state.peak_pressure_pa);
-            spell.closest_m = spell.closest_m.min(now.state.closest_m);
+            episode.peak_pressure_pa = episode.peak_pressure_pa.max(now.state.peak_pressure_pa);
+            episode.closest_m = episode.closest_m.min(now.state.closest_m);
         }
         self.record.goes_on = is_on;
     }

@@ -1,7 +1,7 @@
 //! Describes one simulation, all but its amplitude, as plain data, and builds the film from it.
 
 use super::discretisation::Discretisation;
-use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces, sees_more};
+use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces, is_limited};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
 use crate::head::HeadResolution;
@@ -69,7 +69,7 @@ impl Scene {
     /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
     pub fn fails_below_continuum(&self) -> bool {
         let roughness_m = self.gap_forces.asperity_contact.roughness_m;
-        sees_more(
+        is_limited(
             self.fail_below_m,
             self.film_resolution.min_height_m,
             roughness_m,

@@ -2,7 +2,7 @@
 
 use crate::air_bearing::Attitude;
 pub use crate::head::{
-    Cause, DimpleRecord, HeadColumns, Place, PressureFields, SliderContact, SliderSpell,
+    Cause, DimpleRecord, HeadColumns, Place, PressureFields, SliderContact, SliderEpisode,
     StopRecord, Verdict,
 };
 pub use crate::structure::{

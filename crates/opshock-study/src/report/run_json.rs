@@ -2,7 +2,7 @@
 
 use opshock_solver::simulation::{
     ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HubRecord, Outcome,
-    SliderContact, SliderSpell, StopRecord, Verdict, Warning,
+    SliderContact, SliderEpisode, StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -132,7 +132,7 @@ pub struct ArmJson {
     pub episodes: Vec<EpisodeJson>,
 }
 
-/// One contact spell.
+/// One contact episode.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
     missing_docs,
@@ -174,19 +174,19 @@ pub struct StopJson {
     reason = "the names are the documented JSON keys: docs/files.md"
 )]
 pub struct SliderContactJson {
-    pub spells: Vec<SliderSpellJson>,
+    pub episodes: Vec<SliderEpisodeJson>,
     /// `flying` or `in_contact`.
     pub end: &'static str,
     pub yielded_j: f64,
 }
 
-/// One spell of it.
+/// One episode of it.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(
     missing_docs,
     reason = "the names are the documented JSON keys: docs/files.md"
 )]
-pub struct SliderSpellJson {
+pub struct SliderEpisodeJson {
     pub on_s: f64,
     pub off_s: f64,
     pub approach_m_per_s: f64,
@@ -201,22 +201,22 @@ pub struct SliderSpellJson {
 impl SliderContactJson {
     /// Of a run whose pulse begins at `start_s` on the study's axis.
     fn new(contact: &SliderContact, start_s: f64) -> Self {
-        let spell = |spell: &SliderSpell| SliderSpellJson {
-            on_s: spell.on_s + start_s,
-            off_s: spell.off_s + start_s,
-            approach_m_per_s: spell.approach_m_per_s,
-            impulse_n_s: spell.impulse_n_s,
-            peak_force_n: spell.peak_force_n,
-            peak_pressure_pa: spell.peak_pressure_pa,
-            closest_m: spell.closest_m,
+        let episode = |episode: &SliderEpisode| SliderEpisodeJson {
+            on_s: episode.on_s + start_s,
+            off_s: episode.off_s + start_s,
+            approach_m_per_s: episode.approach_m_per_s,
+            impulse_n_s: episode.impulse_n_s,
+            peak_force_n: episode.peak_force_n,
+            peak_pressure_pa: episode.peak_pressure_pa,
+            closest_m: episode.closest_m,
             place: PlaceJson {
-                x_m: spell.place.x_m,
-                y_m: spell.place.y_m,
+                x_m: episode.place.x_m,
+                y_m: episode.place.y_m,
             },
-            friction_j: spell.friction_j,
+            friction_j: episode.friction_j,
         };
         Self {
-            spells: contact.spells.iter().map(spell).collect(),
+            episodes: contact.episodes.iter().map(episode).collect(),
             end: match contact.goes_on {
                 true => "in_contact",
                 false => "flying",

@@ -96,11 +96,11 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
             "in_contact" => "in contact at the end",
             _ => "flying at the end",
         };
-        let count = contact.spells.len();
+        let count = contact.episodes.len();
         line(
-            "slider contact",
+            "slider",
             format!(
-                "{count} spells, {end}, {:.3e} uJ yielded",
+                "{count} contacts with the disk, {end}, {:.2} uJ not given back",
                 1e6 * contact.yielded_j
             ),
         );
@@ -108,7 +108,7 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
             line(
                 "",
                 format!(
-                    "{:>10} {:>10} {:>12} {:>14} {:>11} {:>13} {:>12} {:>11}",
+                    "{:>10} {:>10} {:>14} {:>14} {:>12} {:>10} {:>11} {:>12}",
                     "on_ms",
                     "off_ms",
                     "approach_mm_s",
@@ -120,19 +120,19 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
                 ),
             );
         }
-        for spell in &contact.spells {
+        for episode in &contact.episodes {
             line(
                 "",
                 format!(
-                    "{:>10.4} {:>10.4} {:>12.3} {:>14.4} {:>11.3} {:>13.4} {:>12.3} {:>11.3}",
-                    1e3 * spell.on_s,
-                    1e3 * spell.off_s,
-                    1e3 * spell.approach_m_per_s,
-                    1e6 * spell.impulse_n_s,
-                    1e3 * spell.peak_force_n,
-                    1e-9 * spell.peak_pressure_pa,
-                    1e9 * spell.closest_m,
-                    1e6 * spell.friction_j
+                    "{:>10.4} {:>10.4} {:>14.3} {:>14.4} {:>12.3} {:>10.4} {:>11.3} {:>12.3}",
+                    1e3 * episode.on_s,
+                    1e3 * episode.off_s,
+                    1e3 * episode.approach_m_per_s,
+                    1e6 * episode.impulse_n_s,
+                    1e3 * episode.peak_force_n,
+                    1e-9 * episode.peak_pressure_pa,
+                    1e9 * episode.closest_m,
+                    1e6 * episode.friction_j
                 ),
             );
         }
