@@ -12,7 +12,7 @@
 //! Between rough surfaces h is their mean gap, which never reaches 0, and h0 only keeps numbers in range.
 
 use super::faces::{BLOCK, Block};
-use crate::rough_contact::roughness::mean_gap;
+use crate::rough_contact::roughness::{FAR, mean_gap};
 
 /// h0 between rough surfaces over the minimum film height: their mean gap at h = −σ is 0.083 σ.
 const ROUGH_SHARE: f64 = 0.1;
@@ -78,24 +78,27 @@ impl HeightLimit {
         (limited, slope * by_height)
     }
 
-    /// f and f′ of `base` + `recess` for a block. Where a whole block of smooth surfaces lies above 2 h0 no division is
-    /// made; the numbers are the same.
+    /// f and f′ of `base` + `recess` for a block. Where the whole block lies above 2 h0, and so far apart that roughness
+    /// changes no bit, nothing is computed; the numbers are the same.
     #[inline(always)]
     pub(super) fn apply_block<const ROUGH: bool>(self, base: &Block, recess: &Block) -> [Block; 2] {
         let mut h = [0.0; BLOCK];
         let mut low = false;
+        let from = match ROUGH {
+            true => f64::max(2.0 * self.h0, FAR * self.sigma),
+            false => 2.0 * self.h0,
+        };
         for k in 0..BLOCK {
             h[k] = base[k] + recess[k];
-            low |= h[k] < 2.0 * self.h0;
+            low |= h[k] < from;
         }
         let mut slope = [1.0; BLOCK];
-        if ROUGH {
+        if low {
             for k in 0..BLOCK {
-                (h[k], slope[k]) = self.between_rough(h[k]);
-            }
-        } else if low {
-            for k in 0..BLOCK {
-                (h[k], slope[k]) = limited(self.h0, h[k]);
+                (h[k], slope[k]) = match ROUGH {
+                    true => self.between_rough(h[k]),
+                    false => limited(self.h0, h[k]),
+                };
             }
         }
         [h, slope]

@@ -13,7 +13,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 /// Distance in σ from which the mean gap is the distance of the planes to the last bit.
-const FAR: f64 = 8.3;
+pub const FAR: f64 = 8.3;
 
 /// Density of the standard normal distribution.
 #[inline]
