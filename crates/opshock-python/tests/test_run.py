@@ -89,7 +89,7 @@ def test_a_shock_that_is_not(failed: Run) -> None:
 
 def test_contact_and_energy(failed: Run) -> None:
     """Impulses of episodes add up, the contact does not attract, and the energy balances."""
-    episodes: tuple[opshock.ContactSpell, ...] = failed.contact.top.episodes
+    episodes: tuple[opshock.ContactEpisode, ...] = failed.contact.top.episodes
     arm: opshock.ArmContact = failed.contact.top
     both: opshock.RampContact = failed.contact
     assert arm.impulse_n_s == pytest.approx(sum(one.impulse_n_s for one in episodes), rel=1e-9)
@@ -238,7 +238,7 @@ def test_a_run_never_changes(equipped: Run) -> None:
     """No field of it or of what it holds can be assigned; columns are read-only for good."""
     found = list(records(equipped))
     kinds = {type(one).__name__ for one in found}
-    assert {"Run", "Steady", "DiskMotion", "ContactSpell", "Energy", "Complementarity", "Hub", "Base", "Stop", "Dimple", "Cost"} <= kinds
+    assert {"Run", "Steady", "DiskMotion", "ContactEpisode", "Energy", "Complementarity", "Hub", "Base", "Stop", "Dimple", "Cost"} <= kinds
     for one in found:
         for field in dataclasses.fields(one):
             with pytest.raises(dataclasses.FrozenInstanceError):

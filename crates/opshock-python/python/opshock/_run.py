@@ -92,8 +92,8 @@ class DiskMotion:
 
 
 @dataclass(frozen=True)
-class ContactSpell:
-    """One spell of contact between disk and ramp."""
+class ContactEpisode:
+    """One episode of contact between disk and ramp."""
 
     on_s: float
     """Begin, s."""
@@ -112,9 +112,9 @@ class ArmContact:
     first_touch_s: float | None
     """First touch, s."""
     impulse_n_s: float
-    """Impulse of all spells, N s."""
-    episodes: tuple[ContactSpell, ...]
-    """The spells."""
+    """Impulse of all episodes, N s."""
+    episodes: tuple[ContactEpisode, ...]
+    """The episodes."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
-//! Summarises the contact impulses of an arm as contact spells and running means of the force.
+//! Summarises the contact impulses of an arm as contact episodes and running means of the force.
 
 use super::record::{ArmContact, Episode};
 
-/// Spells closer together than this are one, s.
+/// Episodes closer together than this are one, s.
 const MERGE_S: f64 = 30e-6;
 /// Length of the running mean, s.
 const MEAN_S: f64 = 20e-6;
@@ -25,7 +25,7 @@ impl ContactLog {
         self.impulse_n_s.push(impulse_n_s);
     }
 
-    /// Spells, totals and peaks.
+    /// Episodes, totals and peaks.
     pub fn summary(&self, step_s: f64) -> ArmContact {
         let mut episodes: Vec<Episode> = Vec::new();
         let mut first = 0;

@@ -15,7 +15,7 @@ pub struct DiskExtremes {
     pub rim_max_m: f64,
 }
 
-/// A contact spell; spells closer than 30 us are one.
+/// A contact episode; episodes closer than 30 us are one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Episode {
     /// First impulse, s.
@@ -35,7 +35,7 @@ pub struct ArmContact {
     pub first_touch_s: Option<f64>,
     /// Total impulse, N s.
     pub impulse_n_s: f64,
-    /// Spells in order.
+    /// Episodes in order.
     pub episodes: Vec<Episode>,
 }
 
