@@ -219,12 +219,11 @@ fn measured(
         survivors = [(grid_point, seconds), (below, run(below).0)];
     }
     let onset_g = touch.onset_g().unwrap_or(0.0);
-    let at = &input.points[point].coordinates;
     let highest = survivors[0].0.max(survivors[1].0);
     let units = survivors.map(|(grid_point, _)| {
         // The critical amplitude lies a quarter of an octave above the highest survivor on average.
         let octaves = 0.25 + f64::from(highest - grid_point) / f64::from(grid.steps_per_octave);
-        let run = RunTime::survivor(at, Probe::at(grid_point));
+        let run = RunTime::survivor(&input.points[point], Probe::at(grid_point));
         run.at(grid.amplitude_g(grid_point), onset_g, octaves).units
     });
     survivors.iter().map(|(_, seconds)| seconds).sum::<f64>() / units.iter().sum::<f64>()

@@ -66,6 +66,13 @@ pub struct SweepInput {
     pub keep_histories: KeepHistories,
 }
 
+impl SweepPoint {
+    /// Target uncertainty, a share: that of the preset standard where no interval is made.
+    pub(super) fn target(&self) -> f64 {
+        self.uncertainty.as_ref().map_or(0.01, |plan| plan.target)
+    }
+}
+
 impl SweepInput {
     /// The same study without refinement; `None` where none may be refined.
     pub fn without_refinement(&self) -> Option<SweepInput> {

@@ -78,7 +78,7 @@ impl Outlook {
         match job {
             Job::Onset { .. } => true,
             Job::Run { point, asked, .. } => {
-                let time = RunTime::survivor(&input.points[*point].coordinates, asked.probe);
+                let time = RunTime::survivor(&input.points[*point], asked.probe);
                 let seconds = self.pace.seconds(time);
                 seconds.is_none_or(|seconds| seconds <= left.as_secs_f64())
             }

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::input::SweepInput;
+use super::input::{SweepInput, SweepPoint};
 use super::registry::{Registry, uncertainty_asked};
 use super::run_time::{Kind, RunTime, of_correction, of_none};
 use crate::search::{Ramp, Verdict};
@@ -153,13 +153,18 @@ impl Pace {
         Some(plain_s * time.units * ratio)
     }
 
-    /// Seconds of sampling the film's defect correction at levels that the sweep has not reached yet.
-    pub(super) fn corrections_s(&self, levels: &BTreeSet<i8>) -> f64 {
-        let Some((ramp, plain_s)) = self.plain_s.first_key_value() else {
+    /// Seconds of sampling the film's defect correction at a level; zero where the sweep has reached it.
+    pub(super) fn correction_s(&self, input: &SweepInput, level: i8) -> f64 {
+        let known = self.plain_s.first_key_value();
+        let Some((ramp, plain_s)) = known.filter(|_| !self.corrections.contains(&level)) else {
             return 0.0;
         };
-        let units = levels.difference(&self.corrections).copied();
-        units.map(of_correction).sum::<f64>() * plain_s / of_none(*ramp)
+        let target = input
+            .points
+            .iter()
+            .map(SweepPoint::target)
+            .fold(0.0, f64::max);
+        of_correction(level, target) * plain_s / of_none(*ramp)
     }
 
     /// Standard deviation of the logarithm of the time of a plain run.

@@ -37,8 +37,8 @@ const AHEAD: f64 = 1.9;
 const MOST_AHEAD: f64 = 2.0;
 /// Points as many as which made-up intervals count against finished ones: of all ramp models, and of one.
 const MADE_UP_POINTS: f64 = 3.0;
-/// Real over made-up cost of an interval before any is finished: that of five studies that refine.
-const MODEL_RATIO: f64 = 0.75;
+/// Real over made-up cost of an interval before any is finished: that of 21 studies, of which nine refine.
+const MODEL_RATIO: f64 = 0.8;
 /// Standard deviation of the logarithm of the real over the made-up cost of all intervals, before any is finished.
 const MODEL_SPREAD: f64 = 0.4;
 
@@ -139,8 +139,7 @@ fn one_end(
                 KeepHistories::Bracket => 2,
                 KeepHistories::All => new.len().max(2),
             };
-            let at = &input.points[point].coordinates;
-            let survivor = RunTime::survivor(at, Probe::at(0));
+            let survivor = RunTime::survivor(&input.points[point], Probe::at(0));
             histories_s += kept as f64 * of_run(survivor);
         }
     }
@@ -167,9 +166,8 @@ fn one_end(
             .get(&one.ramp)
             .map_or(1.0, |factor| factor * one.left_s)
     });
-    let corrections = intervals.iter().flat_map(|one| &one.corrections);
-    let sampled_s = pace.corrections_s(&corrections.copied().collect());
-    let lefts: Vec<f64> = std::iter::once(sampled_s).chain(lefts).collect();
+    let sampled_s = sampled_s(input, &intervals, pace, threads);
+    let lefts: Vec<f64> = sampled_s.into_iter().chain(lefts).collect();
     let asked: f64 = intervals
         .iter()
         .map(|one| one.runs as f64 * factors.get(&one.ramp).copied().unwrap_or(1.0))
@@ -187,6 +185,25 @@ fn one_end(
     }
     let wall_s = busy_s.into_iter().fold(0.0, f64::max) / CORE_USE;
     [searched, asked, searched + asked, core_s, wall_s]
+}
+
+/// Seconds of each thread for sampling the film's defect correction anew: one samples a level, the others wait for it where their
+/// intervals need it as well.
+fn sampled_s(input: &SweepInput, intervals: &[Interval], pace: &Pace, threads: usize) -> Vec<f64> {
+    let open = intervals.iter().filter(|one| one.runs > 0).count();
+    let mut wanted: BTreeMap<i8, usize> = BTreeMap::new();
+    for level in intervals.iter().flat_map(|one| &one.corrections) {
+        *wanted.entry(*level).or_default() += 1;
+    }
+    let mut seconds = vec![0.0; threads];
+    for (level, n) in wanted {
+        let sampled_s = pace.correction_s(input, level);
+        let others = (n - 1) as f64 / open.saturating_sub(1).max(1) as f64;
+        for (thread, seconds) in seconds.iter_mut().enumerate() {
+            *seconds += sampled_s * if thread == 0 { 1.0 } else { others };
+        }
+    }
+    seconds
 }
 
 /// The intervals of all wanted points, each content once; of a sweep that makes those of decisive points alone, the
@@ -278,12 +295,13 @@ fn interval(
     seconds: &dyn Fn(&Asked, bool) -> f64,
 ) -> Option<Interval> {
     let ramp = input.points[point].coordinates.ramp;
+    let onset_g = ended.campaign.touch(point).and_then(Touch::onset_g);
     let all_s = |asks: &[(Ask, bool)]| -> f64 {
         let of_ask = |&(ask, fails): &(Ask, bool)| seconds(&uncertainty_asked(ask), fails);
         asks.iter().map(of_ask).sum()
     };
     let made_up = |from: &UncertaintyInput, known: &[(Ask, uncertainty::Seen)]| {
-        let law = MadeUpInterval::of(from, ramp, errors, seed, known);
+        let law = MadeUpInterval::of(from, (ramp, onset_g), errors, seed, known);
         let lookup = |ask: Ask| {
             let known = known.iter().find(|(known, _)| *known == ask);
             Some(known.map_or_else(|| law.seen(ask), |(_, seen)| *seen))

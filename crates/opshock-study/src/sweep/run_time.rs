@@ -13,21 +13,26 @@
 //! | V | factor of a failure, which ends early | 1 for survivors; 0.2 without ramp, or with a rigid one and a positive pulse; else 0.6 up to 1 ms, 0.3 beyond |
 //! | A | factor of a survivor at the amplitude a below the critical one a_c | (a / a_c)^0.45 without ramp; with one 0.25 below the first touch a_t, above it 0.25 + 0.75 ((a - a_t) / (a_c - a_t))^0.5 |
 //! | h, s | shares of the head and of disk and ramp | 0.87, 0 without ramp; 0.78, 0.09 with one |
-//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.7, 0.42, 0.38; 2.2^n |
-//! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n; 0.8 |
+//! | F | factor of a film of half, quarter, eighth of the cells, or of 2^n as many | 0.55, 0.27, 0.22; 3.2^n; of the 400 cells of the preset coarse 0.65, 0.55, 0.55; 2.2^n |
+//! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n, with a deformable ramp at the preset coarse 2.8^n; 0.8 |
 //! | n | refinement level of the time step of disk and ramp | |
 //!
-//! Sampling the defect correction of the film on 2^n times the cells takes 3 (4^n) units without ramp, once a study.
+//! Sampling the defect correction of the film on 2^n times the cells takes 3.5 (4^n) units without ramp, once a study; at the preset
+//! coarse, whose unit is smaller, 6.7 (4^n). A target uncertainty above 2 % stands for that preset.
 //!
 //! The factors were read off the film solves and times of 56 studies of one drive (`opshock new`) with clearances
-//! of 60 to 140 um at the presets coarse and standard, of Fig. 13 and of its variants: tuned numbers, not physics.
+//! of 60 to 140 um at the presets coarse and standard, of Fig. 13 and of its variants, and F, T and the sampling of 21 of these
+//! studies again: tuned numbers, not physics.
 
 use opshock_solver::scene::discretisation::{Discretisation, Levels};
 
-use super::input::SweepInput;
+use super::input::{SweepInput, SweepPoint};
 use super::registry::Registry;
 use crate::search::evidence::Evidence;
 use crate::search::{Asked, Campaign, Coordinates, PointSearch, Probe, Ramp, Sign, Touch};
+
+/// Target uncertainty from which a study has the preset coarse.
+const COARSE: f64 = 0.02;
 
 /// A kind of run, whose measured time is compared with the modelled one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,8 +60,8 @@ impl Kind {
         Some(self.levels.of(Discretisation::FilmCorrection)).filter(|&level| level > 0)
     }
 
-    /// Time of head, disk and ramp in units.
-    fn relative(self) -> f64 {
+    /// Time of head, disk and ramp in units, of a study with this target uncertainty.
+    fn relative(self, target: f64) -> f64 {
         if self.is_plain() {
             return 1.0;
         }
@@ -65,15 +70,23 @@ impl Kind {
             Ramp::None => (0.87, 0.0),
             Ramp::Rigid | Ramp::Deformable => (0.78, 0.09),
         };
-        let film = match level(Discretisation::FilmGrid) {
-            ..=-3 => 0.38,
-            -2 => 0.42,
-            -1 => 0.7,
-            finer => 2.2_f64.powi(finer),
+        let is_coarse = target > COARSE;
+        let film = match (level(Discretisation::FilmGrid), is_coarse) {
+            (..=-2, true) => 0.55,
+            (-1, true) => 0.65,
+            (finer, true) => 2.2_f64.powi(finer),
+            (..=-3, false) => 0.22,
+            (-2, false) => 0.27,
+            (-1, false) => 0.55,
+            (finer, false) => 3.2_f64.powi(finer),
+        };
+        let of_finer = match self.ramp {
+            Ramp::Deformable if is_coarse => 2.8_f64,
+            _ => 1.8,
         };
         let tolerance = match level(Discretisation::HeadTolerance) {
             ..=-1 => 0.8,
-            finer => 1.8_f64.powi(finer),
+            finer => of_finer.powi(finer),
         };
         head * film * tolerance + structure * 2.2_f64.powi(level(Discretisation::StructureStep))
     }
@@ -87,9 +100,10 @@ pub(super) fn of_none(ramp: Ramp) -> f64 {
     }
 }
 
-/// Units without ramp of sampling the defect correction of a film at a refinement level.
-pub(super) fn of_correction(level: i8) -> f64 {
-    3.0 * 4.0_f64.powi(i32::from(level))
+/// Units without ramp of sampling the defect correction of a film at a refinement level, in a study with this target uncertainty.
+pub(super) fn of_correction(level: i8, target: f64) -> f64 {
+    let of_plain = if target > COARSE { 6.7 } else { 3.5 };
+    of_plain * 4.0_f64.powi(i32::from(level))
 }
 
 /// Modelled time of a run.
@@ -121,7 +135,7 @@ impl RunTime {
             true => 0.0,
             false => steps_below(campaign.search(point), asked.probe.index, octave) / octave,
         };
-        let next_to_it = RunTime::survivor(at, asked.probe);
+        let next_to_it = RunTime::survivor(&input.points[point], asked.probe);
         match fails {
             true => next_to_it.failing(at, amplitude_g >= onset_g),
             false => next_to_it.at(amplitude_g, onset_g, octaves),
@@ -129,7 +143,8 @@ impl RunTime {
     }
 
     /// That of a survivor next to the critical amplitude.
-    pub(super) fn survivor(at: &Coordinates, probe: Probe) -> RunTime {
+    pub(super) fn survivor(point: &SweepPoint, probe: Probe) -> RunTime {
+        let at = &point.coordinates;
         let kind = Kind {
             ramp: at.ramp,
             levels: probe.levels,
@@ -143,7 +158,7 @@ impl RunTime {
         };
         RunTime {
             kind,
-            units: of_pulse * kind.relative(),
+            units: of_pulse * kind.relative(point.target()),
         }
     }
 
