@@ -3,6 +3,7 @@
 //! A new force needs a file here, its entry below, and its keys in a study with the code that reads them.
 
 mod asperity_contact;
+mod graded_points;
 mod quadrature;
 mod surface_forces;
 mod viscous_shear;

@@ -76,10 +76,8 @@ impl AsperityLaw {
                 left_m: 0.0,
             };
         }
-        // R_p/R = Hertz's force over this one; ω* − ω_p = ω_c (P²/(R_p/R))^(1/3) in units of the limit.
-        let force = 1.5 * depth - 0.5;
-        let hertz = depth * depth.sqrt();
-        let recovered = force / hertz.cbrt();
+        // R_p/R = Hertz's force ω*^(3/2) over this one; ω* − ω_p = (P²/(R_p/R))^(1/3) = P/√ω*, in units of the limit.
+        let recovered = (1.5 * depth - 0.5) / depth.sqrt();
         Unloading {
             deepest_n,
             left_m: self.limit_m * (depth - recovered),

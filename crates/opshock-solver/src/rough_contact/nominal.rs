@@ -15,7 +15,8 @@
 //!
 //! Integrals run over τ = (s − d)/σ from τ*, the first asperity that still touches: τ* = u + r(τ*), with u = (h − d)/σ and
 //! the interference r σ that is left without force. Gauss's rule acts on two parts, below and above the limit of
-//! elasticity; each in the root of the distance from its lower end, in which the integrand is smooth.
+//! elasticity; each in the root of the distance from its lower end, in which the integrand is smooth. Where all asperities touch, it
+//! is smooth from tail to tail, and the trapezoidal rule with steps of σ errs by 2 exp(−2 π²), 5e-9.
 //!
 //! | symbol | name here | unit |
 //! |---|---|---|
@@ -27,6 +28,7 @@
 //! where so many touch that they would be one body; heights are those of one surface against a smooth one (misalignment of tips).
 
 use super::asperity::AsperityLaw;
+use super::loading_table::LoadingTable;
 use super::roughness::normal_density;
 
 /// Points of Gauss's rule in each part.
@@ -34,6 +36,12 @@ const POINTS: usize = 32;
 
 /// Heights beyond these many σ from the mean are left out: 1e-16 of all asperities.
 const HIGHEST: f64 = 8.3;
+
+/// Heights up to these many σ count where all touch: all but 2e-9.
+const TAIL: i32 = 6;
+
+/// Distances in σ between which loading pressures are tabulated.
+const TABULATED: [f64; 2] = [-100.0, 8.25];
 
 /// Contact of a nominal area.
 #[derive(Clone, Debug)]
@@ -45,6 +53,8 @@ pub struct NominalContact {
     most_pa: f64,
     /// Gauss's points and weights on [0, 1].
     rule: [(f64, f64); POINTS],
+    /// Pressures where the surfaces were never closer.
+    loading: LoadingTable,
 }
 
 /// What a nominal area bears.
@@ -54,8 +64,6 @@ pub struct Borne {
     pub pressure_pa: f64,
     /// Its derivative by the distance, Pa/m.
     pub slope_pa_per_m: f64,
-    /// Elastic energy, J/m2.
-    pub elastic_j_per_m2: f64,
 }
 
 /// What the asperities of all cells bear at an instant.
@@ -74,13 +82,19 @@ pub struct ContactState {
 impl NominalContact {
     /// With the roughness `sigma_m` > 0 and `per_m2` asperities of `law`, which yield at `most_pa`.
     pub fn new(sigma_m: f64, per_m2: f64, law: AsperityLaw, most_pa: f64) -> Self {
-        Self {
+        let mut contact = Self {
             sigma_m,
             per_m2,
             law,
             most_pa,
             rule: gauss_rule(),
-        }
+            loading: LoadingTable::default(),
+        };
+        contact.loading = LoadingTable::new(TABULATED, |x| {
+            let [pressure_pa, slope_pa_per_m, _] = contact.integral(x * sigma_m, x * sigma_m);
+            [pressure_pa, slope_pa_per_m * sigma_m]
+        });
+        contact
     }
 
     /// Distance from which nothing touches, m.
@@ -88,33 +102,59 @@ impl NominalContact {
         HIGHEST * self.sigma_m
     }
 
-    /// Pressure, slope and energy at the distance `h_m` of the mean planes, `closest_m` the smallest so far.
+    /// Pressure and slope at the distance `h_m` of the mean planes, `closest_m` the smallest so far.
     pub fn at(&self, h_m: f64, closest_m: f64) -> Borne {
-        let closest_m = closest_m.min(h_m);
-        let free = self.unbounded(h_m, closest_m);
-        let is_loading = closest_m == h_m;
-        let deepest_pa = match is_loading {
-            true => free.pressure_pa,
-            false => self.unbounded(closest_m, closest_m).pressure_pa,
-        };
+        let [deepest_pa, slope_pa_per_m] = self.first(closest_m.min(h_m));
         if deepest_pa <= 0.0 {
             return Borne::default();
         }
         let bound = (deepest_pa / self.most_pa).tanh();
-        let share = bound * self.most_pa / deepest_pa;
-        let slope_share = match is_loading {
-            true => 1.0 - bound * bound,
-            false => share,
+        let bounded_pa = bound * self.most_pa;
+        if closest_m >= h_m {
+            return Borne {
+                pressure_pa: bounded_pa,
+                slope_pa_per_m: (1.0 - bound * bound) * slope_pa_per_m,
+            };
+        }
+        let share = bounded_pa / deepest_pa;
+        let highest_m = HIGHEST * self.sigma_m - closest_m;
+        let [pressure_pa, slope_pa_per_m] = match highest_m <= self.law.limit_m {
+            // No asperity has yielded.
+            true => self.first(h_m),
+            false => {
+                let [pressure_pa, slope_pa_per_m, _] = self.integral(h_m, closest_m);
+                [pressure_pa, slope_pa_per_m]
+            }
         };
         Borne {
-            pressure_pa: (share * free.pressure_pa).min(self.most_pa),
-            slope_pa_per_m: slope_share * free.slope_pa_per_m,
-            elastic_j_per_m2: share * free.elastic_j_per_m2,
+            pressure_pa: (share * pressure_pa).min(self.most_pa),
+            slope_pa_per_m: share * slope_pa_per_m,
         }
     }
 
-    /// p, its slope and its energy.
-    fn unbounded(&self, h_m: f64, closest_m: f64) -> Borne {
+    /// Elastic energy at the distance `h_m` of the mean planes, `closest_m` the smallest so far, J/m2.
+    pub fn elastic_j_per_m2(&self, h_m: f64, closest_m: f64) -> f64 {
+        let closest_m = closest_m.min(h_m);
+        let [deepest_pa, _] = self.first(closest_m);
+        if deepest_pa <= 0.0 {
+            return 0.0;
+        }
+        let share = (deepest_pa / self.most_pa).tanh() * self.most_pa / deepest_pa;
+        share * self.integral(h_m, closest_m)[2]
+    }
+
+    /// p and its slope at a distance where the surfaces were never closer.
+    fn first(&self, h_m: f64) -> [f64; 2] {
+        let tabulated = self.loading.at(h_m / self.sigma_m);
+        let tabulated = tabulated.map(|[pressure_pa, slope]| [pressure_pa, slope / self.sigma_m]);
+        tabulated.unwrap_or_else(|| {
+            let [pressure_pa, slope_pa_per_m, _] = self.integral(h_m, h_m);
+            [pressure_pa, slope_pa_per_m]
+        })
+    }
+
+    /// p in Pa, its slope in Pa/m and its energy in J/m2, by quadrature.
+    fn integral(&self, h_m: f64, closest_m: f64) -> [f64; 3] {
         let (sigma, law) = (self.sigma_m, &self.law);
         let (d, u) = (closest_m / sigma, (h_m - closest_m) / sigma);
         let limit = law.limit_m / sigma;
@@ -123,7 +163,7 @@ impl NominalContact {
         let highest = HIGHEST - d;
         let lowest = (-HIGHEST - d).max(0.0);
         let first = self.first_touching(u).max(lowest);
-        let mut borne = Borne::default();
+        let [mut pressure, mut slope, mut energy] = [0.0; 3];
         let mut add = |tau: f64, weight: f64| {
             let deepest_m = sigma * tau;
             let after = law.unloading(deepest_m);
@@ -134,28 +174,31 @@ impl NominalContact {
             let weight = weight * normal_density(d + tau);
             let root = share.sqrt();
             let force = weight * after.deepest_n * share * root;
-            borne.pressure_pa += force;
-            borne.elastic_j_per_m2 += 0.4 * force * share * (deepest_m - after.left_m);
-            borne.slope_pa_per_m -= if is_loading {
+            pressure += force;
+            energy += 0.4 * force * share * (deepest_m - after.left_m);
+            slope -= if is_loading {
                 force * (d + tau) / sigma
             } else {
                 1.5 * weight * after.deepest_n * root / (deepest_m - after.left_m)
             };
         };
-        let middle = limit.clamp(first, highest.max(first));
-        for (begin, end) in [(first, middle), (middle, highest)] {
-            if begin < end {
-                // In q with τ = begin + (end − begin) q², dτ = 2 (end − begin) q dq.
-                let length = end - begin;
-                for (q, weight) in self.rule {
-                    add(q.mul_add(q * length, begin), 2.0 * length * q * weight);
+        if first < -f64::from(TAIL) - d {
+            for s in -TAIL..=TAIL {
+                add(f64::from(s) - d, 1.0);
+            }
+        } else {
+            let middle = limit.clamp(first, highest.max(first));
+            for (begin, end) in [(first, middle), (middle, highest)] {
+                if begin < end {
+                    // In q with τ = begin + (end − begin) q², dτ = 2 (end − begin) q dq.
+                    let length = end - begin;
+                    for (q, weight) in self.rule {
+                        add(q.mul_add(q * length, begin), 2.0 * length * q * weight);
+                    }
                 }
             }
         }
-        borne.pressure_pa *= self.per_m2;
-        borne.slope_pa_per_m *= self.per_m2;
-        borne.elastic_j_per_m2 *= self.per_m2;
-        borne
+        [pressure, slope, energy].map(|sum| self.per_m2 * sum)
     }
 
     /// Work of bringing the surfaces to `h_m` for the first time, J/m2.
@@ -222,7 +265,8 @@ mod tests {
     }
 
     /// F_(3/2)(x) by 35-digit arithmetic.
-    const GREENWOOD_WILLIAMSON: [(f64, f64); 6] = [
+    const GREENWOOD_WILLIAMSON: [(f64, f64); 7] = [
+        (-6.0, 14.850_864_472_910_9),
         (-4.0, 8.189_959_426_789_36),
         (-1.0, 1.404_597_470_473_95),
         (0.0, 0.430_019_993_662_26),
@@ -250,8 +294,8 @@ mod tests {
     fn slopes_and_energies_belong_to_the_pressure() {
         for yield_pa in [1e9, 4e9, 1e15] {
             let contact = contact(yield_pa);
-            for closest in [f64::INFINITY, -2.0, 0.5] {
-                for x in [-1.0, 0.7, 1.6, 3.0] {
+            for closest in [f64::INFINITY, -140.0, -30.0, -7.0, -2.0, 0.5] {
+                for x in [-120.0, -25.0, -5.9, -1.0, 0.7, 1.6, 3.0] {
                     let at = |x: f64| contact.at(x * SIGMA_M, closest * SIGMA_M);
                     let step = 1e-4;
                     let (below, above, here) = (at(x - step), at(x + step), at(x));
@@ -260,7 +304,9 @@ mod tests {
                     let error = (slope - here.slope_pa_per_m) * SIGMA_M / scale;
                     assert!(error.abs() < 1e-6, "{yield_pa} {closest} {x}: {error:e}");
                     if x > closest {
-                        let fall = below.elastic_j_per_m2 - above.elastic_j_per_m2;
+                        let energy =
+                            |x: f64| contact.elastic_j_per_m2(x * SIGMA_M, closest * SIGMA_M);
+                        let fall = energy(x - step) - energy(x + step);
                         let error = fall / (2.0 * step * SIGMA_M) - here.pressure_pa;
                         assert!(
                             error.abs() < 1e-6 * scale,
@@ -285,7 +331,7 @@ mod tests {
         for (yield_pa, most) in [(1e9, 0.8), (4e9, 1.0 - 1e-4), (1e15, 1.0 + 1e-9)] {
             let contact = contact(yield_pa);
             let closest_m = -SIGMA_M;
-            let returned = contact.at(closest_m, closest_m).elastic_j_per_m2;
+            let returned = contact.elastic_j_per_m2(closest_m, closest_m);
             let share = returned / contact.work_j_per_m2(closest_m);
             assert!((0.1..=most).contains(&share), "{yield_pa}: {share}");
             // Pressed again to where they were, they bear what they bore.

@@ -15,18 +15,18 @@
 //! While a scene has this effect, the film's height is the mean gap of the rough surfaces
 //! ([`crate::rough_contact::roughness`]), and its minimum a tenth of the minimum film height.
 //!
-//! The integral uses Gauss's rule of two by two points per cell, at the true height.
+//! The integral uses Gauss's rule at the true height, with points closer together towards edges ([`super::graded_points`]).
 //!
 //! Neglected: elastic deformation of slider and disk as wholes, the lubricant, flow factors of the film, that friction has half the lever
 //! about a slider whose dimple is open, adhesion,
 //! the disk's motion under the contact force.
 
-use super::quadrature::CellPoints;
+use super::graded_points::GradedPoints;
 use crate::air_bearing::attitude::Attitude;
-use crate::air_bearing::faces::BLOCK;
 use crate::air_bearing::film::{CellStates, Element, Film};
 use crate::air_bearing::gap_force::GapForce;
 use crate::air_bearing::gap_load::GapLoad;
+use crate::air_bearing::mesh::Place;
 use crate::rough_contact::asperity::AsperityLaw;
 use crate::rough_contact::nominal::{ContactState, NominalContact};
 use crate::slider::SliderParameters;
@@ -96,7 +96,7 @@ impl GapForce for AsperityContact {
         let speed = x.hypot(y).max(f64::MIN_POSITIVE);
         Arc::new(Contact {
             nominal: self.nominal(),
-            points: CellPoints::new(slider, &film.mesh),
+            points: GradedPoints::new(slider, &film.mesh),
             friction: [x, y].map(|v| self.friction * v / speed),
             friction_per_force: self.friction * x.hypot(y),
             track: [slider.skew_rad.cos(), slider.skew_rad.sin()],
@@ -109,7 +109,7 @@ impl GapForce for AsperityContact {
 #[derive(Clone, Debug)]
 struct Contact {
     nominal: NominalContact,
-    points: CellPoints,
+    points: GradedPoints,
     /// μ times the direction of the disk's motion.
     friction: [f64; 2],
     /// Power of friction over the normal force, m/s.
@@ -120,17 +120,9 @@ struct Contact {
 }
 
 impl Contact {
-    /// Calls `visit` with every point that may touch: its number and true height.
-    fn touching(&self, attitude: &Attitude, mut visit: impl FnMut(usize, f64)) {
-        let reach_m = self.nominal.reach_m();
-        for first in (0..self.points.area.len()).step_by(BLOCK) {
-            let heights = self.points.places.heights(first, attitude);
-            for (k, height_m) in heights.into_iter().enumerate() {
-                if height_m < reach_m {
-                    visit(first + k, height_m);
-                }
-            }
-        }
+    /// Calls `visit` with every point that may touch: its number and height.
+    fn touching(&self, attitude: &Attitude, visit: impl FnMut(usize, f64)) {
+        self.points.below(self.nominal.reach_m(), attitude, visit);
     }
 }
 
@@ -147,7 +139,7 @@ impl Element for Contact {
         let (mut force, mut by_attitude) = ([0.0; 3], [[0.0; 3]; 3]);
         self.touching(cells.attitude, |k, height_m| {
             let borne = self.nominal.at(height_m, cells.closest_m[k]);
-            let (x, y) = (self.points.places.x[k], self.points.places.y[k]);
+            let Place { x, y, .. } = self.points.places[k];
             let area = self.points.area[k];
             // Work of the pressure and of friction per (h_c, pitch, roll).
             let levers = [1.0, arms[0] - x, arms[1] + y];
@@ -187,7 +179,7 @@ impl Element for Contact {
         let touched = closest_m.iter().zip(&self.points.area);
         let touched = touched.filter(|(closest_m, _)| closest_m.is_finite());
         let lost = touched.map(|(&closest_m, area)| {
-            let back = self.nominal.at(closest_m, closest_m).elastic_j_per_m2;
+            let back = self.nominal.elastic_j_per_m2(closest_m, closest_m);
             area * (self.nominal.work_j_per_m2(closest_m) - back)
         });
         lost.sum()
