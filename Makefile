@@ -206,7 +206,7 @@ verify-worth: bootstrap ## changes by tolerances at the preset coarse against th
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture worth_slow
 
 .PHONY: verify-forecast
-verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (13 to 21 minutes of two idle cores; OPSHOCK_SEEDS=first..end for others)
+verify-forecast: bootstrap ## forecasts of 20 studies of 4 to 36 points against the time they take (about an hour of two idle cores; OPSHOCK_SEEDS=first..end for a part)
 	cargo test --release --locked -p opshock-tests --test products -- --ignored --nocapture forecast_slow
 
 .PHONY: verify-uncertainty
