@@ -7,7 +7,7 @@ use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::rough_contact::nominal::NominalContact;
 use opshock_solver::scene::plan::{Mode, Output, Plan};
 use opshock_solver::simulation::{Model, Outcome, Request, Verdict, Workspace, simulate};
-use opshock_solver::slider::{SliderParameters, SurfaceParameters};
+use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 use opshock_tests::films::uniform;
 use opshock_tests::heads::{default_slider, standard_gas};
 use opshock_tests::scenes;
@@ -102,50 +102,137 @@ fn plates_bear_greenwood_and_williamsons_load_with_coulombs_friction() {
     at_most(SHEET, "friction, relative", moment_error, 1e-8);
 }
 
+/// Attitude of a slider whose plane has these slopes and its lowest place `depth_m` below the disk, of these places.
+fn struck(
+    slider: &SliderParameters,
+    film: &Film,
+    depth_m: f64,
+    [pitch_rad, roll_rad]: [f64; 2],
+) -> Attitude {
+    let at = |centre_height_m: f64| Attitude {
+        centre_height_m,
+        pitch_rad,
+        roll_rad,
+    };
+    let far_m = slider.length_m;
+    let lowest_m = film.min_clearance(&at(far_m)).value_m;
+    at(far_m - lowest_m - depth_m)
+}
+
+/// The integral of s^`power` p(s - depth) over s from 0.
+fn moment_of_pressure(nominal: &NominalContact, depth_m: f64, power: i32) -> f64 {
+    let parts = 20_000;
+    let step_m = (nominal.reach_m() + depth_m) / f64::from(parts);
+    let part = |k: i32| {
+        let s = (f64::from(k) + 0.5) * step_m;
+        s.powi(power) * nominal.at(s - depth_m, f64::INFINITY).pressure_pa * step_m
+    };
+    (0..parts).map(part).sum()
+}
+
+/// A slider of one pad, deep base around it.
+fn padded(outline: RailOutline) -> SliderParameters {
+    let surface = SurfaceParameters {
+        base_recess_m: 5e-6,
+        rails: vec![Rail {
+            outline,
+            recess_m: 0.0,
+        }],
+        ..SurfaceParameters::default()
+    };
+    SliderParameters {
+        surface,
+        ..plate(0.0)
+    }
+}
+
 /// A plane corner h = h0 + a u + b v over u, v >= 0 bears 1/(a b) times the integral of s p(h0 + s) over s.
 #[test]
 fn a_corner_bears_what_its_patch_bears() {
-    let slider = plate(0.0);
-    let (film, nominal) = (film(&slider, ROUGH), ROUGH.nominal());
+    let plate = plate(0.0);
+    let [x_m, y_m] = [plate.length_m, plate.width_m]
+        .map(|extent_m| [2.0, 9.0].map(|line| line / 12.0 * extent_m));
+    let pad = padded(RailOutline::Rectangle { x_m, y_m });
+    let nominal = ROUGH.nominal();
     let mut worst = 0.0_f64;
-    for (depth_m, pitch_rad, roll_rad) in [
-        (5e-9, 1e-3, 5e-3),
-        (50e-9, 1e-3, 5e-3),
-        (20e-9, 1e-4, 3e-4),
-        (10e-9, 5e-3, 14e-3),
-    ] {
-        let at = Attitude {
-            centre_height_m: -depth_m
-                + 0.5 * (pitch_rad * slider.length_m + roll_rad * slider.width_m),
-            pitch_rad,
-            roll_rad,
-        };
-        assert!((film.min_clearance(&at).value_m + depth_m).abs() < 1e-15);
-        let parts = 20_000;
-        let step_m = (nominal.reach_m() + depth_m) / f64::from(parts);
-        let sum: f64 = (0..parts)
-            .map(|k| {
-                let s = (f64::from(k) + 0.5) * step_m;
-                s * nominal.at(s - depth_m, f64::INFINITY).pressure_pa * step_m
-            })
-            .sum();
-        let force = sum / (pitch_rad * roll_rad);
+    for slider in [plate, pad] {
+        let film = film(&slider, ROUGH);
+        for (depth_m, pitch_rad, roll_rad) in [
+            (5e-9, 1e-3, 5e-3),
+            (50e-9, -1e-3, 5e-3),
+            (20e-9, 1e-4, -3e-4),
+            (10e-9, -5e-3, -14e-3),
+        ] {
+            let at = struck(&slider, &film, depth_m, [pitch_rad, roll_rad]);
+            let force = moment_of_pressure(&nominal, depth_m, 1) / (pitch_rad * roll_rad).abs();
+            let found = contact_load(&film, &at).force[0];
+            worst = worst.max((found / force - 1.0).abs());
+        }
+    }
+    at_most(SHEET, "force on a tilted corner, relative", worst, 0.02);
+}
+
+/// A line of length L from which both sides rise with slopes a and b bears L (1/a + 1/b) times the integral of p(h0 + s) over s; a
+/// slanted side that rises on one side alone has one of the two.
+#[test]
+fn the_end_of_a_taper_and_a_slanted_side_bear_what_their_strips_bear() {
+    let nominal = ROUGH.nominal();
+    let plain = plate(0.0);
+    let surface = SurfaceParameters {
+        taper_length_m: 2.0 / 12.0 * plain.length_m,
+        taper_angle_rad: 10e-3_f64.atan(),
+        ..SurfaceParameters::default()
+    };
+    let tapered = SliderParameters {
+        surface,
+        ..plate(0.0)
+    };
+    let ridged = film(&tapered, ROUGH);
+    let mut worst = 0.0_f64;
+    for (depth_m, pitch_rad) in [(5e-9, -5e-3), (20e-9, -1e-3), (50e-9, -7e-3)] {
+        let at = struck(&tapered, &ridged, depth_m, [pitch_rad, 0.0]);
+        let slopes = 1.0 / -pitch_rad + 1.0 / (10e-3 + pitch_rad);
+        let force = tapered.width_m * slopes * moment_of_pressure(&nominal, depth_m, 0);
+        let found = contact_load(&ridged, &at).force[0];
+        worst = worst.max((found / force - 1.0).abs());
+    }
+    at_most(SHEET, "force on the end of a taper, relative", worst, 0.02);
+    // A pad whose trailing side runs 0.2 mm back over its width of 0.5 mm.
+    let (back_m, across_m) = (0.2e-3_f64, 0.5e-3);
+    let corners = [
+        [0.2e-3, 0.1e-3],
+        [0.7e-3, 0.1e-3],
+        [0.7e-3 - back_m, 0.1e-3 + across_m],
+        [0.2e-3, 0.1e-3 + across_m],
+    ];
+    let slanted = padded(RailOutline::Polygon {
+        points_m: corners.to_vec(),
+    });
+    let film = film(&slanted, ROUGH);
+    let length_m = back_m.hypot(across_m);
+    let mut worst = 0.0_f64;
+    for (depth_m, slope) in [(5e-9, 1e-3), (10e-9, 2e-3), (20e-9, 5e-3)] {
+        // Falls towards the side, which points along (across, back).
+        let slopes = [slope * across_m / length_m, -slope * back_m / length_m];
+        let at = struck(&slanted, &film, depth_m, slopes);
+        let force = length_m / slope * moment_of_pressure(&nominal, depth_m, 0);
         let found = contact_load(&film, &at).force[0];
         worst = worst.max((found / force - 1.0).abs());
     }
-    at_most(SHEET, "force on a tilted corner, relative", worst, 0.02);
+    at_most(SHEET, "force on a slanted side, relative", worst, 0.02);
 }
 
 #[test]
 fn derivatives_are_those_of_the_loads() {
     let slider = plate(9.0);
     let film = film(&slider, ROUGH);
-    for (pitch_rad, roll_rad) in [(0.0, 0.0), (1e-6, 0.0), (2e-6, -1.5e-6)] {
-        let at = Attitude {
-            centre_height_m: 0.8e-9,
-            pitch_rad,
-            roll_rad,
-        };
+    let level = Attitude {
+        centre_height_m: 0.8e-9,
+        ..Attitude::default()
+    };
+    let tilted = [[1e-6, 0.0], [2e-6, -1.5e-6], [1e-3, 3e-3]]
+        .map(|slopes| struck(&slider, &film, 2e-9, slopes));
+    for at in [level].into_iter().chain(tilted) {
         let load = contact_load(&film, &at);
         let steps = [1e-13, 2e-10, 2e-10];
         for q in 0..3 {

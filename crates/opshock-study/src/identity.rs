@@ -5,6 +5,7 @@
 //! the shortest digits that read back to the same bits. New fields are digested without further code; a new field of a
 //! scene does not compile until it is one of `structure`'s or `head`'s.
 
+use crate::provenance::PHYSICS_CONTACT;
 use opshock_solver::scene::Scene;
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter, Serializer};
@@ -95,6 +96,14 @@ fn structure(scene: &Scene) -> impl Serialize {
     )
 }
 
+/// A part of a scene, with what came later and only some scenes have: the digests of the others are what they were.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Part<A, B> {
+    Plain(A),
+    With(A, B),
+}
+
 /// Everything else the head depends on.
 fn head(scene: &Scene) -> impl Serialize {
     let Scene {
@@ -118,6 +127,10 @@ fn head(scene: &Scene) -> impl Serialize {
         not_refined: _,
     } = scene;
     let film = (gas, flow, gap_forces, film_resolution);
+    let film = match gap_forces.asperity_contact.roughness_m > 0.0 {
+        true => Part::With(film, PHYSICS_CONTACT),
+        false => Part::Plain(film),
+    };
     (
         slider,
         suspension,

@@ -1,8 +1,9 @@
 //! Points of Gauss's rule in the cells of a film, closer together towards edges.
 //!
 //! A tilted slider strikes with an edge or a corner, over a width of depth over tilt: often less than a micrometre, where a cell
-//! is tens of micrometres wide. Beside an edge a cell is cut into parts, each half as wide as the one before, and the rule of
-//! two points acts on each. Edges are those of the slider, and those at which its surface steps back.
+//! is tens of micrometres wide. Beside an edge a cell is cut into parts, halved again and again towards it, and the rule of
+//! two points acts on each. Edges are those of the slider, those at which its surface steps back, and the end of its taper. A cell
+//! that a slanted side of a rail crosses is cut into equal parts.
 
 use crate::air_bearing::attitude::Attitude;
 use crate::air_bearing::mesh::{Mesh, Place};
@@ -12,6 +13,12 @@ use std::ops::Range;
 
 /// Width of the part next to an edge, at most, m.
 const FINEST_M: f64 = 0.25e-6;
+
+/// Share of a cell's width within which a place lies on a line of the grid.
+const ON_LINE: f64 = 1e-6;
+
+/// Parts along a direction of a cell that a slanted side crosses.
+const EQUAL_PARTS: u32 = 8;
 
 /// Which of the two ends of a cell along a direction are edges.
 type Edges = [bool; 2];
@@ -61,20 +68,30 @@ impl GradedPoints {
                     !is_cell || mesh.cells[mesh.index(i, j)].recess > cell.recess
                 };
                 // Before the first cell the number wraps, and is no cell's either.
-                let edges = [
+                let mut edges = [
                     [[i.wrapping_sub(1), j], [i + 1, j]],
                     [[i, j.wrapping_sub(1)], [i, j + 1]],
                 ]
                 .map(|ends| ends.map(steps_back));
-                let [x, y] = [(0, i), (1, j)].map(|(d, k)| {
-                    let (middle, width) = (mesh.lines[d].centre(k), mesh.lines[d].width(k));
-                    points(middle, width, edges[d])
+                let [x, y] = [(0, i), (1, j)]
+                    .map(|(d, k)| (mesh.lines[d].centre(k), mesh.lines[d].width(k)));
+                let taper_m = surface.taper_length_m();
+                for (edge, side) in edges[0].iter_mut().zip([-0.5, 0.5]) {
+                    *edge |= taper_m > 0.0 && (x.0 + side * x.1 - taper_m).abs() < ON_LINE * x.1;
+                }
+                let is_crossed = surface.recess_m(x.0, y.0) != cell.recess;
+                let [x, y] = [(x, edges[0]), (y, edges[1])].map(|((middle, width), edges)| {
+                    let cuts = match is_crossed {
+                        true => equal(width),
+                        false => graded(width, edges),
+                    };
+                    points(middle, &cuts)
                 });
                 let first = all.places.len();
                 for &(x, along) in &x {
                     for &(y, across) in &y {
                         let mut place = Place::new(&surface, x, y);
-                        place.form += cell.recess;
+                        place.form += surface.recess_m(x, y);
                         all.places.push(place);
                         all.area.push(along * across);
                     }
@@ -116,8 +133,14 @@ impl GradedPoints {
     }
 }
 
-/// Points along one direction of a cell, rising, and the widths that they stand for.
-fn points(middle: f64, width: f64, edges: Edges) -> Vec<(f64, f64)> {
+/// Ends of equal parts of a cell along a direction, from its middle.
+fn equal(width: f64) -> Vec<f64> {
+    let at = |k: u32| width * (f64::from(k) / f64::from(EQUAL_PARTS) - 0.5);
+    (0..=EQUAL_PARTS).map(at).collect()
+}
+
+/// Ends of parts that are closer together towards edges.
+fn graded(width: f64, edges: Edges) -> Vec<f64> {
     let half = 0.5 * width;
     let halvings = (half / FINEST_M).log2().ceil().max(1.0) as i32;
     // Cuts at these distances from the middle.
@@ -130,6 +153,11 @@ fn points(middle: f64, width: f64, edges: Edges) -> Vec<(f64, f64)> {
     cuts.extend(edges.contains(&true).then_some(0.0));
     cuts.extend(towards(edges[1]));
     cuts.push(half);
+    cuts
+}
+
+/// Points along one direction of a cell, rising, and the widths that they stand for.
+fn points(middle: f64, cuts: &[f64]) -> Vec<(f64, f64)> {
     let offset = 0.5 / 3.0_f64.sqrt();
     let of_part = |part: &[f64]| {
         let (centre, width) = (middle + 0.5 * (part[0] + part[1]), part[1] - part[0]);
