@@ -9,7 +9,8 @@ use opshock_study::search::{
     Coordinates, Flag, MonotonicityScan, Ramp, Sign, Status, Touch, Verdict,
 };
 use opshock_study::sweep::{
-    Ending, MergeEnd, Silent, StopFlag, SweepInput, SweepOptions, SweepPoint, merge, shard, sweep,
+    Ending, MergeEnd, PointFilm, Silent, StopFlag, SweepInput, SweepOptions, SweepPoint, merge,
+    shard, sweep,
 };
 use opshock_tests::hdf5_dump::dump;
 use opshock_tests::mock_sweep::{self, settings};
@@ -199,6 +200,10 @@ fn input(table: &Table) -> SweepInput {
             axes: Vec::new(),
             digest: mock_sweep::digest(&format!("{} {}", point.at.ramp, point.at.pulse_ms)),
             below_continuum: false,
+            film: PointFilm {
+                number: 0,
+                cells: 1000,
+            },
             uncertainty: None,
         })
         .collect();

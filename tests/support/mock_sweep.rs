@@ -13,7 +13,7 @@ use opshock_study::search::{
 };
 use opshock_study::store::{PointDigest, StudyTexts};
 use opshock_study::study::KeepHistories;
-use opshock_study::sweep::{Event, Onset, Progress, Simulator, SweepInput, SweepPoint};
+use opshock_study::sweep::{Event, Onset, PointFilm, Progress, Simulator, SweepInput, SweepPoint};
 
 /// Widths of the paper's figure, ms.
 pub const WIDTHS_MS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
@@ -37,6 +37,10 @@ pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
                     axes: Vec::new(),
                     digest: digest(&format!("{ramp} {pulse_ms} {sign:?}")),
                     below_continuum: false,
+                    film: PointFilm {
+                        number: 0,
+                        cells: 1000,
+                    },
                     uncertainty: None,
                 });
             }

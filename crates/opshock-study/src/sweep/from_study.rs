@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
-use opshock_solver::scene::Window;
 use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::{Mode, Touch};
+use opshock_solver::scene::{Scene, Window};
+use opshock_solver::simulation::Bearing;
 use serde_json::json;
 
-use super::input::{SweepInput, SweepPoint, UncertaintyPlan};
+use super::input::{PointFilm, SweepInput, SweepPoint, UncertaintyPlan};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::decisive::Question;
@@ -39,10 +40,15 @@ impl SweepInput {
         let clearance_axis = axes
             .position(|axis| axis.path == CLEARANCE)
             .filter(|_| study.plan().mode == Mode::Auto);
+        let mut films: Vec<&Scene> = Vec::new();
         let points: Vec<SweepPoint> = study
             .table_order()
             .into_iter()
-            .map(|place| sweep_point(&study.points[place], search, clearance_axis))
+            .map(|place| {
+                let point = &study.points[place];
+                let film = film(&point.scene, &mut films);
+                sweep_point(point, search, clearance_axis, film)
+            })
             .collect();
         let is_decisive = search.uncertainty && search.uncertainty_of == UncertaintyOf::Decisive;
         Ok(SweepInput {
@@ -125,10 +131,26 @@ fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
 /// The key whose values are clearances called failure.
 const CLEARANCE: &str = "failure.clearance_nm";
 
+/// The film of `scene`, numbered among the `known` ones.
+fn film<'a>(scene: &'a Scene, known: &mut Vec<&'a Scene>) -> PointFilm {
+    let place = known
+        .iter()
+        .position(|known| Bearing::has_reference(scene, known));
+    let number = place.unwrap_or(known.len());
+    if place.is_none() {
+        known.push(scene);
+    }
+    PointFilm {
+        number,
+        cells: scene.film_resolution.cells,
+    }
+}
+
 fn sweep_point(
     point: &Point,
     search: &crate::study::SearchSettings,
     clearance_axis: Option<usize>,
+    film: PointFilm,
 ) -> SweepPoint {
     SweepPoint {
         coordinates: Coordinates {
@@ -148,6 +170,7 @@ fn sweep_point(
         axes: point.axes.iter().map(|(_, value)| value.into()).collect(),
         digest: digest(point, point.sign),
         below_continuum: point.scene.fails_below_continuum(),
+        film,
         uncertainty: search
             .uncertainty
             .then(|| uncertainty_plan(point, search.max_refinements)),

@@ -27,6 +27,15 @@ pub struct UncertaintyPlan {
     pub refinements: u8,
 }
 
+/// The film of a point, as far as its time is concerned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointFilm {
+    /// Number among the films of the study that differ in their defect correction.
+    pub number: usize,
+    /// Cells.
+    pub cells: usize,
+}
+
 /// A point of the study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPoint {
@@ -38,6 +47,8 @@ pub struct SweepPoint {
     pub digest: PointDigest,
     /// The clearance called failure is below twice the minimum film height.
     pub below_continuum: bool,
+    /// Its film.
+    pub film: PointFilm,
     /// How its uncertainty interval is made; `None`: the search bracket alone.
     pub uncertainty: Option<UncertaintyPlan>,
 }
@@ -64,13 +75,6 @@ pub struct SweepInput {
     pub start_s: f64,
     /// Which histories are kept.
     pub keep_histories: KeepHistories,
-}
-
-impl SweepPoint {
-    /// Target uncertainty, a share: that of the preset standard where no interval is made.
-    pub(super) fn target(&self) -> f64 {
-        self.uncertainty.as_ref().map_or(0.01, |plan| plan.target)
-    }
 }
 
 impl SweepInput {

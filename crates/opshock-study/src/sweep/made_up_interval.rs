@@ -97,8 +97,11 @@ impl<'a> MadeUpInterval<'a> {
         let inside = random.unit();
         let width = f64::from(input.failure - input.survivor);
         let critical_g = input.grid.amplitude_g(input.survivor);
+        // A drive that fails before its disk touches the ramp has the errors of one without.
+        let fails_untouched = onset_g.is_some_and(|onset_g| onset_g >= critical_g);
+        let ramp = if fails_untouched { Ramp::None } else { ramp };
         let of_onset = |onset_g: f64| (4.0 * (1.0 - onset_g / critical_g)).clamp(0.1, 1.4);
-        let excess = onset_g.map_or(1.0, of_onset);
+        let excess = onset_g.filter(|_| !fails_untouched).map_or(1.0, of_onset);
         let mut error = |&(discretisation, common): &(Discretisation, f64)| {
             let median = excess * common * median_error(discretisation, ramp, input.target);
             let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };

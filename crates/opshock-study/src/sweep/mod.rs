@@ -42,7 +42,7 @@ mod writer;
 
 pub use audit::audit;
 pub use engine::sweep;
-pub use input::{SweepInput, SweepPoint, UncertaintyPlan};
+pub use input::{PointFilm, SweepInput, SweepPoint, UncertaintyPlan};
 pub use merge::{Disagreement, MergeEnd, Merged, merge};
 pub use options::{Ending, SweepEnd, SweepOptions};
 pub use physics::Physics;

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::input::{SweepInput, SweepPoint};
+use super::input::{PointFilm, SweepInput};
 use super::registry::{Registry, uncertainty_asked};
 use super::run_time::{Kind, RunTime, of_correction, of_none};
 use crate::search::{Ramp, Verdict};
@@ -47,16 +47,17 @@ pub(super) struct Pace {
     plain_runs: BTreeMap<Ramp, f64>,
     of_kind: BTreeMap<Kind, Sums>,
     of_ramp: BTreeMap<Ramp, Sums>,
-    /// Refinement levels at which the film's defect correction has been sampled.
-    corrections: BTreeSet<i8>,
+    /// Films and refinement levels at which this process has sampled defect corrections.
+    corrections: BTreeSet<(usize, i8)>,
 }
 
 impl Pace {
     /// What the runs that the searches and intervals of `registry` have used took.
     pub(super) fn of(input: &SweepInput, registry: &Registry<'_>) -> Pace {
         let campaign = registry.campaign();
-        let mut all: Vec<(f64, RunTime, f64)> = Vec::new();
+        let mut all: Vec<(f64, usize, RunTime, f64)> = Vec::new();
         for point in 0..input.points.len() {
+            let film = input.points[point].film.number;
             let search = campaign.search(point);
             let searched = search.into_iter().flat_map(|search| search.log());
             let interval = registry.interval(point);
@@ -69,23 +70,27 @@ impl Pace {
                 if let Some(run) = run.filter(|run| run.machine.wall_s > 0.0) {
                     let fails = matches!(run.result.verdict, Verdict::Fails { .. });
                     let time = RunTime::of(input, registry, campaign, point, &asked, fails);
-                    all.push((run.machine.finished_unix_s, time, run.machine.wall_s));
+                    all.push((run.machine.finished_unix_s, film, time, run.machine.wall_s));
                 }
             }
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The first run of a ramp model, or with a new defect correction, builds what the others share.
-        let (mut built, mut corrections) = (BTreeSet::new(), BTreeSet::new());
-        all.retain(|(_, time, _)| {
+        let (mut built, mut sampled) = (BTreeSet::new(), BTreeSet::new());
+        let mut corrections = BTreeSet::new();
+        all.retain(|&(finished_unix_s, film, time, _)| {
             let is_first = built.insert(time.kind.ramp);
-            let samples = time
-                .kind
-                .correction()
-                .map(|level| corrections.insert(level));
-            !is_first && samples != Some(true)
+            let level = time.kind.correction();
+            let samples = level.is_some_and(|level| {
+                if registry.is_of_this_process(finished_unix_s) {
+                    corrections.insert((film, level));
+                }
+                sampled.insert((film, level))
+            });
+            !is_first && !samples
         });
         let mut plain: BTreeMap<Ramp, Sums> = BTreeMap::new();
-        for &(_, time, wall_s) in &all {
+        for &(_, _, time, wall_s) in &all {
             if time.kind.is_plain() {
                 let sums = plain.entry(time.kind.ramp).or_default();
                 sums.measured_s += wall_s;
@@ -110,7 +115,7 @@ impl Pace {
             pace.plain_s.insert(ramp, sums.ratio(UNIT_RUNS, of_all));
             pace.plain_runs.insert(ramp, sums.runs);
         }
-        for (_, time, wall_s) in all {
+        for (_, _, time, wall_s) in all {
             let kind = time.kind;
             let Some(plain_s) = pace.plain_s.get(&kind.ramp) else {
                 continue;
@@ -153,18 +158,13 @@ impl Pace {
         Some(plain_s * time.units * ratio)
     }
 
-    /// Seconds of sampling the film's defect correction at a level; zero where the sweep has reached it.
-    pub(super) fn correction_s(&self, input: &SweepInput, level: i8) -> f64 {
-        let known = self.plain_s.first_key_value();
-        let Some((ramp, plain_s)) = known.filter(|_| !self.corrections.contains(&level)) else {
-            return 0.0;
-        };
-        let target = input
-            .points
-            .iter()
-            .map(SweepPoint::target)
-            .fold(0.0, f64::max);
-        of_correction(level, target) * plain_s / of_none(*ramp)
+    /// Seconds of sampling the defect correction of a film at a level; zero where this process has reached it.
+    pub(super) fn correction_s(&self, film: PointFilm, level: i8) -> f64 {
+        let is_known = self.corrections.contains(&(film.number, level));
+        let known = self.plain_s.first_key_value().filter(|_| !is_known);
+        known.map_or(0.0, |(ramp, plain_s)| {
+            of_correction(level, film.cells) * plain_s / of_none(*ramp)
+        })
     }
 
     /// Standard deviation of the logarithm of the time of a plain run.

@@ -66,6 +66,8 @@ pub struct Physics {
     /// Models at other refinement levels, by place and levels.
     changed: Mutex<Latest<(usize, Levels), Arc<Model>>>,
     shared_models: Mutex<Vec<Arc<Model>>>,
+    /// Scenes whose films have unlike defect corrections, with what the thread holds that samples it.
+    samplings: Mutex<Vec<(Scene, Arc<Mutex<()>>)>>,
     cache: StructureRunCache,
     /// Structures that several scenes of the study have.
     shared_structures: HashSet<[u8; 16]>,
@@ -161,6 +163,7 @@ impl Physics {
             plan,
             changed: Mutex::new(Latest::new(REFINED)),
             shared_models: Mutex::new(Vec::new()),
+            samplings: Mutex::new(Vec::new()),
             cache: StructureRunCache::default(),
             shared_structures,
             structures: AtomicU64::new(0),
@@ -178,7 +181,34 @@ impl Physics {
         entry.plain.get_or_init(|| self.build(&entry.scene)).clone()
     }
 
+    /// The model of a scene. One thread samples a film's defect correction, others that need it wait for that.
     fn build(&self, scene: &Scene) -> Built {
+        let sampling = self.sampling(scene);
+        let _alone = sampling.as_ref().map(|own| lock(own));
+        self.assembled(scene)
+    }
+
+    /// What a thread locks that samples the defect correction of `scene`; none where a model has it, or nothing is shared.
+    fn sampling(&self, scene: &Scene) -> Option<Arc<Mutex<()>>> {
+        let has_reference = |known: &Scene| Bearing::has_reference(scene, known);
+        if !self.plan.shares_parts
+            || scene.film_resolution.correction_cells == 0
+            || lock(&self.shared_models)
+                .iter()
+                .any(|model| has_reference(model.scene()))
+        {
+            return None;
+        }
+        let mut all = lock(&self.samplings);
+        let known = all.iter().find(|(known, _)| has_reference(known));
+        let own = known.map(|(_, own)| Arc::clone(own));
+        Some(own.unwrap_or_else(|| {
+            all.push((scene.clone(), Arc::default()));
+            Arc::clone(&all[all.len() - 1].1)
+        }))
+    }
+
+    fn assembled(&self, scene: &Scene) -> Built {
         let has_structure = |model: &Arc<Model>| model.has_structure(scene, &self.plan);
         let has_film = |model: &Arc<Model>| Bearing::is_shared(scene, model.scene());
         let has_reference = |model: &Arc<Model>| Bearing::has_reference(scene, model.scene());

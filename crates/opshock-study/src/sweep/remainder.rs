@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use opshock_solver::scene::discretisation::Discretisation;
 
-use super::input::SweepInput;
+use super::input::{PointFilm, SweepInput};
 use super::made_up::{Ended, Random, ended};
 use super::made_up_interval::{Errors, MadeUpInterval};
 use super::pace::Pace;
@@ -63,7 +63,8 @@ struct Interval {
     /// Seconds and runs left.
     left_s: f64,
     runs: usize,
-    /// Refinement levels of the film's defect correction among them.
+    /// Its film, and refinement levels of its defect correction among them.
+    film: PointFilm,
     corrections: BTreeSet<i8>,
     /// Seconds of the finished interval, real and made up.
     finished_s: Option<[f64; 2]>,
@@ -166,7 +167,7 @@ fn one_end(
             .get(&one.ramp)
             .map_or(1.0, |factor| factor * one.left_s)
     });
-    let sampled_s = sampled_s(input, &intervals, pace, threads);
+    let sampled_s = sampled_s(&intervals, pace, threads);
     let lefts: Vec<f64> = sampled_s.into_iter().chain(lefts).collect();
     let asked: f64 = intervals
         .iter()
@@ -187,17 +188,20 @@ fn one_end(
     [searched, asked, searched + asked, core_s, wall_s]
 }
 
-/// Seconds of each thread for sampling the film's defect correction anew: one samples a level, the others wait for it where their
-/// intervals need it as well.
-fn sampled_s(input: &SweepInput, intervals: &[Interval], pace: &Pace, threads: usize) -> Vec<f64> {
+/// Seconds of each thread for sampling defect corrections: one samples a film's level, the others that have open intervals wait for
+/// it where those need it as well.
+fn sampled_s(intervals: &[Interval], pace: &Pace, threads: usize) -> Vec<f64> {
     let open = intervals.iter().filter(|one| one.runs > 0).count();
-    let mut wanted: BTreeMap<i8, usize> = BTreeMap::new();
-    for level in intervals.iter().flat_map(|one| &one.corrections) {
-        *wanted.entry(*level).or_default() += 1;
+    let mut wanted: BTreeMap<(usize, i8), (PointFilm, usize)> = BTreeMap::new();
+    for one in intervals {
+        for &level in &one.corrections {
+            let entry = wanted.entry((one.film.number, level));
+            entry.or_insert((one.film, 0)).1 += 1;
+        }
     }
-    let mut seconds = vec![0.0; threads];
-    for (level, n) in wanted {
-        let sampled_s = pace.correction_s(input, level);
+    let mut seconds = vec![0.0; threads.min(open)];
+    for ((_, level), (film, n)) in wanted {
+        let sampled_s = pace.correction_s(film, level);
         let others = (n - 1) as f64 / open.saturating_sub(1).max(1) as f64;
         for (thread, seconds) in seconds.iter_mut().enumerate() {
             *seconds += sampled_s * if thread == 0 { 1.0 } else { others };
@@ -294,7 +298,10 @@ fn interval(
     seed: u64,
     seconds: &dyn Fn(&Asked, bool) -> f64,
 ) -> Option<Interval> {
-    let ramp = input.points[point].coordinates.ramp;
+    let (ramp, film) = (
+        input.points[point].coordinates.ramp,
+        input.points[point].film,
+    );
     let onset_g = ended.campaign.touch(point).and_then(Touch::onset_g);
     let all_s = |asks: &[(Ask, bool)]| -> f64 {
         let of_ask = |&(ask, fails): &(Ask, bool)| seconds(&uncertainty_asked(ask), fails);
@@ -335,6 +342,7 @@ fn interval(
                 ramp,
                 left_s: 0.0,
                 runs: 0,
+                film,
                 corrections: BTreeSet::new(),
                 finished_s: Some(finished_s),
                 answer: answer.map(|(answer, _)| answer.clone()),
@@ -346,6 +354,7 @@ fn interval(
             ramp,
             left_s: all_s(&asks),
             runs: asks.len(),
+            film,
             corrections: corrections(&asks),
             finished_s: None,
             answer,
@@ -368,6 +377,7 @@ fn interval(
         ramp,
         left_s: all_s(&asks),
         runs: asks.len(),
+        film,
         corrections: corrections(&asks),
         finished_s: None,
         answer,
@@ -386,4 +396,58 @@ fn corrections(asks: &[(Ask, bool)]) -> BTreeSet<i8> {
 fn is_taken(campaign: &Campaign, point: usize) -> bool {
     let companion = campaign.order().relations[point].companion;
     companion.is_some() && campaign.findings(point).flags.contains(&Flag::NoTouch)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An open interval of a film that samples defect corrections at these levels.
+    fn interval(number: usize, levels: &[i8]) -> Interval {
+        Interval {
+            ramp: Ramp::None,
+            left_s: 1.0,
+            runs: 10,
+            film: PointFilm { number, cells: 400 },
+            corrections: levels.iter().copied().collect(),
+            finished_s: None,
+            answer: None,
+        }
+    }
+
+    #[test]
+    fn a_defect_correction_is_sampled_once_while_those_who_need_it_wait() {
+        let mut pace = Pace::default();
+        pace.set_plain(Ramp::None, 0.1);
+        // A unit takes 0.1 s, a level n of the preset coarse 6.7 (4^n) units.
+        let (first_s, second_s) = (2.68, 10.72);
+        for (open, threads, expected) in [
+            (vec![], 4, vec![]),
+            (vec![interval(0, &[1])], 4, vec![first_s]),
+            // Two threads have an interval, whatever their number.
+            (
+                vec![interval(0, &[1]), interval(0, &[1, 2])],
+                16,
+                vec![first_s + second_s, first_s],
+            ),
+            // One of the two other intervals waits.
+            (
+                vec![interval(0, &[1]), interval(0, &[1]), interval(0, &[])],
+                2,
+                vec![first_s, 0.5 * first_s],
+            ),
+            // Unlike films have each their own.
+            (
+                vec![interval(0, &[1]), interval(1, &[1])],
+                1,
+                vec![2.0 * first_s],
+            ),
+        ] {
+            let found = sampled_s(&open, &pace, threads);
+            assert_eq!(found.len(), expected.len());
+            let pairs = found.iter().zip(&expected);
+            let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(error < 1e-12, "{found:?}, expected {expected:?}");
+        }
+    }
 }

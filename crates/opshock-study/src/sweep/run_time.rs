@@ -17,8 +17,8 @@
 //! | T | factor of 2^n times finer tolerances of the head, or of coarser ones | 1.8^n, with a deformable ramp at the preset coarse 2.8^n; 0.8 |
 //! | n | refinement level of the time step of disk and ramp | |
 //!
-//! Sampling the defect correction of the film on 2^n times the cells takes 3.5 (4^n) units without ramp, once a study; at the preset
-//! coarse, whose unit is smaller, 6.7 (4^n). A target uncertainty above 2 % stands for that preset.
+//! Sampling the defect correction of a film on 2^n times the cells takes 3.5 (4^n) units without ramp, once a process; at the preset
+//! coarse, whose unit is smaller, 6.7 (4^n). Films of less than 600 cells are taken for that preset's.
 //!
 //! The factors were read off the film solves and times of 56 studies of one drive (`opshock new`) with clearances
 //! of 60 to 140 um at the presets coarse and standard, of Fig. 13 and of its variants, and F, T and the sampling of 21 of these
@@ -31,8 +31,8 @@ use super::registry::Registry;
 use crate::search::evidence::Evidence;
 use crate::search::{Asked, Campaign, Coordinates, PointSearch, Probe, Ramp, Sign, Touch};
 
-/// Target uncertainty from which a study has the preset coarse.
-const COARSE: f64 = 0.02;
+/// Cells below which a film is like that of the preset coarse, of 400, and not of the preset standard, of 1000.
+const COARSE: usize = 600;
 
 /// A kind of run, whose measured time is compared with the modelled one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,8 +60,8 @@ impl Kind {
         Some(self.levels.of(Discretisation::FilmCorrection)).filter(|&level| level > 0)
     }
 
-    /// Time of head, disk and ramp in units, of a study with this target uncertainty.
-    fn relative(self, target: f64) -> f64 {
+    /// Time of head, disk and ramp in units, of a film of so many cells.
+    fn relative(self, cells: usize) -> f64 {
         if self.is_plain() {
             return 1.0;
         }
@@ -70,7 +70,7 @@ impl Kind {
             Ramp::None => (0.87, 0.0),
             Ramp::Rigid | Ramp::Deformable => (0.78, 0.09),
         };
-        let is_coarse = target > COARSE;
+        let is_coarse = cells < COARSE;
         let film = match (level(Discretisation::FilmGrid), is_coarse) {
             (..=-2, true) => 0.55,
             (-1, true) => 0.65,
@@ -100,9 +100,9 @@ pub(super) fn of_none(ramp: Ramp) -> f64 {
     }
 }
 
-/// Units without ramp of sampling the defect correction of a film at a refinement level, in a study with this target uncertainty.
-pub(super) fn of_correction(level: i8, target: f64) -> f64 {
-    let of_plain = if target > COARSE { 6.7 } else { 3.5 };
+/// Units without ramp of sampling the defect correction of a film of so many cells at a refinement level.
+pub(super) fn of_correction(level: i8, cells: usize) -> f64 {
+    let of_plain = if cells < COARSE { 6.7 } else { 3.5 };
     of_plain * 4.0_f64.powi(i32::from(level))
 }
 
@@ -158,7 +158,7 @@ impl RunTime {
         };
         RunTime {
             kind,
-            units: of_pulse * kind.relative(point.target()),
+            units: of_pulse * kind.relative(point.film.cells),
         }
     }
 

@@ -25,6 +25,8 @@ pub(in crate::sweep) struct Registry<'a> {
     pub(super) input: &'a SweepInput,
     pub(super) campaign: Campaign,
     pub(super) runs: HashMap<RunKey, RunRecord>,
+    /// When the latest of the runs that it began with had finished, s; minus infinity without any.
+    loaded_unix_s: f64,
     pub(super) touches: HashMap<PointDigest, StoredTouch>,
     pub(super) in_flight: HashSet<RunKey>,
     pub(super) onsets_in_flight: HashSet<PointDigest>,
@@ -89,9 +91,11 @@ impl<'a> Registry<'a> {
         for (k, &point) in urgency.iter().enumerate() {
             rank[point] = k;
         }
+        let finished = loaded.runs.values().map(|run| run.machine.finished_unix_s);
         Registry {
             input,
             campaign,
+            loaded_unix_s: finished.fold(f64::NEG_INFINITY, f64::max),
             runs: loaded.runs,
             touches: loaded.touches,
             in_flight: HashSet::new(),
@@ -144,6 +148,11 @@ impl<'a> Registry<'a> {
     /// The first place in the study of the content of a point.
     pub(in crate::sweep) fn first_of_content(&self, point: usize) -> usize {
         self.sharing[&self.input.points[point].digest][0]
+    }
+
+    /// Whether a run that finished then is of this process, and not one that it began with.
+    pub(in crate::sweep) fn is_of_this_process(&self, finished_unix_s: f64) -> bool {
+        finished_unix_s > self.loaded_unix_s
     }
 
     /// Simulations known.
