@@ -91,7 +91,7 @@ fn points(_: &mut Criterion) {
         std::fs::write(&file, touch_study(n)).expect("written");
         let start = Instant::now();
         let status = Command::new(env!("CARGO_BIN_EXE_opshock-under-test"))
-            .args(["sweep", "-q", "-j", "2", "--store"])
+            .args(["sweep", "-q", "-j", "2", "--no-cache", "--store"])
             .arg(folder.path().join("program"))
             .arg(&file)
             .stdout(std::process::Stdio::null())

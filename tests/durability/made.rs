@@ -148,6 +148,7 @@ impl Reference {
     /// Runs it by `command`, which the words are added to, in `folder`.
     pub fn run(&self, command: &mut Command, folder: &Path) -> Output {
         let command = command.args(self.words()).current_dir(folder);
+        command.env("OPSHOCK_CACHE_DIR", "");
         command.output().expect("starts")
     }
 

@@ -211,7 +211,7 @@ fn the_program_tells_how_to_go_on_after_a_signal() {
         .expect("the resume line");
     assert!(line.contains("--store s.opshock"), "{line}");
     let done = Command::new("sh")
-        .args(["-c", &format!("\"$0\" {line} --quiet"), OPSHOCK])
+        .args(["-c", &format!("\"$0\" {line} --no-cache --quiet"), OPSHOCK])
         .current_dir(root.path())
         .output()
         .expect("runs");

@@ -17,6 +17,7 @@ mod cli_studies;
 mod cml_decks;
 mod cml_drives;
 mod compare;
+mod correction_cache;
 mod decisive;
 mod digests;
 mod documents;

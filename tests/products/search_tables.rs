@@ -203,6 +203,7 @@ fn input(table: &Table) -> SweepInput {
             film: PointFilm {
                 number: 0,
                 cells: 1000,
+                kept: [false; 2],
             },
             uncertainty: None,
         })

@@ -81,6 +81,7 @@ const STUDY: &[(&str, u8)] = &[
     ("sweep", 3),
     ("accuracy", 3),
     ("matching", 4),
+    ("correction_cache", 3),
     ("batch", 4),
     ("hard_cases", 4),
     ("qualification", 4),

@@ -40,6 +40,7 @@ pub fn study(ramps: &[Ramp], widths_ms: &[f64]) -> SweepInput {
                     film: PointFilm {
                         number: 0,
                         cells: 1000,
+                        kept: [false; 2],
                     },
                     uncertainty: None,
                 });

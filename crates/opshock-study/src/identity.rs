@@ -5,11 +5,13 @@
 //! the shortest digits that read back to the same bits. New fields are digested without further code; a new field of a
 //! scene does not compile until it is one of `structure`'s or `head`'s.
 
-use crate::provenance::PHYSICS_CONTACT;
 use opshock_solver::scene::Scene;
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 use std::io;
+
+/// Version of the contact of asperities, raised by hand as those of the stages are; it counts where slider and disk are rough.
+const CONTACT_VERSION: u32 = 2;
 
 /// Identity of one cell: a scene and the sign of its amplitude.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -59,6 +61,19 @@ pub fn structure_key(scene: &Scene, physics_version: u32) -> [u8; 16] {
 pub fn head_key(scene: &Scene, structure_version: u32, head_version: u32) -> [u8; 16] {
     let versions = [structure_version, head_version];
     digest("opshock head 2", &(versions, structure(scene), head(scene)))
+}
+
+/// Key of the defect correction of a film: all that [`Bearing::has_reference`](opshock_solver::simulation::Bearing::has_reference)
+/// compares, and the program that samples it.
+pub fn correction_key(scene: &Scene, program: &str) -> [u8; 16] {
+    let film = &scene.film_resolution;
+    let of_film = (film.min_height_m, film.correction_cells, scene.flow);
+    let of_slider = (&scene.slider, &scene.gas, &scene.gap_forces);
+    let held = (scene.disk.spin_rad_per_s, scene.suspension.gram_load_n);
+    digest(
+        "opshock correction 1",
+        &(program, CONTACT_VERSION, of_film, of_slider, held),
+    )
 }
 
 /// Everything that disk, ramp and their motion at the slider depend on.
@@ -128,7 +143,7 @@ fn head(scene: &Scene) -> impl Serialize {
     } = scene;
     let film = (gas, flow, gap_forces, film_resolution);
     let film = match gap_forces.asperity_contact.roughness_m > 0.0 {
-        true => Part::With(film, PHYSICS_CONTACT),
+        true => Part::With(film, CONTACT_VERSION),
         false => Part::Plain(film),
     };
     (

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod batch;
+pub mod correction_cache;
 pub mod draws;
 pub mod hard_cases;
 pub mod identity;

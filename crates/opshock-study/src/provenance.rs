@@ -31,6 +31,3 @@ pub const PHYSICS_STRUCTURE: u32 = 8;
 
 /// Physics version of the head stage (film, slider, suspension, criterion).
 pub const PHYSICS_HEAD: u32 = 15;
-
-/// Physics version of the contact of asperities: counts where slider and disk are rough, beside those of both stages.
-pub const PHYSICS_CONTACT: u32 = 2;

@@ -3,7 +3,7 @@
 use crate::slider::clearance::ClearanceMap;
 
 /// Pose of the slider's reference plane over the disk's local plane.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Attitude {
     /// Height of the reference plane over the disk at the slider's centre (no crown), m.
     pub centre_height_m: f64,

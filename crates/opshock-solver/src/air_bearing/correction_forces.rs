@@ -32,7 +32,7 @@ const SAMPLES: usize = 200;
 
 /// Forces of quasi-static films without discretisation error at the sampled attitudes. They give the discretisation
 /// defect of every grid of the same film.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CorrectionForces {
     range: Range,
     /// In an order in which neighbours are alike.

@@ -9,6 +9,7 @@
 //! when the plan says so, to the end of the window.
 
 mod critical;
+mod kept_corrections;
 mod mechanism;
 mod model;
 mod outcome;
@@ -16,6 +17,7 @@ mod run;
 
 pub use crate::head::HeadState;
 pub use critical::{CriticalShock, CriticalShockError, critical_shock};
+pub use kept_corrections::{KeptCorrections, is_correction_kept, keep_corrections};
 pub use mechanism::{FailureEvidence, Mechanism};
 pub use model::{Bearing, BuildError, Model, Scope};
 pub use outcome::*;

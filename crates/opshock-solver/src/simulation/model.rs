@@ -10,6 +10,7 @@ use crate::head::{HeadError, HeadModel};
 use crate::mutant;
 use crate::scene::Scene;
 use crate::scene::plan::{Decision, Mode, Needs, Output, Plan, Touch};
+use crate::simulation::kept_corrections::kept_or;
 use crate::structure::{StructureError, StructureModel};
 
 /// Why a scene cannot be built.
@@ -62,7 +63,7 @@ pub struct Bearing {
 
 impl Bearing {
     /// Builds the film of `scene` and finds its steady flying state. Its defect correction is that of `known`, a
-    /// bearing for which [`Bearing::has_reference`] holds, or is sampled.
+    /// bearing for which [`Bearing::has_reference`] holds, or is [kept](super::keep_corrections), or is sampled.
     ///
     /// # Errors
     /// [`BuildError::Film`], [`BuildError::Steady`].
@@ -70,7 +71,7 @@ impl Bearing {
         let reference = match known.and_then(|known| known.reference.clone()) {
             _ if scene.film_resolution.correction_cells == 0 => None,
             Some(known) => Some(known),
-            None => Some(Arc::new(correction_forces(scene)?)),
+            None => Some(Arc::new(kept_or(scene, correction_forces)?)),
         };
         let plain = scene.film()?;
         let load = [scene.suspension.gram_load_n, 0.0, 0.0];

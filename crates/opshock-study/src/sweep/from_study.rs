@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use opshock_solver::scene::discretisation::Discretisation;
+use opshock_solver::scene::discretisation::{Discretisation, Levels};
 use opshock_solver::scene::plan::{Mode, Touch};
 use opshock_solver::scene::{Scene, Window};
-use opshock_solver::simulation::Bearing;
+use opshock_solver::simulation::{Bearing, is_correction_kept};
 use serde_json::json;
 
 use super::input::{PointFilm, SweepInput, SweepPoint, UncertaintyPlan};
@@ -143,6 +143,11 @@ fn film<'a>(scene: &'a Scene, known: &mut Vec<&'a Scene>) -> PointFilm {
     PointFilm {
         number,
         cells: scene.film_resolution.cells,
+        kept: std::array::from_fn(|place| {
+            let level = place as i8 + 1;
+            let levels = Levels::NONE.changed(Discretisation::FilmCorrection, level);
+            is_correction_kept(&scene.at_levels(levels))
+        }),
     }
 }
 

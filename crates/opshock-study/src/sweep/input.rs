@@ -34,7 +34,12 @@ pub struct PointFilm {
     pub number: usize,
     /// Cells.
     pub cells: usize,
+    /// Refinement levels, from 1, at which its defect correction is kept from another process.
+    pub kept: [bool; KEPT_LEVELS],
 }
+
+/// Refinement levels of the defect correction that an interval of a study at `coarse` or `standard` asks for.
+pub(super) const KEPT_LEVELS: usize = 2;
 
 /// A point of the study.
 #[derive(Clone, Debug, PartialEq)]

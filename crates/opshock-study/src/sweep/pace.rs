@@ -158,9 +158,10 @@ impl Pace {
         Some(plain_s * time.units * ratio)
     }
 
-    /// Seconds of sampling the defect correction of a film at a level; zero where this process has reached it.
+    /// Seconds of sampling the defect correction of a film at a level; zero where it is known.
     pub(super) fn correction_s(&self, film: PointFilm, level: i8) -> f64 {
-        let is_known = self.corrections.contains(&(film.number, level));
+        let kept = film.kept.get(level as usize - 1).copied();
+        let is_known = kept == Some(true) || self.corrections.contains(&(film.number, level));
         let known = self.plain_s.first_key_value().filter(|_| !is_known);
         known.map_or(0.0, |(ramp, plain_s)| {
             of_correction(level, film.cells) * plain_s / of_none(*ramp)

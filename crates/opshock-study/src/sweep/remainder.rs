@@ -408,7 +408,11 @@ mod tests {
             ramp: Ramp::None,
             left_s: 1.0,
             runs: 10,
-            film: PointFilm { number, cells: 400 },
+            film: PointFilm {
+                number,
+                cells: 400,
+                kept: [false; 2],
+            },
             corrections: levels.iter().copied().collect(),
             finished_s: None,
             answer: None,

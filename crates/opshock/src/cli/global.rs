@@ -36,6 +36,9 @@ pub struct GlobalArgs {
     /// Folder of the store [default: beside the study file, STUDY.opshock for STUDY.toml]
     #[arg(long, global = true, value_name = "DIR")]
     pub(super) store: Option<PathBuf>,
+    /// Sample defect corrections of films anew, and keep none for other runs
+    #[arg(long, global = true)]
+    pub(super) no_cache: bool,
     /// How progress is shown
     #[arg(long, global = true, value_name = "HOW", value_enum, default_value_t)]
     pub(super) progress: ProgressChoice,

@@ -52,6 +52,8 @@ use clap::{CommandFactory as _, Parser, Subcommand};
 use console::Console;
 use failure::{Failure, Fault};
 use global::GlobalArgs;
+use opshock_solver::simulation;
+use opshock_study::correction_cache::{self, CorrectionCache};
 use opshock_study::provenance;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -155,7 +157,19 @@ fn tame_signals() {
     let _ = flag::register_conditional_shutdown(SIGABRT, Exit::Internal.code().into(), always);
 }
 
+/// Keeps defect corrections in the user's folder for caches. The check of a machine trusts none, and times of accuracy have
+/// their sampling.
+fn keep_corrections(cli: &Cli, console: Console) {
+    let is_fresh = matches!(cli.command, Command::Doctor(_) | Command::Accuracy(_));
+    let is_wanted = !cli.global.no_cache && !is_fresh;
+    if let Some(folder) = correction_cache::default_folder().filter(|_| is_wanted) {
+        let tell = move |message: &str| console.note(&format!("note: {message}"));
+        simulation::keep_corrections(Box::new(CorrectionCache::new(folder, tell)));
+    }
+}
+
 fn run(cli: &Cli, console: &Console) -> Result<Exit, Failure> {
+    keep_corrections(cli, *console);
     match &cli.command {
         Command::New(arguments) => new::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, &cli.global, console),

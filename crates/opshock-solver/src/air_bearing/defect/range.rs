@@ -17,7 +17,7 @@ use crate::air_bearing::attitude::Attitude;
 const MOST_LEAN: f64 = 0.8;
 
 /// Attitudes that samples fill.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(in crate::air_bearing) struct Range {
     /// Minimum film height h₀, m.
     pub(in crate::air_bearing) min_height_m: f64,
@@ -148,7 +148,7 @@ pub(in crate::air_bearing) fn height(
 }
 
 /// Parabola in Newton's form (points and divided differences), optionally constant outside its points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(in crate::air_bearing) struct Parabola {
     places: [f64; 3],
     differences: [f64; 3],
