@@ -11,6 +11,7 @@ mod contact_limits;
 mod contact_method;
 mod contact_stiffness;
 mod coupled_ramp;
+mod damage;
 mod dimple;
 mod disk_displacements;
 mod effects;

@@ -262,6 +262,7 @@ fn every_picture_is_written_as_svg_png_and_csv() {
         width_s: 2e-3,
         t_fail_s: Some(1.49e-3),
         ramp_clearance_m: Some((1e-4, 1e-4)),
+        fails_by_damage: false,
         fail_below_m: 0.0,
     };
     let with_head = [

@@ -50,6 +50,7 @@ fn every_study_is_clean_and_documented() {
         "paper-cases",
         "drive-2.5in",
         "clearance",
+        "damage",
     ] {
         assert!(
             names.iter().any(|name| name == expected),

@@ -15,6 +15,8 @@ use std::sync::{Mutex, PoisonError};
 #[pyclass(frozen, module = "opshock._native")]
 pub struct Search {
     grid: AmplitudeGrid,
+    /// The failure is a clearance, so that those of survivors say how far they are from it.
+    fails_by_clearance: bool,
     /// With the number of verdicts taken.
     search: Mutex<(PointSearch, u64)>,
 }
@@ -45,6 +47,7 @@ impl Search {
         };
         Ok(Self {
             grid: settings.grid,
+            fails_by_clearance: study.study.points[0].scene.damage.is_none(),
             search: Mutex::new((PointSearch::new(settings, start), 0)),
         })
     }
@@ -67,7 +70,10 @@ impl Search {
             return Err(PyRuntimeError::new_err(message));
         };
         match verdict {
-            "survives" => search.report_margin(&Verdict::Survives, min_clearance_m),
+            "survives" => {
+                let margin_m = min_clearance_m.filter(|_| self.fails_by_clearance);
+                search.report_margin(&Verdict::Survives, margin_m);
+            }
             "fails" => search.tell(&Verdict::Fails {
                 t_fail_s: 0.0,
                 x_m: 0.0,

@@ -94,6 +94,7 @@ fn structure(scene: &Scene) -> impl Serialize {
         flow: _,
         gap_forces: _,
         fail_below_m: _,
+        damage: _,
         film_resolution: _,
         head_resolution: _,
         not_refined: _,
@@ -128,6 +129,7 @@ fn head(scene: &Scene) -> impl Serialize {
         flow,
         gap_forces,
         fail_below_m,
+        damage,
         film_resolution,
         head_resolution,
         oblique: _,
@@ -146,14 +148,11 @@ fn head(scene: &Scene) -> impl Serialize {
         true => Part::With(film, CONTACT_VERSION),
         false => Part::Plain(film),
     };
-    (
-        slider,
-        suspension,
-        film,
-        fail_below_m,
-        head_resolution,
-        run_out,
-    )
+    let failure = match damage {
+        Some(limits) => Part::With(fail_below_m, limits),
+        None => Part::Plain(fail_below_m),
+    };
+    (slider, suspension, film, failure, head_resolution, run_out)
 }
 
 /// JSON in which minus zero is zero: they are the same input.

@@ -145,11 +145,27 @@ class Disk:
 
 
 @dataclass(frozen=True)
+class FailureDamage:
+    """Settings `failure.damage`."""
+
+    contacts: int | tuple[int, ...] | None = None
+    """Limit of damage: number of contacts. Absent: no limit."""
+    overlap_nm: float | tuple[float, ...] | None = None
+    """Limit of damage: overlap of the mean planes of slider and disk. In nm. Absent: no limit."""
+    pressure_gpa: float | tuple[float, ...] | None = None
+    """Limit of damage: contact pressure of a nominal area. In GPa. Absent: no limit."""
+
+
+@dataclass(frozen=True)
 class Failure:
     """Settings `failure`."""
 
     clearance_nm: float | tuple[float, ...] = MISSING
     """Clearance below which the interface has failed. In nm."""
+    criterion: str | tuple[str, ...] | None = None
+    """What is called failure: a touch of slider and disk, or contact that exceeds one of the limits of damage below, where a touch is none. Absent: touch."""
+    damage: FailureDamage | None = None
+    """Settings `failure.damage`."""
 
 
 @dataclass(frozen=True)

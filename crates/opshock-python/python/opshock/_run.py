@@ -177,6 +177,8 @@ class SliderEpisode:
 class SliderContact:
     """Contact of slider and disk by their asperities; also after the first touch, if ``slider_contact`` is among the outputs."""
 
+    touch_s: float | None
+    """Time at which the smallest clearance first fell below ``failure.clearance_nm``, s."""
     episodes: tuple[SliderEpisode, ...]
     """The contacts: from a force above 1 % of the dimple's steady force until one below half of that."""
     end: str

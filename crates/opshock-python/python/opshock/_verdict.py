@@ -12,9 +12,9 @@ class Verdict(enum.Enum):
     """
 
     SURVIVES = "survives"
-    """The slider does not touch the disk."""
+    """The slider does not touch the disk, or is not damaged where that is called failure (``failure.criterion``)."""
     FAILS = "fails"
-    """It does: the clearance falls to the limit of failure."""
+    """It does, or is."""
     UNDECIDED = "undecided"
     """The simulation, or the uncertainty interval, does not say."""
 

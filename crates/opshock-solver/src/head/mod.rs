@@ -16,10 +16,12 @@
 //! system of seven mechanical unknowns. Factorisations are kept while the iteration contracts. The alternating
 //! iterations of the literature are available as well (`partitioned`).
 //!
-//! A touch decides a run, and ends it unless the motion after it is requested. The slider touches when the smallest
+//! A touch decides a run, and ends it unless the motion after it is requested; with limits of damage, their excess does
+//! instead. The slider touches when the smallest
 //! height of its true surface over the disk's local plane falls below the limit. The time is found inside the step, on
 //! the slider's cubic dense output and the exact motion of the disk.
 
+mod damage;
 mod fields;
 mod film_passes;
 mod following;
@@ -40,6 +42,7 @@ mod stage_matrix;
 mod stage_scratch;
 mod stops;
 
+pub use damage::DamageLimits;
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
     Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, PressureFields, SliderContact,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::damage::DamageLimits;
 use super::mechanics::Mechanics;
 use super::outcome::Place;
 use super::resolution::HeadResolution;
@@ -121,6 +122,8 @@ pub struct HeadModel {
     pub(super) resolution: HeadResolution,
     pub(super) tableau: Tableau,
     pub(super) fail_below_m: f64,
+    /// What fails in place of the first touch; none by default.
+    pub(super) damage: Option<DamageLimits>,
     /// Film force of the steady state, which the load balances.
     pub(super) steady_force: [f64; 3],
     pub(super) steady_clearance_m: f64,
@@ -210,6 +213,7 @@ impl HeadModel {
             resolution: resolution.clone(),
             tableau: TR_BDF2,
             fail_below_m,
+            damage: None,
             steady_force: film.force(&flight.psi, &flight.attitude, &mut film.scratch()),
             steady_clearance_m,
             arms: [1.0, 0.5 * slider.length_m, 0.5 * slider.width_m],
@@ -226,6 +230,13 @@ impl HeadModel {
     #[must_use]
     pub fn with_tableau(mut self, tableau: Tableau) -> Self {
         self.tableau = tableau;
+        self
+    }
+
+    /// The same head, which fails by damage and not by its first touch where there are limits.
+    #[must_use]
+    pub fn with_damage(mut self, limits: Option<DamageLimits>) -> Self {
+        self.damage = limits;
         self
     }
 

@@ -5,13 +5,13 @@ use crate::air_bearing::Attitude;
 /// Verdict of a run: survived, failed or undecided. A NaN never decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The clearance stayed above the failure limit for the whole window.
+    /// That did not occur in the whole window.
     Survives,
-    /// The clearance fell below the failure limit.
+    /// The clearance fell below the failure limit, or contact exceeded a limit of damage.
     Fails {
-        /// Time of touch, s.
+        /// Time of it, s.
         t_fail_s: f64,
-        /// Place of touch on the slider.
+        /// Place of the smallest clearance then.
         place: Place,
     },
     /// The run gave no answer.
@@ -144,13 +144,15 @@ pub struct SliderEpisode {
 pub struct SliderContact {
     /// Its episodes, in order.
     pub episodes: Vec<SliderEpisode>,
+    /// Time of the first touch, where the clearance fell below the limit, s.
+    pub touched_s: Option<f64>,
     /// The last one goes on at the end of the run.
     pub goes_on: bool,
     /// Work that yielded asperities do not give back, J.
     pub yielded_j: f64,
 }
 
-/// Columns at the head's accepted steps and at its first touch; a run that stops at touch ends with it.
+/// Columns at the head's accepted steps and at its failure; a run that stops there ends with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadColumns {
     /// Time, s.

@@ -87,8 +87,15 @@ impl ContactWatch {
         self.latest.state.force_n
     }
 
-    /// The record, with the work of yielding.
-    pub(super) fn finish(mut self, yielded_j: f64) -> SliderContact {
+    /// The latest episode and its number, from 1.
+    pub(super) fn latest_episode(&self) -> Option<(&SliderEpisode, usize)> {
+        let episodes = &self.record.episodes;
+        Some((episodes.last()?, episodes.len()))
+    }
+
+    /// The record, with the time of the first touch and the work of yielding.
+    pub(super) fn finish(mut self, touched_s: Option<f64>, yielded_j: f64) -> SliderContact {
+        self.record.touched_s = touched_s;
         self.record.yielded_j = yielded_j;
         self.record
     }

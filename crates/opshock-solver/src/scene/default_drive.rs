@@ -52,6 +52,7 @@ impl Scene {
             flow: FlowModel::FukuiKaneko,
             gap_forces: GapForces::default(),
             fail_below_m: 0.0,
+            damage: None,
             disk_resolution: resolutions.disk,
             structure_resolution: resolutions.structure,
             film_resolution: resolutions.film,

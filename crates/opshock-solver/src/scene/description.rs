@@ -4,7 +4,7 @@ use super::discretisation::Discretisation;
 use crate::air_bearing::{Film, FilmError, FilmResolution, FlowModel, GapForces, is_limited};
 use crate::disk::{DiskParameters, DiskResolution, SurfaceMotion, Track, Wave};
 use crate::gas::GasParameters;
-use crate::head::HeadResolution;
+use crate::head::{DamageLimits, HeadResolution};
 use crate::ramp::RampParameters;
 use crate::shock::{BaseMode, ObliqueShock, Pulse};
 use crate::slider::SliderParameters;
@@ -40,6 +40,8 @@ pub struct Scene {
     pub gap_forces: GapForces,
     /// Clearance below which the head-disk interface has failed, m.
     pub fail_below_m: f64,
+    /// Limits of contact from which it has failed instead, where a touch is no failure; `None`: it is.
+    pub damage: Option<DamageLimits>,
     /// Resolution of the disk.
     pub disk_resolution: DiskResolution,
     /// Resolution of the structure.
@@ -66,14 +68,16 @@ impl Scene {
         (!self.run_out.is_empty()).then(|| SurfaceMotion::new(&self.run_out, &track))
     }
 
-    /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height.
+    /// The clearance called failure lies where the film sees more height than there is: below twice its minimum height. Damage is no
+    /// clearance.
     pub fn fails_below_continuum(&self) -> bool {
         let roughness_m = self.gap_forces.asperity_contact.roughness_m;
-        is_limited(
-            self.fail_below_m,
-            self.film_resolution.min_height_m,
-            roughness_m,
-        )
+        self.damage.is_none()
+            && is_limited(
+                self.fail_below_m,
+                self.film_resolution.min_height_m,
+                roughness_m,
+            )
     }
 
     /// Disk, ramp, pulse and window, observed under the slider.

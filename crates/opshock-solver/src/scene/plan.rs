@@ -14,7 +14,7 @@
 //! | R3 | harmonics n ≥ 1 are activated at the first touch, at rest | as R2 |
 //! | R4 | no ramp contact is run | closing of disk against the freely shaking ramp < clearance |
 //! | R5 | one unit response serves all amplitudes and both signs | linear before contact |
-//! | R6 | the head ends at touch | a verdict is wanted |
+//! | R6 | the head ends at its failure | a verdict is wanted |
 //! | R7 | −A is the mirror of +A for disk and ramp | equal clearances and arms; used without a ramp only: with one, contact is run for each sign |
 //! | R8 | pressure fields only at requested times, in recorded runs | `pressure_field` requested, its times |
 //! | R9 | one steady flight for equal sliders, gases, speeds and gram loads; one structural history for several sliders at one place or several altitudes | contents equal |
@@ -68,7 +68,7 @@ pub struct Plan {
     pub shares_parts: bool,
     /// Whether the head's run ends at its first touch, which decides the verdict; the structure
     /// always runs the whole window.
-    pub stops_at_touch: bool,
+    pub stops_at_failure: bool,
     /// Times after the onset at which recorded runs keep pressure fields, s; empty unless requested.
     pub field_times_s: Vec<f64>,
 }
@@ -147,7 +147,7 @@ impl Plan {
                 activation: Activation::AtTouch,
                 shares_parts: true,
                 // Contact goes on after it.
-                stops_at_touch: !outputs.contains(&Output::SliderContact),
+                stops_at_failure: !outputs.contains(&Output::SliderContact),
                 field_times_s: Vec::new(),
             },
             Mode::Full => Self {
@@ -156,7 +156,7 @@ impl Plan {
                 needs: Needs::Head,
                 activation: Activation::AtOnset,
                 shares_parts: false,
-                stops_at_touch: false,
+                stops_at_failure: false,
                 field_times_s: Vec::new(),
             },
         }
@@ -182,7 +182,7 @@ impl Plan {
     #[must_use]
     pub fn past_touch(self) -> Self {
         Self {
-            stops_at_touch: false,
+            stops_at_failure: false,
             ..self
         }
     }
@@ -366,11 +366,14 @@ impl Plan {
             ),
             decision(
                 "R6",
-                "the head's run ends at touch",
-                self.stops_at_touch && self.needs == Needs::Head,
+                "the head's run ends at its failure",
+                self.stops_at_failure && self.needs == Needs::Head,
                 "a verdict is wanted; disk and ramp run the whole window",
                 if self.needs == Needs::Head {
-                    format!("fails below {:e} nm", 1e9 * scene.fail_below_m)
+                    match scene.damage {
+                        Some(_) => "fails by damage".to_owned(),
+                        None => format!("fails below {:e} nm", 1e9 * scene.fail_below_m),
+                    }
                 } else {
                     "no head".to_owned()
                 },

@@ -86,6 +86,11 @@ impl FailureEvidence {
         let Some(Verdict::Fails { t_fail_s, .. }) = outcome.verdict else {
             return None;
         };
+        // It is that of a first touch; damage may come long after it.
+        let contact = outcome.slider_contact.as_ref();
+        if contact.is_some_and(|contact| contact.touched_s != Some(t_fail_s)) {
+            return None;
+        }
         let history = outcome.history.as_ref()?;
         let head = &history.head;
         // What was recorded up to the touch.

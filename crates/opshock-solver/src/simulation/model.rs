@@ -185,7 +185,9 @@ impl Model {
                     &scene.head_resolution,
                     scene.fail_below_m,
                 )?;
-                let head = head.with_fields(&plan.field_times_s);
+                let head = head
+                    .with_damage(scene.damage)
+                    .with_fields(&plan.field_times_s);
                 Some(match scene.surface_motion() {
                     Some(surface) => head.with_run_out(surface)?,
                     None => head,

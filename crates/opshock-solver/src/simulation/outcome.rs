@@ -106,7 +106,7 @@ pub struct Warning {
 pub struct History {
     /// Structure.
     pub structure: StructureColumns,
-    /// Head; ends at touch under a plan that [stops there](crate::scene::plan::Plan::stops_at_touch).
+    /// Head; ends at its failure under a plan that [stops there](crate::scene::plan::Plan::stops_at_failure).
     pub head: HeadColumns,
     /// Pressure fields, when the plan keeps some.
     pub fields: Option<PressureFields>,

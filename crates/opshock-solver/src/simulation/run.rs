@@ -113,7 +113,7 @@ pub fn simulate_head_on(
             &run.history,
             &load,
             stretch,
-            model.plan().stops_at_touch,
+            model.plan().stops_at_failure,
             request.record,
             &mut scratch,
         );

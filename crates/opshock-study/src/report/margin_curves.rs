@@ -13,7 +13,7 @@ const MARKERS: [Marker; 4] = [
 ];
 
 /// A panel for every ramp model (and further axis value) and sign, a curve for every pulse width;
-/// open marks touched. Runs without a clearance are left out.
+/// open marks failed. Runs without a clearance are left out.
 pub fn margin_curves(summary: &Summary, runs: &[RunDot]) -> Figure {
     let mut panels = Vec::new();
     for (name, sign, title) in signed_series(summary) {
@@ -52,7 +52,7 @@ pub fn margin_curves(summary: &Summary, runs: &[RunDot]) -> Figure {
     }
     Figure {
         title: "Margin".into(),
-        subtitle: "smallest clearance of every simulation; open marks touch".into(),
+        subtitle: "smallest clearance of every simulation; open marks fail".into(),
         columns: signs(summary).len().max(1),
         panel_px: (470.0, 300.0),
         panels,

@@ -174,6 +174,7 @@ pub struct StopJson {
     reason = "the names are the documented JSON keys: docs/files.md"
 )]
 pub struct SliderContactJson {
+    pub touch_s: Option<f64>,
     pub episodes: Vec<SliderEpisodeJson>,
     /// `flying` or `in_contact`.
     pub end: &'static str,
@@ -216,6 +217,7 @@ impl SliderContactJson {
             friction_j: episode.friction_j,
         };
         Self {
+            touch_s: contact.touched_s.map(|touched_s| touched_s + start_s),
             episodes: contact.episodes.iter().map(episode).collect(),
             end: match contact.goes_on {
                 true => "in_contact",

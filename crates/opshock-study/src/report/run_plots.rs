@@ -16,11 +16,13 @@ pub struct RunCaption {
     pub start_s: f64,
     /// Width of the pulse, s.
     pub width_s: f64,
-    /// Time of touch on the study's axis, s.
+    /// Time of failure on the study's axis, s.
     pub t_fail_s: Option<f64>,
+    /// That is damage, and no touch.
+    pub fails_by_damage: bool,
     /// Clearance between disk and top and bottom arm at rest, m; `None` without a ramp.
     pub ramp_clearance_m: Option<(f64, f64)>,
-    /// Clearance at which the interface has failed, m.
+    /// Clearance at which the slider touches, m: the failure, unless that is damage.
     pub fail_below_m: f64,
 }
 
@@ -170,7 +172,10 @@ impl Drawing<'_> {
         if let Some(time) = caption.t_fail_s {
             rules.push(Rule::Vertical {
                 x: 1e3 * time,
-                label: "slider touches disk".into(),
+                label: match caption.fails_by_damage {
+                    true => "damage".into(),
+                    false => "slider touches disk".into(),
+                },
             });
         }
         Figure {
@@ -326,7 +331,10 @@ impl Drawing<'_> {
         );
         named.figure.panels[0].rules.push(Rule::Horizontal {
             y: 1e9 * self.caption.fail_below_m,
-            label: "failure".into(),
+            label: match self.caption.fails_by_damage {
+                true => "touch".into(),
+                false => "failure".into(),
+            },
         });
         named
     }

@@ -97,10 +97,14 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
             _ => "flying at the end",
         };
         let count = contact.episodes.len();
+        let touch = contact.touch_s.map_or(String::new(), |time_s| {
+            format!(", touch at {:.4} ms", 1e3 * time_s)
+        });
         line(
             "slider",
             format!(
-                "{count} contacts with the disk, {end}, {:.2} uJ not given back",
+                "{count} {} with the disk{touch}, {end}, {:.2} uJ not given back",
+                if count == 1 { "contact" } else { "contacts" },
                 1e6 * contact.yielded_j
             ),
         );
@@ -183,7 +187,12 @@ pub fn run_text(title: &str, run: &RunJson) -> String {
 fn verdict(run: &RunJson) -> String {
     match (run.t_fail_s, run.place, &run.cause) {
         (Some(time), Some(place), _) => format!(
-            "fails at {:.4} ms, {:.0} um from the leading and {:.0} um from the inner edge",
+            "fails{} at {:.4} ms, {:.0} um from the leading and {:.0} um from the inner edge",
+            if is_damage(run, time) {
+                " by damage"
+            } else {
+                ""
+            },
             1e3 * time,
             1e6 * place.x_m,
             1e6 * place.y_m
@@ -194,6 +203,12 @@ fn verdict(run: &RunJson) -> String {
             .unwrap_or("no verdict: head not simulated")
             .to_owned(),
     }
+}
+
+/// A failure at `time_s` is no touch: that came before, or not at all.
+fn is_damage(run: &RunJson, time_s: f64) -> bool {
+    let contact = run.slider_contact.as_ref();
+    contact.is_some_and(|contact| contact.touch_s != Some(time_s))
 }
 
 fn arm_summary(arm: &ArmJson) -> String {

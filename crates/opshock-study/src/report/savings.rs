@@ -95,7 +95,7 @@ pub fn savings(results: &Results) -> Vec<Saving> {
         of_head(
             "R6",
             cut_short(results),
-            "failing runs ended at touch; the time left is estimated by surviving runs of the same point",
+            "failing runs ended at their failure; the time left is estimated by surviving runs of the same point",
         ),
         counted(
             "R7",

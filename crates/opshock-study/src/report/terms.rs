@@ -57,7 +57,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Column, "uncertainty_g", "uncertainty (G)", "Half-width of the numerical uncertainty interval of A_crit. The interval has the bracket of the search and the discretisation errors. Empty: not computed."),
     term(Kind::Column, "half_min_height_g", "half min. height (G)", "Change of the critical shock with half the minimum film height (resolution.min_film_height_nm), to half a step of the search or a quarter of the change, at the study's own resolution. No part of the uncertainty interval. Empty: not computed, or the clearance called failure is above twice that height."),
     term(Kind::Column, "survived_g", "survived (G)", "Lower end of the bracket: the largest amplitude survived below the smallest that failed."),
-    term(Kind::Column, "failed_g", "failed (G)", "Upper end of the bracket: the smallest amplitude that failed: the clearance of the slider fell below failure.clearance_nm, 0 by default."),
+    term(Kind::Column, "failed_g", "failed (G)", "Upper end of the bracket: the smallest amplitude that failed: the clearance of the slider fell below failure.clearance_nm, 0 by default, or contact exceeded a limit of failure.damage where failure.criterion says so."),
     term(Kind::Column, "onset_g", "first touch (G)", "The amplitude from which on the disk reaches the ramp."),
     term(Kind::Column, "runs", "runs", "Simulations that the row asked for, those for its uncertainty included. Points that are answered before give it its starting amplitude, so that the same point takes other numbers in other studies."),
     term(Kind::Column, "status", "status", "How the search of the row ended."),

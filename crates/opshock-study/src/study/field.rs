@@ -255,6 +255,7 @@ named! {
     super::words::RailKind: super::words::RAIL_KINDS;
     super::words::LengthUnit: super::words::LENGTH_UNITS;
     super::words::Faces: super::words::FACES;
+    super::words::Criterion: super::words::CRITERIA;
     crate::search::MonotonicityScan: super::words::MONOTONICITY_SCAN;
     super::words::UncertaintyOf: super::words::UNCERTAINTY_OF;
     super::words::Effects: super::words::EFFECTS;

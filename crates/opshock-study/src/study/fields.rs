@@ -11,6 +11,7 @@
 use opshock_import::matrix::units::Units;
 use opshock_solver::air_bearing::FlowModel;
 use opshock_solver::disk::HubParameters;
+use opshock_solver::head::DamageLimits;
 use opshock_solver::scene::discretisation::Discretisation;
 use opshock_solver::scene::plan::Output;
 use opshock_solver::scene::preset::Preset;
@@ -20,8 +21,8 @@ use super::field::{Corners, Field, Many, Named, Numbers, Pair, Tables, Text, fie
 use super::key::{ABOVE_ZERO, ANY, FROM_ZERO, Key, Kind, above, below, closed, open};
 use super::settings::View;
 use super::words::{
-    self, AccelerationUnit, Effects, Faces, FilterClass, KeepHistories, LeftOut, LengthUnit,
-    RailKind, RunOut, Shape, TableOffset, TableScale, TimeUnit, UncertaintyOf,
+    self, AccelerationUnit, Criterion, Effects, Faces, FilterClass, KeepHistories, LeftOut,
+    LengthUnit, RailKind, RunOut, Shape, TableOffset, TableScale, TimeUnit, UncertaintyOf,
 };
 use crate::search::{MonotonicityScan, Ramp, Sign};
 use Kind::{Axis, Flag, Integer, Number, NumberOrWord};
@@ -31,6 +32,10 @@ const LENGTH: Kind = Number(ABOVE_ZERO);
 
 fn hub(scene: &mut Scene) -> &mut HubParameters {
     scene.disk.hub.get_or_insert_default()
+}
+
+fn damage(scene: &mut Scene) -> &mut DamageLimits {
+    scene.damage.get_or_insert_default()
 }
 
 fields! {
@@ -309,6 +314,10 @@ fields! {
     RESOLUTION_SUSPENSION_MODES: Option<usize> = Key::by_preset("resolution.suspension_modes", Integer(1, 200), "32", "Modes of the suspension kept above the pinned dimple.") => |scene| scene.head_resolution.suspension_modes;
     // failure
     FAILURE_CLEARANCE_NM: f64 = Key::or("failure.clearance_nm", Number(ANY), "0.0", "Clearance below which the interface has failed.").usual(-10.0, 100.0) => |scene| scene.fail_below_m;
+    FAILURE_CRITERION: Option<Criterion> = Key::optional("failure.criterion", Criterion::KIND, "touch", "\"damage\"", "What is called failure: a touch of slider and disk, or contact that exceeds one of the limits of damage below, where a touch is none.").code("E127");
+    FAILURE_DAMAGE_OVERLAP_NM: Option<f64> = Key::optional("failure.damage.overlap_nm", LENGTH, "no limit", "2.0", "Limit of damage: overlap of the mean planes of slider and disk.").usual(0.1, 100.0).code("E127") => |scene| *damage(scene).overlap_m.get_or_insert_default();
+    FAILURE_DAMAGE_PRESSURE_GPA: Option<f64> = Key::optional("failure.damage.pressure_gpa", LENGTH, "no limit", "1.0", "Limit of damage: contact pressure of a nominal area.").usual(0.01, 50.0).code("E127") => |scene| *damage(scene).pressure_pa.get_or_insert_default();
+    FAILURE_DAMAGE_CONTACTS: Option<u64> = Key::optional("failure.damage.contacts", Integer(0, 1_000_000), "no limit", "3", "Limit of damage: number of contacts.").code("E127") => |scene| *damage(scene).episodes.get_or_insert_default();
     // fields
     FIELDS_TIMES_MS: Numbers = Key::optional("fields.times_ms", Kind::Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152");
     // output

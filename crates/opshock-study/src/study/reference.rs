@@ -24,7 +24,7 @@ const ACTS: [(&str, &str); 30] = [
         fields::DISK_WAVES.path(),
         "the height of the disk under the slider",
     ),
-    ("failure", "the clearance at which the slider has touched"),
+    ("failure", "what of slider and disk is called failure"),
     ("fields", "which pressure fields are kept"),
     ("gas", "the air bearing"),
     ("head", "which head is simulated"),

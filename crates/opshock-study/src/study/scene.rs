@@ -18,7 +18,7 @@ use super::field::{Field, Pair};
 use super::fields::{self, PLACES};
 use super::settings::View;
 use super::unit;
-use super::words::{Faces, RailKind, RunOut, Shape};
+use super::words::{Criterion, Faces, RailKind, RunOut, Shape};
 use super::{imported_suspension, measured_pulse, ramp_geometry};
 use crate::search::Ramp;
 
@@ -54,6 +54,9 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         .collect();
     complete_suspension(view, &mut scene.suspension);
     scene.gas = gas_parameters(view);
+    if view.get(&fields::FAILURE_CRITERION) != Some(Criterion::Damage) {
+        scene.damage = None;
+    }
     scene.not_refined = view.get(&fields::RESOLUTION_NOT_REFINED);
     scene
 }

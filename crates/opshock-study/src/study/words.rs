@@ -128,6 +128,9 @@ pub const PRESETS: [(&str, Preset); 3] = [
 ];
 /// `slider.faces`.
 pub const FACES: [(&str, Faces); 2] = [("down", Faces::Down), ("up", Faces::Up)];
+/// `failure.criterion`.
+pub const CRITERIA: [(&str, Criterion); 2] =
+    [("touch", Criterion::Touch), ("damage", Criterion::Damage)];
 /// `search.monotonicity_scan`.
 pub const MONOTONICITY_SCAN: [(&str, MonotonicityScan); 3] = [
     (
@@ -239,6 +242,15 @@ pub enum TableOffset {
 /// Channel frequency class of SAE J211.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterClass(pub u32);
+
+/// What is called failure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Criterion {
+    /// The first touch of slider and disk.
+    Touch,
+    /// The first contact that exceeds a limit of damage.
+    Damage,
+}
 
 /// The way a head faces: down over its disk, up under it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -169,8 +169,9 @@ fn sweep_point(
                 .collect(),
             round: point.round,
             fail_below_m: point.scene.fail_below_m,
-            // Whether the slider follows a disk with run-out is judged by that clearance too.
-            clearance_axis: clearance_axis.filter(|_| point.scene.run_out.is_empty()),
+            // Whether the slider follows a disk with run-out is judged by that clearance too; damage is not judged by it.
+            clearance_axis: clearance_axis
+                .filter(|_| point.scene.run_out.is_empty() && point.scene.damage.is_none()),
         },
         axes: point.axes.iter().map(|(_, value)| value.into()).collect(),
         digest: digest(point, point.sign),

@@ -350,7 +350,8 @@ impl Simulator for Physics {
             amplitude_m_per_s2: self.points[point].2 * amplitude_m_per_s2,
             record: false,
         };
-        probe_result(&self.run(&model, &request, (point, probe)))
+        let outcome = self.run(&model, &request, (point, probe));
+        probe_result(model.scene(), &outcome)
     }
 
     fn record(&self, point: usize, probe: Probe, amplitude_m_per_s2: f64) -> Option<Outcome> {

@@ -1,6 +1,7 @@
 //! Converts an outcome of the simulation to the result of a probe.
 
 use crate::search::{ProbeResult, RunCost, UndecidedCause, Verdict};
+use opshock_solver::scene::Scene;
 use opshock_solver::simulation::{BuildError, Cause, Outcome, Verdict as SolverVerdict};
 
 /// A scene that could not be built has no verdict.
@@ -16,8 +17,8 @@ pub(super) fn not_built(error: &BuildError) -> ProbeResult {
     }
 }
 
-/// An outcome as the search sees it.
-pub(super) fn probe_result(outcome: &Outcome) -> ProbeResult {
+/// An outcome of `scene` as the search sees it.
+pub(super) fn probe_result(scene: &Scene, outcome: &Outcome) -> ProbeResult {
     let verdict = match &outcome.verdict {
         // Of disk and ramp alone nothing fails.
         None | Some(SolverVerdict::Survives) => Verdict::Survives,
@@ -38,7 +39,8 @@ pub(super) fn probe_result(outcome: &Outcome) -> ProbeResult {
     let cost = &outcome.cost;
     ProbeResult {
         verdict,
-        h_min_m: outcome.min_clearance_m,
+        // Up to damage it is no measure of the distance from it.
+        h_min_m: outcome.min_clearance_m.filter(|_| scene.damage.is_none()),
         t_min_s: outcome.t_min_clearance_s,
         cost: RunCost {
             steps: cost.steps,

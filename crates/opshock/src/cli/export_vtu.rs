@@ -47,7 +47,7 @@ pub(super) fn run(
     let shown = series.film.as_ref().map_or(0, |film| film.time_s.len());
     if shown < times_s.len() {
         console.note(&format!(
-            "{shown} of {} film fields: the head's run ends at touch",
+            "{shown} of {} film fields: the head's run ends at its failure",
             times_s.len()
         ));
     }

@@ -230,6 +230,7 @@ pub(super) fn caption(study: &Study, shot: &Shot, outcome: &Outcome) -> RunCapti
             true => None,
             false => Some((scene.ramp.clearance_top_m, scene.ramp.clearance_bottom_m)),
         },
+        fails_by_damage: scene.damage.is_some(),
         fail_below_m: scene.fail_below_m,
     }
 }

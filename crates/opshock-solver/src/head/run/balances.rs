@@ -5,6 +5,7 @@ use crate::air_bearing::Attitude;
 use crate::head::fields::StepEnds;
 use crate::head::outcome::Place;
 use crate::head::slider_contact::{ContactWatch, Instant};
+use crate::slider::clearance::Clearance;
 
 impl Run<'_> {
     /// Records the state reached `dt_s` after the last: dimple and stops up to the touch, pressure, columns.
@@ -45,6 +46,20 @@ impl Run<'_> {
         let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
         self.record(attitude);
+    }
+
+    /// Whether the present state is the first with damage, where that is the failure.
+    pub(super) fn is_damaged_now(&mut self) -> bool {
+        let (Some(limits), None) = (&self.model.damage, self.failed) else {
+            return false;
+        };
+        let latest = self.contact.as_ref().and_then(ContactWatch::latest_episode);
+        let is_damaged = latest.is_some_and(|(episode, number)| limits.exceeded(episode, number));
+        if is_damaged {
+            let Clearance { x_m, y_m, .. } = self.clearance;
+            self.failed = Some((self.time_s, Place { x_m, y_m }));
+        }
+        is_damaged
     }
 
     /// What the asperities bear in the present state, where the scene has their contact.

@@ -20,13 +20,13 @@ pub struct Stretch<'a> {
     pub end_s: f64,
     /// Instant at which the head discards its steps and factors, s; none after `end_s`.
     pub restart_s: Option<f64>,
-    /// State of a run of the same shock that ended there without a touch.
+    /// State of a run of the same shock that ended there without a failure.
     pub from: Option<&'a HeadState>,
-    /// Whether the state at the end is kept, if the head has not touched.
+    /// Whether the state at the end is kept, if the head has not failed.
     pub keeps_end: bool,
 }
 
-/// State of a head at the end of a run without a touch.
+/// State of a head at the end of a run without a failure.
 #[derive(Clone, Debug)]
 pub struct HeadState {
     time_s: f64,
@@ -36,6 +36,7 @@ pub struct HeadState {
     closest_m: Vec<f64>,
     clearance: Clearance,
     smallest: Lowest,
+    touched_s: Option<f64>,
     dimple: DimpleRecord,
     dimple_force_n: f64,
     stops: [Option<(StopRecord, f64)>; 2],
@@ -76,6 +77,7 @@ impl<'a> Run<'a> {
             time_s: state.time_s,
             clearance: state.clearance,
             smallest: state.smallest,
+            touched_s: state.touched_s,
             failed: None,
             dimple: state.dimple,
             dimple_force_n: state.dimple_force_n,
@@ -96,6 +98,7 @@ impl<'a> Run<'a> {
             closest_m: self.w.scratch.film.closest_m.clone(),
             clearance: self.clearance,
             smallest: self.smallest,
+            touched_s: self.touched_s,
             dimple: self.dimple,
             dimple_force_n: self.dimple_force_n,
             stops: self.stops,

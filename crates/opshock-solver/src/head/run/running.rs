@@ -17,7 +17,9 @@ pub(super) struct Run<'a> {
     pub(super) time_s: f64,
     pub(super) clearance: Clearance,
     pub(super) smallest: Lowest,
-    /// The first touch, once it has occurred; smallest clearance, dimple and stops are recorded up to it.
+    /// Time of the first touch, once it has occurred, s.
+    pub(super) touched_s: Option<f64>,
+    /// The failure, once it has occurred: first touch, or damage. Smallest clearance, dimple and stops are recorded up to it.
     pub(super) failed: Option<(f64, Place)>,
     pub(super) dimple: DimpleRecord,
     pub(super) dimple_force_n: f64,
@@ -86,6 +88,7 @@ impl<'a> Run<'a> {
                 time_s: 0.0,
                 attitude,
             },
+            touched_s: None,
             failed: None,
             dimple: DimpleRecord {
                 min_force_n: preload,

@@ -12,9 +12,10 @@ use crate::head::outcome::HeadRun;
 impl HeadModel {
     /// Runs one shock for `window_s` after its onset under `motion` of the disk.
     ///
-    /// With `stops_at_touch` the run ends at the instant of its first touch; otherwise it continues with the minimum
-    /// film height in the film equations. Verdict, smallest clearance (then the limit) and forces are those up to the
-    /// first touch either way, with the same bits; histories and cost continue. `record` requests histories.
+    /// With `stops_at_failure` the run ends at the instant of its first touch, or of the first damage where the head has limits of
+    /// that; otherwise it continues with the minimum film height in the film equations. Verdict, smallest clearance (the limit
+    /// at a touch) and forces are those up to there either way, with the same bits; histories and cost continue. `record` requests
+    /// histories.
     ///
     /// # Panics
     /// When `workspace` was made for another model's sizes.
@@ -23,7 +24,7 @@ impl HeadModel {
         motion: &dyn DiskMotion,
         load: &ShockLoad<'_>,
         window_s: f64,
-        stops_at_touch: bool,
+        stops_at_failure: bool,
         record: bool,
         workspace: &mut HeadWorkspace,
     ) -> HeadRun {
@@ -31,7 +32,7 @@ impl HeadModel {
             end_s: window_s,
             ..Stretch::default()
         };
-        self.run_stretch(motion, load, stretch, stops_at_touch, record, workspace)
+        self.run_stretch(motion, load, stretch, stops_at_failure, record, workspace)
             .0
     }
 
@@ -45,7 +46,7 @@ impl HeadModel {
         motion: &dyn DiskMotion,
         load: &ShockLoad<'_>,
         stretch: Stretch<'_>,
-        stops_at_touch: bool,
+        stops_at_failure: bool,
         record: bool,
         workspace: &mut HeadWorkspace,
     ) -> (HeadRun, Option<HeadState>) {
@@ -68,11 +69,11 @@ impl HeadModel {
         let restart_s = stretch.restart_s.filter(|_| stretch.from.is_none());
         let mut end = End::Window;
         if let Some(restart_s) = restart_s {
-            end = run.advance(restart_s.min(stretch.end_s), stops_at_touch);
+            end = run.advance(restart_s.min(stretch.end_s), stops_at_failure);
             run.forget();
         }
         if matches!(end, End::Window) {
-            end = run.advance(stretch.end_s, stops_at_touch);
+            end = run.advance(stretch.end_s, stops_at_failure);
         }
         let is_whole = matches!(end, End::Window) && run.failed.is_none();
         let state = (stretch.keeps_end && is_whole).then(|| run.state());

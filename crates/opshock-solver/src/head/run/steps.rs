@@ -21,18 +21,18 @@ const FIRST_STEP_S: f64 = 1e-7;
 /// Why the loop ended.
 pub(super) enum End {
     Window,
-    Touch,
+    Failure,
     Undecided(Cause),
 }
 
 impl Run<'_> {
-    pub(super) fn advance(&mut self, window_s: f64, stops_at_touch: bool) -> End {
+    pub(super) fn advance(&mut self, window_s: f64, stops_at_failure: bool) -> End {
         let resolution = &self.model.resolution;
         let table = self.model.tableau;
         let mut control = StepControl::new(table.error_order, SMALLEST_STEP_S, LARGEST_STEP_S);
         let mut dt = control.of_series(FIRST_STEP_S);
         let (mut next_motion, mut next_pulse) = (0, 0);
-        let ends_untouched = stops_at_touch && mutant::is_on("R6 touch");
+        let ends_untouched = stops_at_failure && mutant::is_on("R6 touch");
         while self.time_s < window_s {
             let event = self.next_event(window_s, &mut next_motion, &mut next_pulse);
             let left = event - self.time_s;
@@ -81,14 +81,17 @@ impl Run<'_> {
                         self.time_s + trial
                     };
                     if let Some(touch) = self.search_step(trial, &trial_step) {
-                        if stops_at_touch {
+                        if stops_at_failure {
                             self.cost.steps += u64::from(touch.time_s > self.time_s);
                             self.touch(trial, touch.time_s, &touch);
-                            return End::Touch;
+                            return End::Failure;
                         }
                         self.touch(trial, end_s, &touch);
                     }
                     self.accept(trial, end_s, &trial_step);
+                    if self.is_damaged_now() && stops_at_failure {
+                        return End::Failure;
+                    }
                     if ends_untouched {
                         return End::Window;
                     }
@@ -245,18 +248,18 @@ impl Run<'_> {
             (Some((t_fail_s, place)), end) => {
                 let cause = match end {
                     End::Undecided(cause) => Some(cause),
-                    End::Window | End::Touch => None,
+                    End::Window | End::Failure => None,
                 };
                 (Verdict::Fails { t_fail_s, place }, cause)
             }
             (None, End::Undecided(cause)) => (Verdict::Undecided { cause }, None),
-            (None, End::Window | End::Touch) => (Verdict::Survives, None),
+            (None, End::Window | End::Failure) => (Verdict::Survives, None),
         };
         let counters = self.w.scratch.counters;
         let (film, closest_m) = (&self.model.film, &self.w.scratch.film.closest_m);
         let slider_contact = self
             .contact
-            .map(|watch| watch.finish(film.yielded_j(closest_m)));
+            .map(|watch| watch.finish(self.touched_s, film.yielded_j(closest_m)));
         let Lowest {
             clearance,
             time_s,

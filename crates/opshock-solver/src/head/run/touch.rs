@@ -1,4 +1,4 @@
-//! Finds touch and smallest clearance between steps.
+//! Finds touch, overlap and smallest clearance between steps.
 
 use super::running::{Lowest, Run, TrialStep};
 use crate::air_bearing::Attitude;
@@ -9,7 +9,7 @@ use crate::slider::clearance::Clearance;
 /// Equal parts of a step, at whose ends the clearance is evaluated.
 const LOOKS: usize = 5;
 
-/// The first passage of the limit inside a step.
+/// The first passage of the clearance that is called failure, inside a step.
 pub(super) struct Touch {
     /// Share of the step.
     pub(super) theta: f64,
@@ -18,10 +18,11 @@ pub(super) struct Touch {
 }
 
 impl Run<'_> {
-    /// Looks for the smallest clearance and for touch inside the step from the present state to
-    /// the stepper's; the run's first touch when it lies there.
+    /// Looks for the smallest clearance and for passages of limits inside the step from the present state to the stepper's; the
+    /// one that is the run's failure when it lies there.
     pub(super) fn search_step(&mut self, dt_s: f64, step: &TrialStep) -> Option<Touch> {
-        if self.failed.is_some() {
+        let is_over = self.failed.is_some();
+        if is_over && self.touched_s.is_some() {
             return None;
         }
         let (model, w) = (self.model, &*self.w);
@@ -50,21 +51,28 @@ impl Run<'_> {
         } else {
             (0.0, self.clearance)
         };
-        if lowest.value_m < self.smallest.clearance.value_m {
+        if !is_over && lowest.value_m < self.smallest.clearance.value_m {
             self.smallest = Lowest {
                 clearance: lowest,
                 time_s: start_s + theta * dt_s,
                 attitude: at(theta),
             };
         }
-        let limit = model.fail_below_m;
-        let below = lowest.value_m < limit;
-        if !below {
-            return None;
+        let passage = |limit_m: f64| {
+            let below = |theta: f64| look(theta).value_m - limit_m;
+            let is_passed = lowest.value_m < limit_m;
+            is_passed.then(|| hermite::first_below_zero(LOOKS, Some(theta), below).unwrap_or(theta))
+        };
+        if self.touched_s.is_none() {
+            let touch = passage(model.fail_below_m);
+            self.touched_s = touch.map(|theta| start_s + theta * dt_s);
         }
-        let crossing =
-            hermite::first_below_zero(LOOKS, Some(theta), |theta| look(theta).value_m - limit);
-        let theta = crossing.unwrap_or(theta);
+        let limit = match &model.damage {
+            _ if is_over => return None,
+            None => model.fail_below_m,
+            Some(damage) => -damage.overlap_m?,
+        };
+        let theta = passage(limit)?;
         let mut clearance = look(theta);
         if theta > 0.0 {
             // Located to 1e-9 of the step: the remaining distance to the limit is the search's own error.
@@ -77,8 +85,8 @@ impl Run<'_> {
         })
     }
 
-    /// Takes the run to its first touch, inside the trial step. The state there is that of the cubic through both ends,
-    /// in which the touch was located. Fields are kept up to `until_s`, while the start of the step is still available
+    /// Takes the run to this failure, inside the trial step. The state there is that of the cubic through both ends,
+    /// in which it was located. Fields are kept up to `until_s`, while the start of the step is still available
     /// for interpolation.
     pub(super) fn touch(&mut self, dt_s: f64, until_s: f64, touch: &Touch) {
         self.keep_fields(dt_s, until_s);

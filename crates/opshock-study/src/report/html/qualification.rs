@@ -208,7 +208,7 @@ fn picture(row: &PointSummary, at: &PointVerdict, required_g: f64) -> String {
 fn basis(qualified: &Qualified<'_>) -> String {
     let mut text = String::from(
         "<p>The critical shock is the largest amplitude up to which every simulated shock is survived: the slider does not touch \
-         the disk. A point passes when the whole numerical uncertainty interval of its critical shock lies at or above \
+         the disk, or is not damaged where the study calls that failure (failure.criterion). A point passes when the whole numerical uncertainty interval of its critical shock lies at or above \
          the required amplitude, and fails when it lies below. The reserve is the critical shock less what is required; behind it, where \
          that may lie. The number after \u{b1} is the half-width of the interval, an estimated bound and no standard deviation: it has the \
          search's own tolerance and the errors of meshes and time steps.</p>\n\

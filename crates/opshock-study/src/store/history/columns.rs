@@ -225,7 +225,7 @@ pub fn head_columns(columns: &HeadColumns, start_s: f64) -> Vec<Column> {
         Column {
             name: "time_s",
             units: "s",
-            description: "accepted steps of the head on the study's axis; ends at touch",
+            description: "accepted steps of the head on the study's axis; ends at failure",
             values: shifted(&columns.time_s, start_s),
         },
         column(

@@ -1,7 +1,7 @@
 //! History files of single simulations.
 //!
 //! One simulation has two time axes: disk and ramp run the whole window on the structure's grid;
-//! the head has its own accepted steps and ends at touch. A history file carries both:
+//! the head has its own accepted steps and ends at its failure. A history file carries both:
 //!
 //! | where | on | what |
 //! |-------|----|------|

@@ -37,13 +37,14 @@ impl Check<'_, '_> {
 type PointRule = fn(&mut Check<'_, '_>, &[f64]);
 
 /// Every rule about a point, in the order of a study.
-const POINT_RULES: [PointRule; 16] = [
+const POINT_RULES: [PointRule; 17] = [
     |check, _| check.disk_and_ramp(),
     |check, _| check.hub(),
     |check, _| check.ramp_geometry(),
     |check, _| check.gas(),
     |check, _| check.surface_forces(),
     |check, _| check.asperity_contact(),
+    |check, _| check.damage(),
     |check, _| check.waves(),
     |check, _| check.gap_left(),
     |check, _| check.slider_place(),

@@ -1,6 +1,7 @@
 //! Rules that hold for a study as a whole: names, outputs, search, keys without effect.
 
 use super::check::Check;
+use super::gap_forces::DAMAGE;
 use crate::study::datum::Datum;
 use crate::study::field::{Field, Many, Named};
 use crate::study::fields;
@@ -113,7 +114,18 @@ impl Check<'_, '_> {
         let is_given = |path: &str| self.view.settings.has(path);
         let has_rayleigh = is_given(fields::SUSPENSION_RAYLEIGH_ALPHA_PER_S.path())
             || is_given(fields::SUSPENSION_RAYLEIGH_BETA_S.path());
-        let rules: [(bool, &str, &[&str]); 12] = [
+        let rules: [(bool, &str, &[&str]); 14] = [
+            (
+                any(fields::FAILURE_CRITERION.path(), "touch"),
+                "failure.criterion is damage, which it does not decide",
+                &[fields::FAILURE_CLEARANCE_NM.path()],
+            ),
+            (
+                is_given(fields::FAILURE_CRITERION.path())
+                    && any(fields::FAILURE_CRITERION.path(), "damage"),
+                "failure.criterion is not damage",
+                &DAMAGE,
+            ),
             (
                 !has_rayleigh,
                 "suspension.rayleigh is given",
