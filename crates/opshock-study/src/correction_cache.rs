@@ -36,13 +36,14 @@ pub struct CorrectionCache {
 
 impl CorrectionCache {
     /// In `folder`, such as the [default one](default_folder); `tell` gets a sentence the first time that it cannot be written.
-    pub fn new(folder: PathBuf, tell: impl Fn(&str) + Send + Sync + 'static) -> Self {
-        Self {
+    /// `None` where the program cannot tell itself from others.
+    pub fn new(folder: PathBuf, tell: impl Fn(&str) + Send + Sync + 'static) -> Option<Self> {
+        Some(Self {
             folder,
-            program: provenance::program(),
+            program: this_program()?,
             tell: Box::new(tell),
             is_told: AtomicBool::new(false),
-        }
+        })
     }
 
     fn path(&self, scene: &Scene) -> PathBuf {
@@ -106,6 +107,23 @@ pub fn default_folder() -> Option<PathBuf> {
         .map(|folder| folder.join("opshock"))
 }
 
+/// Names this program and no other: by its commit, or, of sources that are no commit's, by its file.
+fn this_program() -> Option<String> {
+    let program = provenance::program();
+    if provenance::COMMIT
+        .bytes()
+        .all(|byte| byte.is_ascii_hexdigit())
+    {
+        return Some(program);
+    }
+    let path = std::env::current_exe().ok()?;
+    // Inside another program, such as Python, the file is not ours.
+    let is_own = path.file_name()?.as_encoded_bytes().starts_with(b"opshock");
+    let data = std::fs::metadata(&path).ok().filter(|_| is_own)?;
+    let made = data.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH);
+    Some(format!("{program} {} {:?}", data.len(), made.ok()?))
+}
+
 /// What a sound file holds.
 fn read(bytes: &[u8]) -> Option<CorrectionForces> {
     let (digest, content) = bytes.split_at_checked(DIGEST)?;
@@ -115,7 +133,16 @@ fn read(bytes: &[u8]) -> Option<CorrectionForces> {
     ciborium::from_reader(content).ok()
 }
 
-/// Removes the files used longest ago, until the others have at most half of `most_bytes`, if all have more than that.
+/// Whether it is the name of a correction: the user's own files may be in the folder too.
+fn is_ours(name: &std::ffi::OsStr) -> bool {
+    let digits = name.as_encoded_bytes();
+    digits.len() == 32
+        && digits
+            .iter()
+            .all(|digit| b"0123456789abcdef".contains(digit))
+}
+
+/// Removes the corrections used longest ago, until the others have at most half of `most_bytes`, if all have more than that.
 fn trim(folder: &Path, most_bytes: u64) -> std::io::Result<()> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -123,6 +150,7 @@ fn trim(folder: &Path, most_bytes: u64) -> std::io::Result<()> {
         // Another process may remove it meanwhile.
         if let Ok(data) = entry.metadata()
             && data.is_file()
+            && is_ours(&entry.file_name())
         {
             files.push((data.modified()?, data.len(), entry.path()));
         }
@@ -150,7 +178,9 @@ mod tests {
     #[test]
     fn the_files_used_longest_ago_make_room() {
         let folder = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| folder.path().join(name);
+        let at = |name: &str| folder.path().join(name.repeat(32));
+        let own = folder.path().join("notes of the user");
+        std::fs::write(&own, [0; 1000]).expect("written");
         for (age_s, name) in [(30, "c"), (10, "a"), (20, "b"), (40, "d")] {
             std::fs::write(at(name), [0; 100]).expect("written");
             let file = std::fs::File::options().write(true).open(at(name));
@@ -162,5 +192,6 @@ mod tests {
         assert_eq!(left(), [true; 4]);
         trim(folder.path(), 399).expect("read");
         assert_eq!(left(), [false, false, false, true]);
+        assert!(own.exists());
     }
 }

@@ -178,7 +178,7 @@ class SliderContact:
     """Contact of slider and disk by their asperities; also after the first touch, if ``slider_contact`` is among the outputs."""
 
     touch_s: float | None
-    """Time at which the smallest clearance first fell below ``failure.clearance_nm``, s."""
+    """Time at which the smallest clearance first fell below ``failure.clearance_nm``, or below zero where damage is the failure, s."""
     episodes: tuple[SliderEpisode, ...]
     """The contacts: from a force above 1 % of the dimple's steady force until one below half of that."""
     end: str
@@ -306,9 +306,9 @@ class Run:
     cause: str | None
     """Why there is no verdict."""
     t_fail_s: float | None
-    """Time of touch, s."""
+    """Time of the failure, s."""
     place: Place | None
-    """Where the slider touches."""
+    """Place of the smallest clearance then."""
     min_clearance_m: float | None
     """Smallest clearance between slider and disk, m."""
     t_min_clearance_s: float | None
@@ -429,7 +429,7 @@ class History(Columns):
 
     @property
     def head(self) -> Columns:
-        """The head at its own steps, which end at touch; empty without one."""
+        """The head at its own steps, which end at its failure; empty without one."""
         return self._head
 
     @property

@@ -1,5 +1,6 @@
 //! Episodes of contact between slider and disk, while their asperities bear.
 
+use super::damage::DamageLimits;
 use super::outcome::{Place, SliderContact, SliderEpisode};
 use crate::rough_contact::nominal::ContactState;
 
@@ -87,10 +88,14 @@ impl ContactWatch {
         self.latest.state.force_n
     }
 
-    /// The latest episode and its number, from 1.
-    pub(super) fn latest_episode(&self) -> Option<(&SliderEpisode, usize)> {
-        let episodes = &self.record.episodes;
-        Some((episodes.last()?, episodes.len()))
+    /// Whether the latest instant exceeds a limit of pressure, or the episodes one of their number.
+    pub(super) fn exceeds(&self, limits: &DamageLimits) -> bool {
+        let pressure_pa = self.latest.state.peak_pressure_pa;
+        let episodes = self.record.episodes.len() as u64;
+        limits
+            .pressure_pa
+            .is_some_and(|most_pa| pressure_pa > most_pa)
+            || limits.episodes.is_some_and(|most| episodes > most)
     }
 
     /// The record, with the time of the first touch and the work of yielding.

@@ -129,7 +129,7 @@ fn assemble(model: &Model, run: &StructureRun, head: Option<HeadRun>) -> Outcome
     if let Some(cause) = head.as_ref().and_then(|head| head.broke_off.as_ref()) {
         warnings.push(Warning {
             code: "broke_off_behind_touch",
-            message: format!("the head fails, and its motion behind the touch breaks off: {cause}"),
+            message: format!("the head fails, and its motion after that breaks off: {cause}"),
         });
     }
     let mut cost = Cost {

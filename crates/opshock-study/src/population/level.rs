@@ -171,6 +171,8 @@ pub fn judge<L: Levels>(levels: &mut L, is_bracketed: bool) -> Result<LevelAnswe
     let failure_m = known.levels.failure_m();
     let by = match is_confirmed {
         false => DecidedBy::Interval,
+        // Without a clearance no other resolution says how far it is from failing.
+        true if here == Level::Survives(None) => DecidedBy::Interval,
         true if agree(here, known.levels.shock(0, -1)?, failure_m) => DecidedBy::Shocks,
         true if agree(known.levels.shock(0, 1)?, here, failure_m) => DecidedBy::FinerShock,
         true => DecidedBy::Interval,

@@ -54,8 +54,10 @@ fn drive(view: &View<'_>, ramp: Ramp, width_ms: f64) -> Scene {
         .collect();
     complete_suspension(view, &mut scene.suspension);
     scene.gas = gas_parameters(view);
-    if view.get(&fields::FAILURE_CRITERION) != Some(Criterion::Damage) {
-        scene.damage = None;
+    match view.get(&fields::FAILURE_CRITERION) {
+        // No clearance decides: the slider touches where it always does.
+        Some(Criterion::Damage) => scene.fail_below_m = 0.0,
+        _ => scene.damage = None,
     }
     scene.not_refined = view.get(&fields::RESOLUTION_NOT_REFINED);
     scene

@@ -184,7 +184,9 @@ impl Physics {
     /// The model of a scene. One thread samples a film's defect correction, others that need it wait for that.
     fn build(&self, scene: &Scene) -> Built {
         let sampling = self.sampling(scene);
-        let _alone = sampling.as_ref().map(|own| lock(own));
+        let alone = sampling.as_ref().map(|own| lock(own));
+        // Where another thread has sampled it meanwhile, nobody need wait for the rest.
+        let _alone = alone.filter(|_| self.sampling(scene).is_some());
         self.assembled(scene)
     }
 

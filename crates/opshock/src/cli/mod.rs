@@ -164,7 +164,9 @@ fn keep_corrections(cli: &Cli, console: Console) {
     let is_wanted = !cli.global.no_cache && !is_fresh;
     if let Some(folder) = correction_cache::default_folder().filter(|_| is_wanted) {
         let tell = move |message: &str| console.note(&format!("note: {message}"));
-        simulation::keep_corrections(Box::new(CorrectionCache::new(folder, tell)));
+        if let Some(cache) = CorrectionCache::new(folder, tell) {
+            simulation::keep_corrections(Box::new(cache));
+        }
     }
 }
 

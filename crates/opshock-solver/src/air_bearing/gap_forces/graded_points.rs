@@ -81,10 +81,12 @@ impl GradedPoints {
                 }
                 let is_crossed = surface.recess_m(x.0, y.0) != cell.recess;
                 let [x, y] = [(x, edges[0]), (y, edges[1])].map(|((middle, width), edges)| {
-                    let cuts = match is_crossed {
-                        true => equal(width),
-                        false => graded(width, edges),
-                    };
+                    let mut cuts = graded(width, edges);
+                    if is_crossed {
+                        cuts.extend(equal(width));
+                        cuts.sort_by(f64::total_cmp);
+                        cuts.dedup_by(|a, b| *a - *b < ON_LINE * width);
+                    }
                     points(middle, &cuts)
                 });
                 let first = all.places.len();

@@ -53,8 +53,8 @@ impl Run<'_> {
         let (Some(limits), None) = (&self.model.damage, self.failed) else {
             return false;
         };
-        let latest = self.contact.as_ref().and_then(ContactWatch::latest_episode);
-        let is_damaged = latest.is_some_and(|(episode, number)| limits.exceeded(episode, number));
+        let contact = self.contact.as_ref();
+        let is_damaged = contact.is_some_and(|contact| contact.exceeds(limits));
         if is_damaged {
             let Clearance { x_m, y_m, .. } = self.clearance;
             self.failed = Some((self.time_s, Place { x_m, y_m }));
