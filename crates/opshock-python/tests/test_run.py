@@ -54,6 +54,7 @@ def test_what_comes_after_the_touch_of_rough_surfaces(study: opshock.Study) -> N
     assert run.verdict is Verdict.FAILS and run.t_fail_s is not None
     contact: opshock.SliderContact | None = run.slider_contact
     assert contact is not None and contact.end in ("flying", "in_contact") and contact.yielded_j > 0
+    assert contact.touch_s == run.t_fail_s, "a touch is the failure"
     assert len(contact.episodes) > 3, "it bounces"
     first: opshock.SliderEpisode = contact.episodes[0]
     assert first.on_s < first.off_s and abs(first.on_s - run.t_fail_s) < 0.3e-3
