@@ -16,7 +16,7 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance thresholds qualify yield worth answers paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance damage thresholds qualify yield worth answers paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.

@@ -151,6 +151,7 @@ fn results_are_of_todays_studies_and_of_the_committed_table() {
         "fig13-stiffness",
         "fig13-geometry",
         "clearance",
+        "damage",
     ] {
         holds(&format!("results/{study}/table.md"), &digest(study));
     }
