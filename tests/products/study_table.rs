@@ -150,6 +150,13 @@ const STOPS: [&str; 2] = [
     "suspension.lift_tab.gap_um=140.0",
 ];
 
+/// Damage of rough surfaces by a limit.
+const DAMAGE: [&str; 3] = [
+    "asperity_contact.roughness_nm=0.4",
+    "failure.damage.overlap_nm=2.0",
+    "failure.criterion=\"damage\"",
+];
+
 #[test]
 fn every_value_changes_the_digest_and_is_written_out() {
     use opshock_study::study::keys::KEYS;
@@ -168,6 +175,8 @@ fn every_value_changes_the_digest_and_is_written_out() {
                 &["ramp.contact_stiffness_n_per_m=1.0e6"]
             }
             path if path.starts_with("asperity_contact.") => &["asperity_contact.roughness_nm=0.4"],
+            "failure.criterion" => &DAMAGE[..2],
+            path if path.starts_with("failure.damage.") => &DAMAGE,
             // A repulsion ends an attraction.
             "surface_forces.repulsion_j_m6" => &["surface_forces.hamaker_j=1.0e-19"],
             _ => &[],
