@@ -107,7 +107,7 @@ fn an_overlap_called_damage_is_found_where_a_clearance_below_zero_is() {
 }
 
 #[test]
-fn the_first_touch_is_told_when_damage_came_before_it() {
+fn the_first_touch_is_reported_when_damage_came_before_it() {
     // Asperities carry the slider of a compressed film before mean planes meet.
     let of = |limits: &[(&str, &str)]| shocked_by(-1800.0, Output::SliderContact, limits);
     let touch = of(&[]);

@@ -71,15 +71,15 @@ fn a_kept_defect_correction_gives_the_bits_of_a_sampled_one() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_told_and_costs_no_answer() {
+fn a_folder_that_cannot_be_written_is_reported_and_costs_no_answer() {
     let folder = tempfile::tempdir().expect("a folder");
     let taken = folder.path().join("file");
     fs::write(&taken, "no folder").expect("written");
     let output = shock(&taken, &[]);
     answer(&output);
-    let told = String::from_utf8_lossy(&output.stderr);
+    let reported = String::from_utf8_lossy(&output.stderr);
     let expected = "note: defect corrections are not kept for other processes: ";
-    assert!(told.starts_with(expected), "{told}");
-    assert!(told.contains("OPSHOCK_CACHE_DIR"), "{told}");
+    assert!(reported.starts_with(expected), "{reported}");
+    assert!(reported.contains("OPSHOCK_CACHE_DIR"), "{reported}");
     assert_eq!(fs::read(&taken).expect("read"), b"no folder");
 }

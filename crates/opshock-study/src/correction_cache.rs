@@ -30,19 +30,19 @@ const DIGEST: usize = blake3::OUT_LEN;
 pub struct CorrectionCache {
     folder: PathBuf,
     program: String,
-    tell: Box<dyn Fn(&str) + Send + Sync>,
-    is_told: AtomicBool,
+    report: Box<dyn Fn(&str) + Send + Sync>,
+    is_reported: AtomicBool,
 }
 
 impl CorrectionCache {
-    /// In `folder`, such as the [default one](default_folder); `tell` gets a sentence the first time that it cannot be written.
-    /// `None` where the program cannot tell itself from others.
-    pub fn new(folder: PathBuf, tell: impl Fn(&str) + Send + Sync + 'static) -> Option<Self> {
+    /// In `folder`, such as the [default one](default_folder); `report` gets a sentence the first time that it cannot be written.
+    /// `None` where nothing tells the program from others.
+    pub fn new(folder: PathBuf, report: impl Fn(&str) + Send + Sync + 'static) -> Option<Self> {
         Some(Self {
             folder,
             program: this_program()?,
-            tell: Box::new(tell),
-            is_told: AtomicBool::new(false),
+            report: Box::new(report),
+            is_reported: AtomicBool::new(false),
         })
     }
 
@@ -84,9 +84,9 @@ impl KeptCorrections for CorrectionCache {
 
     fn keep(&self, scene: &Scene, correction: &CorrectionForces) {
         if let Err(error) = self.write(&self.path(scene), correction)
-            && !self.is_told.swap(true, Ordering::Relaxed)
+            && !self.is_reported.swap(true, Ordering::Relaxed)
         {
-            (self.tell)(&format!(
+            (self.report)(&format!(
                 "defect corrections are not kept for other processes: {error}; {FOLDER_VARIABLE} names another folder"
             ));
         }

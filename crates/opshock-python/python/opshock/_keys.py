@@ -149,7 +149,7 @@ class FailureDamage:
     """Settings `failure.damage`."""
 
     contacts: int | tuple[int, ...] | None = None
-    """Limit of damage: number of contacts. Absent: no limit."""
+    """Limit of damage: number of contacts, each a force above 1 % of the steady force of the dimple. Absent: no limit."""
     overlap_nm: float | tuple[float, ...] | None = None
     """Limit of damage: overlap of the mean planes of slider and disk. In nm. Absent: no limit."""
     pressure_gpa: float | tuple[float, ...] | None = None

@@ -17,7 +17,7 @@
 //! the interference r σ that is left without force. Gauss's rule acts on two parts, below and above the limit of
 //! elasticity; each in the root of the distance from its lower end, in which the integrand is smooth. Where all asperities touch, and
 //! all are on one side of that limit, it is smooth from tail to tail, and the trapezoidal rule with steps of σ errs by 2 exp(−2 π²),
-//! 5e-9; in the slope of loading, whose terms cancel, by some 1e-7.
+//! 5e-9; in the slope of loading, whose terms cancel, by 2e-7.
 //!
 //! | symbol | name here | unit |
 //! |---|---|---|

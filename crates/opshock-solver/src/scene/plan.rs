@@ -66,7 +66,7 @@ pub struct Plan {
     pub activation: Activation,
     /// Whether structure, film and steady flight of another model may be used, and a model kept for further shocks.
     pub shares_parts: bool,
-    /// Whether the head's run ends at its first touch, which decides the verdict; the structure
+    /// Whether the head's run ends at its failure, which decides the verdict; the structure
     /// always runs the whole window.
     pub stops_at_failure: bool,
     /// Times after the onset at which recorded runs keep pressure fields, s; empty unless requested.

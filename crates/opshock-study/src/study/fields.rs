@@ -317,7 +317,7 @@ fields! {
     FAILURE_CRITERION: Option<Criterion> = Key::optional("failure.criterion", Criterion::KIND, "touch", "\"damage\"", "What is called failure: a touch of slider and disk, or contact that exceeds one of the limits of damage below, where a touch is none.").code("E127");
     FAILURE_DAMAGE_OVERLAP_NM: Option<f64> = Key::optional("failure.damage.overlap_nm", LENGTH, "no limit", "2.0", "Limit of damage: overlap of the mean planes of slider and disk.").usual(0.1, 100.0).code("E127") => |scene| *damage(scene).overlap_m.get_or_insert_default();
     FAILURE_DAMAGE_PRESSURE_GPA: Option<f64> = Key::optional("failure.damage.pressure_gpa", LENGTH, "no limit", "1.0", "Limit of damage: contact pressure of a nominal area.").usual(0.01, 50.0).code("E127") => |scene| *damage(scene).pressure_pa.get_or_insert_default();
-    FAILURE_DAMAGE_CONTACTS: Option<u64> = Key::optional("failure.damage.contacts", Integer(0, 1_000_000), "no limit", "3", "Limit of damage: number of contacts.").code("E127") => |scene| *damage(scene).episodes.get_or_insert_default();
+    FAILURE_DAMAGE_CONTACTS: Option<u64> = Key::optional("failure.damage.contacts", Integer(0, 1_000_000), "no limit", "3", "Limit of damage: number of contacts, each a force above 1 % of the steady force of the dimple.").code("E127") => |scene| *damage(scene).episodes.get_or_insert_default();
     // fields
     FIELDS_TIMES_MS: Numbers = Key::optional("fields.times_ms", Kind::Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152");
     // output

@@ -8,7 +8,7 @@ use opshock_solver::scene::{Scene, Window};
 use opshock_solver::simulation::{Bearing, is_correction_kept};
 use serde_json::json;
 
-use super::input::{PointFilm, SweepInput, SweepPoint, UncertaintyPlan};
+use super::input::{KEPT_LEVELS, PointFilm, SweepInput, SweepPoint, UncertaintyPlan};
 use crate::identity;
 use crate::provenance::{PHYSICS_HEAD, PHYSICS_STRUCTURE};
 use crate::search::decisive::Question;
@@ -40,7 +40,7 @@ impl SweepInput {
         let clearance_axis = axes
             .position(|axis| axis.path == CLEARANCE)
             .filter(|_| study.plan().mode == Mode::Auto);
-        let mut films: Vec<&Scene> = Vec::new();
+        let mut films: Vec<(&Scene, [bool; KEPT_LEVELS])> = Vec::new();
         let points: Vec<SweepPoint> = study
             .table_order()
             .into_iter()
@@ -131,23 +131,24 @@ fn choices(study: &Study, points: &[SweepPoint]) -> Vec<Vec<usize>> {
 /// The key whose values are clearances called failure.
 const CLEARANCE: &str = "failure.clearance_nm";
 
-/// The film of `scene`, numbered among the `known` ones.
-fn film<'a>(scene: &'a Scene, known: &mut Vec<&'a Scene>) -> PointFilm {
+/// The film of `scene`, numbered among the `known` ones, of which it is known which corrections are kept.
+fn film<'a>(scene: &'a Scene, known: &mut Vec<(&'a Scene, [bool; KEPT_LEVELS])>) -> PointFilm {
     let place = known
         .iter()
-        .position(|known| Bearing::has_reference(scene, known));
-    let number = place.unwrap_or(known.len());
-    if place.is_none() {
-        known.push(scene);
-    }
-    PointFilm {
-        number,
-        cells: scene.film_resolution.cells,
-        kept: std::array::from_fn(|place| {
+        .position(|(known, _)| Bearing::has_reference(scene, known));
+    let number = place.unwrap_or_else(|| {
+        let is_kept = |place: usize| {
             let level = place as i8 + 1;
             let levels = Levels::NONE.changed(Discretisation::FilmCorrection, level);
             is_correction_kept(&scene.at_levels(levels))
-        }),
+        };
+        known.push((scene, std::array::from_fn(is_kept)));
+        known.len() - 1
+    });
+    PointFilm {
+        number,
+        cells: scene.film_resolution.cells,
+        kept: known[number].1,
     }
 }
 

@@ -163,8 +163,8 @@ fn keep_corrections(cli: &Cli, console: Console) {
     let is_fresh = matches!(cli.command, Command::Doctor(_) | Command::Accuracy(_));
     let is_wanted = !cli.global.no_cache && !is_fresh;
     if let Some(folder) = correction_cache::default_folder().filter(|_| is_wanted) {
-        let tell = move |message: &str| console.note(&format!("note: {message}"));
-        if let Some(cache) = CorrectionCache::new(folder, tell) {
+        let report = move |message: &str| console.note(&format!("note: {message}"));
+        if let Some(cache) = CorrectionCache::new(folder, report) {
             simulation::keep_corrections(Box::new(cache));
         }
     }

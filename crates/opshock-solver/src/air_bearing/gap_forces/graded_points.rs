@@ -3,7 +3,7 @@
 //! A tilted slider strikes with an edge or a corner, over a width of depth over tilt: often less than a micrometre, where a cell
 //! is tens of micrometres wide. Beside an edge a cell is cut into parts, halved again and again towards it, and the rule of
 //! two points acts on each. Edges are those of the slider, those at which its surface steps back, and the end of its taper. A cell
-//! that a slanted side of a rail crosses is cut into equal parts.
+//! that a slanted side of a rail crosses is cut into equal parts as well.
 
 use crate::air_bearing::attitude::Attitude;
 use crate::air_bearing::mesh::{Mesh, Place};

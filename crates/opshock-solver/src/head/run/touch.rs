@@ -63,16 +63,19 @@ impl Run<'_> {
             let is_passed = lowest.value_m < limit_m;
             is_passed.then(|| hermite::first_below_zero(LOOKS, Some(theta), below).unwrap_or(theta))
         };
-        if self.touched_s.is_none() {
-            let touch = passage(model.fail_below_m);
-            self.touched_s = touch.map(|theta| start_s + theta * dt_s);
+        let is_first = self.touched_s.is_none();
+        let touch = is_first.then(|| passage(model.fail_below_m)).flatten();
+        if let Some(theta) = touch {
+            self.touched_s = Some(start_s + theta * dt_s);
         }
-        let limit = match &model.damage {
+        let (theta, limit) = match &model.damage {
             _ if is_over => return None,
-            None => model.fail_below_m,
-            Some(damage) => -damage.overlap_m?,
+            None => (touch?, model.fail_below_m),
+            Some(damage) => {
+                let limit = -damage.overlap_m?;
+                (passage(limit)?, limit)
+            }
         };
-        let theta = passage(limit)?;
         let mut clearance = look(theta);
         if theta > 0.0 {
             // Located to 1e-9 of the step: the remaining distance to the limit is the search's own error.

@@ -151,7 +151,9 @@ fn sections(source: &ReportSource<'_>, layout: &Layout) -> Vec<Section> {
         let drawn = drawn_with_keys(&map, "Outcome of every simulation", "map");
         add("map", legend("map") + &drawn);
         let drawn = drawn_with_keys(&margin, "Smallest clearance against amplitude", "margin");
-        add("margin", legend("margin") + &drawn);
+        if margin.panels.iter().any(|panel| !panel.series.is_empty()) {
+            add("margin", legend("margin") + &drawn);
+        }
     }
     if let Some(film) = source.film {
         let body = format!(

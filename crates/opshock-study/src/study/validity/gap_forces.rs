@@ -49,7 +49,7 @@ impl Check<'_, '_> {
                 "with asperity_contact.roughness_nm".to_string(),
             ),
             (true, false) => (
-                "damage without a limit from which contact is that",
+                "damage without any limit of contact",
                 format!("with one or more of {}", DAMAGE.join(", ")),
             ),
         };
