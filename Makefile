@@ -155,7 +155,7 @@ bench-against: bootstrap ## processor and wall time against an older revision: m
 	@test -n "$(REV)" || { echo "make bench-against REV=<revision>"; exit 2; }
 	scripts/bench-against $(REV) $(CASES)
 
-verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-dist verify-python verify-notebooks verify-book ## heavy evidence, in parts
+verify: verify-film verify-documents verify-digests verify-effects verify-durability verify-store verify-search verify-slurm verify-hard verify-scenes verify-contacts verify-accuracy verify-report verify-series verify-flight verify-solid verify-ramp verify-mounts verify-faults verify-hdf5 verify-octave verify-klu verify-match verify-forecast verify-uncertainty verify-yield verify-worth verify-dist verify-python verify-notebooks verify-book ## heavy evidence, in parts
 
 verify-film: bootstrap ## film convergence to the reference limit
 	cargo test --release --locked -p opshock-tests --test physics -- --ignored --nocapture film_slow
@@ -196,6 +196,10 @@ verify-match: bootstrap ## planted truths that `opshock match` must keep (20 min
 
 verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot (100 of each at a time; OPSHOCK_SEEDS=first..end goes on)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
+
+.PHONY: verify-contacts
+verify-contacts: bootstrap ## 2000 random shocks on rough surfaces through their contacts: works, pressures, energy balance (25 minutes; OPSHOCK_SEEDS=first..end goes on)
+	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture contacts_slow
 
 .PHONY: verify-yield
 verify-yield: bootstrap ## verdicts on 40 drives by shocks against those of their uncertainty intervals (half a minute and more a drive; OPSHOCK_SEEDS=first..end for others)

@@ -55,7 +55,7 @@ macro_rules! hard {
             let tested = [$($id),*];
             let all: Vec<&str> = CASES.iter().map(|case| case.id).collect();
             assert_eq!(tested[..], all[..]);
-            assert_eq!(all.len(), 66);
+            assert_eq!(all.len(), 78);
         }
     };
 }
@@ -127,6 +127,18 @@ hard! {
     hard_f3_order_of_points "F3",
     hard_f4_poisoned_neighbour "F4",
     hard_f5_denormals "F5",
+    hard_g1_corner_of_a_pad_grazes "G1",
+    hard_g2_slides_on_the_side_of_a_rail "G2",
+    hard_g3_no_roughness "G3",
+    hard_g4_very_stiff_asperities "G4",
+    hard_g5_blow_that_yields "G5",
+    hard_g6_cascade_of_bounces "G6",
+    hard_g7_deep_overlap "G7",
+    hard_g8_few_asperities_touch "G8",
+    hard_g9_some_yield_some_do_not "G9",
+    hard_g10_friction_of_a_skewed_slider "G10",
+    hard_g11_flies_on_its_asperities "G11",
+    hard_g12_dimple_opens_in_contact "G12",
 }
 
 /// The page of the hard cases has every case, under its name.

@@ -2,5 +2,6 @@
 
 mod cases;
 mod flights;
+mod random_contacts;
 mod random_heads;
 mod random_structures;

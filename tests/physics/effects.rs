@@ -8,7 +8,7 @@ use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Effect, Mode, Needs, Output, Plan, State, Touch};
 use opshock_solver::simulation::Model;
 use opshock_tests::pairs::{
-    Pair, assert_same, base, coarse, compare, is_answered, random_pair, run,
+    Pair, assert_same, base, coarse, compare, is_answered, random_pair, rough_base, run,
 };
 use opshock_tests::{scenes, seeded};
 
@@ -41,6 +41,22 @@ fn effects_auto_is_full_for_random_scenes() {
     let base = base();
     for seed in 0..100 {
         random_pair(&base, seed, with_head_every(10, seed));
+    }
+}
+
+/// Runs through contacts of rough surfaces, and runs that stop at the first touch.
+#[test]
+fn effects_auto_is_full_for_rough_surfaces() {
+    let base = rough_base();
+    for seed in 0..2 {
+        for output in [Output::SliderContact, Output::CriticalShock] {
+            let pair = Pair {
+                with_head: true,
+                output: Some(output),
+                ..Pair::default()
+            };
+            random_pair(&base, seed, pair);
+        }
     }
 }
 

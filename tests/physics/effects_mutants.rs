@@ -8,7 +8,7 @@ use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::ObliqueShock;
 use opshock_solver::simulation::Model;
-use opshock_tests::pairs::{Pair, base, compare, random_pair};
+use opshock_tests::pairs::{Pair, base, compare, random_pair, rough_base};
 
 /// Conditions that any pair of a ramp, a sign and an amplitude may need; seeds of random pairs are
 /// tried until one does.
@@ -23,12 +23,15 @@ const OF_STRUCTURE: [&str; 5] = [
 type Change = fn(&mut Scene);
 
 /// Conditions of sharing, with a change of the scene that only this condition keeps apart.
-const OF_SHARING: [(&str, Change); 14] = [
+const OF_SHARING: [(&str, Change); 15] = [
     ("R9 slider", |s| s.slider.length_m *= 1.01),
     ("R9 gas", |s| s.gas.pressure_pa *= 0.9),
     ("R9 flow model", |s| s.flow = FlowModel::Slip1),
     ("R9 gap forces", |s| {
         s.gap_forces.surface_forces.potential_v = 0.3;
+    }),
+    ("R9 gap forces", |s| {
+        s.gap_forces.asperity_contact.roughness_m = 0.5e-9;
     }),
     ("R9 film cells", |s| s.film_resolution.cells = 60),
     ("R9 speed", |s| s.disk.spin_rad_per_s *= 1.05),
@@ -109,6 +112,23 @@ fn effects_mutant_of_the_end_at_touch_is_caught() {
             "{amplitude_g} G"
         );
     }
+}
+
+/// Contact that is asked for deleted: the run ends with the first touch.
+#[test]
+fn effects_mutant_of_the_run_through_contact_is_caught() {
+    let base = rough_base();
+    let pair = Pair {
+        with_head: true,
+        output: Some(Output::SliderContact),
+        ..Pair::default()
+    };
+    let mutant = Pair {
+        mutant: Some("R6 slider contact"),
+        ..pair
+    };
+    random_pair(&base, 0, pair);
+    assert!(differs(|| random_pair(&base, 0, mutant)));
 }
 
 /// The asked times deleted: no field is kept.

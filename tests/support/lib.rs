@@ -16,7 +16,7 @@ pub mod sheet;
 pub mod tables;
 pub mod timing;
 
-pub use opshock_study::hard_cases::scenes::{bodies, films, heads, structures, suspensions};
+pub use opshock_study::hard_cases::scenes::{bodies, films, heads, rough, structures, suspensions};
 
 /// Reads a file of reference numbers (`tests/reference/README.md` says where they come from).
 ///

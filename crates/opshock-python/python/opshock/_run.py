@@ -171,6 +171,36 @@ class SliderEpisode:
     """Place of the smallest clearance at the largest force."""
     friction_j: float
     """Work of friction, J."""
+    mean_pressure_pa: float
+    """Pressure at the largest force, its mean over that force, Pa."""
+    taken_j: float
+    """Work done on the asperities while slider and disk approached there, and what they held as it began, J."""
+    given_j: float
+    """What they gave back, J."""
+
+
+@dataclass(frozen=True)
+class HeadEnergy:
+    """Energy balance of slider and suspension over a run through its contacts, from steady flight on."""
+
+    kinetic_j: float
+    """Kinetic energy at the end, J."""
+    elastic_j: float
+    """Energy at the end in modes, gimbal, dimple, limiters and lift tab, J."""
+    peak_j: float
+    """Largest sum of both, J."""
+    shock_work_j: float
+    """Work of the shock's inertia load, and of a pivot that moves, J."""
+    film_work_j: float
+    """Work on the slider of what acts in the gap beside the asperities, less the steady force, J."""
+    contact_work_j: float
+    """Work of the asperities' pressure on the slider, J."""
+    friction_work_j: float
+    """Work of their friction's couple on the slider, J."""
+    damping_loss_j: float
+    """Loss in dampers, J."""
+    numerical_j: float
+    """What the time integration adds, negative where it takes, J."""
 
 
 @dataclass(frozen=True)
@@ -185,6 +215,8 @@ class SliderContact:
     """``flying`` or ``in_contact``."""
     yielded_j: float
     """Work that the asperities do not give back, J."""
+    energy: HeadEnergy | None = None
+    """Energy balance of slider and suspension, of a run that goes on after its failure."""
 
 
 @dataclass(frozen=True)

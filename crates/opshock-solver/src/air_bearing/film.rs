@@ -98,6 +98,11 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
+    /// What the asperities give back as slider and disk part from `attitude`, J.
+    fn elastic_j(&self, _attitude: &Attitude, _closest_m: &[f64]) -> f64 {
+        0.0
+    }
+
     /// Work of bringing the surfaces to the smallest heights so far that they do not give back, J.
     fn yielded_j(&self, _closest_m: &[f64]) -> f64 {
         0.0

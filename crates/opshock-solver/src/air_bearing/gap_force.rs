@@ -122,6 +122,13 @@ impl Film {
         all.find_map(|(_, force)| force.contact(attitude, closest_m))
     }
 
+    /// What the asperities give back as slider and disk part from `attitude`, J.
+    pub(crate) fn asperities_elastic_j(&self, attitude: &Attitude, closest_m: &[f64]) -> f64 {
+        let all = self.gap_forces.iter();
+        all.map(|(_, force)| force.elastic_j(attitude, closest_m))
+            .sum()
+    }
+
     /// Work of the asperities that yielded, J.
     pub(crate) fn yielded_j(&self, closest_m: &[f64]) -> f64 {
         let all = self.gap_forces.iter();

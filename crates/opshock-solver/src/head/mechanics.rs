@@ -117,6 +117,52 @@ impl Mechanics {
         [self.n_limiters > 0, self.stops.len() > self.n_limiters]
     }
 
+    /// Energy of motion at the velocities `v`, J.
+    pub fn kinetic_j(&self, v: &[f64]) -> f64 {
+        let (slider, modes) = v.split_at(SLIDER);
+        let of_slider = slider.iter().zip(self.inertia).map(|(v, m)| m * v * v);
+        0.5 * (of_slider.sum::<f64>() + modes.iter().map(|v| v * v).sum::<f64>())
+    }
+
+    /// Energy that modes, gimbal, dimple and stops hold at `x` beyond that of steady flight (`energy`), J.
+    pub fn elastic_j(&self, x: &[f64]) -> f64 {
+        let [p, _] = self.ports.read_both(x, x);
+        let modes = x[SLIDER..].iter().zip(&self.modes.stiffness);
+        let of_modes: f64 = modes.map(|(x, k)| k * x * x).sum();
+        let of_gimbal: f64 = p.iter().zip(self.gimbal).map(|(p, k)| k * p * p).sum();
+        let (n0, closing) = (self.steady_dimple_force_n, p[CLOSING]);
+        let elastic_n = self.elastic_dimple_force_n(&p);
+        // k δ²/2 of a dimple that is closed; where it is open, the area under −N₀ from there on.
+        let of_dimple = match elastic_n > -n0 {
+            true => 0.5 * elastic_n * closing,
+            false => -n0 * closing - 0.5 * n0 * n0 / self.contact_n_per_m,
+        };
+        let of_stops: f64 = self.stops.iter().map(|stop| stop.elastic_j(&p)).sum();
+        0.5 * (of_modes + of_gimbal) + of_dimple + of_stops
+    }
+
+    /// Power that the dampers of modes, dimple and stops take, W.
+    pub fn damping_w(&self, x: &[f64], v: &[f64]) -> f64 {
+        let [p, rate] = self.ports.read_both(x, v);
+        let modes = v[SLIDER..].iter().zip(&self.modes.damping);
+        let of_modes: f64 = modes.map(|(v, c)| c * v * v).sum();
+        let excess_n = self.signed_dimple_force(&p, &rate).max(0.0) - self.steady_dimple_force_n;
+        let of_dimple = (excess_n - self.elastic_dimple_force_n(&p)) * rate[CLOSING];
+        let stops = self.stops.iter().map(|stop| stop.damping_w(&p, &rate));
+        of_modes + of_dimple + stops.sum::<f64>()
+    }
+
+    /// Part of N − N₀ that the dimple's place alone gives.
+    fn elastic_dimple_force_n(&self, p: &AtPorts) -> f64 {
+        (self.contact_n_per_m * p[CLOSING]).max(-self.steady_dimple_force_n)
+    }
+
+    /// f·x: the inertia load's work per acceleration along x.
+    pub fn along_load(&self, x: &[f64]) -> f64 {
+        let modes = x[SLIDER..].iter().zip(&self.modes.load);
+        self.inertia[0] * x[0] + modes.map(|(x, f)| f * x).sum::<f64>()
+    }
+
     /// Force of all limiters together, and force of the lift tab; 0 where there are none.
     pub fn stop_forces(&self, x: &[f64], v: &[f64]) -> [f64; 2] {
         let [p, rate] = self.ports.read_both(x, v);

@@ -22,6 +22,7 @@
 //! the slider's cubic dense output and the exact motion of the disk.
 
 mod damage;
+mod energy;
 mod fields;
 mod film_passes;
 mod following;
@@ -45,8 +46,8 @@ mod stops;
 pub use damage::DamageLimits;
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
-    Cause, DimpleRecord, HeadColumns, HeadCost, HeadRun, Place, PressureFields, SliderContact,
-    SliderEpisode, StopRecord, Verdict,
+    Cause, DimpleRecord, HeadColumns, HeadCost, HeadEnergy, HeadRun, Place, PressureFields,
+    SliderContact, SliderEpisode, StopRecord, Verdict,
 };
 pub use resolution::{Coupling, HeadResolution};
 pub use run::{HeadState, HeadWorkspace, Stretch};

@@ -137,6 +137,12 @@ pub struct SliderEpisode {
     pub place: Place,
     /// Work of friction, J.
     pub friction_j: f64,
+    /// Work done on the asperities while slider and disk approached there, and what they held as the episode began, J.
+    pub taken_j: f64,
+    /// What they gave back, J.
+    pub given_j: f64,
+    /// Pressure at the largest force, its mean over that force, Pa.
+    pub mean_pressure_pa: f64,
 }
 
 /// Contact of slider and disk over a run.
@@ -150,6 +156,31 @@ pub struct SliderContact {
     pub goes_on: bool,
     /// Work that yielded asperities do not give back, J.
     pub yielded_j: f64,
+    /// Energy of slider and suspension, of a run that goes on after its failure.
+    pub energy: Option<HeadEnergy>,
+}
+
+/// Energy balance of slider and suspension over a run, from steady flight on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct HeadEnergy {
+    /// At the end, J.
+    pub kinetic_j: f64,
+    /// At the end, in modes, gimbal, dimple, limiters and lift tab, J.
+    pub elastic_j: f64,
+    /// Largest sum of both, J.
+    pub peak_j: f64,
+    /// Work of the shock's inertia load, and of a pivot that moves, J.
+    pub shock_work_j: f64,
+    /// Work on the slider of what acts in the gap beside the asperities, less the steady force, J.
+    pub film_work_j: f64,
+    /// Work of the asperities' pressure on the slider, J.
+    pub contact_work_j: f64,
+    /// Work of their friction's couple on the slider, J.
+    pub friction_work_j: f64,
+    /// Loss in dampers, J.
+    pub damping_loss_j: f64,
+    /// What the time integration adds, negative where it takes, J: mostly that of modes that are faster than its steps.
+    pub numerical_j: f64,
 }
 
 /// Columns at the head's accepted steps and at its failure; a run that stops there ends with it.

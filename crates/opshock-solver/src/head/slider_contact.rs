@@ -1,7 +1,9 @@
 //! Episodes of contact between slider and disk, while their asperities bear.
 
 use super::damage::DamageLimits;
+use super::energy::work;
 use super::outcome::{Place, SliderContact, SliderEpisode};
+use crate::air_bearing::Attitude;
 use crate::rough_contact::nominal::ContactState;
 
 /// Share of the steady force of the dimple from which the asperities' force is an episode of contact: their heights have no end, so
@@ -18,6 +20,20 @@ pub(super) struct Instant {
     pub(super) clearance_m: f64,
     pub(super) place: Place,
     pub(super) state: ContactState,
+    /// State at the mean of this attitude and the one before.
+    pub(super) midway: ContactState,
+    pub(super) attitude: Attitude,
+}
+
+impl Instant {
+    /// Work that slider and disk do on the asperities from `before` on, J.
+    fn closing_j(&self, before: &Self) -> f64 {
+        let places = [&before.attitude, &self.attitude]
+            .map(|at| [at.centre_height_m, at.pitch_rad, at.roll_rad]);
+        let [from, middle, to] =
+            [&before.state, &self.midway, &self.state].map(ContactState::pressed);
+        -work([from, middle, to], places)
+    }
 }
 
 /// Contact in progress.
@@ -39,8 +55,8 @@ impl ContactWatch {
         }
     }
 
-    /// Adds the next accepted state.
-    pub(super) fn add(&mut self, now: Instant) {
+    /// Adds the next accepted state; `elastic_j` is what the asperities hold then.
+    pub(super) fn add(&mut self, now: Instant, elastic_j: impl FnOnce() -> f64) {
         let before = std::mem::replace(&mut self.latest, now);
         let dt_s = now.time_s - before.time_s;
         if dt_s <= 0.0 {
@@ -62,6 +78,10 @@ impl ContactWatch {
                 closest_m: f64::INFINITY,
                 place: now.place,
                 friction_j: 0.0,
+                // What they held before this step, whose work is added below.
+                taken_j: (elastic_j() - now.closing_j(&before)).max(0.0),
+                given_j: 0.0,
+                mean_pressure_pa: 0.0,
             });
         }
         if is_on || self.record.goes_on {
@@ -73,14 +93,23 @@ impl ContactWatch {
             episode.impulse_n_s += 0.5 * dt_s * ends.map(|state| state.force_n).iter().sum::<f64>();
             episode.friction_j +=
                 0.5 * dt_s * ends.map(|state| state.friction_w).iter().sum::<f64>();
+            let work_j = now.closing_j(&before);
+            episode.taken_j += work_j.max(0.0);
+            episode.given_j -= work_j.min(0.0);
             if now.state.force_n > episode.peak_force_n {
                 episode.peak_force_n = now.state.force_n;
                 episode.place = now.place;
+                episode.mean_pressure_pa = now.state.mean_pressure_pa;
             }
             episode.peak_pressure_pa = episode.peak_pressure_pa.max(now.state.peak_pressure_pa);
             episode.closest_m = episode.closest_m.min(now.state.closest_m);
         }
         self.record.goes_on = is_on;
+    }
+
+    /// Attitude at the latest instant.
+    pub(super) fn attitude(&self) -> &Attitude {
+        &self.latest.attitude
     }
 
     /// Force at the latest instant, N.
@@ -98,10 +127,8 @@ impl ContactWatch {
             || limits.episodes.is_some_and(|most| episodes > most)
     }
 
-    /// The record, with the time of the first touch and the work of yielding.
-    pub(super) fn finish(mut self, touched_s: Option<f64>, yielded_j: f64) -> SliderContact {
-        self.record.touched_s = touched_s;
-        self.record.yielded_j = yielded_j;
+    /// The record of episodes.
+    pub(super) fn finish(self) -> SliderContact {
         self.record
     }
 }

@@ -147,7 +147,8 @@ impl Plan {
                 activation: Activation::AtTouch,
                 shares_parts: true,
                 // Contact goes on after it.
-                stops_at_failure: !outputs.contains(&Output::SliderContact),
+                stops_at_failure: !outputs.contains(&Output::SliderContact)
+                    || mutant::is_on("R6 slider contact"),
                 field_times_s: Vec::new(),
             },
             Mode::Full => Self {

@@ -5,6 +5,7 @@
 //! machine and the tests assert the same checks, so that figure and bound are written in one place. Where the naive
 //! method is short, the check gives its figure too ([`naive`]): the fault that the method in use cures.
 
+mod asperities;
 mod bearing;
 mod check;
 mod contact;
@@ -115,4 +116,16 @@ pub static CASES: &[Case] = &[
     case("F3", "order of points", repeat::f3),
     case("F4", "poisoned neighbour", repeat::f4),
     case("F5", "denormals", repeat::f5),
+    case("G1", "corner of a pad grazes", asperities::g1),
+    case("G2", "slides on the side of a rail", asperities::g2),
+    case("G3", "no roughness", asperities::g3),
+    case("G4", "very stiff asperities", asperities::g4),
+    case("G5", "blow that yields", asperities::g5),
+    case("G6", "cascade of bounces", asperities::g6),
+    case("G7", "deep overlap", asperities::g7),
+    case("G8", "few asperities touch", asperities::g8),
+    case("G9", "some yield, some do not", asperities::g9),
+    case("G10", "friction of a skewed slider", asperities::g10),
+    case("G11", "flies on its asperities", asperities::g11),
+    case("G12", "dimple opens in contact", asperities::g12),
 ];

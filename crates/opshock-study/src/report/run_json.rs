@@ -1,8 +1,8 @@
 //! The result of one simulation as JSON: what `opshock run --json` prints.
 
 use opshock_solver::simulation::{
-    ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HubRecord, Outcome,
-    SliderContact, SliderEpisode, StopRecord, Verdict, Warning,
+    ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HeadEnergy, HubRecord,
+    Outcome, SliderContact, SliderEpisode, StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -179,6 +179,8 @@ pub struct SliderContactJson {
     /// `flying` or `in_contact`.
     pub end: &'static str,
     pub yielded_j: f64,
+    /// Of slider and suspension.
+    pub energy: Option<HeadEnergy>,
 }
 
 /// One episode of it.
@@ -197,6 +199,9 @@ pub struct SliderEpisodeJson {
     pub closest_m: f64,
     pub place: PlaceJson,
     pub friction_j: f64,
+    pub taken_j: f64,
+    pub given_j: f64,
+    pub mean_pressure_pa: f64,
 }
 
 impl SliderContactJson {
@@ -215,6 +220,9 @@ impl SliderContactJson {
                 y_m: episode.place.y_m,
             },
             friction_j: episode.friction_j,
+            taken_j: episode.taken_j,
+            given_j: episode.given_j,
+            mean_pressure_pa: episode.mean_pressure_pa,
         };
         Self {
             touch_s: contact.touched_s.map(|touched_s| touched_s + start_s),
@@ -224,6 +232,7 @@ impl SliderContactJson {
                 false => "flying",
             },
             yielded_j: contact.yielded_j,
+            energy: contact.energy,
         }
     }
 }

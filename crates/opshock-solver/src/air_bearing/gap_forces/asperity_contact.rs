@@ -120,6 +120,12 @@ struct Contact {
 }
 
 impl Contact {
+    /// Moments of friction by pitch and roll over the normal force, m.
+    fn friction_arms_m(&self) -> [f64; 2] {
+        let [x, y] = self.friction;
+        [-self.arm_m * x, self.arm_m * y]
+    }
+
     /// Calls `visit` with every point that may touch: its number and height.
     fn touching(&self, attitude: &Attitude, visit: impl FnMut(usize, f64)) {
         self.points.below(self.nominal.reach_m(), attitude, visit);
@@ -132,10 +138,7 @@ impl Element for Contact {
     }
 
     fn load(&self, _: &Film, cells: &CellStates<'_>, _: &mut [Vec<f64>; 3]) -> GapLoad {
-        let arms = [
-            -self.arm_m * self.friction[0],
-            self.arm_m * self.friction[1],
-        ];
+        let arms = self.friction_arms_m();
         let (mut force, mut by_attitude) = ([0.0; 3], [[0.0; 3]; 3]);
         self.touching(cells.attitude, |k, height_m| {
             let borne = self.nominal.at(height_m, cells.closest_m[k]);
@@ -167,12 +170,29 @@ impl Element for Contact {
         };
         self.touching(attitude, |k, height_m| {
             let pressure_pa = self.nominal.at(height_m, closest_m[k]).pressure_pa;
-            state.force_n += self.points.area[k] * pressure_pa;
+            let (Place { x, y, .. }, force_n) =
+                (&self.points.places[k], self.points.area[k] * pressure_pa);
+            state.force_n += force_n;
+            state.moments_n_m[0] -= x * force_n;
+            state.moments_n_m[1] += y * force_n;
+            state.mean_pressure_pa += force_n * pressure_pa;
             state.peak_pressure_pa = state.peak_pressure_pa.max(pressure_pa);
             state.closest_m = state.closest_m.min(height_m);
         });
+        if state.force_n > 0.0 {
+            state.mean_pressure_pa /= state.force_n;
+        }
+        state.friction_n_m = self.friction_arms_m().map(|arm_m| arm_m * state.force_n);
         state.friction_w = self.friction_per_force * state.force_n;
         Some(state)
+    }
+
+    fn elastic_j(&self, attitude: &Attitude, closest_m: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        self.touching(attitude, |k, height_m| {
+            sum += self.points.area[k] * self.nominal.elastic_j_per_m2(height_m, closest_m[k]);
+        });
+        sum
     }
 
     fn yielded_j(&self, closest_m: &[f64]) -> f64 {
@@ -182,7 +202,8 @@ impl Element for Contact {
             let back = self.nominal.elastic_j_per_m2(closest_m, closest_m);
             area * (self.nominal.work_j_per_m2(closest_m) - back)
         });
-        lost.sum()
+        // Where nothing has yielded, rounding may leave less than nothing.
+        lost.sum::<f64>().max(0.0)
     }
 
     fn n_remembered(&self) -> usize {

@@ -2,6 +2,7 @@
 
 use super::running::Run;
 use crate::air_bearing::Attitude;
+use crate::head::energy::EnergyState;
 use crate::head::fields::StepEnds;
 use crate::head::outcome::Place;
 use crate::head::slider_contact::{ContactWatch, Instant};
@@ -10,14 +11,10 @@ use crate::slider::clearance::Clearance;
 impl Run<'_> {
     /// Records the state reached `dt_s` after the last: dimple and stops up to the touch, pressure, columns.
     pub(super) fn record_step(&mut self, dt_s: f64, attitude: &Attitude) {
-        let (model, w) = (self.model, &mut *self.w);
-        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
-        let (x, v) = w.y[n_cells..].split_at(n);
-        let [moved, rate] = self.motion.pivot(self.time_s);
-        let [seen, seen_rate] = &mut w.seen;
-        model.mechanics.over_pivot(moved, x, seen);
-        model.mechanics.over_pivot(rate, v, seen_rate);
-        let (x, v) = (&*seen, &*seen_rate);
+        self.see_over_pivot();
+        let (model, w) = (self.model, &*self.w);
+        let n_cells = model.film.n_cells();
+        let [x, v] = &w.seen;
         let before = self.dimple_force_n;
         self.dimple_force_n = model.mechanics.dimple_force(x, v);
         if self.failed.is_none() {
@@ -40,12 +37,45 @@ impl Run<'_> {
             }
         }
         if let Some(now) = self.instant(attitude) {
-            self.contact.as_mut().expect("made at the start").add(now);
+            let (film, closest_m) = (&self.model.film, &self.w.scratch.film.closest_m);
+            let elastic_j = || film.asperities_elastic_j(attitude, closest_m);
+            let contact = self.contact.as_mut().expect("made at the start");
+            contact.add(now, elastic_j);
+            if self.energy.is_some() {
+                let now = self.energies(attitude, &now);
+                self.energy.as_mut().expect("seen").add(now);
+            }
         }
         let psi = &self.w.y[..n_cells];
         let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
         self.record(attitude);
+    }
+
+    /// Takes the heights at `attitude` into the smallest ones so far of the asperities, after what they bore midway.
+    pub(super) fn reach(&mut self, to: &Attitude) {
+        let film = &self.model.film;
+        let closest_m = &mut self.w.scratch.film.closest_m;
+        if let Some(contact) = &self.contact {
+            let from = contact.attitude();
+            let mean = Attitude {
+                centre_height_m: 0.5 * (from.centre_height_m + to.centre_height_m),
+                pitch_rad: 0.5 * (from.pitch_rad + to.pitch_rad),
+                roll_rad: 0.5 * (from.roll_rad + to.roll_rad),
+            };
+            self.midway = film.contact(&mean, closest_m).unwrap_or_default();
+        }
+        film.remember(to, closest_m);
+    }
+
+    /// Puts coordinates and velocities over the pivot into the workspace.
+    pub(super) fn see_over_pivot(&mut self) {
+        let (model, w) = (self.model, &mut *self.w);
+        let (x, v) = w.y[model.film.n_cells()..].split_at(model.mechanics.len());
+        let [moved, rate] = self.motion.pivot(self.time_s);
+        let [seen, seen_rate] = &mut w.seen;
+        model.mechanics.over_pivot(moved, x, seen);
+        model.mechanics.over_pivot(rate, v, seen_rate);
     }
 
     /// Whether the present state is the first with damage, where that is the failure.
@@ -74,7 +104,42 @@ impl Run<'_> {
                 y_m: self.clearance.y_m,
             },
             state,
+            midway: self.midway,
+            attitude: *attitude,
         })
+    }
+
+    /// Energies of slider and suspension and what works on them in the present state, with `seen` over the pivot.
+    pub(super) fn energies(&mut self, attitude: &Attitude, now: &Instant) -> EnergyState {
+        let (model, w) = (self.model, &mut *self.w);
+        let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
+        let (psi, rest) = w.y.split_at(n_cells);
+        let (x, v) = rest.split_at(n);
+        let force = model.film.force(psi, attitude, &mut w.scratch.film);
+        let [pressed, rubbed] = [now.state.pressed(), now.state.rubbed()];
+        let [seen, seen_rate] = &w.seen;
+        let mechanics = &model.mechanics;
+        let [moved_m, _] = self.motion.pivot(self.time_s);
+        let out = &mut w.scratch.mechanical;
+        mechanics.acceleration(0.0, [0.0; 3], seen, seen_rate, out);
+        EnergyState {
+            kinetic_j: mechanics.kinetic_j(v),
+            elastic_j: mechanics.elastic_j(seen),
+            time_s: self.time_s,
+            slider: std::array::from_fn(|q| x[q]),
+            shock_kg_m: mechanics.along_load(x),
+            load_m_per_s2: [
+                self.load.value(self.time_s),
+                self.load.just_after(self.time_s),
+            ],
+            pivot: [moved_m, mechanics.along_load(out)],
+            film: std::array::from_fn(|f| {
+                force[f] - model.steady_force[f] - pressed[f] - rubbed[f]
+            }),
+            contact: now.state,
+            midway: now.midway,
+            damping_w: mechanics.damping_w(seen, seen_rate),
+        }
     }
 
     pub(super) fn record(&mut self, attitude: &Attitude) {

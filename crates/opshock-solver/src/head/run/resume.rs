@@ -7,10 +7,12 @@
 use super::running::{Lowest, Run};
 use super::workspace::{HeadWorkspace, pulse_events};
 use crate::disk::DiskMotion;
+use crate::head::energy::EnergyWatch;
 use crate::head::model::{HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
 use crate::head::slider_contact::ContactWatch;
 use crate::head::stage_scratch::Counters;
+use crate::rough_contact::nominal::ContactState;
 use crate::slider::clearance::Clearance;
 
 /// How far a head runs, and from where.
@@ -41,6 +43,7 @@ pub struct HeadState {
     dimple_force_n: f64,
     stops: [Option<(StopRecord, f64)>; 2],
     contact: Option<ContactWatch>,
+    energy: Option<EnergyWatch>,
     cost: HeadCost,
     counters: Counters,
 }
@@ -83,6 +86,8 @@ impl<'a> Run<'a> {
             dimple_force_n: state.dimple_force_n,
             stops: state.stops,
             contact: state.contact.clone(),
+            midway: ContactState::default(),
+            energy: state.energy.clone(),
             columns: None,
             fields: None,
             cost: state.cost,
@@ -103,6 +108,7 @@ impl<'a> Run<'a> {
             dimple_force_n: self.dimple_force_n,
             stops: self.stops,
             contact: self.contact.clone(),
+            energy: self.energy.clone(),
             cost: self.cost,
             counters: self.w.scratch.counters,
         }

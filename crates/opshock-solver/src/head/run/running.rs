@@ -3,10 +3,12 @@
 use super::workspace::{HeadWorkspace, pulse_events};
 use crate::air_bearing::Attitude;
 use crate::disk::DiskMotion;
+use crate::head::energy::EnergyWatch;
 use crate::head::fields::FieldRecord;
 use crate::head::model::{Following, HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadColumns, HeadCost, Place, StopRecord};
 use crate::head::slider_contact::ContactWatch;
+use crate::rough_contact::nominal::ContactState;
 use crate::slider::clearance::Clearance;
 
 pub(super) struct Run<'a> {
@@ -27,6 +29,10 @@ pub(super) struct Run<'a> {
     pub(super) stops: [Option<(StopRecord, f64)>; 2],
     /// Contact with the disk, where the scene has asperities.
     pub(super) contact: Option<ContactWatch>,
+    /// What its asperities bore in the middle of the latest step.
+    pub(super) midway: ContactState,
+    /// Energy of slider and suspension beside it, of a run that goes on after its failure.
+    pub(super) energy: Option<EnergyWatch>,
     pub(super) columns: Option<HeadColumns>,
     pub(super) fields: Option<FieldRecord<'a>>,
     pub(super) cost: HeadCost,
@@ -56,6 +62,7 @@ impl<'a> Run<'a> {
         model: &'a HeadModel,
         motion: &'a dyn DiskMotion,
         load: ShockLoad<'a>,
+        stops_at_failure: bool,
         record: bool,
         w: &'a mut HeadWorkspace,
     ) -> Self {
@@ -100,6 +107,8 @@ impl<'a> Run<'a> {
                 is_there.then_some((record, 0.0))
             }),
             contact: None,
+            midway: ContactState::default(),
+            energy: None,
             columns: record.then(HeadColumns::default),
             fields: (record && !model.field_times_s.is_empty())
                 .then(|| FieldRecord::new(model, &model.field_times_s)),
@@ -110,9 +119,14 @@ impl<'a> Run<'a> {
         }
         let closest_m = &mut run.w.scratch.film.closest_m;
         model.film.remember(&attitude, closest_m);
-        run.contact = run
-            .instant(&attitude)
-            .map(|first| ContactWatch::new(preload, first));
+        if let Some(first) = run.instant(&attitude) {
+            run.contact = Some(ContactWatch::new(preload, first));
+            if !stops_at_failure {
+                run.see_over_pivot();
+                let first = run.energies(&attitude, &first);
+                run.energy = Some(EnergyWatch::new(first));
+            }
+        }
         run.initial_rate(&attitude);
         run.record(&attitude);
         run

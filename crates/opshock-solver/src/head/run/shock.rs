@@ -64,7 +64,7 @@ impl HeadModel {
         };
         let mut run = match stretch.from {
             Some(state) => Run::resume(self, motion, *load, state, workspace),
-            None => Run::start(self, motion, *load, record, workspace),
+            None => Run::start(self, motion, *load, stops_at_failure, record, workspace),
         };
         let restart_s = stretch.restart_s.filter(|_| stretch.from.is_none());
         let mut end = End::Window;

@@ -1,9 +1,10 @@
 //! Time loop of a run: computes, accepts or rejects steps between events, until the run ends.
 
 use super::running::{Lowest, Run, TrialStep};
+use crate::head::energy::EnergyWatch;
 use crate::head::fields::FieldRecord;
 use crate::head::film_passes::relative_size;
-use crate::head::outcome::{Cause, HeadCost, HeadRun, Place, Verdict};
+use crate::head::outcome::{Cause, HeadCost, HeadRun, Place, SliderContact, Verdict};
 use crate::head::stage::Stages;
 use crate::head::stage_scratch::StageFailure;
 use crate::integrator::StepControl;
@@ -184,15 +185,13 @@ impl Run<'_> {
         self.keep_fields(dt_s, end_s);
         let before_s = self.time_s;
         self.time_s = end_s;
-        let (model, w) = (self.model, &mut *self.w);
+        let w = &mut *self.w;
         w.y.copy_from_slice(w.stepper.value());
         w.rate.copy_from_slice(w.stepper.rate());
         w.stepper.accept(dt_s);
         self.clearance = step.clearance;
-        model
-            .film
-            .remember(&step.attitude, &mut w.scratch.film.closest_m);
-
+        self.reach(&step.attitude);
+        let (model, w) = (self.model, &mut *self.w);
         let da = self.load.jump(self.time_s);
         if da != 0.0 {
             let velocities = model.film.n_cells() + model.mechanics.len();
@@ -257,9 +256,12 @@ impl Run<'_> {
         };
         let counters = self.w.scratch.counters;
         let (film, closest_m) = (&self.model.film, &self.w.scratch.film.closest_m);
-        let slider_contact = self
-            .contact
-            .map(|watch| watch.finish(self.touched_s, film.yielded_j(closest_m)));
+        let slider_contact = self.contact.map(|watch| SliderContact {
+            touched_s: self.touched_s,
+            yielded_j: film.yielded_j(closest_m),
+            energy: self.energy.map(EnergyWatch::finish),
+            ..watch.finish()
+        });
         let Lowest {
             clearance,
             time_s,

@@ -104,8 +104,7 @@ impl Run<'_> {
         let n_cells = self.model.film.n_cells();
         let pose = self.motion.pose(self.time_s);
         let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
-        let closest_m = &mut self.w.scratch.film.closest_m;
-        self.model.film.remember(&attitude, closest_m);
+        self.reach(&attitude);
         self.smallest = Lowest {
             clearance: touch.clearance,
             time_s: touch.time_s,

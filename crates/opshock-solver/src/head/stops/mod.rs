@@ -46,6 +46,18 @@ impl Stop {
             + self.damping_n_s_per_m * along(&self.row, rate)
     }
 
+    /// Energy held at the ports' motions, J.
+    pub fn elastic_j(&self, p: &AtPorts) -> f64 {
+        let pressed_m = (along(&self.row, p) - self.gap_m).max(0.0);
+        0.5 * self.stiffness_n_per_m * pressed_m * pressed_m
+    }
+
+    /// Power that its damper takes, W.
+    pub fn damping_w(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
+        let elastic_n = self.stiffness_n_per_m * (along(&self.row, p) - self.gap_m).max(0.0);
+        (self.force(p, rate) - elastic_n) * along(&self.row, rate)
+    }
+
     /// N at motions and rates at the ports; 0 when it is open.
     pub fn force(&self, p: &AtPorts, rate: &AtPorts) -> f64 {
         self.signed_force(p, rate).max(0.0)

@@ -1,6 +1,7 @@
 //! Naive methods that were replaced by better ones, as short as possible: their effect on the hard cases is measured
 //! with them.
 
+pub mod asperities;
 pub mod contact;
 pub mod film;
 pub mod plate;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use opshock_solver::air_bearing::gap_forces::AsperityContact;
 use opshock_solver::air_bearing::steady::{Flight, fly};
 use opshock_solver::air_bearing::{Film, FilmResolution, FlowModel};
 use opshock_solver::disk::{DiskMotion, DiskPose};
@@ -33,20 +34,37 @@ pub fn standard_gas() -> GasParameters {
     Scene::default_drive().gas
 }
 
+/// Film of a slider over a disk at a speed.
+///
+/// # Panics
+/// When it has none.
+pub fn film_of(slider: &SliderParameters, spin_rad_per_s: f64, cells: usize) -> Film {
+    let resolution = FilmResolution {
+        cells,
+        min_height_m: 0.3e-9,
+        correction_cells: 0,
+    };
+    let (gas, flow) = (standard_gas(), FlowModel::FukuiKaneko);
+    Film::build(slider, &gas, flow, spin_rad_per_s, &resolution).expect("film builds")
+}
+
 /// Film of the default slider with about `cells` cells and its flight under the gram load.
 pub fn default_film(cells: usize) -> (Arc<Film>, Arc<Flight>) {
-    let film = Film::build(
+    flying(film_of(
         &default_slider(),
-        &standard_gas(),
-        FlowModel::FukuiKaneko,
         rad_per_s_from_rpm(5400.0),
-        &FilmResolution {
-            cells,
-            min_height_m: 0.3e-9,
-            correction_cells: 0,
-        },
-    )
-    .expect("film builds");
+        cells,
+    ))
+}
+
+/// The same between rough surfaces.
+pub fn rough_film(cells: usize, rough: &AsperityContact) -> (Arc<Film>, Arc<Flight>) {
+    let slider = default_slider();
+    let film = film_of(&slider, rad_per_s_from_rpm(5400.0), cells);
+    flying(film.with_gap_force(&slider, rough))
+}
+
+fn flying(film: Film) -> (Arc<Film>, Arc<Flight>) {
     let flight = fly(&film, [default_suspension().gram_load_n, 0.0, 0.0]).expect("flies");
     (Arc::new(film), Arc::new(flight))
 }

@@ -5,5 +5,6 @@ pub mod drive;
 pub mod films;
 pub mod heads;
 pub mod noted;
+pub mod rough;
 pub mod structures;
 pub mod suspensions;

@@ -1,0 +1,222 @@
+//! Random shocks on rough surfaces, through their contacts: what a contact may not do, and the energy balance.
+
+use opshock_solver::air_bearing::gap_forces::AsperityContact;
+use opshock_solver::head::{
+    HeadRun, HeadWorkspace, ShockLoad, SliderContact, SliderEpisode, Verdict,
+};
+use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
+use opshock_solver::shock::{Pulse, PulseShape};
+use opshock_tests::heads::SingleModeDisk;
+use opshock_tests::seeded::{OnPanic, Seeded, seeds};
+use rayon::prelude::*;
+
+use crate::random_heads::{TOLERANCE, random_head};
+
+/// What an episode may give back beyond what it took, as a share of it: the error of the works' integration over steps.
+const OF_WORK: f64 = 0.05;
+
+/// Less work than this is that of a film in flight, J.
+const LITTLE_J: f64 = 1e-12;
+
+/// Energy that may be open at the end, of the largest, at [`FINE`]. Steps of the preset's tolerance are too long for the suspension's
+/// fast modes and for hard blows.
+const OPEN: f64 = 0.02;
+
+/// Tolerance at which they are resolved.
+const FINE: f64 = 1e-4;
+
+/// One scene in so many runs again at [`FINE`].
+const AGAIN: u64 = 25;
+
+/// Rough or smooth, hard or soft asperities, few or many.
+fn random_contact(seeded: &mut Seeded) -> AsperityContact {
+    AsperityContact {
+        roughness_m: seeded.log_between(0.1e-9, 2e-9),
+        asperities_per_m2: seeded.log_between(1e13, 1e15),
+        tip_radius_m: seeded.log_between(0.2e-6, 5e-6),
+        modulus_pa: seeded.log_between(2e10, 3e11),
+        yield_pressure_pa: seeded.log_between(0.5e9, 50e9),
+        friction: seeded.between(0.0, 1.0),
+    }
+}
+
+/// A run through its contacts, and the largest pressure of its asperities; `None` where the head does not fly.
+fn run(seed: u64, tolerance: f64) -> Option<(HeadRun, f64)> {
+    let mut seeded = Seeded::new(0xc0 ^ (seed << 8));
+    let rough = random_contact(&mut seeded);
+    let (model, _) = random_head(&mut seeded, rough, tolerance)?;
+    let width_s = seeded.log_between(1e-4, 1e-3);
+    let sign = if seeded.once_in(2) { 1.0 } else { -1.0 };
+    let amplitude_m_per_s2 = sign * seeded.log_between(200.0, 4000.0) * G;
+    let pulse = Pulse {
+        shape: PulseShape::HalfSine,
+        width_s,
+    };
+    let load = ShockLoad {
+        base: None,
+        pulse: &pulse,
+        amplitude_m_per_s2,
+    };
+    let disk = SingleModeDisk::new(amplitude_m_per_s2, width_s);
+    let window_s = seeded.between(2e-4, 1e-3);
+    let mut workspace = HeadWorkspace::new(&model);
+    let run = model.run(&disk, &load, window_s, false, true, &mut workspace);
+    Some((run, rough.yield_pressure_pa))
+}
+
+/// What holds at any instant of any run.
+fn judge(run: &HeadRun) {
+    assert!(run.cost.min_pressure_pa > 0.0, "{:?}", run.cost);
+    let columns = run.columns.as_ref().expect("recorded");
+    for column in [
+        &columns.slider_z_m,
+        &columns.slider_pitch_rad,
+        &columns.slider_roll_rad,
+        &columns.bearing_force_n,
+        &columns.dimple_force_n,
+        &columns.asperity_force_n,
+    ] {
+        assert!(column.iter().all(|value| value.is_finite()));
+    }
+    let mut forces = columns.asperity_force_n.iter();
+    assert!(forces.all(|&force_n| force_n >= 0.0));
+}
+
+/// What holds of the contacts of a run that reached the end of its window.
+fn judge_contacts(contact: &SliderContact, most_pa: f64) {
+    let sum = |of: fn(&SliderEpisode) -> f64| contact.episodes.iter().map(of).sum::<f64>();
+    for episode in &contact.episodes {
+        assert!(episode.on_s < episode.off_s, "{episode:?}");
+        let [mean_pa, peak_pa] = [episode.mean_pressure_pa, episode.peak_pressure_pa];
+        assert!(
+            0.0 < mean_pa && mean_pa <= peak_pa && peak_pa <= most_pa,
+            "{episode:?}"
+        );
+        assert!(
+            episode.impulse_n_s >= 0.0 && episode.friction_j >= 0.0,
+            "{episode:?}"
+        );
+        let most_j = (1.0 + OF_WORK) * episode.taken_j + LITTLE_J;
+        assert!(episode.given_j <= most_j, "{episode:?}");
+    }
+    let total_j = sum(|one| one.taken_j);
+    let yielded_j = contact.yielded_j;
+    assert!(yielded_j >= 0.0, "{yielded_j:e} J of {total_j:e}");
+    if !contact.goes_on {
+        let kept_j = total_j - sum(|one| one.given_j);
+        assert!(
+            (kept_j - yielded_j).abs() <= OF_WORK * total_j + LITTLE_J,
+            "taken less given {kept_j:e} J, kept {yielded_j:e} J of {total_j:e}"
+        );
+    }
+}
+
+/// Energy that is open at the end, of the largest.
+fn open(contact: &SliderContact) -> f64 {
+    let energy = contact.energy.expect("the run goes on");
+    energy.numerical_j.abs() / energy.peak_j
+}
+
+/// What became of scenes.
+#[derive(Clone, Debug, Default)]
+struct Found {
+    flown: usize,
+    touched: usize,
+    episodes: usize,
+    /// Runs without an answer, and runs that ended after their touch and before their window.
+    undecided: usize,
+    broken: usize,
+    /// Energy open at the end of each run to its window's end, and at [`FINE`].
+    open: Vec<f64>,
+    open_fine: Vec<f64>,
+}
+
+impl Found {
+    fn of(seed: u64) -> Self {
+        let _named = OnPanic(seed);
+        let mut found = Self::default();
+        let Some((shock, most_pa)) = run(seed, TOLERANCE) else {
+            return found;
+        };
+        judge(&shock);
+        let contact = shock.slider_contact.as_ref().expect("rough surfaces");
+        found.flown = 1;
+        found.episodes = contact.episodes.len();
+        match (&shock.verdict, &shock.broke_off) {
+            (Verdict::Undecided { .. }, _) => found.undecided = 1,
+            (_, Some(_)) => found.broken = 1,
+            (verdict, None) => {
+                judge_contacts(contact, most_pa);
+                found.touched = usize::from(matches!(verdict, Verdict::Fails { .. }));
+                found.open.push(open(contact));
+                if seed.is_multiple_of(AGAIN) {
+                    let (fine, _) = run(seed, FINE).expect("it flew");
+                    let contact = fine.slider_contact.as_ref().expect("rough surfaces");
+                    let open = open(contact);
+                    assert!(open < OPEN, "{open}: {:?}", contact.energy);
+                    found.open_fine.push(open);
+                }
+            }
+        }
+        found
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        self.flown += other.flown;
+        self.touched += other.touched;
+        self.episodes += other.episodes;
+        self.undecided += other.undecided;
+        self.broken += other.broken;
+        self.open.extend(other.open);
+        self.open_fine.extend(other.open_fine);
+        self
+    }
+}
+
+#[test]
+fn random_contacts_give_back_no_more_than_they_took() {
+    let found = (0..12).map(Found::of).fold(Found::default(), Found::and);
+    assert!(found.flown >= 6 && found.touched > 1, "{found:?}");
+    assert!(found.episodes > found.touched, "{found:?}");
+    assert!(!found.open_fine.is_empty(), "{found:?}");
+}
+
+#[test]
+#[ignore = "slow: 2000 scenes"]
+fn contacts_slow_close_their_balances() {
+    let range = seeds(0..2_000);
+    let mut all = Found::default();
+    let numbers: Vec<u64> = range.clone().collect();
+    for part in numbers.chunks(100) {
+        let found = part.par_iter().map(|&seed| Found::of(seed));
+        all = all.and(found.reduce(Found::default, Found::and));
+        all.open.sort_by(f64::total_cmp);
+        all.open_fine.sort_by(f64::total_cmp);
+        let at = |list: &[f64], share: f64| {
+            let last = list.len().checked_sub(1)?;
+            Some(list[(share * last as f64) as usize])
+        };
+        let Found {
+            flown,
+            touched,
+            episodes,
+            undecided,
+            broken,
+            open,
+            open_fine,
+        } = &all;
+        println!(
+            "contacts: {} scenes from seed {} hold, {flown} fly, {undecided} undecided, {broken} end after the touch and before their \
+             window, {touched} touch and reach it, {episodes} contacts; energy open of the largest: median {:?}, nine in ten {:?}, all \
+             {:?}; with finer steps {:?}",
+            part[part.len() - 1] + 1 - range.start,
+            range.start,
+            at(open, 0.5),
+            at(open, 0.9),
+            at(open, 1.0),
+            at(open_fine, 1.0),
+        );
+    }
+    let of_flown = |count: usize| count as f64 / all.flown as f64;
+    assert!(of_flown(all.undecided) < 0.02 && of_flown(all.broken) < 0.05);
+}
