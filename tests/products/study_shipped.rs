@@ -51,6 +51,7 @@ fn every_study_is_clean_and_documented() {
         "drive-2.5in",
         "clearance",
         "damage",
+        "touch",
     ] {
         assert!(
             names.iter().any(|name| name == expected),

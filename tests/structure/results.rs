@@ -152,6 +152,7 @@ fn results_are_of_todays_studies_and_of_the_committed_table() {
         "fig13-geometry",
         "clearance",
         "damage",
+        "touch",
     ] {
         holds(&format!("results/{study}/table.md"), &digest(study));
     }
