@@ -246,6 +246,7 @@ fn history(with_head: bool) -> History {
                 bearing_pitch_n_m: scaled(1e-9)[..100].to_vec(),
                 bearing_roll_n_m: scaled(1e-9)[..100].to_vec(),
                 dimple_force_n: scaled(0.02)[..100].to_vec(),
+                asperity_force_n: scaled(0.7)[..100].to_vec(),
                 ..HeadColumns::default()
             }
         } else {
@@ -273,6 +274,7 @@ fn every_picture_is_written_as_svg_png_and_csv() {
         "roll",
         "clearance",
         "head_force",
+        "slider_contact",
     ];
     let without = ["shock", "disk_displacement", "contact_force", "disk_slope"];
     for (head, expected) in [(true, &with_head[..]), (false, &without[..])] {

@@ -134,6 +134,16 @@ pub fn run_figures(history: &History, caption: &RunCaption) -> Vec<NamedFigure> 
             ),
         ],
     ));
+    if !history.head.asperity_force_n.is_empty() {
+        let force = ("asperity_force_n", "", 1.0, colour::VERMILLION, Dash::Solid);
+        figures.push(draw.figure(
+            "slider_contact",
+            "Contact of slider and disk",
+            "Force of the asperities (N)",
+            &head,
+            &[force],
+        ));
+    }
     figures
 }
 
