@@ -6,6 +6,7 @@ mod base_chain;
 mod base_pivot;
 mod bodies;
 mod contact;
+mod contact_balance;
 mod contact_energy;
 mod contact_limits;
 mod contact_method;

@@ -181,8 +181,10 @@ class SliderEpisode:
 
 @dataclass(frozen=True)
 class HeadEnergy:
-    """Energy balance of slider and suspension over a run through its contacts, from steady flight on."""
+    """Energy balance of slider and suspension over a run through its contacts, beyond the energy of steady flight."""
 
+    start_j: float
+    """Kinetic and elastic at the onset, J: 0 without run-out."""
     kinetic_j: float
     """Kinetic energy at the end, J."""
     elastic_j: float
@@ -192,15 +194,15 @@ class HeadEnergy:
     shock_work_j: float
     """Work of the shock's inertia load, and of a pivot that moves, J."""
     film_work_j: float
-    """Work on the slider of what acts in the gap beside the asperities, less the steady force, J."""
+    """Work on the slider of what acts in the gap beside the asperities, less the whole steady force, J."""
     contact_work_j: float
     """Work of the asperities' pressure on the slider, J."""
     friction_work_j: float
-    """Work of their friction's couple on the slider, J."""
+    """Work of their friction's couple on the slider, J; not the heat of ``friction_j``."""
     damping_loss_j: float
     """Loss in dampers, J."""
-    numerical_j: float
-    """What the time integration adds, negative where it takes, J."""
+    open_j: float
+    """What is left open, J: gain of energy and losses less works. An error of the time integration and of the works' own."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@
 //! asperities, F_μ the couple of their friction, f_s the force of suspension and contacts on x, and D what dampers take:
 //! of the modes, of the dimple and of the stops. Motions are increments from steady flight, and so is the energy. Works are
 //! those along the line between the ends of a step, by Simpson's rule for the asperities and by the mean of both ends for all
-//! else, so that what is left open measures the time integration.
+//! else; D is integrated by Simpson's rule, with the cubic through both ends in the middle. What is left open is the error of the
+//! time integration and of these rules.
 
 use super::outcome::HeadEnergy;
 use crate::rough_contact::nominal::ContactState;
@@ -34,15 +35,17 @@ pub(super) struct EnergyState {
     pub contact: ContactState,
     /// At the mean of this attitude and the one before.
     pub midway: ContactState,
-    /// D, W.
+    /// D, and D in the middle of the step, W.
     pub damping_w: f64,
+    pub damping_midway_w: f64,
 }
 
 /// Energy balance in progress.
 #[derive(Clone, Debug)]
 pub(super) struct EnergyWatch {
-    start_j: f64,
     latest: EnergyState,
+    /// Coordinates and velocities over the pivot then.
+    seen: [Vec<f64>; 2],
     record: HeadEnergy,
 }
 
@@ -61,16 +64,29 @@ fn work_of_ends<const N: usize>([from, to]: [[f64; N]; 2], places: [[f64; N]; 2]
 
 impl EnergyWatch {
     /// From the first instant of a run.
-    pub fn new(first: EnergyState) -> Self {
+    pub fn new(first: EnergyState, seen: &[Vec<f64>; 2]) -> Self {
+        let start_j = first.kinetic_j + first.elastic_j;
         Self {
-            start_j: first.kinetic_j + first.elastic_j,
             latest: first,
-            record: HeadEnergy::default(),
+            seen: seen.clone(),
+            record: HeadEnergy {
+                start_j,
+                peak_j: start_j,
+                ..HeadEnergy::default()
+            },
         }
     }
 
+    /// Time, and coordinates and velocities over the pivot, at the latest instant.
+    pub fn latest(&self) -> (f64, &[Vec<f64>; 2]) {
+        (self.latest.time_s, &self.seen)
+    }
+
     /// Adds the next accepted state.
-    pub fn add(&mut self, now: EnergyState) {
+    pub fn add(&mut self, now: EnergyState, seen: &[Vec<f64>; 2]) {
+        for (latest, seen) in self.seen.iter_mut().zip(seen) {
+            latest.copy_from_slice(seen);
+        }
         let before = std::mem::replace(&mut self.latest, now);
         let places = [before.slider, now.slider];
         let through = |of: fn(&ContactState) -> [f64; 3]| {
@@ -85,19 +101,18 @@ impl EnergyWatch {
         sum.contact_work_j += through(ContactState::pressed);
         sum.friction_work_j += through(ContactState::rubbed);
         let dt_s = now.time_s - before.time_s;
-        sum.damping_loss_j += 0.5 * dt_s * (before.damping_w + now.damping_w);
+        let damping_w = before.damping_w + 4.0 * now.damping_midway_w + now.damping_w;
+        sum.damping_loss_j += dt_s / 6.0 * damping_w;
         sum.peak_j = sum.peak_j.max(now.kinetic_j + now.elastic_j);
     }
 
     /// The balance.
     pub fn finish(self) -> HeadEnergy {
-        let Self {
-            start_j, latest, ..
-        } = self;
         let mut sum = self.record;
-        (sum.kinetic_j, sum.elastic_j) = (latest.kinetic_j, latest.elastic_j);
+        (sum.kinetic_j, sum.elastic_j) = (self.latest.kinetic_j, self.latest.elastic_j);
         let works = sum.shock_work_j + sum.film_work_j + sum.contact_work_j + sum.friction_work_j;
-        sum.numerical_j = sum.kinetic_j + sum.elastic_j - start_j - works + sum.damping_loss_j;
+        let gained_j = sum.kinetic_j + sum.elastic_j - sum.start_j;
+        sum.open_j = gained_j - works + sum.damping_loss_j;
         sum
     }
 }

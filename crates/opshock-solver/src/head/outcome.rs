@@ -135,7 +135,7 @@ pub struct SliderEpisode {
     pub closest_m: f64,
     /// Place of the smallest clearance at the largest force.
     pub place: Place,
-    /// Work of friction, J.
+    /// Work of friction on slider and disk, J: its force times the speed of the disk.
     pub friction_j: f64,
     /// Work done on the asperities while slider and disk approached there, and what they held as the episode began, J.
     pub taken_j: f64,
@@ -160,9 +160,11 @@ pub struct SliderContact {
     pub energy: Option<HeadEnergy>,
 }
 
-/// Energy balance of slider and suspension over a run, from steady flight on.
+/// Energy balance of slider and suspension over a run, beyond the energy of steady flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct HeadEnergy {
+    /// Kinetic and elastic at the onset, J: 0 without run-out.
+    pub start_j: f64,
     /// At the end, J.
     pub kinetic_j: f64,
     /// At the end, in modes, gimbal, dimple, limiters and lift tab, J.
@@ -171,16 +173,16 @@ pub struct HeadEnergy {
     pub peak_j: f64,
     /// Work of the shock's inertia load, and of a pivot that moves, J.
     pub shock_work_j: f64,
-    /// Work on the slider of what acts in the gap beside the asperities, less the steady force, J.
+    /// Work on the slider of what acts in the gap beside the asperities, less the whole steady force, J.
     pub film_work_j: f64,
     /// Work of the asperities' pressure on the slider, J.
     pub contact_work_j: f64,
-    /// Work of their friction's couple on the slider, J.
+    /// Work of their friction's couple on the slider, J; not the heat of [`SliderEpisode::friction_j`].
     pub friction_work_j: f64,
     /// Loss in dampers, J.
     pub damping_loss_j: f64,
-    /// What the time integration adds, negative where it takes, J: mostly that of modes that are faster than its steps.
-    pub numerical_j: f64,
+    /// What is left open, J: gain of energy and losses less works. An error of the time integration and of the works' own.
+    pub open_j: f64,
 }
 
 /// Columns at the head's accepted steps and at its failure; a run that stops there ends with it.

@@ -86,12 +86,14 @@ pub(super) fn g3() -> Vec<Check> {
     let slider = plate(0.0);
     let smooth = film(&slider, AsperityContact::default());
     let nearly = AsperityContact {
-        roughness_m: f64::MIN_POSITIVE,
+        roughness_m: 1e-12,
         ..ROUGH
     };
+    let sigma_m = nearly.roughness_m;
     let nearly = film(&slider, nearly);
     // Above twice the minimum film height smooth surfaces see the true height.
-    let changes = [1e-9, 3e-9, 20e-9].map(|height_m| {
+    let heights_m = [1e-9, 3e-9, 20e-9];
+    let changes = heights_m.map(|height_m| {
         let at = level(height_m);
         let mut psi = vec![0.0; smooth.n_cells()];
         smooth.ambient_psi(&at, &mut psi);
@@ -99,16 +101,16 @@ pub(super) fn g3() -> Vec<Check> {
         let force = |film: &Film| film.force(&psi, &at, &mut film.scratch())[0];
         (force(&nearly) / force(&smooth) - 1.0).abs()
     });
-    let naive = naive::density_of_roughness(0.0, 0.0);
+    let gaps = heights_m.map(|h_m| (naive::mean_gap_in_steps(h_m, sigma_m) / h_m - 1.0).abs());
     vec![
         Check::new(
-            "force of a film between planes of no roughness against smooth ones",
+            "force of a film between planes of 1 pm of roughness against smooth ones",
             largest(changes),
             1e-15,
         )
         .against(
-            "the mean gap's formula with h over sigma: not a number",
-            f64::from(u8::from(naive.is_nan())),
+            "their mean gap summed over heights in steps of 0.1 nm",
+            largest(gaps),
         ),
     ]
 }
@@ -119,31 +121,22 @@ pub(super) fn g4() -> Vec<Check> {
         yield_pressure_pa: 1e17,
         ..ROUGH
     };
-    let after = Bounces::onto(&stiff.nominal()).hundred();
-    let run = blow(&stiff, 0.02);
+    let [fine, coarse] = [1e-4, 5e-2].map(|tolerance| blow(&stiff, 0.02, tolerance));
     vec![
-        Check::new(
-            "energy open over 100 bounces, of the first",
-            after.open,
-            1e-8,
-        )
-        .against(
-            "explicit Euler with the film's steps of 0.1 us: energy gained in one",
-            naive::explicit_bounce(&stiff.nominal(), 1e-7) - 1.0,
-        ),
         Check::none(
             "runs of a head against such a disk without a verdict",
-            undecided(&run),
+            undecided(&fine),
         ),
+        Check::new("energy open at the end, of the largest", open(&fine), 0.02)
+            .against("steps of the preset coarse", open(&coarse)),
     ]
 }
 
 /// A head whose disk comes at a speed for 20 us, through its contacts.
-fn blow(rough: &AsperityContact, velocity_m_per_s: f64) -> HeadRun {
+fn blow(rough: &AsperityContact, velocity_m_per_s: f64, tolerance: f64) -> HeadRun {
     let (film, flight) = rough_film(300, rough);
-    // Blows are shorter than the steps of flight.
     let resolution = HeadResolution {
-        tolerance: 1e-4,
+        tolerance,
         ..default_resolution()
     };
     let model = head_on(&film, &flight, &resolution);
@@ -159,6 +152,13 @@ fn blow(rough: &AsperityContact, velocity_m_per_s: f64) -> HeadRun {
     let mut workspace = HeadWorkspace::new(&model);
     let disk = SuddenDisk { velocity_m_per_s };
     model.run(&disk, &load, 2e-5, false, true, &mut workspace)
+}
+
+/// Energy open at the end of a run, of the largest.
+fn open(run: &HeadRun) -> f64 {
+    let contact = run.slider_contact.as_ref().expect("rough surfaces");
+    let energy = contact.energy.expect("the run goes on");
+    energy.open_j.abs() / energy.peak_j
 }
 
 fn undecided(run: &HeadRun) -> usize {
@@ -251,19 +251,26 @@ pub(super) fn g8() -> Vec<Check> {
         let borne = nominal.at(x * ELASTIC.roughness_m, f64::INFINITY);
         (borne.pressure_pa / (unit_pa * exact) - 1.0).abs()
     });
-    let far = INTEGRALS.map(|(x, exact)| (naive::exponential_heights(x) / exact - 1.0).abs());
+    let light = INTEGRALS
+        .into_iter()
+        .filter(|(x, _)| (0.7..=2.5).contains(x));
+    let fitted = light.map(|(x, exact)| (naive::exponential_heights(x) / exact - 1.0).abs());
     vec![
         Check::new(
             "Greenwood and Williamson's pressure from -6 to 4 sigma against 35 digits",
             largest(errors),
             1e-8,
         )
-        .against("heights that fall off exponentially", largest(far)),
+        .against(
+            "an exponential through the density at 1 and 3 sigma, 0.7 to 2.5 sigma",
+            largest(fitted),
+        ),
     ]
 }
 
 pub(super) fn g9() -> Vec<Check> {
-    // The limit of elasticity lies 1.4 sigma deep, so that it falls among the asperities that touch.
+    // The limit of elasticity lies 1.4 sigma deep, so that it falls among the asperities that touch. The reference has the same law and
+    // the same bound: the quadrature is what is tried.
     let soft = AsperityContact {
         yield_pressure_pa: 1.7e9,
         ..ROUGH
@@ -286,10 +293,10 @@ pub(super) fn g9() -> Vec<Check> {
     let heights_m = [-5.0, -1.4, 0.0, 1.0, 2.0].map(|x| x * sigma_m);
     let errors = heights_m.map(|h_m| {
         let exact = reference(h_m);
-        let trapezia = naive::pressure_by_trapezia(soft.asperities_per_m2, &law, sigma_m, h_m);
-        let trapezia = soft.yield_pressure_pa * (trapezia / soft.yield_pressure_pa).tanh();
+        let across = naive::pressure_across_the_limit(soft.asperities_per_m2, &law, sigma_m, h_m);
+        let across = soft.yield_pressure_pa * (across / soft.yield_pressure_pa).tanh();
         let found = nominal.at(h_m, f64::INFINITY).pressure_pa;
-        [found, trapezia].map(|pressure_pa| (pressure_pa / exact - 1.0).abs())
+        [found, across].map(|pressure_pa| (pressure_pa / exact - 1.0).abs())
     });
     vec![
         Check::new(
@@ -298,8 +305,8 @@ pub(super) fn g9() -> Vec<Check> {
             1e-8,
         )
         .against(
-            "heights in steps of sigma",
-            largest(errors.map(|[_, trapezia]| trapezia)),
+            "Gauss's rule in parts that the limit lies across",
+            largest(errors.map(|[_, across]| across)),
         ),
     ]
 }
@@ -356,27 +363,16 @@ pub(super) fn g11() -> Vec<Check> {
 
 pub(super) fn g12() -> Vec<Check> {
     // The blow throws the slider off the load beam while its asperities still bear.
-    let run = blow(&ROUGH, 0.3);
+    let run = blow(&ROUGH, 0.3, 1e-4);
     let columns = run.columns.as_ref().expect("recorded");
     let forces = columns.dimple_force_n.iter().zip(&columns.asperity_force_n);
     let both = forces.filter(|&(&dimple, &asperities)| dimple == 0.0 && asperities > 1e-3);
-    let contact = run.slider_contact.as_ref().expect("rough surfaces");
-    let energy = contact.energy.expect("the run goes on");
-    let scale = energy.peak_j;
     vec![
         Check::none("runs without a verdict", undecided(&run)),
         Check::none(
-            "blows at which dimple and disk do not part at once",
+            "runs in which the dimple is never open while the asperities bear",
             usize::from(both.count() == 0),
         ),
-        Check::new(
-            "energy open at the end, of the largest",
-            energy.numerical_j.abs() / scale,
-            0.02,
-        )
-        .against(
-            "without the asperities' work",
-            (energy.numerical_j + energy.contact_work_j).abs() / scale,
-        ),
+        Check::new("energy open at the end, of the largest", open(&run), 0.02),
     ]
 }

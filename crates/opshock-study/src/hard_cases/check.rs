@@ -24,9 +24,13 @@ pub struct Naive {
     pub figure: f64,
 }
 
-/// The largest of figures that are not negative.
+/// The largest of figures that are not negative; not a number where one of them is none.
 pub(super) fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
-    figures.into_iter().fold(0.0, f64::max)
+    let larger = |most: f64, figure: f64| match most.is_nan() || figure <= most {
+        true => most,
+        false => figure,
+    };
+    figures.into_iter().fold(0.0, larger)
 }
 
 impl Check {

@@ -200,10 +200,17 @@ impl Element for Contact {
         let touched = touched.filter(|(closest_m, _)| closest_m.is_finite());
         let lost = touched.map(|(&closest_m, area)| {
             let back = self.nominal.elastic_j_per_m2(closest_m, closest_m);
-            area * (self.nominal.work_j_per_m2(closest_m) - back)
+            let work = self.nominal.work_j_per_m2(closest_m);
+            (area * work, area * (work - back))
         });
         // Where nothing has yielded, rounding may leave less than nothing.
-        lost.sum::<f64>().max(0.0)
+        let (work_j, lost_j) = lost.fold((0.0, 0.0), |sum, one: (f64, f64)| {
+            (sum.0 + one.0, sum.1 + one.1)
+        });
+        match lost_j < 0.0 && lost_j > -1e-12 * work_j {
+            true => 0.0,
+            false => lost_j,
+        }
     }
 
     fn n_remembered(&self) -> usize {

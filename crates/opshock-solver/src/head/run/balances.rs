@@ -2,7 +2,7 @@
 
 use super::running::Run;
 use crate::air_bearing::Attitude;
-use crate::head::energy::EnergyState;
+use crate::head::energy::{EnergyState, EnergyWatch};
 use crate::head::fields::StepEnds;
 use crate::head::outcome::Place;
 use crate::head::slider_contact::{ContactWatch, Instant};
@@ -43,7 +43,8 @@ impl Run<'_> {
             contact.add(now, elastic_j);
             if self.energy.is_some() {
                 let now = self.energies(attitude, &now);
-                self.energy.as_mut().expect("seen").add(now);
+                let energy = self.energy.as_mut().expect("seen");
+                energy.add(now, &self.w.seen);
             }
         }
         let psi = &self.w.y[..n_cells];
@@ -119,6 +120,17 @@ impl Run<'_> {
         let [pressed, rubbed] = [now.state.pressed(), now.state.rubbed()];
         let [seen, seen_rate] = &w.seen;
         let mechanics = &model.mechanics;
+        let damping_w = mechanics.damping_w(seen, seen_rate);
+        let mut damping_midway_w = damping_w;
+        if let Some((before_s, [x0, v0])) = self.energy.as_ref().map(EnergyWatch::latest) {
+            let dt_s = self.time_s - before_s;
+            let [x, v, _] = &mut w.scratch.seen;
+            for k in 0..n {
+                x[k] = 0.5 * (x0[k] + seen[k]) + 0.125 * dt_s * (v0[k] - seen_rate[k]);
+                v[k] = 1.5 * (seen[k] - x0[k]) / dt_s - 0.25 * (v0[k] + seen_rate[k]);
+            }
+            damping_midway_w = mechanics.damping_w(x, v);
+        }
         let [moved_m, _] = self.motion.pivot(self.time_s);
         let out = &mut w.scratch.mechanical;
         mechanics.acceleration(0.0, [0.0; 3], seen, seen_rate, out);
@@ -138,7 +150,8 @@ impl Run<'_> {
             }),
             contact: now.state,
             midway: now.midway,
-            damping_w: mechanics.damping_w(seen, seen_rate),
+            damping_w,
+            damping_midway_w,
         }
     }
 

@@ -124,7 +124,7 @@ impl<'a> Run<'a> {
             if !stops_at_failure {
                 run.see_over_pivot();
                 let first = run.energies(&attitude, &first);
-                run.energy = Some(EnergyWatch::new(first));
+                run.energy = Some(EnergyWatch::new(first, &run.w.seen));
             }
         }
         run.initial_rate(&attitude);

@@ -141,7 +141,7 @@ pub fn moment_of_pressure(nominal: &NominalContact, depth_m: f64, power: i32) ->
     (0..parts).map(part).sum()
 }
 
-/// A mass that falls onto a rough area of 1 mm2 again and again.
+/// A mass that falls onto a rough area of 0.01 mm2 again and again.
 #[derive(Debug)]
 pub struct Bounces<'a> {
     contact: &'a NominalContact,
@@ -174,6 +174,9 @@ impl<'a> Bounces<'a> {
     }
 
     /// A hundred blows, by Runge and Kutta's rule in contact and in closed form between.
+    ///
+    /// # Panics
+    /// When a number is not finite.
     pub fn hundred(mut self) -> AfterBounces {
         let reach_m = self.contact.reach_m();
         let began_j = self.energy_j();
@@ -181,7 +184,9 @@ impl<'a> Bounces<'a> {
         let (mut open, mut returned) = (0.0_f64, None);
         for _ in 0..100 {
             while self.step(5e-10) {}
-            open = open.max((self.energy_j() - began_j).abs() / scale_j);
+            let now = (self.energy_j() - began_j).abs() / scale_j;
+            assert!(now.is_finite(), "{now}");
+            open = open.max(now);
             let [h, v, closest] = self.state;
             let left = 0.5 * MASS_KG * v * v + WEIGHT_N * (h - reach_m);
             returned.get_or_insert(left / scale_j);
