@@ -64,7 +64,7 @@ def test_what_comes_after_the_touch_of_rough_surfaces(study: opshock.Study) -> N
         # Friction: 0.3 of the impulse, at the disk's speed under the slider.
         assert 2 < episode.friction_j / (0.3 * episode.impulse_n_s) < 30
         # Up to what the integration over steps is off by, no contact gives back more than it took.
-        assert 0 < episode.taken_j and 0 <= episode.given_j < 1.1 * episode.taken_j
+        assert episode.taken_j > 0 and 0 <= episode.given_j < 1.1 * episode.taken_j
         assert 0 <= episode.place.x_m <= 0.85e-3 and episode.closest_m < 5e-9
         assert 0 < episode.mean_pressure_pa <= episode.peak_pressure_pa
     assert max(episode.approach_m_per_s for episode in contact.episodes) > 0
