@@ -200,17 +200,11 @@ impl Element for Contact {
         let touched = touched.filter(|(closest_m, _)| closest_m.is_finite());
         let lost = touched.map(|(&closest_m, area)| {
             let back = self.nominal.elastic_j_per_m2(closest_m, closest_m);
-            let work = self.nominal.work_j_per_m2(closest_m);
-            (area * work, area * (work - back))
+            area * (self.nominal.work_j_per_m2(closest_m) - back)
         });
-        // Where nothing has yielded, rounding may leave less than nothing.
-        let (work_j, lost_j) = lost.fold((0.0, 0.0), |sum, one: (f64, f64)| {
-            (sum.0 + one.0, sum.1 + one.1)
-        });
-        match lost_j < 0.0 && lost_j > -1e-12 * work_j {
-            true => 0.0,
-            false => lost_j,
-        }
+        let lost_j: f64 = lost.sum();
+        // Where nothing has yielded, two rules of quadrature may leave less than nothing.
+        if lost_j < 0.0 { 0.0 } else { lost_j }
     }
 
     fn n_remembered(&self) -> usize {
