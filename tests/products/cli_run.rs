@@ -391,7 +391,7 @@ fn doctor_runs_the_hard_cases_and_tells_figure_and_bound() {
     let found = done.json();
     assert_eq!(found["ok"], true);
     let cases = found["cases"].as_array().unwrap();
-    assert_eq!(cases.len(), 66);
+    assert_eq!(cases.len(), 78);
     for case in cases {
         assert_eq!(case["ok"], true, "{case}");
         for check in case["checks"].as_array().unwrap() {
