@@ -402,7 +402,7 @@ fn doctor_runs_the_hard_cases_and_tells_figure_and_bound() {
     assert_eq!(files(folder.path()).len(), 0);
     let text = Done::of(folder.path(), &["doctor", "--hard-cases"]).stdout;
     // The program, a line a case, the number of cases.
-    assert_eq!(text.lines().count(), 68, "{text}");
+    assert_eq!(text.lines().count(), 80, "{text}");
 }
 
 #[cfg(unix)]
