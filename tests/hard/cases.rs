@@ -131,7 +131,7 @@ hard! {
     hard_g2_slides_on_the_side_of_a_rail "G2",
     hard_g3_no_roughness "G3",
     hard_g4_very_stiff_asperities "G4",
-    hard_g5_blow_that_yields "G5",
+    hard_g5_impact_that_yields "G5",
     hard_g6_cascade_of_bounces "G6",
     hard_g7_deep_overlap "G7",
     hard_g8_few_asperities_touch "G8",

@@ -2,15 +2,12 @@
 
 use opshock_solver::air_bearing::gap_forces::AsperityContact;
 use opshock_solver::head::{
-    HeadRun, HeadWorkspace, ShockLoad, SliderContact, SliderEpisode, Verdict,
+    ContactWork, HeadRun, HeadWorkspace, SliderContact, SliderEpisode, Verdict,
 };
-use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
-use opshock_solver::shock::{Pulse, PulseShape};
-use opshock_tests::heads::SingleModeDisk;
 use opshock_tests::seeded::{OnPanic, Seeded, seeds};
 use rayon::prelude::*;
 
-use crate::random_heads::{TOLERANCE, random_head};
+use crate::random_heads::{RandomShock, TOLERANCE, random_head};
 
 /// What an episode may give back beyond what it took, as a share of it: the error of the works' integration over steps.
 const OF_WORK: f64 = 0.05;
@@ -18,9 +15,9 @@ const OF_WORK: f64 = 0.05;
 /// Less work than this is that of a film in flight, J.
 const LITTLE_J: f64 = 1e-12;
 
-/// Energy that may be open at the end, of the largest, at [`FINE`]. Steps of the preset's tolerance are too long for the suspension's
-/// fast modes and for hard blows.
-const OPEN: f64 = 0.02;
+/// Imbalance of energy at the end, of the largest energy, at [`FINE`]. Steps of the preset's tolerance are too long for the suspension's
+/// fast modes and for hard impacts.
+const IMBALANCE: f64 = 0.02;
 
 /// Tolerance at which they are resolved.
 const FINE: f64 = 1e-4;
@@ -45,22 +42,10 @@ fn run(seed: u64, tolerance: f64) -> Option<(HeadRun, f64)> {
     let mut seeded = Seeded::new(0xc0 ^ (seed << 8));
     let rough = random_contact(&mut seeded);
     let (model, _) = random_head(&mut seeded, rough, tolerance)?;
-    let width_s = seeded.log_between(1e-4, 1e-3);
-    let sign = if seeded.once_in(2) { 1.0 } else { -1.0 };
-    let amplitude_m_per_s2 = sign * seeded.log_between(200.0, 4000.0) * G;
-    let pulse = Pulse {
-        shape: PulseShape::HalfSine,
-        width_s,
-    };
-    let load = ShockLoad {
-        base: None,
-        pulse: &pulse,
-        amplitude_m_per_s2,
-    };
-    let disk = SingleModeDisk::new(amplitude_m_per_s2, width_s);
-    let window_s = seeded.between(2e-4, 1e-3);
+    let shock = RandomShock::of(&mut seeded, 200.0);
     let mut workspace = HeadWorkspace::new(&model);
-    let run = model.run(&disk, &load, window_s, false, true, &mut workspace);
+    let (load, disk) = (shock.load(), shock.disk());
+    let run = model.run(&disk, &load, shock.window_s, false, true, &mut workspace);
     Some((run, rough.yield_pressure_pa))
 }
 
@@ -82,6 +67,10 @@ fn judge(run: &HeadRun) {
     assert!(forces.all(|&force_n| force_n >= 0.0));
 }
 
+fn work(episode: &SliderEpisode) -> ContactWork {
+    episode.work.expect("the run goes on")
+}
+
 /// What holds of the contacts of a run that reached the end of its window.
 fn judge_contacts(contact: &SliderContact, most_pa: f64) {
     let sum = |of: fn(&SliderEpisode) -> f64| contact.episodes.iter().map(of).sum::<f64>();
@@ -96,14 +85,18 @@ fn judge_contacts(contact: &SliderContact, most_pa: f64) {
             episode.impulse_n_s >= 0.0 && episode.friction_j >= 0.0,
             "{episode:?}"
         );
-        let most_j = (1.0 + OF_WORK) * episode.taken_j + LITTLE_J;
-        assert!(episode.given_j <= most_j, "{episode:?}");
+        let ContactWork {
+            loading_j,
+            unloading_j,
+        } = work(episode);
+        let most_j = (1.0 + OF_WORK) * loading_j + LITTLE_J;
+        assert!(unloading_j <= most_j, "{episode:?}");
     }
-    let total_j = sum(|one| one.taken_j);
+    let total_j = sum(|one| work(one).loading_j);
     let yielded_j = contact.yielded_j;
     assert!(yielded_j.is_finite());
     if !contact.goes_on {
-        let kept_j = total_j - sum(|one| one.given_j);
+        let kept_j = total_j - sum(|one| work(one).unloading_j);
         assert!(
             (kept_j - yielded_j).abs() <= OF_WORK * total_j + LITTLE_J,
             "taken less given {kept_j:e} J, kept {yielded_j:e} J of {total_j:e}"
@@ -111,10 +104,10 @@ fn judge_contacts(contact: &SliderContact, most_pa: f64) {
     }
 }
 
-/// Energy that is open at the end, of the largest.
-fn open(contact: &SliderContact) -> f64 {
+/// Imbalance of energy at the end, of the largest energy.
+fn imbalance(contact: &SliderContact) -> f64 {
     let energy = contact.energy.expect("the run goes on");
-    energy.open_j.abs() / energy.peak_j
+    energy.imbalance_j.abs() / energy.peak_j
 }
 
 /// What became of scenes.
@@ -126,10 +119,10 @@ struct Found {
     /// Runs without an answer, and runs that ended after their touch and before their window.
     undecided: usize,
     broken: usize,
-    /// Energy open at the end of each run to its window's end, and at [`FINE`].
-    open: Vec<f64>,
+    /// Imbalance at the end of each run to its window's end, and at [`FINE`].
+    imbalance: Vec<f64>,
     /// With the number of contacts.
-    open_fine: Vec<(f64, usize)>,
+    imbalance_fine: Vec<(f64, usize)>,
 }
 
 impl Found {
@@ -149,16 +142,18 @@ impl Found {
             (verdict, None) => {
                 judge_contacts(contact, most_pa);
                 found.touched = usize::from(matches!(verdict, Verdict::Fails { .. }));
-                found.open.push(open(contact));
+                found.imbalance.push(imbalance(contact));
                 if seed.is_multiple_of(AGAIN) {
                     let (fine, _) = run(seed, FINE).expect("it flew");
                     judge(&fine);
                     let contact = fine.slider_contact.as_ref().expect("rough surfaces");
-                    let open = open(contact);
-                    assert!(open < OPEN, "{open}: {:?}", contact.energy);
+                    let imbalance = imbalance(contact);
+                    assert!(imbalance < IMBALANCE, "{imbalance}: {:?}", contact.energy);
                     if fine.broke_off.is_none() {
                         judge_contacts(contact, most_pa);
-                        found.open_fine.push((open, contact.episodes.len()));
+                        found
+                            .imbalance_fine
+                            .push((imbalance, contact.episodes.len()));
                     }
                 }
             }
@@ -172,8 +167,8 @@ impl Found {
         self.episodes += other.episodes;
         self.undecided += other.undecided;
         self.broken += other.broken;
-        self.open.extend(other.open);
-        self.open_fine.extend(other.open_fine);
+        self.imbalance.extend(other.imbalance);
+        self.imbalance_fine.extend(other.imbalance_fine);
         self
     }
 }
@@ -183,7 +178,10 @@ fn random_contacts_give_back_no_more_than_they_took() {
     let found = (0..12).map(Found::of).fold(Found::default(), Found::and);
     assert!(found.flown >= 6 && found.touched > 1, "{found:?}");
     assert!(found.episodes > found.touched, "{found:?}");
-    assert!(found.open_fine.iter().any(|(_, n)| *n > 0), "{found:?}");
+    assert!(
+        found.imbalance_fine.iter().any(|(_, n)| *n > 0),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -195,8 +193,8 @@ fn contacts_slow_close_their_balances() {
     for part in numbers.chunks(100) {
         let found = part.par_iter().map(|&seed| Found::of(seed));
         all = all.and(found.reduce(Found::default, Found::and));
-        all.open.sort_by(f64::total_cmp);
-        all.open_fine.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.imbalance.sort_by(f64::total_cmp);
+        all.imbalance_fine.sort_by(|a, b| a.0.total_cmp(&b.0));
         let at = |list: &[f64], share: f64| {
             let last = list.len().checked_sub(1)?;
             Some(list[(share * last as f64) as usize])
@@ -207,22 +205,22 @@ fn contacts_slow_close_their_balances() {
             episodes,
             undecided,
             broken,
-            open,
-            open_fine,
+            imbalance,
+            imbalance_fine,
         } = &all;
         println!(
             "contacts: {} scenes from seed {} hold, {flown} fly, {undecided} undecided, {broken} end after the touch and before their \
-             window, {touched} touch and reach it, {episodes} contacts; energy open of the largest: median {:?}, nine in ten {:?}, all \
+             window, {touched} touch and reach it, {episodes} contacts; energy imbalance, of the largest energy: median {:?}, nine in ten {:?}, all \
              {:?}; with finer steps {:?}",
             part[part.len() - 1] + 1 - range.start,
             range.start,
-            at(open, 0.5),
-            at(open, 0.9),
-            at(open, 1.0),
-            open_fine.last(),
+            at(imbalance, 0.5),
+            at(imbalance, 0.9),
+            at(imbalance, 1.0),
+            imbalance_fine.last(),
         );
     }
     let of_flown = |count: usize| count as f64 / all.flown as f64;
     assert!(of_flown(all.undecided) < 0.02 && of_flown(all.broken) < 0.05);
-    assert!(all.open[all.open.len() / 2] < 0.01);
+    assert!(all.imbalance[all.imbalance.len() / 2] < 0.01);
 }

@@ -133,25 +133,48 @@ fn judge(run: &HeadRun) {
     }
 }
 
+/// A half-sine of 0.1 to 1 ms and the window of its run.
+pub(super) struct RandomShock {
+    pulse: Pulse,
+    amplitude_m_per_s2: f64,
+    pub(super) window_s: f64,
+}
+
+impl RandomShock {
+    /// Of `least_g` to 4000 g.
+    pub(super) fn of(seeded: &mut Seeded, least_g: f64) -> Self {
+        let width_s = seeded.log_between(1e-4, 1e-3);
+        let sign = if seeded.once_in(2) { 1.0 } else { -1.0 };
+        Self {
+            pulse: Pulse {
+                shape: PulseShape::HalfSine,
+                width_s,
+            },
+            amplitude_m_per_s2: sign * seeded.log_between(least_g, 4000.0) * G,
+            window_s: seeded.between(2e-4, 1e-3),
+        }
+    }
+
+    pub(super) fn load(&self) -> ShockLoad<'_> {
+        ShockLoad {
+            base: None,
+            pulse: &self.pulse,
+            amplitude_m_per_s2: self.amplitude_m_per_s2,
+        }
+    }
+
+    pub(super) fn disk(&self) -> SingleModeDisk {
+        SingleModeDisk::new(self.amplitude_m_per_s2, self.pulse.width_s)
+    }
+}
+
 /// Verdict of one scene: flies, fails.
 fn one(seed: u64) -> Option<bool> {
     let _named = OnPanic(seed);
     let mut seeded = Seeded::new(seed);
     let (model, mirrored) = random_head(&mut seeded, AsperityContact::default(), TOLERANCE)?;
-    let width_s = seeded.log_between(1e-4, 1e-3);
-    let sign = if seeded.once_in(2) { 1.0 } else { -1.0 };
-    let amplitude_m_per_s2 = sign * seeded.log_between(20.0, 4000.0) * G;
-    let pulse = Pulse {
-        shape: PulseShape::HalfSine,
-        width_s,
-    };
-    let load = ShockLoad {
-        base: None,
-        pulse: &pulse,
-        amplitude_m_per_s2,
-    };
-    let disk = SingleModeDisk::new(amplitude_m_per_s2, width_s);
-    let window_s = seeded.between(2e-4, 1e-3);
+    let shock = RandomShock::of(&mut seeded, 20.0);
+    let (load, disk, window_s) = (shock.load(), shock.disk(), shock.window_s);
     let mut workspace = HeadWorkspace::new(&model);
     let run = model.run(&disk, &load, window_s, true, true, &mut workspace);
     judge(&run);

@@ -11,11 +11,11 @@ use opshock_tests::pairs::coarse;
 use opshock_tests::scenes;
 
 /// A disk at a given height, under a suspension whose pivot moves.
-struct MovedPivot {
+pub(super) struct MovedPivot {
     /// Height of the disk and motion of the pivot at a time.
-    disk_m: fn(f64) -> [f64; 2],
-    pivot_m: fn(f64) -> [f64; 2],
-    events_s: Vec<f64>,
+    pub(super) disk_m: fn(f64) -> [f64; 2],
+    pub(super) pivot_m: fn(f64) -> [f64; 2],
+    pub(super) events_s: Vec<f64>,
 }
 
 impl DiskMotion for MovedPivot {
@@ -46,7 +46,7 @@ impl DiskMotion for MovedPivot {
 const SWING_S: f64 = 2.5e-4;
 
 /// (1 − cos) swings of 3 um from 0.1 ms on, (displacement, velocity).
-fn swung(time_s: f64) -> [f64; 2] {
+pub(super) fn swung(time_s: f64) -> [f64; 2] {
     let omega = TAU / SWING_S;
     let t = (time_s - 1e-4).max(0.0);
     [

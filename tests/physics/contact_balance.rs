@@ -1,9 +1,6 @@
 //! Energy balance of slider and suspension, with every contact and load that it counts.
 
-use std::f64::consts::TAU;
-
-use opshock_solver::disk::{DiskMotion, DiskPose};
-use opshock_solver::head::{HeadEnergy, HeadModel, HeadRun, HeadWorkspace, ShockLoad};
+use opshock_solver::head::{HeadModel, HeadRun, HeadWorkspace, ShockLoad};
 use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2 as G;
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::suspension::{ContactLaw, LiftTab, Limiter};
@@ -11,28 +8,10 @@ use opshock_tests::heads::{default_resolution, default_slider, rough_film};
 use opshock_tests::rough::ROUGH;
 use opshock_tests::suspensions::default_suspension;
 
-/// A disk at rest under a suspension whose pivot swings by 3 um.
-struct Swinging;
+use super::base_pivot::{MovedPivot, swung};
 
-impl DiskMotion for Swinging {
-    fn pose(&self, _: f64) -> DiskPose {
-        DiskPose::default()
-    }
-    fn pose_rate(&self, _: f64) -> DiskPose {
-        DiskPose::default()
-    }
-    fn events_s(&self) -> &[f64] {
-        &[]
-    }
-    fn pivot(&self, time_s: f64) -> [f64; 2] {
-        let omega = TAU / 2.5e-4;
-        let (sine, cosine) = (omega * time_s).sin_cos();
-        [1.5e-6 * (1.0 - cosine), 1.5e-6 * omega * sine]
-    }
-}
-
-/// A shock that lifts the load beam onto limiters and lift tab, and ends on the disk.
-fn slapped(tolerance: f64) -> HeadRun {
+/// A shock that lifts the load beam onto limiters and lift tab, and then throws the slider onto the disk.
+fn slapped(tolerance: f64, window_s: f64) -> HeadRun {
     let (film, flight) = rough_film(150, &ROUGH);
     let contact = ContactLaw {
         stiffness_n_per_m: 1e5,
@@ -48,7 +27,7 @@ fn slapped(tolerance: f64) -> HeadRun {
         })
         .to_vec();
     suspension.lift_tab = Some(LiftTab {
-        gap_m: 2e-5,
+        gap_m: 1e-6,
         contact,
     });
     let mut resolution = default_resolution();
@@ -65,21 +44,39 @@ fn slapped(tolerance: f64) -> HeadRun {
         pulse: &pulse,
         amplitude_m_per_s2: 700.0 * G,
     };
+    let swinging = MovedPivot {
+        disk_m: |_| [0.0; 2],
+        // From rest at the onset.
+        pivot_m: |time_s| swung(time_s + 1e-4),
+        events_s: Vec::new(),
+    };
     let mut workspace = HeadWorkspace::new(&model);
-    model.run(&Swinging, &load, 1e-3, false, false, &mut workspace)
+    model.run(&swinging, &load, window_s, false, true, &mut workspace)
 }
 
+/// Imbalance over the largest energy.
+fn imbalance(run: &HeadRun) -> f64 {
+    let contact = run.slider_contact.as_ref().expect("rough surfaces");
+    let energy = contact.energy.expect("the run goes on");
+    energy.imbalance_j.abs() / energy.peak_j
+}
+
+/// While a limiter is closed, with the load beam off the slider, and after the first contact with the disk: further contacts depend on
+/// the last digits of these.
 #[test]
 fn the_balance_of_a_head_on_all_its_contacts_closes_with_the_steps() {
-    let open = [1e-3, 1e-4].map(|tolerance| {
-        let run = slapped(tolerance);
-        let touches = [run.limiters, run.lift_tab].map(|stop| stop.expect("there").max_force_n);
-        assert!(touches.iter().all(|&force_n| force_n > 0.0), "{touches:?}");
-        let contact = run.slider_contact.expect("rough surfaces");
-        assert!(!contact.episodes.is_empty());
-        let energy: HeadEnergy = contact.energy.expect("the run goes on");
-        energy.open_j.abs() / energy.peak_j
-    });
-    // The pivot's work alone is 4 % of the largest energy.
-    assert!(open[0] < 2e-2 && open[1] < 5e-3, "{open:?}");
+    let closed = slapped(1e-4, 2.855e-4);
+    let columns = closed.columns.as_ref().expect("recorded");
+    assert!(columns.limiter_force_n.last() > Some(&1e-3));
+    let apart = slapped(1e-4, 4e-4);
+    let after = slapped(1e-5, 5.57e-4);
+    assert!(after.lift_tab.expect("there is one").max_force_n > 1e-3);
+    let contact = after.slider_contact.as_ref().expect("rough surfaces");
+    assert!(!contact.episodes.is_empty() && !contact.goes_on);
+    let imbalances = [&closed, &apart, &after].map(imbalance);
+    assert!(
+        imbalances[..2].iter().all(|&one| one < 2e-4),
+        "{imbalances:?}"
+    );
+    assert!(imbalances[2] < 2e-3, "{imbalances:?}");
 }

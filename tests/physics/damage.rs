@@ -51,24 +51,30 @@ fn failed_s(outcome: &Outcome) -> f64 {
     }
 }
 
+/// The contact of [`whole`] without works and energy, which runs have that are asked for their contacts.
+fn whole_motion() -> SliderContact {
+    let mut motion = contact(whole()).clone();
+    motion.energy = None;
+    for episode in &mut motion.episodes {
+        episode.work = None;
+    }
+    motion
+}
+
 #[test]
 fn a_touch_is_no_failure_below_the_limit_of_damage() {
     let touch = whole();
     let harmless = damaged(("failure.damage.overlap_nm", "1000.0"));
     assert_eq!(harmless.verdict, Some(Verdict::Survives));
-    // The same motion, bit for bit, to the end of the window; the energy balance is that of runs asked for their contacts.
-    let motion = SliderContact {
-        energy: None,
-        ..contact(touch).clone()
-    };
-    assert!(*contact(&harmless) == motion);
+    // The same motion, bit for bit, to the end of the window.
+    assert!(*contact(&harmless) == whole_motion());
     assert_eq!(contact(&harmless).touched_s, Some(failed_s(touch)));
     assert_eq!(harmless.cost.steps, touch.cost.steps);
 }
 
 #[test]
 fn a_run_fails_in_the_first_contact_that_exceeds_a_limit() {
-    let episodes = &contact(whole()).episodes;
+    let episodes = whole_motion().episodes;
     let hardest_gpa = |place: usize| 1e-9 * episodes[place].peak_pressure_pa;
     // A limit that the first contacts do not reach.
     let pressure_gpa = 8.0;

@@ -114,38 +114,32 @@ fn effects_mutant_of_the_end_at_touch_is_caught() {
     }
 }
 
+/// A random pair whose reduced model is another without the condition `name`.
+fn is_caught(base: &Scene, seed: u64, output: Output, name: &'static str) {
+    let pair = Pair {
+        with_head: true,
+        output: Some(output),
+        ..Pair::default()
+    };
+    let mutant = Pair {
+        mutant: Some(name),
+        ..pair
+    };
+    random_pair(base, seed, pair);
+    assert!(differs(|| random_pair(base, seed, mutant)), "{name}");
+}
+
 /// Contact that is asked for deleted: the run ends with the first touch.
 #[test]
 fn effects_mutant_of_the_run_through_contact_is_caught() {
     let base = rough_base();
-    let pair = Pair {
-        with_head: true,
-        output: Some(Output::SliderContact),
-        ..Pair::default()
-    };
-    let mutant = Pair {
-        mutant: Some("R6 slider contact"),
-        ..pair
-    };
-    random_pair(&base, 0, pair);
-    assert!(differs(|| random_pair(&base, 0, mutant)));
+    is_caught(&base, 0, Output::SliderContact, "R6 slider contact");
 }
 
 /// The asked times deleted: no field is kept.
 #[test]
 fn effects_mutant_of_the_asked_times_is_caught() {
-    let base = base();
-    let pair = Pair {
-        with_head: true,
-        output: Some(Output::PressureField),
-        ..Pair::default()
-    };
-    random_pair(&base, 2, pair);
-    let mutant = Pair {
-        mutant: Some("R8 asked times"),
-        ..pair
-    };
-    assert!(differs(|| random_pair(&base, 2, mutant)));
+    is_caught(&base(), 2, Output::PressureField, "R8 asked times");
 }
 
 #[test]

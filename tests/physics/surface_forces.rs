@@ -8,15 +8,15 @@ use nalgebra::{Matrix3, Vector3};
 use opshock_solver::air_bearing::steady::{
     Flight, SteadyError, fixed_attitude, fly, lower_equilibria,
 };
-use opshock_solver::air_bearing::{
-    Attitude, Film, FilmResolution, FlowModel, GapLoad, SurfaceForces,
-};
+use opshock_solver::air_bearing::{Attitude, Film, FilmResolution, FlowModel, SurfaceForces};
 use opshock_solver::head::{Coupling, HeadRun, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::quantity::{GRAM_FORCE_N, rad_per_s_from_rpm};
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::slider::surface::Surface;
 use opshock_solver::slider::{SliderParameters, SurfaceParameters};
-use opshock_tests::heads::{StillDisk, default_resolution, default_slider, head_on, standard_gas};
+use opshock_tests::heads::{
+    StillDisk, default_resolution, default_slider, even_film, gap_load, head_on, standard_gas,
+};
 use opshock_tests::sheet::at_most;
 
 const PERMITTIVITY: f64 = 8.854_187_812_8e-12;
@@ -34,30 +34,6 @@ fn plate() -> SliderParameters {
         surface: SurfaceParameters::default(),
         ..default_slider()
     }
-}
-
-/// Film on `n` x `n` equal cells.
-/// What surface forces do, which is the same whatever the film.
-fn surface_load(film: &Film, attitude: &Attitude) -> GapLoad {
-    let mut psi = vec![0.0; film.n_cells()];
-    film.ambient_psi(attitude, &mut psi);
-    film.gap_loads(&psi, attitude, &mut film.scratch())[0].1
-}
-
-fn even_film(slider: &SliderParameters, n: usize, forces: SurfaceForces) -> Film {
-    let lines =
-        |extent_m: f64| -> Vec<f64> { (0..=n).map(|k| extent_m * k as f64 / n as f64).collect() };
-    let (x, y) = (lines(slider.length_m), lines(slider.width_m));
-    let spin = rad_per_s_from_rpm(5400.0);
-    let film = Film::on_grid(
-        slider,
-        &standard_gas(),
-        FlowModel::FukuiKaneko,
-        spin,
-        FLOOR_M,
-        [&x, &y],
-    );
-    film.unwrap().with_gap_force(slider, &forces)
 }
 
 fn default_film(cells: usize) -> Film {
@@ -112,13 +88,13 @@ fn surface_forces_of_parallel_plates() {
     let slider = plate();
     let area = slider.length_m * slider.width_m;
     for forces in each() {
-        let film = even_film(&slider, 8, forces);
+        let film = even_film(&slider, 8, &forces);
         for h in [0.7e-9, 2e-9, 9e-9, 50e-9] {
             let attitude = Attitude {
                 centre_height_m: h,
                 ..Attitude::default()
             };
-            let load = surface_load(&film, &attitude);
+            let load = gap_load(&film, &attitude);
             let expected = pressure(&forces, h) * area;
             at_most(
                 "surface-forces",
@@ -179,8 +155,8 @@ fn surface_forces_of_tilted_plates_and_their_order() {
             // M_pitch = −∫ x p, M_roll = ∫ y p.
             let (axis, sign) = if tilt == "pitch" { (1, -1.0) } else { (2, 1.0) };
             let error = |n: usize| {
-                let film = even_film(&slider, n, forces);
-                let load = surface_load(&film, &attitude);
+                let film = even_film(&slider, n, &forces);
+                let load = gap_load(&film, &attitude);
                 let force = (load.force[0] / expected[0] - 1.0).abs();
                 let moment = (sign * load.force[axis] / expected[1] - 1.0).abs();
                 [force, moment]
@@ -219,9 +195,9 @@ fn surface_forces_stiffness_is_the_derivative() {
     for lower in [0.0, 7e-9, 9e-9, 12e-9] {
         let mut at = moved(&flight.attitude, 0, -lower);
         at.roll_rad = 2e-6;
-        let load = surface_load(&film, &at);
+        let load = gap_load(&film, &at);
         for (q, step) in steps.into_iter().enumerate() {
-            let side = |sign: f64| surface_load(&film, &moved(&at, q, sign * step));
+            let side = |sign: f64| gap_load(&film, &moved(&at, q, sign * step));
             let (up, down) = (side(1.0).force, side(-1.0).force);
             for f in 0..3 {
                 let slope = (up[f] - down[f]) / (2.0 * step);
@@ -416,7 +392,7 @@ fn surface_forces_enter_the_coupled_head() {
         .fold(0.0, |m: f64, z| m.max(z.abs()));
     assert!(moved < 1e-16, "{moved}");
     let flight = fly(&film, [LOAD_N, 0.0, 0.0]).unwrap();
-    let surface = surface_load(&film, &flight.attitude).force[0];
+    let surface = gap_load(&film, &flight.attitude).force[0];
     assert!((columns.bearing_force_n[0] - (LOAD_N - surface)).abs() < 1e-9 * LOAD_N);
 
     let amplitude = -1500.0;

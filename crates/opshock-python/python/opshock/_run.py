@@ -150,6 +150,16 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class ContactWork:
+    """Work of slider and disk on the asperities in an episode of contact."""
+
+    loading_j: float
+    """In the steps in which it was positive, and what they held as the episode began, J."""
+    unloading_j: float
+    """What they gave back in the others, J."""
+
+
+@dataclass(frozen=True)
 class SliderEpisode:
     """One contact of slider and disk."""
 
@@ -173,10 +183,8 @@ class SliderEpisode:
     """Work of friction, J."""
     mean_pressure_pa: float
     """Pressure at the largest force, its mean over that force, Pa."""
-    taken_j: float
-    """Work done on the asperities while slider and disk approached there, and what they held as it began, J."""
-    given_j: float
-    """What they gave back, J."""
+    work: ContactWork | None = None
+    """Work of slider and disk on the asperities, of a run that goes on after its failure."""
 
 
 @dataclass(frozen=True)
@@ -201,8 +209,8 @@ class HeadEnergy:
     """Work of their friction's couple on the slider, J; not the heat of ``friction_j``."""
     damping_loss_j: float
     """Loss in dampers, J."""
-    open_j: float
-    """What is left open, J: gain of energy and losses less works. An error of the time integration and of the works' own."""
+    imbalance_j: float
+    """Gain of energy and losses less works, J: the error of the time integration and of the works' own integration."""
 
 
 @dataclass(frozen=True)

@@ -98,8 +98,8 @@ impl EnergyWatch {
         let [pivot, held] = [0, 1].map(|k| [[before.pivot[k]], [now.pivot[k]]]);
         sum.shock_work_j += work_of_ends(held, pivot);
         sum.film_work_j += work_of_ends([before.film, now.film], places);
-        sum.contact_work_j += through(ContactState::pressed);
-        sum.friction_work_j += through(ContactState::rubbed);
+        sum.contact_work_j += through(ContactState::normal_load);
+        sum.friction_work_j += through(ContactState::friction_load);
         let dt_s = now.time_s - before.time_s;
         let damping_w = before.damping_w + 4.0 * now.damping_midway_w + now.damping_w;
         sum.damping_loss_j += dt_s / 6.0 * damping_w;
@@ -112,7 +112,7 @@ impl EnergyWatch {
         (sum.kinetic_j, sum.elastic_j) = (self.latest.kinetic_j, self.latest.elastic_j);
         let works = sum.shock_work_j + sum.film_work_j + sum.contact_work_j + sum.friction_work_j;
         let gained_j = sum.kinetic_j + sum.elastic_j - sum.start_j;
-        sum.open_j = gained_j - works + sum.damping_loss_j;
+        sum.imbalance_j = gained_j - works + sum.damping_loss_j;
         sum
     }
 }

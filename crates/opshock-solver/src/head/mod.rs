@@ -46,8 +46,8 @@ mod stops;
 pub use damage::DamageLimits;
 pub use model::{HeadError, HeadModel, ShockLoad};
 pub use outcome::{
-    Cause, DimpleRecord, HeadColumns, HeadCost, HeadEnergy, HeadRun, Place, PressureFields,
-    SliderContact, SliderEpisode, StopRecord, Verdict,
+    Cause, ContactWork, DimpleRecord, HeadColumns, HeadCost, HeadEnergy, HeadRun, Place,
+    PressureFields, SliderContact, SliderEpisode, StopRecord, Verdict,
 };
 pub use resolution::{Coupling, HeadResolution};
 pub use run::{HeadState, HeadWorkspace, Stretch};

@@ -137,12 +137,19 @@ pub struct SliderEpisode {
     pub place: Place,
     /// Work of friction on slider and disk, J: its force times the speed of the disk.
     pub friction_j: f64,
-    /// Work done on the asperities while slider and disk approached there, and what they held as the episode began, J.
-    pub taken_j: f64,
-    /// What they gave back, J.
-    pub given_j: f64,
+    /// Work on the asperities, of a run that goes on after its failure.
+    pub work: Option<ContactWork>,
     /// Pressure at the largest force, its mean over that force, Pa.
     pub mean_pressure_pa: f64,
+}
+
+/// Work of slider and disk on the asperities in an episode of contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct ContactWork {
+    /// In the steps in which it was positive, and what they held as the episode began, J.
+    pub loading_j: f64,
+    /// What they gave back in the others, J.
+    pub unloading_j: f64,
 }
 
 /// Contact of slider and disk over a run.
@@ -181,8 +188,8 @@ pub struct HeadEnergy {
     pub friction_work_j: f64,
     /// Loss in dampers, J.
     pub damping_loss_j: f64,
-    /// What is left open, J: gain of energy and losses less works. An error of the time integration and of the works' own.
-    pub open_j: f64,
+    /// Gain of energy and losses less works, J: the error of the time integration and of the works' own integration.
+    pub imbalance_j: f64,
 }
 
 /// Columns at the head's accepted steps and at its failure; a run that stops there ends with it.

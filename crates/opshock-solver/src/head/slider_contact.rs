@@ -2,7 +2,7 @@
 
 use super::damage::DamageLimits;
 use super::energy::work;
-use super::outcome::{Place, SliderContact, SliderEpisode};
+use super::outcome::{ContactWork, Place, SliderContact, SliderEpisode};
 use crate::air_bearing::Attitude;
 use crate::rough_contact::nominal::ContactState;
 
@@ -20,19 +20,18 @@ pub(super) struct Instant {
     pub(super) clearance_m: f64,
     pub(super) place: Place,
     pub(super) state: ContactState,
-    /// State at the mean of this attitude and the one before.
-    pub(super) midway: ContactState,
+    /// State at the mean of this attitude and the one before, where works are asked for.
+    pub(super) midway: Option<ContactState>,
     pub(super) attitude: Attitude,
 }
 
 impl Instant {
     /// Work that slider and disk do on the asperities from `before` on, J.
-    fn closing_j(&self, before: &Self) -> f64 {
+    fn closing_j(&self, before: &Self) -> Option<f64> {
         let places = [&before.attitude, &self.attitude]
             .map(|at| [at.centre_height_m, at.pitch_rad, at.roll_rad]);
-        let [from, middle, to] =
-            [&before.state, &self.midway, &self.state].map(ContactState::pressed);
-        -work([from, middle, to], places)
+        let states = [&before.state, self.midway.as_ref()?, &self.state];
+        Some(-work(states.map(ContactState::normal_load), places))
     }
 }
 
@@ -67,6 +66,7 @@ impl ContactWatch {
             false => self.least_n,
         };
         let is_on = now.state.force_n >= least_n;
+        let work_j = now.closing_j(&before);
         if is_on && !self.record.goes_on {
             self.record.episodes.push(SliderEpisode {
                 on_s: before.time_s,
@@ -79,8 +79,10 @@ impl ContactWatch {
                 place: now.place,
                 friction_j: 0.0,
                 // What they held before this step, whose work is added below.
-                taken_j: (elastic_j() - now.closing_j(&before)).max(0.0),
-                given_j: 0.0,
+                work: work_j.map(|work_j| ContactWork {
+                    loading_j: (elastic_j() - work_j).max(0.0),
+                    unloading_j: 0.0,
+                }),
                 mean_pressure_pa: 0.0,
             });
         }
@@ -93,9 +95,10 @@ impl ContactWatch {
             episode.impulse_n_s += 0.5 * dt_s * ends.map(|state| state.force_n).iter().sum::<f64>();
             episode.friction_j +=
                 0.5 * dt_s * ends.map(|state| state.friction_w).iter().sum::<f64>();
-            let work_j = now.closing_j(&before);
-            episode.taken_j += work_j.max(0.0);
-            episode.given_j -= work_j.min(0.0);
+            if let (Some(work_j), Some(work)) = (work_j, &mut episode.work) {
+                work.loading_j += work_j.max(0.0);
+                work.unloading_j -= work_j.min(0.0);
+            }
             if now.state.force_n > episode.peak_force_n {
                 episode.peak_force_n = now.state.force_n;
                 episode.place = now.place;

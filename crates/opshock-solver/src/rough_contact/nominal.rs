@@ -88,13 +88,13 @@ pub struct ContactState {
 
 impl ContactState {
     /// Normal force and its moments, conjugate to (h_c, pitch, roll).
-    pub fn pressed(&self) -> [f64; 3] {
+    pub fn normal_load(&self) -> [f64; 3] {
         let [pitch, roll] = self.moments_n_m;
         [self.force_n, pitch, roll]
     }
 
     /// The same of friction.
-    pub fn rubbed(&self) -> [f64; 3] {
+    pub fn friction_load(&self) -> [f64; 3] {
         let [pitch, roll] = self.friction_n_m;
         [0.0, pitch, roll]
     }

@@ -2,8 +2,8 @@
 
 use crate::air_bearing::Attitude;
 pub use crate::head::{
-    Cause, DimpleRecord, HeadColumns, HeadEnergy, Place, PressureFields, SliderContact,
-    SliderEpisode, StopRecord, Verdict,
+    Cause, ContactWork, DimpleRecord, HeadColumns, HeadEnergy, Place, PressureFields,
+    SliderContact, SliderEpisode, StopRecord, Verdict,
 };
 pub use crate::structure::{
     ArmContact, BaseRecord, Complementarity, DiskExtremes, EnergyBalance, Episode, HubRecord,

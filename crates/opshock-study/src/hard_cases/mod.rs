@@ -120,7 +120,7 @@ pub static CASES: &[Case] = &[
     case("G2", "slides on the side of a rail", asperities::g2),
     case("G3", "no roughness", asperities::g3),
     case("G4", "very stiff asperities", asperities::g4),
-    case("G5", "blow that yields", asperities::g5),
+    case("G5", "impact that yields", asperities::g5),
     case("G6", "cascade of bounces", asperities::g6),
     case("G7", "deep overlap", asperities::g7),
     case("G8", "few asperities touch", asperities::g8),

@@ -1,8 +1,8 @@
 //! The result of one simulation as JSON: what `opshock run --json` prints.
 
 use opshock_solver::simulation::{
-    ArmContact, BaseRecord, Complementarity, EnergyBalance, FailureEvidence, HeadEnergy, HubRecord,
-    Outcome, SliderContact, SliderEpisode, StopRecord, Verdict, Warning,
+    ArmContact, BaseRecord, Complementarity, ContactWork, EnergyBalance, FailureEvidence,
+    HeadEnergy, HubRecord, Outcome, SliderContact, SliderEpisode, StopRecord, Verdict, Warning,
 };
 use serde::Serialize;
 
@@ -199,8 +199,7 @@ pub struct SliderEpisodeJson {
     pub closest_m: f64,
     pub place: PlaceJson,
     pub friction_j: f64,
-    pub taken_j: f64,
-    pub given_j: f64,
+    pub work: Option<ContactWork>,
     pub mean_pressure_pa: f64,
 }
 
@@ -220,8 +219,7 @@ impl SliderContactJson {
                 y_m: episode.place.y_m,
             },
             friction_j: episode.friction_j,
-            taken_j: episode.taken_j,
-            given_j: episode.given_j,
+            work: episode.work,
             mean_pressure_pa: episode.mean_pressure_pa,
         };
         Self {

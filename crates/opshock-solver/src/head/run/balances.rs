@@ -53,18 +53,18 @@ impl Run<'_> {
         self.record(attitude);
     }
 
-    /// Takes the heights at `attitude` into the smallest ones so far of the asperities, after what they bore midway.
-    pub(super) fn reach(&mut self, to: &Attitude) {
+    /// Takes the heights at `to` into the smallest ones so far of the asperities, after what they bore midway.
+    pub(super) fn remember_heights(&mut self, to: &Attitude) {
         let film = &self.model.film;
         let closest_m = &mut self.w.scratch.film.closest_m;
-        if let Some(contact) = &self.contact {
+        if let (Some(contact), Some(_)) = (&self.contact, &self.energy) {
             let from = contact.attitude();
             let mean = Attitude {
                 centre_height_m: 0.5 * (from.centre_height_m + to.centre_height_m),
                 pitch_rad: 0.5 * (from.pitch_rad + to.pitch_rad),
                 roll_rad: 0.5 * (from.roll_rad + to.roll_rad),
             };
-            self.midway = film.contact(&mean, closest_m).unwrap_or_default();
+            self.midway = film.contact(&mean, closest_m);
         }
         film.remember(to, closest_m);
     }
@@ -117,7 +117,7 @@ impl Run<'_> {
         let (psi, rest) = w.y.split_at(n_cells);
         let (x, v) = rest.split_at(n);
         let force = model.film.force(psi, attitude, &mut w.scratch.film);
-        let [pressed, rubbed] = [now.state.pressed(), now.state.rubbed()];
+        let [pressed, rubbed] = [now.state.normal_load(), now.state.friction_load()];
         let [seen, seen_rate] = &w.seen;
         let mechanics = &model.mechanics;
         let damping_w = mechanics.damping_w(seen, seen_rate);
@@ -149,7 +149,7 @@ impl Run<'_> {
                 force[f] - model.steady_force[f] - pressed[f] - rubbed[f]
             }),
             contact: now.state,
-            midway: now.midway,
+            midway: now.midway.unwrap_or_default(),
             damping_w,
             damping_midway_w,
         }

@@ -12,7 +12,6 @@ use crate::head::model::{HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
 use crate::head::slider_contact::ContactWatch;
 use crate::head::stage_scratch::Counters;
-use crate::rough_contact::nominal::ContactState;
 use crate::slider::clearance::Clearance;
 
 /// How far a head runs, and from where.
@@ -86,7 +85,7 @@ impl<'a> Run<'a> {
             dimple_force_n: state.dimple_force_n,
             stops: state.stops,
             contact: state.contact.clone(),
-            midway: ContactState::default(),
+            midway: None,
             energy: state.energy.clone(),
             columns: None,
             fields: None,

@@ -29,8 +29,8 @@ pub(super) struct Run<'a> {
     pub(super) stops: [Option<(StopRecord, f64)>; 2],
     /// Contact with the disk, where the scene has asperities.
     pub(super) contact: Option<ContactWatch>,
-    /// What its asperities bore in the middle of the latest step.
-    pub(super) midway: ContactState,
+    /// What its asperities bore in the middle of the latest step, where works are asked for.
+    pub(super) midway: Option<ContactState>,
     /// Energy of slider and suspension beside it, of a run that goes on after its failure.
     pub(super) energy: Option<EnergyWatch>,
     pub(super) columns: Option<HeadColumns>,
@@ -107,7 +107,7 @@ impl<'a> Run<'a> {
                 is_there.then_some((record, 0.0))
             }),
             contact: None,
-            midway: ContactState::default(),
+            midway: None,
             energy: None,
             columns: record.then(HeadColumns::default),
             fields: (record && !model.field_times_s.is_empty())

@@ -190,7 +190,7 @@ impl Run<'_> {
         w.rate.copy_from_slice(w.stepper.rate());
         w.stepper.accept(dt_s);
         self.clearance = step.clearance;
-        self.reach(&step.attitude);
+        self.remember_heights(&step.attitude);
         let (model, w) = (self.model, &mut *self.w);
         let da = self.load.jump(self.time_s);
         if da != 0.0 {

@@ -104,7 +104,7 @@ impl Run<'_> {
         let n_cells = self.model.film.n_cells();
         let pose = self.motion.pose(self.time_s);
         let attitude = self.model.attitude(&self.w.y[n_cells..], &pose);
-        self.reach(&attitude);
+        self.remember_heights(&attitude);
         self.smallest = Lowest {
             clearance: touch.clearance,
             time_s: touch.time_s,

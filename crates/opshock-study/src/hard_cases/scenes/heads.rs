@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use opshock_solver::air_bearing::gap_forces::AsperityContact;
 use opshock_solver::air_bearing::steady::{Flight, fly};
-use opshock_solver::air_bearing::{Film, FilmResolution, FlowModel};
+use opshock_solver::air_bearing::{Attitude, Film, FilmResolution, FlowModel, GapForce, GapLoad};
 use opshock_solver::disk::{DiskMotion, DiskPose};
 use opshock_solver::gas::GasParameters;
 use opshock_solver::head::{Coupling, HeadModel, HeadResolution};
@@ -46,6 +46,26 @@ pub fn film_of(slider: &SliderParameters, spin_rad_per_s: f64, cells: usize) -> 
     };
     let (gas, flow) = (standard_gas(), FlowModel::FukuiKaneko);
     Film::build(slider, &gas, flow, spin_rad_per_s, &resolution).expect("film builds")
+}
+
+/// Film on `n` x `n` equal cells under a slider, with a force beside the air's pressure.
+///
+/// # Panics
+/// When it has none.
+pub fn even_film(slider: &SliderParameters, n: usize, force: &dyn GapForce) -> Film {
+    let [x, y] = [slider.length_m, slider.width_m]
+        .map(|extent_m| -> Vec<f64> { (0..=n).map(|k| extent_m * k as f64 / n as f64).collect() });
+    let spin = rad_per_s_from_rpm(5400.0);
+    let (gas, flow) = (standard_gas(), FlowModel::FukuiKaneko);
+    let film = Film::on_grid(slider, &gas, flow, spin, 0.3e-9, [&x, &y]);
+    film.expect("film builds").with_gap_force(slider, force)
+}
+
+/// What that force does at an attitude, at ambient pressure.
+pub fn gap_load(film: &Film, attitude: &Attitude) -> GapLoad {
+    let mut psi = vec![0.0; film.n_cells()];
+    film.ambient_psi(attitude, &mut psi);
+    film.gap_loads(&psi, attitude, &mut film.scratch())[0].1
 }
 
 /// Film of the default slider with about `cells` cells and its flight under the gram load.

@@ -1,12 +1,12 @@
 //! Rough surfaces: films with asperities at any attitude, closed forms of what they bear, and a mass that bounces on them.
 
 use opshock_solver::air_bearing::gap_forces::AsperityContact;
-use opshock_solver::air_bearing::{Attitude, Film, FlowModel, GapLoad};
-use opshock_solver::quantity::rad_per_s_from_rpm;
+use opshock_solver::air_bearing::{Attitude, Film};
 use opshock_solver::rough_contact::nominal::NominalContact;
 use opshock_solver::slider::{Rail, RailOutline, SliderParameters, SurfaceParameters};
 
-use super::heads::{default_slider, standard_gas};
+use super::super::check::largest;
+use super::heads::{default_slider, even_film};
 
 /// Surfaces that hardly yield.
 pub const ROUGH: AsperityContact = AsperityContact {
@@ -24,7 +24,7 @@ pub const ELASTIC: AsperityContact = AsperityContact {
     ..ROUGH
 };
 
-/// Surfaces that yield under light blows.
+/// Surfaces that yield under light impacts.
 pub const SOFT: AsperityContact = AsperityContact {
     yield_pressure_pa: 1e9,
     tip_radius_m: 20e-9,
@@ -80,22 +80,8 @@ pub fn padded(outline: RailOutline) -> SliderParameters {
 }
 
 /// Film of 12 × 12 cells with contact.
-///
-/// # Panics
-/// When the slider has no film.
 pub fn film(slider: &SliderParameters, contact: AsperityContact) -> Film {
-    let [x, y] = [slider.length_m, slider.width_m]
-        .map(|extent_m| -> Vec<f64> { (0..=12).map(|k| extent_m * f64::from(k) / 12.0).collect() });
-    let spin = rad_per_s_from_rpm(5400.0);
-    let film = Film::on_grid(
-        slider,
-        &standard_gas(),
-        FlowModel::FukuiKaneko,
-        spin,
-        0.3e-9,
-        [&x, &y],
-    );
-    film.expect("a film").with_gap_force(slider, &contact)
+    even_film(slider, 12, &contact)
 }
 
 /// Without tilt.
@@ -104,13 +90,6 @@ pub fn level(height_m: f64) -> Attitude {
         centre_height_m: height_m,
         ..Attitude::default()
     }
-}
-
-/// What the asperities of a film do at an attitude.
-pub fn contact_load(film: &Film, attitude: &Attitude) -> GapLoad {
-    let mut psi = vec![0.0; film.n_cells()];
-    film.ambient_psi(attitude, &mut psi);
-    film.gap_loads(&psi, attitude, &mut film.scratch())[0].1
 }
 
 /// Attitude of a slider whose plane has these slopes and its lowest place `depth_m` below the disk.
@@ -149,18 +128,18 @@ pub struct Bounces<'a> {
     state: [f64; 3],
 }
 
-/// Speed of the first blow of [`Bounces`], m/s, mass, kg, weight, N, and area, m2.
-const BLOW_M_PER_S: f64 = 5e-3;
+/// Speed of the first impact of [`Bounces`], m/s, mass, kg, weight, N, and area, m2.
+const IMPACT_M_PER_S: f64 = 5e-3;
 const MASS_KG: f64 = 1.6e-6;
 const WEIGHT_N: f64 = 2.5e-4;
 const AREA_M2: f64 = 1e-8;
 
-/// What a hundred blows leave.
+/// What a hundred impacts leave.
 #[derive(Clone, Copy, Debug)]
 pub struct AfterBounces {
-    /// Largest energy not accounted for, of the first blow's energy of motion.
-    pub open: f64,
-    /// Energy that the first blow gave back, of the same.
+    /// Largest energy not accounted for, of the kinetic energy before the first.
+    pub imbalance: f64,
+    /// Kinetic energy after the first, of the same.
     pub returned: f64,
 }
 
@@ -169,33 +148,29 @@ impl<'a> Bounces<'a> {
     pub fn onto(contact: &'a NominalContact) -> Self {
         Self {
             contact,
-            state: [contact.reach_m(), -BLOW_M_PER_S, f64::INFINITY],
+            state: [contact.reach_m(), -IMPACT_M_PER_S, f64::INFINITY],
         }
     }
 
-    /// A hundred blows, by Runge and Kutta's rule in contact and in closed form between.
-    ///
-    /// # Panics
-    /// When a number is not finite.
+    /// A hundred impacts, by Runge and Kutta's rule in contact and in closed form between.
     pub fn hundred(mut self) -> AfterBounces {
         let reach_m = self.contact.reach_m();
         let began_j = self.energy_j();
-        let scale_j = 0.5 * MASS_KG * BLOW_M_PER_S * BLOW_M_PER_S;
-        let (mut open, mut returned) = (0.0_f64, None);
-        for _ in 0..100 {
+        let scale_j = 0.5 * MASS_KG * IMPACT_M_PER_S * IMPACT_M_PER_S;
+        let mut returned = None;
+        let imbalances = (0..100).map(|_| {
             while self.step(5e-10) {}
-            let now = (self.energy_j() - began_j).abs() / scale_j;
-            assert!(now.is_finite(), "{now}");
-            open = open.max(now);
+            let imbalance = (self.energy_j() - began_j).abs() / scale_j;
             let [h, v, closest] = self.state;
             let left = 0.5 * MASS_KG * v * v + WEIGHT_N * (h - reach_m);
             returned.get_or_insert(left / scale_j);
             // The flight up and down again.
             let fall = (v * v + 2.0 * WEIGHT_N / MASS_KG * (h - reach_m)).sqrt();
             self.state = [reach_m, -fall, closest];
-        }
+            imbalance
+        });
         AfterBounces {
-            open,
+            imbalance: largest(imbalances),
             returned: returned.unwrap_or_default(),
         }
     }
