@@ -208,6 +208,14 @@ fn random_heads_keep_mass_pressure_and_symmetry() {
     assert!(verdicts.contains(&true) && verdicts.contains(&false));
 }
 
+/// A cell of the film under a departing corner runs empty while its neighbours' rates would take more.
+#[test]
+fn random_heads_with_a_cell_that_runs_empty_have_a_verdict() {
+    for seed in [234, 287, 1300, 1394, 1662] {
+        assert_eq!(one(seed), Some(true), "{seed}");
+    }
+}
+
 #[test]
 #[ignore = "slow: 2000 scenes, some 10 minutes"]
 fn scenes_slow_heads() {

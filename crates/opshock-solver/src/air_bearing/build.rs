@@ -178,7 +178,7 @@ impl Film {
             defect: None,
         };
         film.usual_psi = film.ambient(&usual);
-        film.storage = storage(&film, &film.capacity, &film.usual_psi, per_area);
+        film.storage = storage(&film);
         Ok(film)
     }
 }

@@ -17,6 +17,7 @@ use super::flux::HalfCell;
 use super::gap_load::GapLoad;
 use super::heights::inverses;
 use super::mesh::{Cell, Mesh, Side};
+use super::storage::storage;
 use super::thickness::HeightLimit;
 use crate::gas::GasParameters;
 use crate::lanes::{Kernel, widest};
@@ -29,6 +30,9 @@ use std::sync::Arc;
 
 /// A roll that moves no point of a slider by a thousandth of an atom's size, rad.
 const LEAN_RAD: f64 = 1e-11;
+
+/// Share of the ambient pressure below which a cell counts as empty.
+const EMPTY: f64 = 1e-3;
 
 /// Film under one slider: immutable once built.
 #[derive(Clone, Debug)]
@@ -133,6 +137,32 @@ impl Film {
     /// M, Pa s m2, the factor of dψ/dt (`air_bearing/storage.rs` derives it). Its columns add up to [`Film::capacity`].
     pub fn storage(&self) -> &Diagonals {
         &self.storage
+    }
+
+    /// The same film of first order at `cells`: no straight line continues ψ to a face beside one of them, and no
+    /// storage is shared through it.
+    #[must_use]
+    pub fn of_first_order_at(&self, cells: &[usize]) -> Self {
+        let mut film = self.clone();
+        film.mesh.flatten_at(cells);
+        film.columns = Columns::new(&film.mesh);
+        film.storage = storage(&film);
+        film
+    }
+
+    /// Whether a cell of the pressure `pressure_pa` counts as empty.
+    pub fn is_empty_at(&self, pressure_pa: f64) -> bool {
+        pressure_pa < EMPTY * self.ambient_pa
+    }
+
+    /// Cells that count as empty.
+    pub fn empty_cells(&self, psi: &[f64], attitude: &Attitude) -> Vec<usize> {
+        let mut pressure_pa = vec![0.0; self.n_cells()];
+        self.pressure(psi, attitude, &mut pressure_pa);
+        let cells = 0..self.n_cells();
+        cells
+            .filter(|&cell| self.is_empty_at(pressure_pa[cell]))
+            .collect()
     }
 
     /// Turns M dψ/dt into dψ/dt in place.

@@ -208,6 +208,21 @@ impl Mesh {
         }
     }
 
+    /// Leaves out the straight lines that continue ψ to the faces of `cells`.
+    pub(super) fn flatten_at(&mut self, cells: &[usize]) {
+        let flatten = |side: &mut Side| (side.behind, side.reach) = (side.cell, 0.0);
+        for Face { sides, .. } in &mut self.faces {
+            if sides.iter().any(|side| cells.contains(&side.cell)) {
+                sides.iter_mut().for_each(flatten);
+            }
+        }
+        for EdgeFace { side, .. } in &mut self.edge_faces {
+            if cells.contains(&side.cell) {
+                flatten(side);
+            }
+        }
+    }
+
     /// Gives the faces around singular corners of the surface the conductance of the local
     /// solution; `kappa` is the conductance G h² at a height, and the heights are those at `usual`.
     pub(super) fn correct_corners(

@@ -42,9 +42,11 @@ const SMALLEST_PE: f64 = 1e-3;
 const MOST_FROM_BEHIND: f64 = 1.0 / 2.0;
 const MOST_TO_NEXT: f64 = 1.0 / 4.0;
 
-/// M of `film`, of cells that store 12 μ A as `capacity` says, at `psi` in the usual attitude, Pa s m2.
-pub(super) fn storage(film: &Film, capacity: &[f64], psi: &[f64], per_area: f64) -> Diagonals {
-    let mesh = &film.mesh;
+/// M of `film`, Pa s m2.
+pub(super) fn storage(film: &Film) -> Diagonals {
+    let (mesh, capacity) = (&film.mesh, film.capacity());
+    let psi = film.ambient(&film.usual_attitude());
+    let per_area = 12.0 * film.gas().viscosity_pa_s;
     let [nx, ny] = mesh.counts();
     let along_x = &mesh.faces[..(nx - 1) * ny];
     let wind = along_x.first().map_or(0.0, |face| face.sides[0].wind);
@@ -61,7 +63,7 @@ pub(super) fn storage(film: &Film, capacity: &[f64], psi: &[f64], per_area: f64)
         return matrix;
     }
     for face in along_x {
-        let carried = through(film, face, psi);
+        let carried = through(film, face, &psi);
         let [up, down] = upwind_first(face).map(|side| side.cell);
         for (cell, share) in carried {
             let share = per_area * face.length * share;

@@ -25,6 +25,7 @@ mod damage;
 mod energy;
 mod fields;
 mod film_passes;
+mod first_order_cells;
 mod following;
 mod mechanics;
 mod model;

@@ -120,10 +120,9 @@ impl Stages<'_> {
             }
             if factor == 1.0 && size <= tolerance {
                 self.note_imbalance(spurious * instant.d_s * size, psi);
-                let force = self
-                    .model
-                    .film
-                    .force(psi, &attitude, &mut self.scratch.film);
+                let s = &mut *self.scratch;
+                let film = s.first_order.film(&self.model.film);
+                let force = film.force(psi, &attitude, &mut s.film);
                 return Ok(std::array::from_fn(|f| {
                     force[f] - self.model.steady_force[f]
                 }));

@@ -80,7 +80,8 @@ impl Stages<'_> {
         attitude: &Attitude,
         d_s: f64,
     ) -> Result<(), StageFailure> {
-        let (film, s) = (&self.model.film, &mut *self.scratch);
+        let s = &mut *self.scratch;
+        let film = s.first_order.film(&self.model.film);
         film.linearise(psi, attitude, &mut s.linearisation, &mut s.film);
         s.counters.linearisations += 1;
         self.factor(d_s)
@@ -91,12 +92,9 @@ impl Stages<'_> {
         let s = &mut *self.scratch;
         s.factored_d_s = None;
         s.counters.factorisations += 1;
+        let storage = s.first_order.film(&self.model.film).storage();
         if s.lu
-            .factor(
-                &s.linearisation.by_psi,
-                1.0 / d_s,
-                self.model.film.storage(),
-            )
+            .factor(&s.linearisation.by_psi, 1.0 / d_s, storage)
             .is_err()
         {
             return Err(StageFailure::NotConverged(f64::INFINITY));
@@ -145,7 +143,8 @@ impl Stages<'_> {
         psi: &[f64],
         psi_known: &[f64],
     ) -> [f64; 3] {
-        let (film, s) = (&self.model.film, &mut *self.scratch);
+        let s = &mut *self.scratch;
+        let film = s.first_order.film(&self.model.film);
         let force = film.flux_residual_and_force(psi, attitude, &mut s.residual, &mut s.film);
         s.counters.residuals += 1;
         let states = [psi, psi_known];
@@ -384,7 +383,8 @@ impl StageSystem for Stages<'_> {
         let (e_x, e_v) = rest.split_at_mut(n);
         let s = &mut *self.scratch;
         let per_d = 1.0 / d_s;
-        self.model.film.storage().multiply(e_psi, &mut s.residual);
+        let film = s.first_order.film(&self.model.film);
+        film.storage().multiply(e_psi, &mut s.residual);
         for r in &mut s.residual {
             *r *= per_d;
         }

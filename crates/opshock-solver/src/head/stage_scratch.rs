@@ -1,5 +1,6 @@
 //! Scratch of the stage solves: film, factors and the measured contraction of the iteration.
 
+use super::first_order_cells::FirstOrderCells;
 use super::model::HeadModel;
 use super::stage_matrix::StageMatrix;
 use super::stops::Closed;
@@ -39,6 +40,7 @@ pub(super) struct StageScratch {
     pub velocity: Vec<f64>,
     /// Coordinates, velocities and known velocities over a pivot that moves.
     pub seen: [Vec<f64>; 3],
+    pub first_order: FirstOrderCells,
     /// S + film's condensed stiffness, and what it was made for.
     pub matrix: StageMatrix,
     pub matrix_key: Option<MatrixKey>,
@@ -85,6 +87,7 @@ impl StageScratch {
             mechanical: vec![0.0; n],
             velocity: vec![0.0; n],
             seen: [0, 1, 2].map(|_| vec![0.0; n]),
+            first_order: FirstOrderCells::default(),
             matrix: StageMatrix::new(model.mechanics.n_modes()),
             matrix_key: None,
             contraction: FIRST_CONTRACTION,
@@ -93,9 +96,10 @@ impl StageScratch {
         }
     }
 
-    /// Discards factors and counters, keeping the storage.
+    /// Discards factors, counters and cells of first order, keeping the memory.
     pub fn reset(&mut self) {
         self.forget();
+        self.first_order = FirstOrderCells::default();
         self.counters = Counters::default();
     }
 

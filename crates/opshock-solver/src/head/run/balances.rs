@@ -50,6 +50,11 @@ impl Run<'_> {
         let psi = &self.w.y[..n_cells];
         let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
+        let first_order = &mut self.w.scratch.first_order;
+        if model.film.is_empty_at(lowest) && first_order.add_empty(&model.film, psi, attitude) {
+            self.forget();
+            self.film_rate(attitude);
+        }
         self.record(attitude);
     }
 
@@ -116,7 +121,9 @@ impl Run<'_> {
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let (psi, rest) = w.y.split_at(n_cells);
         let (x, v) = rest.split_at(n);
-        let force = model.film.force(psi, attitude, &mut w.scratch.film);
+        let s = &mut w.scratch;
+        let film = s.first_order.film(&model.film);
+        let force = film.force(psi, attitude, &mut s.film);
         let [pressed, rubbed] = [now.state.normal_load(), now.state.friction_load()];
         let [seen, seen_rate] = &w.seen;
         let mechanics = &model.mechanics;

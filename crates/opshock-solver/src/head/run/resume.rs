@@ -8,6 +8,7 @@ use super::running::{Lowest, Run};
 use super::workspace::{HeadWorkspace, pulse_events};
 use crate::disk::DiskMotion;
 use crate::head::energy::EnergyWatch;
+use crate::head::first_order_cells::FirstOrderCells;
 use crate::head::model::{HeadModel, ShockLoad};
 use crate::head::outcome::{DimpleRecord, HeadCost, StopRecord};
 use crate::head::slider_contact::ContactWatch;
@@ -35,6 +36,7 @@ pub struct HeadState {
     rate: Vec<f64>,
     /// Smallest heights so far where asperities touched, m.
     closest_m: Vec<f64>,
+    first_order: FirstOrderCells,
     clearance: Clearance,
     smallest: Lowest,
     touched_s: Option<f64>,
@@ -67,6 +69,7 @@ impl<'a> Run<'a> {
         w.y.copy_from_slice(&state.y);
         w.rate.copy_from_slice(&state.rate);
         w.scratch.reset();
+        w.scratch.first_order = state.first_order.clone();
         w.scratch.film.closest_m.copy_from_slice(&state.closest_m);
         w.scratch.counters = state.counters;
         w.stepper.forget();
@@ -100,6 +103,7 @@ impl<'a> Run<'a> {
             y: self.w.y.clone(),
             rate: self.w.rate.clone(),
             closest_m: self.w.scratch.film.closest_m.clone(),
+            first_order: self.w.scratch.first_order.clone(),
             clearance: self.clearance,
             smallest: self.smallest,
             touched_s: self.touched_s,

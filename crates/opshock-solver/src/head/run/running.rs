@@ -127,24 +127,31 @@ impl<'a> Run<'a> {
                 run.energy = Some(EnergyWatch::new(first, &run.w.seen));
             }
         }
+        run.film_rate(&attitude);
         run.initial_rate(&attitude);
         run.record(&attitude);
         run
     }
 
-    /// Rates at time 0 from the equations themselves; later ones come from the stages.
+    /// Rate of the film from its equation itself: at time 0, and where that changes. Others come from the stages.
+    pub(super) fn film_rate(&mut self, attitude: &Attitude) {
+        let w = &mut *self.w;
+        let s = &mut w.scratch;
+        let film = s.first_order.film(&self.model.film);
+        let n_cells = film.n_cells();
+        film.flux_residual(&w.y[..n_cells], attitude, &mut s.residual, &mut s.film);
+        let rate = &mut w.rate[..n_cells];
+        for (rate, r) in rate.iter_mut().zip(&s.residual) {
+            *rate = -r;
+        }
+        film.spread_by_storage(rate);
+    }
+
+    /// Rates of slider and suspension at time 0 from their equations.
     fn initial_rate(&mut self, attitude: &Attitude) {
         let (model, w) = (self.model, &mut *self.w);
         let (n_cells, n) = (model.film.n_cells(), model.mechanics.len());
         let psi = &w.y[..n_cells];
-        model
-            .film
-            .flux_residual(psi, attitude, &mut w.scratch.residual, &mut w.scratch.film);
-        let rate = &mut w.rate[..n_cells];
-        for (rate, r) in rate.iter_mut().zip(&w.scratch.residual) {
-            *rate = -r;
-        }
-        model.film.spread_by_storage(rate);
         let film = model.film.force(psi, attitude, &mut w.scratch.film);
         let film = std::array::from_fn(|f| film[f] - model.steady_force[f]);
         let (x, v) = w.y[n_cells..].split_at(n);
