@@ -30,7 +30,7 @@ fn effects_auto_is_full_for_the_studies() {
             let (model, lean) = run(&scene, &auto, amplitude_g, shared_model.as_ref());
             let full = Plan::new(&asked, Mode::Full);
             let (_, all) = run(&scene, &full, amplitude_g, shared_model.as_ref());
-            assert_same(&lean, &all, Needs::Head, &format!("{name} {ramp}"));
+            assert_same(&lean, &all, &auto, &format!("{name} {ramp}"));
             shared_model = Some(model);
         }
     }

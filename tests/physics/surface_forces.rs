@@ -108,6 +108,48 @@ fn surface_forces_of_parallel_plates() {
     }
 }
 
+/// Surfaces with the work of adhesion γ and the distance z₀ at rest attract with 8 γ/(3 z₀) ((z₀/h)³ − (z₀/h)⁹) an area; a flat
+/// punch comes off at its largest value, 16 γ/(9 √3 z₀), at h = 3^(1/6) z₀ (Greenwood, Proc. R. Soc. A 453 (1997) 1277).
+#[test]
+fn surface_forces_hold_a_flat_punch_up_to_its_pull_off() {
+    let slider = plate();
+    let (z0, adhesion_j_per_m2) = (0.7e-9_f64, 7e-3);
+    let hamaker_j = 16.0 * PI * adhesion_j_per_m2 * z0 * z0;
+    let forces = SurfaceForces {
+        hamaker_j,
+        repulsion_j_m6: 7.5 * hamaker_j * z0.powi(6),
+        potential_v: 0.0,
+    };
+    let film = even_film(&slider, 8, &forces);
+    let pull = |h: f64| {
+        let attitude = Attitude {
+            centre_height_m: h,
+            ..Attitude::default()
+        };
+        -gap_load(&film, &attitude).force[0] / (slider.length_m * slider.width_m)
+    };
+    let closed = 16.0 * adhesion_j_per_m2 / (9.0 * 3.0_f64.sqrt() * z0);
+    // Largest pull, by thirds of a range where it rises and falls.
+    let [mut low, mut high] = [z0, 3.0 * z0];
+    while high - low > 1e-8 * z0 {
+        let third = (high - low) / 3.0;
+        if pull(low + third) < pull(high - third) {
+            low += third;
+        } else {
+            high -= third;
+        }
+    }
+    let error = (pull(low) / closed - 1.0).abs();
+    at_most(
+        "surface-forces",
+        "relative error of the pull-off force, flat punch",
+        error,
+        1e-12,
+    );
+    assert!((low / z0 / 3.0_f64.powf(1.0 / 6.0) - 1.0).abs() < 1e-6);
+    assert!(pull(z0).abs() < 1e-12 * closed);
+}
+
 /// ∫ x^k u^-n dx over −l/2 .. l/2 with u = h − slope x, for k = 0, 1.
 fn moments_of_power(n: i32, h: f64, slope: f64, l: f64) -> [f64; 2] {
     let power = |u: f64, m: i32| match m {

@@ -76,11 +76,12 @@ pub fn is_answered(output: Output, outcome: &Outcome) -> bool {
     }
 }
 
-/// Everything `lean` has must be in `full`, number by number.
+/// Everything `lean`, the outcome of `plan`, has must be in `full`, number by number.
 ///
 /// # Panics
 /// When it is not.
-pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
+pub fn assert_same(lean: &Outcome, full: &Outcome, plan: &Plan, what: &str) {
+    let needs = plan.needs;
     assert_eq!(lean.disk, full.disk, "{what}");
     assert_eq!(lean.top, full.top, "{what}");
     assert_eq!(lean.bottom, full.bottom, "{what}");
@@ -148,14 +149,12 @@ pub fn assert_same(lean: &Outcome, full: &Outcome, needs: Needs, what: &str) {
         assert_eq!(lean.dimple, full.dimple, "{what}");
         assert_eq!(lean.limiters, full.limiters, "{what}");
         assert_eq!(lean.lift_tab, full.lift_tab, "{what}");
-        let contact = lean.slider_contact.as_ref();
-        let goes_on = contact.is_some_and(|contact| contact.energy.is_some());
         match lean.verdict {
-            Some(Verdict::Fails { t_fail_s, .. }) if !goes_on => {
+            Some(Verdict::Fails { t_fail_s, .. }) if plan.stops_at_failure => {
                 assert_goes_on(lean, full, t_fail_s, what);
             }
             _ => {
-                if goes_on {
+                if !plan.stops_at_failure {
                     assert_eq!(lean.slider_contact, full.slider_contact, "{what}");
                 }
                 assert_eq!(lean.cost, full.cost, "{what}");
@@ -429,7 +428,7 @@ pub fn compare(
         Some(name) => deleted(name, planned),
         None => planned(),
     };
-    assert_same(&lean, &all, auto.needs, what);
+    assert_same(&lean, &all, &auto, what);
     for output in asked {
         assert!(is_answered(*output, &lean), "{what}: {output:?}");
     }
