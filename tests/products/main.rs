@@ -36,6 +36,7 @@ mod matching;
 mod matching_files;
 mod matching_truths;
 mod measured_pulse;
+mod mechanism_column;
 mod memory;
 mod min_film_height;
 mod mode_shapes;

@@ -72,6 +72,7 @@ fn runs() -> Vec<RunDot> {
         amplitude_g,
         verdict: verdict.into(),
         h_min_m: Some(2e-9),
+        mechanism: (verdict == "fails").then(|| "lift_loss".to_owned()),
     };
     vec![
         dot(366.25, "survives"),
@@ -212,7 +213,9 @@ fn the_page_is_nested_names_no_other_file_and_shows_every_row_and_run() {
     assert_eq!(page.matches("<article class=\"page\"").count(), 8);
     assert_eq!(page.matches("<tr class=\"fails\">").count(), 1);
     assert_eq!(page.matches("class=\"reserved\"").count(), 2);
-    assert!(page.contains("369.5 G: fails, clearance 2.00 nm"));
+    assert!(page.contains("369.5 G: fails (lift loss), clearance 2.00 nm"));
+    assert_eq!(page.matches("<td>lift loss</td>").count(), 1);
+    assert!(page.contains("fails: lift loss"));
     assert!(page.contains("name = &quot;&lt;b&gt;&quot;"));
 }
 

@@ -87,6 +87,7 @@ fn runs(summary: &Summary) -> Vec<RunDot> {
                 amplitude_g: share * crit,
                 verdict: verdict.into(),
                 h_min_m: Some(h),
+                mechanism: (verdict == "fails").then(|| "ramp_impact".to_owned()),
             });
         }
     }

@@ -1,9 +1,11 @@
 //! Draws the outcome map: every simulation of a study in the plane of pulse width and amplitude.
 
-use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value, colour};
+use super::chart::colour::{self, Rgb};
+use super::chart::{Axis, Dash, Figure, Fill, Marker, Panel, Sample, Series, Value};
 use super::critical_shock::{series_name, signed_series, signs};
 use crate::search::Sign;
 use crate::store::summary::Summary;
+use opshock_solver::simulation::Mechanism;
 
 /// One simulation of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +18,20 @@ pub struct RunDot {
     pub verdict: String,
     /// Smallest clearance, m.
     pub h_min_m: Option<f64>,
+    /// Why it failed, where its history says so: [`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str).
+    pub mechanism: Option<String>,
 }
+
+/// Colours of the marks of runs whose mechanism is known.
+const MECHANISMS: [(Mechanism, Rgb); 7] = [
+    (Mechanism::RampImpact, colour::BLACK),
+    (Mechanism::DimpleSeparation, colour::GREEN),
+    (Mechanism::Compression, colour::SKY),
+    (Mechanism::LiftLoss, colour::ORANGE),
+    (Mechanism::Limiter, colour::PURPLE),
+    (Mechanism::LiftTab, colour::PURPLE),
+    (Mechanism::Other, colour::GREY),
+];
 
 /// A panel for every series (ramp model and further axis values) and sign; every simulation a
 /// dot, the critical shock as a line, the amplitude of first touch as a dotted line.
@@ -81,22 +96,32 @@ fn panel_series(summary: &Summary, runs: &[RunDot], name: &str, sign: Sign) -> V
             curve(|p| p.onset_g),
         ),
     ];
+    let mut add = |name: &str, colour, marker, px, has: &dyn Fn(&RunDot) -> bool| {
+        let runs = runs.iter().filter(|run| rows.contains(&run.point));
+        let of_series = runs.filter(|run| has(run));
+        let samples: Vec<Sample> = of_series.map(|run| dot(summary, run)).collect();
+        if !samples.is_empty() {
+            series.push(Series {
+                marker_px: px,
+                ..Series::marked(name, colour, None, marker, samples)
+            });
+        }
+    };
     for (verdict, colour, marker) in [
         ("survives", colour::BLUE, (Marker::Circle, Fill::Open)),
         ("fails", colour::VERMILLION, (Marker::Square, Fill::Full)),
         ("undecided", colour::PURPLE, (Marker::Cross, Fill::Full)),
     ] {
-        let samples: Vec<Sample> = runs
-            .iter()
-            .filter(|run| run.verdict == verdict && rows.contains(&run.point))
-            .map(|run| dot(summary, run))
-            .collect();
-        if !samples.is_empty() {
-            series.push(Series {
-                marker_px: 3.0,
-                ..Series::marked(verdict, colour, None, marker, samples)
-            });
-        }
+        add(verdict, colour, marker, 3.0, &|run| {
+            run.verdict == verdict && run.mechanism.is_none()
+        });
+    }
+    for (mechanism, colour) in MECHANISMS {
+        let name = mechanism.as_str();
+        let shown = format!("fails: {}", name.replace('_', " "));
+        add(&shown, colour, (Marker::Square, Fill::Full), 4.0, &|run| {
+            run.mechanism.as_deref() == Some(name)
+        });
     }
     series
 }
@@ -105,11 +130,15 @@ fn dot(summary: &Summary, run: &RunDot) -> Sample {
     let clearance = run
         .h_min_m
         .map_or(String::new(), |h| format!(", clearance {:.2} nm", 1e9 * h));
+    let mechanism = run.mechanism.as_deref();
+    let mechanism = mechanism.map_or(String::new(), |name| {
+        format!(" ({})", name.replace('_', " "))
+    });
     let y = run.amplitude_g;
     Sample {
         x: summary.points[run.point].pulse_ms,
         value: Value::Known { y, low: y, high: y },
         open: false,
-        note: format!("{y:.1} G: {}{clearance}", run.verdict),
+        note: format!("{y:.1} G: {}{mechanism}{clearance}", run.verdict),
     }
 }

@@ -7,6 +7,8 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use opshock_solver::simulation::{FailureEvidence, Verdict};
+
 use super::input::SweepInput;
 use super::registry::Registry;
 use super::simulator::Simulator;
@@ -139,7 +141,6 @@ pub(super) fn record(
     let Some(history) = &outcome.history else {
         return Ok(());
     };
-    use opshock_solver::simulation::Verdict;
     let (verdict, t_fail_s) = match &outcome.verdict {
         Some(Verdict::Survives) => ("survives", None),
         Some(Verdict::Fails { t_fail_s, .. }) => ("fails", Some(input.start_s + t_fail_s)),
@@ -161,6 +162,7 @@ pub(super) fn record(
         start_s: input.start_s,
         verdict: verdict.to_owned(),
         t_fail_s,
+        mechanism: FailureEvidence::of(&outcome).map(|evidence| evidence.mechanism().as_str()),
         effects: outcome
             .effects
             .iter()

@@ -11,7 +11,9 @@ use opshock_solver::quantity::STANDARD_GRAVITY_M_PER_S2;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::Output;
 use opshock_solver::shock::PulseShape;
-use opshock_solver::simulation::{History, Model, Outcome, Request, Verdict, Workspace, simulate};
+use opshock_solver::simulation::{
+    FailureEvidence, History, Model, Outcome, Request, Verdict, Workspace, simulate,
+};
 use opshock_study::provenance;
 use opshock_study::report::{
     MechanismJson, RunCaption, RunJson, run_figures, run_text, verdict_word, write_figures,
@@ -209,6 +211,7 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
             .map_or("none", verdict_word)
             .to_owned(),
         t_fail_s: t_fail_s(study, outcome),
+        mechanism: FailureEvidence::of(outcome).map(|evidence| evidence.mechanism().as_str()),
         effects: outcome
             .effects
             .iter()

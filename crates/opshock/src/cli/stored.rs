@@ -121,13 +121,15 @@ impl Stored {
         let runs = results
             .runs
             .iter()
+            .zip(results.mechanisms(folder))
             // Runs with changed discretisation parameters may end otherwise: not outcomes of the study.
-            .filter(|row| row.levels.is_none())
-            .map(|row| RunDot {
+            .filter(|(row, _)| row.levels.is_none())
+            .map(|(row, mechanism)| RunDot {
                 point: row.point,
                 amplitude_g: row.amplitude_g,
                 verdict: row.result().verdict.as_str().to_owned(),
                 h_min_m: row.result().h_min_m,
+                mechanism,
             });
         Self {
             savings: savings(results),

@@ -1,15 +1,27 @@
 //! The page's table of critical shocks: every column, status and flag explained on hover.
 
 use super::text::{escaped, explained, signed};
+use crate::report::outcome_map::RunDot;
 use crate::report::{table, terms};
 use crate::store::summary::{PointSummary, Summary};
 use std::fmt::Write as _;
 
-/// The table with its heading.
-pub(super) fn section(summary: &Summary) -> String {
-    let (header, rows) = table::readable(summary);
+/// The table with its heading; with the mechanism of the lowest failure, where it is known.
+pub(super) fn section(summary: &Summary, runs: &[RunDot]) -> String {
+    let (mut header, mut rows) = table::readable(summary);
+    let mechanisms: Vec<Option<String>> = (0..rows.len()).map(|row| mechanism(runs, row)).collect();
+    if mechanisms.iter().any(Option::is_some) {
+        let place = header.len() - 2;
+        header.insert(place, "mechanism".into());
+        for (row, mechanism) in rows.iter_mut().zip(mechanisms) {
+            row.insert(place, mechanism.unwrap_or_default());
+        }
+    }
     let words = 3 + summary.axes.len();
-    let numeric = |column: usize| column == 1 || (words..header.len() - 2).contains(&column);
+    let is_mechanism = |column: usize| header[column] == "mechanism";
+    let numeric = |column: usize| {
+        column == 1 || (words..header.len() - 2).contains(&column) && !is_mechanism(column)
+    };
     let mut text = String::from(
         "<p class=\"screen\">A heading says on hover what its column is, and sorts by it when clicked; flags say theirs too. \
          Shaded rows have a reservation. <a href=\"#words\">All words</a>.</p>\n\
@@ -53,6 +65,14 @@ pub(super) fn section(summary: &Summary) -> String {
     }
     text.push_str("</tbody>\n</table></div>");
     text
+}
+
+/// Mechanism of the lowest failure of a row whose history is kept.
+fn mechanism(runs: &[RunDot], row: usize) -> Option<String> {
+    let of_row = runs.iter().filter(|run| run.point == row);
+    let named = of_row.filter_map(|run| Some((run.amplitude_g, run.mechanism.as_ref()?)));
+    let (_, name) = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(name.replace('_', " "))
 }
 
 /// The status, which does not say that all is well where a flag says otherwise.

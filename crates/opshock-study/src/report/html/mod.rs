@@ -125,7 +125,7 @@ fn sections(source: &ReportSource<'_>, layout: &Layout) -> Vec<Section> {
     let mut sections = Vec::new();
     let mut add = |id, body: String| sections.push(Section { id, body });
     add("critical", critical::section(source, layout));
-    add("table", main_table::section(summary));
+    add("table", main_table::section(summary, source.runs));
     let answer = Answer::of(summary);
     if !answer.axes.is_empty() {
         add("choices", choices(&answer));

@@ -34,6 +34,8 @@ pub struct HistoryHeader {
     pub verdict: String,
     /// Time of touch on the study's time axis, s.
     pub t_fail_s: Option<f64>,
+    /// Why it failed ([`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str)).
+    pub mechanism: Option<&'static str>,
     /// Names of the simulated effects.
     pub effects: Vec<String>,
     /// The run ([`KeptRun::content`](super::KeptRun::content)) when the file belongs to a store; else empty.

@@ -15,7 +15,7 @@ use std::path::Path;
 /// Writes a history in the layout of the [module](super). Root attributes: `format` (`opshock history`),
 /// `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`,
 /// `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none),
-/// `effects`, and one attribute `point_KEY` per coordinate of the simulated point: a number where it is one. Every
+/// `mechanism` (empty when there is none), `effects`, and one attribute `point_KEY` per coordinate of the simulated point: a number where it is one. Every
 /// dataset has `units`, `description` and `time`, the path of the dataset it is given on; every group has
 /// `description`.
 ///
@@ -61,6 +61,7 @@ fn fill(root: &Group, history: &History, header: &HistoryHeader) -> hdf5::Result
     number(root, "start_s", header.start_s)?;
     text(root, "verdict", &header.verdict)?;
     number(root, "t_fail_s", header.t_fail_s.unwrap_or(f64::NAN))?;
+    text(root, "mechanism", header.mechanism.unwrap_or_default())?;
     text(root, "effects", &header.effects.join(" "))?;
 
     datasets(root, &root_columns(history, header.start_s), "/time_s")?;

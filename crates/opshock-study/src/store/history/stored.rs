@@ -21,6 +21,8 @@ pub struct StoredHistory {
     pub amplitude_g: f64,
     /// `survives`, `fails`, `undecided`.
     pub verdict: String,
+    /// Why it failed; empty where it did not, or an earlier program wrote the file.
+    pub mechanism: String,
     /// Columns by name, in SI.
     pub columns: BTreeMap<String, Vec<f64>>,
 }
@@ -79,6 +81,7 @@ fn content(inside: &[u8]) -> hdf5::Result<StoredHistory> {
         point,
         amplitude_g: file.attr("amplitude_g")?.read_scalar()?,
         verdict: text("verdict")?,
+        mechanism: text("mechanism").unwrap_or_default(),
         columns,
     })
 }

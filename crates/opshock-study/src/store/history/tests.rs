@@ -58,6 +58,7 @@ fn header() -> HistoryHeader {
         start_s: 5e-4,
         verdict: "fails".into(),
         t_fail_s: Some(5.025e-4),
+        mechanism: Some("ramp_impact"),
         effects: vec!["disk".into(), "ramp.rigid".into()],
         run: String::new(),
     }

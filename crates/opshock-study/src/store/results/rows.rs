@@ -1,11 +1,12 @@
 //! Content of `results.h5` for a study: its runs, points and sessions.
 
 use std::collections::HashMap;
+use std::path::Path;
 
 use opshock_solver::scene::discretisation::Levels;
 
 use crate::provenance;
-use crate::search::{ProbeResult, Purpose};
+use crate::search::{ProbeResult, Purpose, Verdict};
 use crate::store::history::KeptRun;
 use crate::store::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
 use crate::store::summary::Summary;
@@ -121,6 +122,20 @@ impl Results {
     /// Runs at the study's own resolution: their histories may be kept.
     pub fn kept_runs(&self) -> impl Iterator<Item = KeptRun<'_>> {
         self.kept_by_row().flatten()
+    }
+
+    /// Why the failing run of each row failed, where its history in the store says so.
+    pub fn mechanisms(&self, store: &Path) -> Vec<Option<String>> {
+        let named = |(row, kept): (&RunRow, Option<KeptRun<'_>>)| {
+            let fails = matches!(row.run.result.verdict, Verdict::Fails { .. });
+            let history = kept.filter(|_| fails)?.read(store).ok()??;
+            (!history.mechanism.is_empty()).then_some(history.mechanism)
+        };
+        self.runs
+            .iter()
+            .zip(self.kept_by_row())
+            .map(named)
+            .collect()
     }
 
     /// The run of each row, when it is one at the study's own resolution. Points of equal content share their runs,
