@@ -139,7 +139,7 @@ impl Film {
         &self.storage
     }
 
-    /// The same film of first order at `cells`: no straight line continues ψ to a face beside one of them, and no
+    /// The same film of first order at `cells`, rising: no straight line continues ψ to a face beside one of them, and no
     /// storage is shared through it.
     #[must_use]
     pub fn of_first_order_at(&self, cells: &[usize]) -> Self {
@@ -155,14 +155,13 @@ impl Film {
         pressure_pa < EMPTY * self.ambient_pa
     }
 
-    /// Cells that count as empty.
-    pub fn empty_cells(&self, psi: &[f64], attitude: &Attitude) -> Vec<usize> {
-        let mut pressure_pa = vec![0.0; self.n_cells()];
-        self.pressure(psi, attitude, &mut pressure_pa);
-        let cells = 0..self.n_cells();
-        cells
-            .filter(|&cell| self.is_empty_at(pressure_pa[cell]))
-            .collect()
+    /// Cells that count as empty, rising.
+    pub fn empty_cells(&self, psi: &[f64], attitude: &Attitude) -> impl Iterator<Item = usize> {
+        let cells = self.mesh.cells.iter().zip(psi).enumerate();
+        let pressure_pa = |cell, psi: f64| psi / self.cell_height(cell, attitude).0;
+        let empty =
+            cells.filter(move |(_, (cell, psi))| self.is_empty_at(pressure_pa(cell, **psi)));
+        empty.map(|(place, _)| place)
     }
 
     /// Turns M dψ/dt into dψ/dt in place.

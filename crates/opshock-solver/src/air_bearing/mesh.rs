@@ -208,16 +208,17 @@ impl Mesh {
         }
     }
 
-    /// Leaves out the straight lines that continue ψ to the faces of `cells`.
+    /// Leaves out the straight lines that continue ψ to the faces of `cells`, rising.
     pub(super) fn flatten_at(&mut self, cells: &[usize]) {
+        let is_one = |side: &Side| cells.binary_search(&side.cell).is_ok();
         let flatten = |side: &mut Side| (side.behind, side.reach) = (side.cell, 0.0);
         for Face { sides, .. } in &mut self.faces {
-            if sides.iter().any(|side| cells.contains(&side.cell)) {
+            if sides.iter().any(is_one) {
                 sides.iter_mut().for_each(flatten);
             }
         }
         for EdgeFace { side, .. } in &mut self.edge_faces {
-            if cells.contains(&side.cell) {
+            if is_one(side) {
                 flatten(side);
             }
         }

@@ -91,7 +91,10 @@ fn jacobian_matches_differences_above_and_inside_the_floor() {
         (FlowModel::Continuum, 3e-10),
         (FlowModel::Continuum, 2e-8),
     ] {
-        let film = film_of(flow, 400, min_height_m);
+        let mut film = film_of(flow, 400, min_height_m);
+        if min_height_m > 1e-9 {
+            film = film.of_first_order_at(&[0, 57, 58, 200]);
+        }
         let attitude = Attitude {
             centre_height_m: 55e-9,
             pitch_rad: 1.1e-4,
@@ -370,5 +373,30 @@ fn film_without_slip_has_one_steady_state() {
                 assert!((other / psi - 1.0).abs() < 1e-7, "{share}, cell {k}");
             }
         }
+    }
+}
+
+/// A cell of first order shares no storage, as others do, and gas is conserved.
+#[test]
+fn cells_of_first_order_store_for_themselves_alone() {
+    let film = film_of(FlowModel::FukuiKaneko, 400, 3e-10);
+    let (n, cells) = (film.n_cells(), [3, 57, 200]);
+    let shared = |film: &Film, cell: usize| {
+        let others = (0..n).filter(|&other| other != cell);
+        others
+            .filter(|&other| film.storage().get(cell, other) != 0.0)
+            .count()
+    };
+    let flat = film.of_first_order_at(&cells);
+    assert!(cells.iter().any(|&cell| shared(&film, cell) > 0));
+    for cell in cells {
+        assert_eq!(shared(&flat, cell), 0, "{cell}");
+    }
+    for column in 0..n {
+        let sum: f64 = (0..n).map(|row| flat.storage().get(row, column)).sum();
+        assert!(
+            (sum / flat.capacity()[column] - 1.0).abs() < 1e-13,
+            "{column}"
+        );
     }
 }

@@ -198,3 +198,38 @@ fn flux_grows_with_the_cell_that_it_leaves() {
     assert!((slope(&little, true, 0.0, 10.0) + 7.4).abs() < 1e-8);
     assert!(slope(&none, true, 2.0, 10.0) < -1.0);
 }
+
+/// Where the film thins towards a face faster than the wind carries gas there (Pe < 0), the straight line takes gas from a cell
+/// that is emptier than the one behind; without the line nothing does.
+#[test]
+fn nothing_leaves_an_emptying_cell_without_its_straight_line() {
+    let mut taken = 0;
+    for wind in [0.05, 1.0, 20.0, 400.0] {
+        for h_face in [0.002, 0.1, 0.5, 0.9, 1.0, 1.5, 30.0] {
+            for psi in [1e-9, 1e-3, 0.3, 1.0] {
+                let alpha = |reach: f64| {
+                    let cell = HalfCell {
+                        psi,
+                        inverse_psi: 1.0 / psi,
+                        psi_behind: 5.0,
+                        reach,
+                        g: 1.0,
+                        inverse_g: 1.0,
+                        g_slope: 0.0,
+                        h_centre: 1.0,
+                        inverse_h: 1.0,
+                        h_face,
+                        inverses: inverses(1.0, h_face),
+                        distance: 0.5,
+                        inverse_distance: 2.0,
+                        wind,
+                    };
+                    cell.flux::<true>(&cell.logarithmic_mean::<true>()).alpha
+                };
+                taken += usize::from(alpha(0.45) < 0.0);
+                assert!(alpha(0.0) >= 0.0, "{wind} {h_face} {psi}");
+            }
+        }
+    }
+    assert!(taken > 3, "{taken}");
+}

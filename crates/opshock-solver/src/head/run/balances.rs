@@ -50,11 +50,7 @@ impl Run<'_> {
         let psi = &self.w.y[..n_cells];
         let lowest = model.film.lowest_pressure_pa(psi, attitude);
         self.cost.min_pressure_pa = self.cost.min_pressure_pa.min(lowest);
-        let first_order = &mut self.w.scratch.first_order;
-        if model.film.is_empty_at(lowest) && first_order.add_empty(&model.film, psi, attitude) {
-            self.forget();
-            self.film_rate(attitude);
-        }
+        self.lowest_pa = lowest;
         self.record(attitude);
     }
 
@@ -176,11 +172,9 @@ impl Run<'_> {
         columns.slider_pitch_rad.push(steady.pitch_rad + x[1]);
         columns.slider_roll_rad.push(steady.roll_rad + x[2]);
         columns.min_clearance_m.push(self.clearance.value_m);
-        let scratch = &mut self.w.scratch.film;
-        let force = self
-            .model
-            .film
-            .air_force(&self.w.y[..n_cells], attitude, scratch);
+        let s = &mut self.w.scratch;
+        let film = s.first_order.film(&self.model.film);
+        let force = film.air_force(&self.w.y[..n_cells], attitude, &mut s.film);
         columns.bearing_force_n.push(force[0]);
         columns.bearing_pitch_n_m.push(force[1]);
         columns.bearing_roll_n_m.push(force[2]);

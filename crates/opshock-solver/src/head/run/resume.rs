@@ -36,7 +36,8 @@ pub struct HeadState {
     rate: Vec<f64>,
     /// Smallest heights so far where asperities touched, m.
     closest_m: Vec<f64>,
-    first_order: FirstOrderCells,
+    /// Cells of the film of first order.
+    first_order: Vec<usize>,
     clearance: Clearance,
     smallest: Lowest,
     touched_s: Option<f64>,
@@ -54,6 +55,7 @@ impl HeadState {
     pub fn bytes(&self) -> usize {
         size_of::<Self>()
             + size_of::<f64>() * (self.y.len() + self.rate.len() + self.closest_m.len())
+            + size_of::<usize>() * self.first_order.len()
     }
 }
 
@@ -69,7 +71,7 @@ impl<'a> Run<'a> {
         w.y.copy_from_slice(&state.y);
         w.rate.copy_from_slice(&state.rate);
         w.scratch.reset();
-        w.scratch.first_order = state.first_order.clone();
+        w.scratch.first_order = FirstOrderCells::new(&model.film, &state.first_order);
         w.scratch.film.closest_m.copy_from_slice(&state.closest_m);
         w.scratch.counters = state.counters;
         w.stepper.forget();
@@ -93,6 +95,7 @@ impl<'a> Run<'a> {
             columns: None,
             fields: None,
             cost: state.cost,
+            lowest_pa: f64::INFINITY,
         }
     }
 
@@ -103,7 +106,7 @@ impl<'a> Run<'a> {
             y: self.w.y.clone(),
             rate: self.w.rate.clone(),
             closest_m: self.w.scratch.film.closest_m.clone(),
-            first_order: self.w.scratch.first_order.clone(),
+            first_order: self.w.scratch.first_order.cells().to_vec(),
             clearance: self.clearance,
             smallest: self.smallest,
             touched_s: self.touched_s,

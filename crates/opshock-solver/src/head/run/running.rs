@@ -36,6 +36,8 @@ pub(super) struct Run<'a> {
     pub(super) columns: Option<HeadColumns>,
     pub(super) fields: Option<FieldRecord<'a>>,
     pub(super) cost: HeadCost,
+    /// Lowest pressure of the film at the latest recorded state, Pa.
+    pub(super) lowest_pa: f64,
 }
 
 /// The slider's closest approach to the disk so far.
@@ -113,6 +115,7 @@ impl<'a> Run<'a> {
             fields: (record && !model.field_times_s.is_empty())
                 .then(|| FieldRecord::new(model, &model.field_times_s)),
             cost: HeadCost::default(),
+            lowest_pa: f64::INFINITY,
         };
         if let Some(fields) = &mut run.fields {
             fields.keep_steady(model, motion, &run.w.y);

@@ -1,6 +1,7 @@
 //! Time loop of a run: computes, accepts or rejects steps between events, until the run ends.
 
 use super::running::{Lowest, Run, TrialStep};
+use crate::air_bearing::Attitude;
 use crate::head::energy::EnergyWatch;
 use crate::head::fields::FieldRecord;
 use crate::head::film_passes::relative_size;
@@ -204,6 +205,18 @@ impl Run<'_> {
         // A touch at the very end of the step has its row already.
         if self.time_s > before_s {
             self.record_step(dt_s, &step.attitude);
+        }
+        self.flatten_empty_cells(&step.attitude);
+    }
+
+    /// Takes cells of the film that are empty now to first order.
+    fn flatten_empty_cells(&mut self, attitude: &Attitude) {
+        let (film, w) = (&self.model.film, &mut *self.w);
+        let psi = &w.y[..film.n_cells()];
+        let first_order = &mut w.scratch.first_order;
+        if film.is_empty_at(self.lowest_pa) && first_order.add_empty(film, psi, attitude) {
+            self.forget();
+            self.film_rate(attitude);
         }
     }
 
