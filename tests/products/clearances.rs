@@ -29,18 +29,24 @@ impl Simulator for Counted {
     }
 }
 
-/// No ramp and a rigid one, both signs, for these clearances, nm.
-fn study_of(clearances: &str) -> Study {
+/// No ramp and, without intervals, a rigid one, both signs, for these clearances, nm.
+fn study_of(clearances: &str, intervals: bool) -> Study {
+    let ramps = if intervals {
+        "[\"none\"]"
+    } else {
+        "[\"none\", \"rigid\"]"
+    };
     scenes::study(
         "fig13",
         &[
             ("pulse.widths_ms", "[2.0]"),
-            ("ramp.models", "[\"none\", \"rigid\"]"),
+            ("ramp.models", ramps),
             ("failure.clearance_nm", clearances),
             ("resolution.preset", "\"coarse\""),
             ("resolution.film_cells", "200"),
             ("resolution.disk_cut_khz", "10"),
-            ("search.uncertainty", "false"),
+            ("search.uncertainty", &intervals.to_string()),
+            ("search.max_refinements", "0"),
         ],
     )
 }
@@ -63,7 +69,7 @@ fn swept(study: &Study, folder: &Path, threads: usize) -> (Summary, usize) {
 fn four_clearances_take_few_more_runs_than_one_and_have_the_answers_of_each_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let clearances = ["0.0", "0.3", "0.6", "1.0"];
-    let study = study_of(&format!("[{}]", clearances.join(", ")));
+    let study = study_of(&format!("[{}]", clearances.join(", ")), false);
     let shared = folder.path().join("shared.opshock");
     let (together, runs) = swept(&study, &shared, 1);
     let (on_three, _) = swept(&study, &folder.path().join("three.opshock"), 3);
@@ -72,7 +78,7 @@ fn four_clearances_take_few_more_runs_than_one_and_have_the_answers_of_each_alon
     let mut alone = Vec::new();
     let mut runs_alone = Vec::new();
     for clearance in clearances {
-        let one = study_of(&format!("[{clearance}]"));
+        let one = study_of(&format!("[{clearance}]"), false);
         let (summary, runs) = swept(&one, &folder.path().join(clearance), 1);
         alone.extend(summary.points);
         runs_alone.push(runs);
@@ -133,4 +139,50 @@ fn four_clearances_take_few_more_runs_than_one_and_have_the_answers_of_each_alon
         loaded.runs.len() > runs,
         "nothing was taken from another clearance"
     );
+}
+
+#[test]
+fn intervals_of_four_clearances_are_those_of_each_alone_and_share_what_fails() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let clearances = ["0.0", "0.3", "0.6", "1.0"];
+    let study = study_of(&format!("[{}]", clearances.join(", ")), true);
+    let shared = |threads: usize| {
+        let store = folder.path().join(format!("{threads}.opshock"));
+        let (summary, runs) = swept(&study, &store, threads);
+        let (_, results) = load(&store).expect("loads");
+        (summary, runs, results.expect("written").content_digest())
+    };
+    let (together, runs, digest) = shared(1);
+    let (on_three, _, digest_of_three) = shared(3);
+    assert_eq!(together, on_three);
+    assert_eq!(digest, digest_of_three);
+
+    let (mut alone, mut runs_alone) = (Vec::new(), 0);
+    for clearance in clearances {
+        let one = study_of(&format!("[{clearance}]"), true);
+        let (summary, runs) = swept(&one, &folder.path().join(clearance), 1);
+        alone.extend(summary.points);
+        runs_alone += runs;
+    }
+    let mut with_interval = 0;
+    for row in &together.points {
+        let place = |row: &opshock_study::store::PointSummary| {
+            (row.ramp.clone(), row.sign, row.axes.clone())
+        };
+        let mut own = alone.iter().filter(|own| place(own) == place(row));
+        let own = own.next().expect("a row").clone();
+        with_interval += usize::from(row.uncertainty_g.is_some());
+        // How many runs a row takes, and what a search scanned beside its bracket, is its own affair.
+        let numbers = |row: &opshock_study::store::PointSummary| {
+            (
+                [row.a_crit_g, row.uncertainty_g, row.half_min_height_g],
+                [row.survived_g, row.failed_g],
+                row.contributions.clone(),
+            )
+        };
+        assert_eq!(numbers(row), numbers(&own), "{:?}", place(row));
+    }
+    println!("{runs} simulations together, {runs_alone} alone; {with_interval} intervals");
+    assert_eq!(with_interval, 8);
+    assert!(10 * runs < 7 * runs_alone, "{runs} of {runs_alone}");
 }

@@ -3,6 +3,7 @@
 
 mod interval_order;
 mod jobs;
+mod nested;
 mod results;
 mod rounds;
 mod searches;

@@ -73,7 +73,8 @@ impl Registry<'_> {
                     ..
                 } => {
                     let wanted = self.key(point, uncertainty_probe(*ask));
-                    if finished.is_some_and(|key| key != wanted) {
+                    let is_known = || self.fails_by_smaller(point, *ask);
+                    if finished.is_some_and(|key| key != wanted) && !is_known() {
                         continue;
                     }
                 }
@@ -87,6 +88,9 @@ impl Registry<'_> {
             }
             let fail_below_m = self.input.points[point].coordinates.fail_below_m;
             let lookup = |ask: uncertainty::Ask| {
+                if self.fails_by_smaller(point, ask) {
+                    return Some(uncertainty::Seen::FAILS);
+                }
                 let record = self.runs.get(&self.key(point, uncertainty_probe(ask)))?;
                 Some(seen(&record.result, fail_below_m))
             };
@@ -98,7 +102,8 @@ impl Registry<'_> {
                 // It is not the number of refinements that ends here.
                 answer.uncertainty.flags.remove(&Flag::RefinementLimit);
             }
-            answered.extend(now[log.len()..].iter().map(|&ask| AnsweredProbe {
+            let own = self.own_asks(point, &now[log.len()..]);
+            answered.extend(own.map(|ask| AnsweredProbe {
                 point,
                 asked: uncertainty_asked(ask),
                 key: self.key(point, uncertainty_probe(ask)),
@@ -210,7 +215,7 @@ impl Registry<'_> {
     }
 
     pub(super) fn uncertainty_job(&self, fits: &dyn Fn(&Job) -> bool) -> Option<Job> {
-        self.drawing.values().find_map(|&point| {
+        let job_of = |point: usize| {
             let UncertaintyStage::Begun {
                 progress: uncertainty::Progress::Wants(ask),
                 ..
@@ -226,7 +231,22 @@ impl Registry<'_> {
             };
             let is_free = !self.in_flight.contains(&key) && self.wants_uncertainty(point);
             (is_free && fits(&job)).then_some(job)
-        })
+        };
+        let mut points = self.drawing.values().copied();
+        let mut free = points
+            .clone()
+            .filter(|&point| !self.waits_for_smaller(point));
+        free.find_map(job_of).or_else(|| points.find_map(job_of))
+    }
+
+    /// Runs of its own that an interval has used.
+    pub(super) fn own_asks<'a>(
+        &'a self,
+        point: usize,
+        log: &'a [uncertainty::Ask],
+    ) -> impl Iterator<Item = uncertainty::Ask> + 'a {
+        let asks = log.iter().copied();
+        asks.filter(move |&ask| !self.fails_by_smaller(point, ask))
     }
 
     /// Answer of a point with its interval, once it is finished, and the runs it took.
@@ -242,7 +262,7 @@ impl Registry<'_> {
                 log,
                 progress: uncertainty::Progress::Done(answer),
                 ..
-            } => Some((answer, log.len() as u64)),
+            } => Some((answer, self.own_asks(point, log).count() as u64)),
             _ => None,
         }
     }
