@@ -1,4 +1,4 @@
-//! The mechanism of a point's lowest failure in a sweep's files and page is that of `opshock run`.
+//! The mechanism of a point's lowest failure in its history and on the page of a report is that of `opshock run`.
 
 use std::path::Path;
 
@@ -36,9 +36,15 @@ fn a_sweep_names_the_mechanisms_that_run_names() {
         .unwrap()
         .read_raw()
         .unwrap();
-    let [ramps, signs] = ["points/ramp", "points/sign"].map(words);
+    let [ramps, signs, histories] = ["points/ramp", "points/sign", "runs/history"].map(words);
     let mut named = 0;
-    for (place, mechanism) in words("runs/mechanism").iter().enumerate() {
+    for (place, file_of_run) in histories.iter().enumerate() {
+        if file_of_run.is_empty() {
+            continue;
+        }
+        let history = hdf5::File::open(folder.path().join("s.opshock").join(file_of_run)).unwrap();
+        let mechanism: VarLenUnicode = history.attr("mechanism").unwrap().read_scalar().unwrap();
+        let mechanism = mechanism.to_string();
         if mechanism.is_empty() {
             continue;
         }

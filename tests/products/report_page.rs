@@ -108,6 +108,7 @@ fn film() -> ShockFilm {
         top_um: wave(3.0),
         bottom_um: wave(-3.0),
         force_n: wave(0.5),
+        asperity_mn: wave(2.0).into_iter().map(Some).collect(),
         clearance_nm: (0..60).map(|k| (k < 50).then_some(4.0)).collect(),
         radii_mm: [10.01, 22.215, 32.15, 32.5],
         gap_um: 100.0,

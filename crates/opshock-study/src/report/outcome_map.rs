@@ -18,19 +18,19 @@ pub struct RunDot {
     pub verdict: String,
     /// Smallest clearance, m.
     pub h_min_m: Option<f64>,
-    /// Why it failed, where its history says so: [`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str).
+    /// Why it failed, of the lowest failure of a point whose history says so: [`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str).
     pub mechanism: Option<String>,
 }
 
-/// Colours of the marks of runs whose mechanism is known.
-const MECHANISMS: [(Mechanism, Rgb); 7] = [
-    (Mechanism::RampImpact, colour::BLACK),
-    (Mechanism::DimpleSeparation, colour::GREEN),
-    (Mechanism::Compression, colour::SKY),
-    (Mechanism::LiftLoss, colour::ORANGE),
-    (Mechanism::Limiter, colour::PURPLE),
-    (Mechanism::LiftTab, colour::PURPLE),
-    (Mechanism::Other, colour::GREY),
+/// Marks of runs whose mechanism is known.
+const MECHANISMS: [(Mechanism, Rgb, Marker); 7] = [
+    (Mechanism::RampImpact, colour::BLACK, Marker::Square),
+    (Mechanism::DimpleSeparation, colour::GREEN, Marker::Square),
+    (Mechanism::Compression, colour::SKY, Marker::Square),
+    (Mechanism::LiftLoss, colour::ORANGE, Marker::Diamond),
+    (Mechanism::Limiter, colour::PURPLE, Marker::Triangle),
+    (Mechanism::LiftTab, colour::PURPLE, Marker::Diamond),
+    (Mechanism::Other, colour::GREY, Marker::Square),
 ];
 
 /// A panel for every series (ramp model and further axis values) and sign; every simulation a
@@ -107,19 +107,25 @@ fn panel_series(summary: &Summary, runs: &[RunDot], name: &str, sign: Sign) -> V
             });
         }
     };
+    let is_named = |run: &RunDot| {
+        let mut names = MECHANISMS
+            .into_iter()
+            .map(|(mechanism, ..)| mechanism.as_str());
+        names.any(|name| run.mechanism.as_deref() == Some(name))
+    };
     for (verdict, colour, marker) in [
         ("survives", colour::BLUE, (Marker::Circle, Fill::Open)),
         ("fails", colour::VERMILLION, (Marker::Square, Fill::Full)),
         ("undecided", colour::PURPLE, (Marker::Cross, Fill::Full)),
     ] {
         add(verdict, colour, marker, 3.0, &|run| {
-            run.verdict == verdict && run.mechanism.is_none()
+            run.verdict == verdict && !is_named(run)
         });
     }
-    for (mechanism, colour) in MECHANISMS {
+    for (mechanism, colour, marker) in MECHANISMS {
         let name = mechanism.as_str();
         let shown = format!("fails: {}", name.replace('_', " "));
-        add(&shown, colour, (Marker::Square, Fill::Full), 4.0, &|run| {
+        add(&shown, colour, (marker, Fill::Full), 4.5, &|run| {
             run.mechanism.as_deref() == Some(name)
         });
     }

@@ -60,7 +60,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Column, "failed_g", "failed (G)", "Upper end of the bracket: the smallest amplitude that failed: the clearance of the slider fell below failure.clearance_nm, 0 by default, or contact exceeded a limit of failure.damage where failure.criterion says so."),
     term(Kind::Column, "onset_g", "first touch (G)", "The amplitude from which on the disk reaches the ramp."),
     term(Kind::Column, "runs", "runs", "Simulations that the row asked for, those for its uncertainty included. Points that are answered before give it its starting amplitude, so that the same point takes other numbers in other studies."),
-    term(Kind::Column, "mechanism", "mechanism", "Why the lowest failing simulation at the study's resolution fails, by its forces and times at the failure (docs/mechanisms.md); in the table of the page. Empty: its history is not kept (output.keep_histories), or contact exceeded a limit of damage after the touch."),
+    term(Kind::Column, "mechanism", "mechanism", "Why the lowest failure of the search, at the study's own resolution, fails, by its forces and times (docs/mechanisms.md); in the table of the page. Empty: its history is not kept (output.keep_histories), or contact exceeded a limit of damage after the touch."),
     term(Kind::Column, "status", "status", "How the search of the row ended."),
     term(Kind::Column, "flags", "flags", "What else a reader of the row must know; empty: nothing."),
 
@@ -126,7 +126,7 @@ pub const TERMS: &[Term] = &[
     term(Kind::Sign, "minus", "dashed curve (map, margin)", "Sign -: the disk moves away from the slider first."),
     term(Kind::Sign, "survives", "blue open circle (map)", "A simulation that survives."),
     term(Kind::Sign, "fails", "orange square (map)", "A simulation that fails."),
-    term(Kind::Sign, "named", "larger square (map)", "A failing simulation whose history is kept, in the colour of its mechanism."),
+    term(Kind::Sign, "named", "larger mark (map)", "The lowest failure of a point whose history is kept, by its mechanism."),
     term(Kind::Sign, "undecided", "purple mark (map)", "A simulation without verdict."),
     term(Kind::Sign, "touched", "open mark (margin)", "A simulation that fails."),
 

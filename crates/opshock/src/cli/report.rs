@@ -98,8 +98,11 @@ pub fn run(
 ) -> Result<Exit, Failure> {
     let source = stored::source(&arguments.source, global)?;
     let (results, study) = stored::load(&source, console)?;
-    let stored = Stored::of(&source.folder, &results, study);
+    let mut stored = Stored::of(&source.folder, &results, study);
     let folder = source.folder;
+    if arguments.out.is_some() {
+        stored::name_mechanisms(&mut stored, &folder, &results)?;
+    }
     // Not this one: it may be newer than the numbers.
     let program = results.session.program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;

@@ -121,15 +121,14 @@ impl Stored {
         let runs = results
             .runs
             .iter()
-            .zip(results.mechanisms(folder))
             // Runs with changed discretisation parameters may end otherwise: not outcomes of the study.
-            .filter(|(row, _)| row.levels.is_none())
-            .map(|(row, mechanism)| RunDot {
+            .filter(|row| row.levels.is_none())
+            .map(|row| RunDot {
                 point: row.point,
                 amplitude_g: row.amplitude_g,
                 verdict: row.result().verdict.as_str().to_owned(),
                 h_min_m: row.result().h_min_m,
-                mechanism,
+                mechanism: None,
             });
         Self {
             savings: savings(results),
@@ -217,6 +216,25 @@ pub fn owner(loaded: &mut Loaded, folder: &Path) -> Result<Owner, StoreError> {
         what: "it does not hold its study, and study.resolved.toml is missing".into(),
         hint: "`opshock sweep` of its study writes both anew and uses what is whole",
     })
+}
+
+/// Gives the simulations of `stored` the mechanisms that the histories kept in `folder` name.
+///
+/// # Errors
+///
+/// E182: a history is damaged; E183: one cannot be read.
+pub fn name_mechanisms(
+    stored: &mut Stored,
+    folder: &Path,
+    results: &Results,
+) -> Result<(), StoreError> {
+    let names = results.mechanisms(folder)?;
+    let rows = results.runs.iter().enumerate();
+    let own = rows.filter(|(_, row)| row.levels.is_none());
+    for ((place, _), run) in own.zip(&mut stored.runs) {
+        run.mechanism = names.get(&place).cloned();
+    }
+    Ok(())
 }
 
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,

@@ -10,18 +10,16 @@ use std::fmt::Write as _;
 pub(super) fn section(summary: &Summary, runs: &[RunDot]) -> String {
     let (mut header, mut rows) = table::readable(summary);
     let mechanisms: Vec<Option<String>> = (0..rows.len()).map(|row| mechanism(runs, row)).collect();
-    if mechanisms.iter().any(Option::is_some) {
-        let place = header.len() - 2;
+    let has_mechanism = mechanisms.iter().any(Option::is_some);
+    let place = header.len() - 2;
+    if has_mechanism {
         header.insert(place, "mechanism".into());
         for (row, mechanism) in rows.iter_mut().zip(mechanisms) {
             row.insert(place, mechanism.unwrap_or_default());
         }
     }
     let words = 3 + summary.axes.len();
-    let is_mechanism = |column: usize| header[column] == "mechanism";
-    let numeric = |column: usize| {
-        column == 1 || (words..header.len() - 2).contains(&column) && !is_mechanism(column)
-    };
+    let numeric = |column: usize| column == 1 || (words..place).contains(&column);
     let mut text = String::from(
         "<p class=\"screen\">A heading says on hover what its column is, and sorts by it when clicked; flags say theirs too. \
          Shaded rows have a reservation. <a href=\"#words\">All words</a>.</p>\n\
@@ -67,11 +65,10 @@ pub(super) fn section(summary: &Summary, runs: &[RunDot]) -> String {
     text
 }
 
-/// Mechanism of the lowest failure of a row whose history is kept.
+/// Mechanism of the lowest failure of a row, the only run of it that has one.
 fn mechanism(runs: &[RunDot], row: usize) -> Option<String> {
-    let of_row = runs.iter().filter(|run| run.point == row);
-    let named = of_row.filter_map(|run| Some((run.amplitude_g, run.mechanism.as_ref()?)));
-    let (_, name) = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let mut of_row = runs.iter().filter(|run| run.point == row);
+    let name = of_row.find_map(|run| run.mechanism.as_ref())?;
     Some(name.replace('_', " "))
 }
 

@@ -398,13 +398,13 @@
       let d = "";
       for (let i = 0; i <= 60; i++) { const r = ri + (ro - ri) * i / 60, t = r - ri; d += `${i ? "L" : "M"}${X(r).toFixed(1)} ${Y(c2 * t * t + c3 * t * t * t).toFixed(1)}`; }
       disk.setAttribute("d", d);
-      const force = film.force_n[k], h = film.clearance_nm[k];
+      const force = film.force_n[k], h = film.clearance_nm[k], bear = film.asperity_mn[k] ?? null;
       arms[0].setAttribute("y", Y(film.gap_um + film.top_um[k]) - 12); arms[0].setAttribute("fill", force > 1e-3 ? "#d55e00" : "#8c8c8c");
       arms[1].setAttribute("y", Y(film.bottom_um[k] - film.gap_um)); arms[1].setAttribute("fill", force < -1e-3 ? "#d55e00" : "#8c8c8c");
-      slider.setAttribute("x", X(rs) - 15); slider.setAttribute("y", Y(s) - 14 - (h === null ? 0 : Math.min(30, 2 * h)));
-      slider.setAttribute("fill", h === null ? "#d55e00" : "#0072b2");
+      slider.setAttribute("x", X(rs) - 15); slider.setAttribute("y", Y(s) - 14 - (h === null ? 0 : Math.min(30, Math.max(-4, 2 * h))));
+      slider.setAttribute("fill", h === null || (bear ?? 0) > 0.1 ? "#d55e00" : "#0072b2");
       time.textContent = `${film.time_ms[k].toFixed(3)} ms`;
-      words.textContent = `disk under the slider ${s.toFixed(1)} \u00b5m, at the ramp ${w.toFixed(1)} \u00b5m, contact ${Math.abs(force).toFixed(2)} N, clearance ${h === null ? "touched" : h.toFixed(2) + " nm"}`;
+      words.textContent = `disk under the slider ${s.toFixed(1)} \u00b5m, at the ramp ${w.toFixed(1)} \u00b5m, contact ${Math.abs(force).toFixed(2)} N, clearance ${h === null ? "touched" : h.toFixed(2) + " nm"}${bear === null ? "" : `, asperities bear ${bear.toFixed(1)} mN`}`;
     };
     let timer = null;
     play.addEventListener("click", () => {

@@ -7,6 +7,7 @@ use opshock_solver::scene::discretisation::Levels;
 
 use crate::provenance;
 use crate::search::{ProbeResult, Purpose, Verdict};
+use crate::store::error::StoreError;
 use crate::store::history::KeptRun;
 use crate::store::record::{PointDigest, Record, RunMachine, RunRecord, StoredTouch, TouchRecord};
 use crate::store::summary::Summary;
@@ -124,18 +125,34 @@ impl Results {
         self.kept_by_row().flatten()
     }
 
-    /// Why the failing run of each row failed, where its history in the store says so.
-    pub fn mechanisms(&self, store: &Path) -> Vec<Option<String>> {
-        let named = |(row, kept): (&RunRow, Option<KeptRun<'_>>)| {
+    /// Why the lowest failing run of each point at the study's own resolution fails, by place in [`Results::runs`], where its
+    /// history in the store says so.
+    ///
+    /// # Errors
+    ///
+    /// As [`KeptRun::read`].
+    pub fn mechanisms(&self, store: &Path) -> Result<HashMap<usize, String>, StoreError> {
+        let mut lowest: HashMap<usize, (usize, KeptRun<'_>)> = HashMap::new();
+        for (place, (row, kept)) in self.runs.iter().zip(self.kept_by_row()).enumerate() {
             let fails = matches!(row.run.result.verdict, Verdict::Fails { .. });
-            let history = kept.filter(|_| fails)?.read(store).ok()??;
-            (!history.mechanism.is_empty()).then_some(history.mechanism)
-        };
-        self.runs
-            .iter()
-            .zip(self.kept_by_row())
-            .map(named)
-            .collect()
+            let Some(kept) = kept.filter(|run| fails && run.key.window_factor == 1) else {
+                continue;
+            };
+            let is_lower = |(_, other): &(usize, KeptRun<'_>)| kept.amplitude_g < other.amplitude_g;
+            if lowest.get(&row.point).is_none_or(is_lower) {
+                lowest.insert(row.point, (place, kept));
+            }
+        }
+        let mut names = HashMap::new();
+        for (place, kept) in lowest.into_values() {
+            let name = kept
+                .read(store)?
+                .map_or(String::new(), |history| history.mechanism);
+            if !name.is_empty() {
+                names.insert(place, name);
+            }
+        }
+        Ok(names)
     }
 
     /// The run of each row, when it is one at the study's own resolution. Points of equal content share their runs,

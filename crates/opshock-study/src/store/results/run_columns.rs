@@ -10,8 +10,8 @@ use crate::store::history::KeptRun;
 use crate::store::names::HISTORIES;
 use crate::store::record::{COSTS, RunRecord, cost_counts};
 
-/// Files of the histories that the store holds, and why their runs failed.
-pub(super) fn history_columns(results: &Results, store: &Path) -> [Column; 2] {
+/// Files of the histories that the store holds.
+pub(super) fn history_column(results: &Results, store: &Path) -> Column {
     let entries = std::fs::read_dir(store.join(HISTORIES)).ok();
     let entries = entries.into_iter().flatten().flatten();
     let kept: HashSet<String> = entries
@@ -19,18 +19,12 @@ pub(super) fn history_columns(results: &Results, store: &Path) -> [Column; 2] {
         .collect();
     let description = "file of its history, from the store's folder; empty: none is kept";
     let runs: Vec<Option<KeptRun<'_>>> = results.kept_by_row().collect();
-    let files = texts("history", description, &runs, |run| {
+    texts("history", description, &runs, |run| {
         let names = run.iter().flat_map(|run| run.names());
         let mut kept = names.filter(|name| kept.contains(name));
         let name = kept.next();
         name.map_or(String::new(), |name| format!("{HISTORIES}/{name}"))
-    });
-    let mechanisms = results.mechanisms(store);
-    let description = "why it failed, of a failing run with a history; empty: not known";
-    let mechanisms = texts("mechanism", description, &mechanisms, |name| {
-        name.clone().unwrap_or_default()
-    });
-    [files, mechanisms]
+    })
 }
 
 pub(super) fn row_columns(rows: &[RunRow]) -> Vec<Column> {

@@ -7,7 +7,7 @@ use hdf5::Group;
 use super::columns::{self, group, put_number, put_text, texts};
 use super::point_columns::{axis_columns, bracket_columns, keep_columns, point_columns};
 use super::rows::{RESULTS_FORMAT, Results};
-use super::run_columns::{history_columns, row_columns, run_columns, time_columns};
+use super::run_columns::{history_column, row_columns, run_columns, time_columns};
 use crate::search::amplitude_grid::REFERENCE_G;
 use crate::store::error::StoreError;
 use crate::store::record::RunRecord;
@@ -73,7 +73,7 @@ fn fill(root: &Group, results: &Results, store: &Path) -> hdf5::Result<()> {
 
     let runs = group(root, "runs", "a row per simulation, by point and sequence")?;
     columns::write(&runs, &row_columns(&results.runs))?;
-    columns::write(&runs, &history_columns(results, store))?;
+    columns::write(&runs, &[history_column(results, store)])?;
     let records: Vec<&RunRecord> = results.runs.iter().map(|row| &row.run).collect();
     columns::write(&runs, &run_columns(&records, results.start_s))?;
 
