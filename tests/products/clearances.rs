@@ -142,7 +142,7 @@ fn four_clearances_take_few_more_runs_than_one_and_have_the_answers_of_each_alon
 }
 
 #[test]
-fn intervals_of_four_clearances_are_those_of_each_alone_and_share_what_fails() {
+fn intervals_of_four_clearances_are_those_of_each_alone_and_share_what_survives() {
     let folder = tempfile::tempdir().expect("a folder");
     let clearances = ["0.0", "0.3", "0.6", "1.0"];
     let study = study_of(&format!("[{}]", clearances.join(", ")), true);
@@ -184,5 +184,5 @@ fn intervals_of_four_clearances_are_those_of_each_alone_and_share_what_fails() {
     }
     println!("{runs} simulations together, {runs_alone} alone; {with_interval} intervals");
     assert_eq!(with_interval, 8);
-    assert!(10 * runs < 7 * runs_alone, "{runs} of {runs_alone}");
+    assert!(6 * runs < 5 * runs_alone, "{runs} of {runs_alone}");
 }

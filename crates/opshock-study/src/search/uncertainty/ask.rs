@@ -73,13 +73,6 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// A failure of which the verdict alone is known.
-    pub const FAILS: Self = Self {
-        verdict: AmplitudeVerdict::Fails,
-        h_min_m: None,
-        t_min_s: None,
-    };
-
     /// The run failed.
     pub fn fails(&self) -> bool {
         self.verdict == AmplitudeVerdict::Fails

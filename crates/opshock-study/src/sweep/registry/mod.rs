@@ -3,7 +3,6 @@
 
 mod interval_order;
 mod jobs;
-mod nested;
 mod results;
 mod rounds;
 mod searches;

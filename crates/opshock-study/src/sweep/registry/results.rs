@@ -49,7 +49,7 @@ impl Registry<'_> {
                 _ => &[],
             };
             let asked = search.log().iter().copied();
-            let asked = asked.chain(self.own_asks(point, uncertainty).map(uncertainty_asked));
+            let asked = asked.chain(uncertainty.iter().map(|&ask| uncertainty_asked(ask)));
             for (sequence, asked) in asked.enumerate() {
                 let key = self.key(point, asked.probe);
                 used.insert(key);

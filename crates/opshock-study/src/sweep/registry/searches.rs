@@ -32,7 +32,7 @@ pub(in crate::sweep) struct Registry<'a> {
     pub(super) onsets_in_flight: HashSet<PointDigest>,
     pub(super) sharing: HashMap<PointDigest, Vec<usize>>,
     /// Places that differ in the clearance called failure alone, by the one with the smallest.
-    pub(super) clearances: HashMap<usize, Vec<usize>>,
+    clearances: HashMap<usize, Vec<usize>>,
     /// Places in the study, those with the most work behind them first.
     pub(super) urgency: Vec<usize>,
     /// Rank of every place in that order.

@@ -73,8 +73,7 @@ impl Registry<'_> {
                     ..
                 } => {
                     let wanted = self.key(point, uncertainty_probe(*ask));
-                    let is_known = || self.fails_by_smaller(point, *ask);
-                    if finished.is_some_and(|key| key != wanted) && !is_known() {
+                    if finished.is_some_and(|key| key != wanted) {
                         continue;
                     }
                 }
@@ -88,9 +87,6 @@ impl Registry<'_> {
             }
             let fail_below_m = self.input.points[point].coordinates.fail_below_m;
             let lookup = |ask: uncertainty::Ask| {
-                if self.fails_by_smaller(point, ask) {
-                    return Some(uncertainty::Seen::FAILS);
-                }
                 let record = self.runs.get(&self.key(point, uncertainty_probe(ask)))?;
                 Some(seen(&record.result, fail_below_m))
             };
@@ -102,8 +98,7 @@ impl Registry<'_> {
                 // It is not the number of refinements that ends here.
                 answer.uncertainty.flags.remove(&Flag::RefinementLimit);
             }
-            let own = self.own_asks(point, &now[log.len()..]);
-            answered.extend(own.map(|ask| AnsweredProbe {
+            answered.extend(now[log.len()..].iter().map(|&ask| AnsweredProbe {
                 point,
                 asked: uncertainty_asked(ask),
                 key: self.key(point, uncertainty_probe(ask)),
@@ -215,7 +210,7 @@ impl Registry<'_> {
     }
 
     pub(super) fn uncertainty_job(&self, fits: &dyn Fn(&Job) -> bool) -> Option<Job> {
-        let job_of = |point: usize| {
+        self.drawing.values().find_map(|&point| {
             let UncertaintyStage::Begun {
                 progress: uncertainty::Progress::Wants(ask),
                 ..
@@ -231,22 +226,7 @@ impl Registry<'_> {
             };
             let is_free = !self.in_flight.contains(&key) && self.wants_uncertainty(point);
             (is_free && fits(&job)).then_some(job)
-        };
-        let mut points = self.drawing.values().copied();
-        let mut free = points
-            .clone()
-            .filter(|&point| !self.waits_for_smaller(point));
-        free.find_map(job_of).or_else(|| points.find_map(job_of))
-    }
-
-    /// Runs of its own that an interval has used.
-    pub(super) fn own_asks<'a>(
-        &'a self,
-        point: usize,
-        log: &'a [uncertainty::Ask],
-    ) -> impl Iterator<Item = uncertainty::Ask> + 'a {
-        let asks = log.iter().copied();
-        asks.filter(move |&ask| !self.fails_by_smaller(point, ask))
+        })
     }
 
     /// Answer of a point with its interval, once it is finished, and the runs it took.
@@ -262,7 +242,7 @@ impl Registry<'_> {
                 log,
                 progress: uncertainty::Progress::Done(answer),
                 ..
-            } => Some((answer, self.own_asks(point, log).count() as u64)),
+            } => Some((answer, log.len() as u64)),
             _ => None,
         }
     }
