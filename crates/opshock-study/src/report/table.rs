@@ -18,6 +18,9 @@ pub(super) const AFTER_AXES: [&str; 9] = [
     "flags",
 ];
 
+/// Column that the table of the page has beside them.
+pub(super) const OF_PAGE: &str = "mechanism";
+
 /// CSV with the header `ramp,pulse_ms,sign,<axes>,a_crit_g,uncertainty_g,half_min_height_g,survived_g,
 /// failed_g,onset_g,runs,status,flags`. A missing value is empty; flags are joined by `;`; numbers carry all their
 /// digits. Nothing in it depends on the machine.

@@ -286,7 +286,7 @@ pub fn markdown() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::table::{AFTER_AXES, BEFORE_AXES};
+    use crate::report::table::{AFTER_AXES, BEFORE_AXES, OF_PAGE};
     use crate::store::summary::CONTRIBUTIONS;
 
     #[test]
@@ -296,7 +296,8 @@ mod tests {
             all.filter(|term| term.kind == kind && term.name == name)
                 .count()
         };
-        for column in BEFORE_AXES.iter().chain(&AFTER_AXES) {
+        let columns = || BEFORE_AXES.iter().chain(&AFTER_AXES).chain([&OF_PAGE]);
+        for column in columns() {
             assert_eq!(entries(Kind::Column, column), 1, "{column}");
         }
         for flag in Flag::ALL {
@@ -318,7 +319,7 @@ mod tests {
         // And no entry is for something that is not there.
         for term in TERMS {
             let known = match term.kind {
-                Kind::Column => BEFORE_AXES.contains(&term.name) || AFTER_AXES.contains(&term.name),
+                Kind::Column => columns().any(|column| *column == term.name),
                 Kind::Reservation | Kind::Note => Flag::parse(term.name).is_some(),
                 Kind::Status => Status::parse(term.name).is_some(),
                 Kind::Contribution => CONTRIBUTIONS.contains(&term.name),

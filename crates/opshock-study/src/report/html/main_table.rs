@@ -13,7 +13,7 @@ pub(super) fn section(summary: &Summary, runs: &[RunDot]) -> String {
     let has_mechanism = mechanisms.iter().any(Option::is_some);
     let place = header.len() - 2;
     if has_mechanism {
-        header.insert(place, "mechanism".into());
+        header.insert(place, table::OF_PAGE.into());
         for (row, mechanism) in rows.iter_mut().zip(mechanisms) {
             row.insert(place, mechanism.unwrap_or_default());
         }
