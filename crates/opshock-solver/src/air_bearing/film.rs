@@ -17,7 +17,6 @@ use super::flux::HalfCell;
 use super::gap_load::GapLoad;
 use super::heights::inverses;
 use super::mesh::{Cell, Mesh, Side};
-use super::storage::storage;
 use super::thickness::HeightLimit;
 use crate::gas::GasParameters;
 use crate::lanes::{Kernel, widest};
@@ -30,9 +29,6 @@ use std::sync::Arc;
 
 /// A roll that moves no point of a slider by a thousandth of an atom's size, rad.
 const LEAN_RAD: f64 = 1e-11;
-
-/// Share of the ambient pressure below which a cell counts as empty.
-const EMPTY: f64 = 1e-3;
 
 /// Film under one slider: immutable once built.
 #[derive(Clone, Debug)]
@@ -137,31 +133,6 @@ impl Film {
     /// M, Pa s m2, the factor of dψ/dt (`air_bearing/storage.rs` derives it). Its columns add up to [`Film::capacity`].
     pub fn storage(&self) -> &Diagonals {
         &self.storage
-    }
-
-    /// The same film of first order at `cells`, rising: no straight line continues ψ to a face beside one of them, and no
-    /// storage is shared through it.
-    #[must_use]
-    pub fn of_first_order_at(&self, cells: &[usize]) -> Self {
-        let mut film = self.clone();
-        film.mesh.flatten_at(cells);
-        film.columns = Columns::new(&film.mesh);
-        film.storage = storage(&film);
-        film
-    }
-
-    /// Whether a cell of the pressure `pressure_pa` counts as empty.
-    pub fn is_empty_at(&self, pressure_pa: f64) -> bool {
-        pressure_pa < EMPTY * self.ambient_pa
-    }
-
-    /// Cells that count as empty, rising.
-    pub fn empty_cells(&self, psi: &[f64], attitude: &Attitude) -> impl Iterator<Item = usize> {
-        let cells = self.mesh.cells.iter().zip(psi).enumerate();
-        let pressure_pa = |cell, psi: f64| psi / self.cell_height(cell, attitude).0;
-        let empty =
-            cells.filter(move |(_, (cell, psi))| self.is_empty_at(pressure_pa(cell, **psi)));
-        empty.map(|(place, _)| place)
     }
 
     /// Turns M dψ/dt into dψ/dt in place.

@@ -11,6 +11,7 @@ mod derivatives;
 mod exponential;
 mod faces;
 mod film;
+mod first_order;
 mod flow_factor;
 mod flux;
 mod gap_force;
