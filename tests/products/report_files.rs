@@ -1,5 +1,6 @@
 //! Tables, figure and HTML page made from a summary.
 
+use opshock_solver::simulation::Mechanism;
 use opshock_study::accuracy::{Accuracy, Measured, PointStudies, SettingRow};
 use opshock_study::report::html::html;
 use opshock_study::report::{ReportSource, RunDot, critical_shock_figure, report_files, table};
@@ -72,7 +73,7 @@ fn runs() -> Vec<RunDot> {
         amplitude_g,
         verdict: verdict.into(),
         h_min_m: Some(2e-9),
-        mechanism: (verdict == "fails").then(|| "lift_loss".to_owned()),
+        mechanism: (verdict == "fails").then_some(Mechanism::LiftLoss),
     };
     vec![
         dot(366.25, "survives"),

@@ -1,5 +1,6 @@
 //! The report in a browser: what a person sees and touches, in headless Chromium.
 
+use opshock_solver::simulation::Mechanism;
 use opshock_study::report::html::html;
 use opshock_study::report::{ReportSource, RunDot, ShockFilm};
 use opshock_study::search::Sign;
@@ -87,7 +88,7 @@ fn runs(summary: &Summary) -> Vec<RunDot> {
                 amplitude_g: share * crit,
                 verdict: verdict.into(),
                 h_min_m: Some(h),
-                mechanism: (verdict == "fails").then(|| "ramp_impact".to_owned()),
+                mechanism: (verdict == "fails").then_some(Mechanism::RampImpact),
             });
         }
     }

@@ -6,7 +6,7 @@ use super::film::Film;
 use super::flow_factor::{FlowFactor, FlowModel};
 use super::layout;
 use super::mesh::Mesh;
-use super::storage::storage;
+use super::storage::{per_area, storage};
 use super::thickness::HeightLimit;
 use crate::gas::GasParameters;
 use crate::grid::Lines;
@@ -160,7 +160,7 @@ impl Film {
         mesh.correct_corners(&surface, &usual, |h| {
             flow.conductance(gas.pressure_pa * h).0 * h * h
         });
-        let per_area = 12.0 * gas.viscosity_pa_s;
+        let per_area = per_area(gas);
         let mut film = Self {
             columns: Columns::new(&mesh),
             capacity: mesh.cells.iter().map(|c| per_area * c.area).collect(),

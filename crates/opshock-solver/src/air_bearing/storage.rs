@@ -32,6 +32,7 @@
 
 use super::film::Film;
 use super::mesh::Face;
+use crate::gas::GasParameters;
 use crate::linalg::diagonals::Diagonals;
 
 /// Pe below which ω is zero.
@@ -42,11 +43,16 @@ const SMALLEST_PE: f64 = 1e-3;
 const MOST_FROM_BEHIND: f64 = 1.0 / 2.0;
 const MOST_TO_NEXT: f64 = 1.0 / 4.0;
 
+/// 12 μ, Pa s: what a cell stores by its area and ψ.
+pub(super) fn per_area(gas: &GasParameters) -> f64 {
+    12.0 * gas.viscosity_pa_s
+}
+
 /// M of `film`, Pa s m2.
 pub(super) fn storage(film: &Film) -> Diagonals {
     let (mesh, capacity) = (&film.mesh, film.capacity());
     let psi = film.ambient(&film.usual_attitude());
-    let per_area = 12.0 * film.gas().viscosity_pa_s;
+    let per_area = per_area(film.gas());
     let [nx, ny] = mesh.counts();
     let along_x = &mesh.faces[..(nx - 1) * ny];
     let wind = along_x.first().map_or(0.0, |face| face.sides[0].wind);

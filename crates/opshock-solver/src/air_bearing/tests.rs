@@ -92,6 +92,7 @@ fn jacobian_matches_differences_above_and_inside_the_floor() {
         (FlowModel::Continuum, 2e-8),
     ] {
         let mut film = film_of(flow, 400, min_height_m);
+        // Of the higher floor with cells of first order.
         if min_height_m > 1e-9 {
             film = film.of_first_order_at(&[0, 57, 58, 200]);
         }

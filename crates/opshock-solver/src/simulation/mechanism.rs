@@ -45,6 +45,27 @@ pub enum Mechanism {
 }
 
 impl Mechanism {
+    /// All, in the order in which they are tried.
+    pub const ALL: [Self; 7] = [
+        Self::Limiter,
+        Self::LiftTab,
+        Self::DimpleSeparation,
+        Self::RampImpact,
+        Self::LiftLoss,
+        Self::Compression,
+        Self::Other,
+    ];
+
+    /// That of a name in an output file.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.as_str() == word)
+    }
+
+    /// As people read it.
+    pub fn words(self) -> String {
+        self.as_str().replace('_', " ")
+    }
+
     /// Name in output files.
     pub fn as_str(self) -> &'static str {
         match self {

@@ -18,20 +18,22 @@ pub struct RunDot {
     pub verdict: String,
     /// Smallest clearance, m.
     pub h_min_m: Option<f64>,
-    /// Why it failed, of the lowest failure of a point whose history says so: [`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str).
-    pub mechanism: Option<String>,
+    /// Why it failed, of the lowest failure of a point whose history says so.
+    pub mechanism: Option<Mechanism>,
 }
 
-/// Marks of runs whose mechanism is known.
-const MECHANISMS: [(Mechanism, Rgb, Marker); 7] = [
-    (Mechanism::RampImpact, colour::BLACK, Marker::Square),
-    (Mechanism::DimpleSeparation, colour::GREEN, Marker::Square),
-    (Mechanism::Compression, colour::SKY, Marker::Square),
-    (Mechanism::LiftLoss, colour::ORANGE, Marker::Diamond),
-    (Mechanism::Limiter, colour::PURPLE, Marker::Triangle),
-    (Mechanism::LiftTab, colour::PURPLE, Marker::Diamond),
-    (Mechanism::Other, colour::GREY, Marker::Square),
-];
+/// Mark of a run whose mechanism is known.
+fn mark(mechanism: Mechanism) -> (Rgb, Marker) {
+    match mechanism {
+        Mechanism::RampImpact => (colour::BLACK, Marker::Square),
+        Mechanism::DimpleSeparation => (colour::GREEN, Marker::Square),
+        Mechanism::Compression => (colour::SKY, Marker::Square),
+        Mechanism::LiftLoss => (colour::ORANGE, Marker::Diamond),
+        Mechanism::Limiter => (colour::PURPLE, Marker::Triangle),
+        Mechanism::LiftTab => (colour::PURPLE, Marker::Diamond),
+        Mechanism::Other => (colour::GREY, Marker::Square),
+    }
+}
 
 /// A panel for every series (ramp model and further axis values) and sign; every simulation a
 /// dot, the critical shock as a line, the amplitude of first touch as a dotted line.
@@ -107,26 +109,20 @@ fn panel_series(summary: &Summary, runs: &[RunDot], name: &str, sign: Sign) -> V
             });
         }
     };
-    let is_named = |run: &RunDot| {
-        let mut names = MECHANISMS
-            .into_iter()
-            .map(|(mechanism, ..)| mechanism.as_str());
-        names.any(|name| run.mechanism.as_deref() == Some(name))
-    };
     for (verdict, colour, marker) in [
         ("survives", colour::BLUE, (Marker::Circle, Fill::Open)),
         ("fails", colour::VERMILLION, (Marker::Square, Fill::Full)),
         ("undecided", colour::PURPLE, (Marker::Cross, Fill::Full)),
     ] {
         add(verdict, colour, marker, 3.0, &|run| {
-            run.verdict == verdict && !is_named(run)
+            run.verdict == verdict && run.mechanism.is_none()
         });
     }
-    for (mechanism, colour, marker) in MECHANISMS {
-        let name = mechanism.as_str();
-        let shown = format!("fails: {}", name.replace('_', " "));
-        add(&shown, colour, (marker, Fill::Full), 4.5, &|run| {
-            run.mechanism.as_deref() == Some(name)
+    for mechanism in Mechanism::ALL {
+        let (colour, marker) = mark(mechanism);
+        let name = format!("fails: {}", mechanism.words());
+        add(&name, colour, (marker, Fill::Full), 4.5, &|run| {
+            run.mechanism == Some(mechanism)
         });
     }
     series
@@ -136,10 +132,8 @@ fn dot(summary: &Summary, run: &RunDot) -> Sample {
     let clearance = run
         .h_min_m
         .map_or(String::new(), |h| format!(", clearance {:.2} nm", 1e9 * h));
-    let mechanism = run.mechanism.as_deref();
-    let mechanism = mechanism.map_or(String::new(), |name| {
-        format!(" ({})", name.replace('_', " "))
-    });
+    let mechanism = run.mechanism;
+    let mechanism = mechanism.map_or(String::new(), |one| format!(" ({})", one.words()));
     let y = run.amplitude_g;
     Sample {
         x: summary.points[run.point].pulse_ms,

@@ -244,7 +244,7 @@ fn mechanism_words(mechanism: &MechanismJson) -> String {
         });
     format!(
         "{}: {}{}{}{began}{}dimple {:.2}, air bearing {:.2} of the steady dimple force, varied by {:.2}",
-        mechanism.name.replace('_', " "),
+        evidence.mechanism().words(),
         until(evidence.limiter_before_s, "limiter closed"),
         until(evidence.lift_tab_before_s, "lift tab closed"),
         until(evidence.dimple_open_before_s, "dimple open"),

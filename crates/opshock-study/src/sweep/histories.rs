@@ -162,7 +162,7 @@ pub(super) fn record(
         start_s: input.start_s,
         verdict: verdict.to_owned(),
         t_fail_s,
-        mechanism: FailureEvidence::of(&outcome).map(|evidence| evidence.mechanism().as_str()),
+        mechanism: FailureEvidence::of(&outcome).map(|evidence| evidence.mechanism()),
         effects: outcome
             .effects
             .iter()

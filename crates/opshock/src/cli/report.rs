@@ -18,6 +18,7 @@ use opshock_study::store::{Audit, Status, Summary, aside, results};
 use opshock_study::study::Study;
 use opshock_study::sweep::added_points;
 use serde::Serialize;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Show the critical shocks of a store; write table, figure and HTML page
@@ -98,11 +99,12 @@ pub fn run(
 ) -> Result<Exit, Failure> {
     let source = stored::source(&arguments.source, global)?;
     let (results, study) = stored::load(&source, console)?;
-    let mut stored = Stored::of(&source.folder, &results, study);
     let folder = source.folder;
-    if arguments.out.is_some() {
-        stored::name_mechanisms(&mut stored, &folder, &results)?;
-    }
+    let mechanisms = match arguments.out {
+        Some(_) => results.mechanisms(&folder)?,
+        None => HashMap::new(),
+    };
+    let stored = Stored::of(&folder, &results, study, &mechanisms);
     // Not this one: it may be newer than the numbers.
     let program = results.session.program();
     let accuracy = arguments.accuracy.as_deref().map(measured).transpose()?;

@@ -211,7 +211,7 @@ fn header(study: &Study, shot: &Shot, outcome: &Outcome) -> HistoryHeader {
             .map_or("none", verdict_word)
             .to_owned(),
         t_fail_s: t_fail_s(study, outcome),
-        mechanism: FailureEvidence::of(outcome).map(|evidence| evidence.mechanism().as_str()),
+        mechanism: FailureEvidence::of(outcome).map(|evidence| evidence.mechanism()),
         effects: outcome
             .effects
             .iter()

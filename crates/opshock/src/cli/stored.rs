@@ -5,12 +5,14 @@ use super::failure::{Failure, Fault};
 use super::global::GlobalArgs;
 use super::study_file;
 use anyhow::Context as _;
+use opshock_solver::simulation::Mechanism;
 use opshock_study::report::{RunDot, Saving, ShockFilm, savings};
 use opshock_study::store::folder::session;
 use opshock_study::store::{self, Audit, Loaded, Owner, Results, StoreError, Summary};
 use opshock_study::study::Study;
 use opshock_study::sweep::added_points::refined;
 use opshock_study::sweep::{SweepInput, replay};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Folder of the store of the study file at `path`: `--store`, else the file's name with `.opshock` in
@@ -112,23 +114,30 @@ pub struct Stored {
 /// A store that is empty, damaged, newer or of another study.
 pub fn read(source: &Source, console: &Console) -> Result<Stored, Failure> {
     let (results, study) = load(source, console)?;
-    Ok(Stored::of(&source.folder, &results, study))
+    Ok(Stored::of(&source.folder, &results, study, &HashMap::new()))
 }
 
 impl Stored {
-    /// What `results` of the store in `folder` say of its study, and what lies beside them.
-    pub fn of(folder: &Path, results: &Results, resolved_study: Option<String>) -> Self {
+    /// What `results` of the store in `folder` say of its study, and what lies beside them; with the `mechanisms` that
+    /// [`Results::mechanisms`] found, where they are wanted.
+    pub fn of(
+        folder: &Path,
+        results: &Results,
+        resolved_study: Option<String>,
+        mechanisms: &HashMap<usize, Mechanism>,
+    ) -> Self {
         let runs = results
             .runs
             .iter()
+            .enumerate()
             // Runs with changed discretisation parameters may end otherwise: not outcomes of the study.
-            .filter(|row| row.levels.is_none())
-            .map(|row| RunDot {
+            .filter(|(_, row)| row.levels.is_none())
+            .map(|(place, row)| RunDot {
                 point: row.point,
                 amplitude_g: row.amplitude_g,
                 verdict: row.result().verdict.as_str().to_owned(),
                 h_min_m: row.result().h_min_m,
-                mechanism: None,
+                mechanism: mechanisms.get(&place).copied(),
             });
         Self {
             savings: savings(results),
@@ -216,25 +225,6 @@ pub fn owner(loaded: &mut Loaded, folder: &Path) -> Result<Owner, StoreError> {
         what: "it does not hold its study, and study.resolved.toml is missing".into(),
         hint: "`opshock sweep` of its study writes both anew and uses what is whole",
     })
-}
-
-/// Gives the simulations of `stored` the mechanisms that the histories kept in `folder` name.
-///
-/// # Errors
-///
-/// E182: a history is damaged; E183: one cannot be read.
-pub fn name_mechanisms(
-    stored: &mut Stored,
-    folder: &Path,
-    results: &Results,
-) -> Result<(), StoreError> {
-    let names = results.mechanisms(folder)?;
-    let rows = results.runs.iter().enumerate();
-    let own = rows.filter(|(_, row)| row.levels.is_none());
-    for ((place, _), run) in own.zip(&mut stored.runs) {
-        run.mechanism = names.get(&place).cloned();
-    }
-    Ok(())
 }
 
 /// The kept shock that a report shows moving: the first, by name, of a deformable ramp that fails,

@@ -4,6 +4,7 @@ use super::text::{escaped, explained, signed};
 use crate::report::outcome_map::RunDot;
 use crate::report::{table, terms};
 use crate::store::summary::{PointSummary, Summary};
+use opshock_solver::simulation::Mechanism;
 use std::fmt::Write as _;
 
 /// The table with its heading; with the mechanism of the lowest failure, where it is known.
@@ -68,8 +69,7 @@ pub(super) fn section(summary: &Summary, runs: &[RunDot]) -> String {
 /// Mechanism of the lowest failure of a row, the only run of it that has one.
 fn mechanism(runs: &[RunDot], row: usize) -> Option<String> {
     let mut of_row = runs.iter().filter(|run| run.point == row);
-    let name = of_row.find_map(|run| run.mechanism.as_ref())?;
-    Some(name.replace('_', " "))
+    of_row.find_map(|run| run.mechanism).map(Mechanism::words)
 }
 
 /// The status, which does not say that all is well where a flag says otherwise.

@@ -157,7 +157,8 @@ fn sections(source: &ReportSource<'_>, layout: &Layout) -> Vec<Section> {
     }
     if let Some(film) = source.film {
         let body = format!(
-            "<p>{}. Displacements are drawn some hundred times too large; an arm in contact is orange, and a slider whose run has ended or whose asperities bear more than 0.1 mN. \
+            "<p>{}. Displacements are drawn some hundred times too large; an arm in contact is orange, and a slider whose \
+             run has ended or whose asperities bear more than 0.1 mN. \
              The figures of a run without this script: <code>opshock run --plots</code>.</p>\n\
              <div id=\"film-stage\"></div>",
             escaped(&film.label)

@@ -2,7 +2,7 @@
 
 use crate::search::Sign;
 use crate::store::summary::AxisValue;
-use opshock_solver::simulation::{HeadColumns, History, StructureColumns};
+use opshock_solver::simulation::{HeadColumns, History, Mechanism, StructureColumns};
 
 /// Number of the history file format; raised when a reader of the older one would go wrong.
 pub const HISTORY_FORMAT: u32 = 2;
@@ -34,8 +34,8 @@ pub struct HistoryHeader {
     pub verdict: String,
     /// Time of touch on the study's time axis, s.
     pub t_fail_s: Option<f64>,
-    /// Why it failed ([`Mechanism::as_str`](opshock_solver::simulation::Mechanism::as_str)).
-    pub mechanism: Option<&'static str>,
+    /// Why it failed.
+    pub mechanism: Option<Mechanism>,
     /// Names of the simulated effects.
     pub effects: Vec<String>,
     /// The run ([`KeptRun::content`](super::KeptRun::content)) when the file belongs to a store; else empty.

@@ -9,13 +9,13 @@ use crate::store::summary::AxisValue;
 use crate::store::{aside, hdf5_file, seal};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Group, Location};
-use opshock_solver::simulation::{History, PressureFields};
+use opshock_solver::simulation::{History, Mechanism, PressureFields};
 use std::path::Path;
 
 /// Writes a history in the layout of the [module](super). Root attributes: `format` (`opshock history`),
 /// `format_version`, `program_version`, `commit`, `physics_structure`, `physics_head`, `study`, `study_digest`,
 /// `run_blake3` (empty outside a store), `amplitude_g`, `start_s`, `verdict`, `t_fail_s` (NaN when there is none),
-/// `mechanism` (empty when there is none), `effects`, and one attribute `point_KEY` per coordinate of the simulated point: a number where it is one. Every
+/// `mechanism` (empty likewise), `effects`, and one attribute `point_KEY` per coordinate of the simulated point: a number where it is one. Every
 /// dataset has `units`, `description` and `time`, the path of the dataset it is given on; every group has
 /// `description`.
 ///
@@ -61,7 +61,8 @@ fn fill(root: &Group, history: &History, header: &HistoryHeader) -> hdf5::Result
     number(root, "start_s", header.start_s)?;
     text(root, "verdict", &header.verdict)?;
     number(root, "t_fail_s", header.t_fail_s.unwrap_or(f64::NAN))?;
-    text(root, "mechanism", header.mechanism.unwrap_or_default())?;
+    let mechanism = header.mechanism.map_or("", Mechanism::as_str);
+    text(root, "mechanism", mechanism)?;
     text(root, "effects", &header.effects.join(" "))?;
 
     datasets(root, &root_columns(history, header.start_s), "/time_s")?;

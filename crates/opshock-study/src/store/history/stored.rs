@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
+use opshock_solver::simulation::Mechanism;
 
 use crate::store::error::StoreError;
 use crate::store::hdf5_file;
@@ -21,8 +22,8 @@ pub struct StoredHistory {
     pub amplitude_g: f64,
     /// `survives`, `fails`, `undecided`.
     pub verdict: String,
-    /// Why it failed; empty where it did not, or an earlier program wrote the file.
-    pub mechanism: String,
+    /// Why it failed; none where it did not, or a program wrote the file that had no such name.
+    pub mechanism: Option<Mechanism>,
     /// Columns by name, in SI.
     pub columns: BTreeMap<String, Vec<f64>>,
 }
@@ -81,7 +82,9 @@ fn content(inside: &[u8]) -> hdf5::Result<StoredHistory> {
         point,
         amplitude_g: file.attr("amplitude_g")?.read_scalar()?,
         verdict: text("verdict")?,
-        mechanism: text("mechanism").unwrap_or_default(),
+        mechanism: text("mechanism")
+            .ok()
+            .and_then(|word| Mechanism::from_word(&word)),
         columns,
     })
 }

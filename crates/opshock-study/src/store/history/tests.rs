@@ -2,7 +2,7 @@ use super::*;
 use crate::search::Sign;
 use crate::store::summary::AxisValue;
 use opshock_solver::simulation::History;
-use opshock_solver::simulation::{HeadColumns, StructureColumns};
+use opshock_solver::simulation::{HeadColumns, Mechanism, StructureColumns};
 
 /// Structure at 0, 1, 2, 3 us; head at 0, 1.5, 2.5 us, where it touches.
 fn history() -> History {
@@ -58,7 +58,7 @@ fn header() -> HistoryHeader {
         start_s: 5e-4,
         verdict: "fails".into(),
         t_fail_s: Some(5.025e-4),
-        mechanism: Some("ramp_impact"),
+        mechanism: Some(Mechanism::RampImpact),
         effects: vec!["disk".into(), "ramp.rigid".into()],
         run: String::new(),
     }

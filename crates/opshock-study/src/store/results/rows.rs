@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use opshock_solver::scene::discretisation::Levels;
+use opshock_solver::simulation::Mechanism;
 
 use crate::provenance;
 use crate::search::{ProbeResult, Purpose, Verdict};
@@ -126,12 +127,12 @@ impl Results {
     }
 
     /// Why the lowest failing run of each point at the study's own resolution fails, by place in [`Results::runs`], where its
-    /// history in the store says so.
+    /// history in the store says so. Reads these histories whole.
     ///
     /// # Errors
     ///
     /// As [`KeptRun::read`].
-    pub fn mechanisms(&self, store: &Path) -> Result<HashMap<usize, String>, StoreError> {
+    pub fn mechanisms(&self, store: &Path) -> Result<HashMap<usize, Mechanism>, StoreError> {
         let mut lowest: HashMap<usize, (usize, KeptRun<'_>)> = HashMap::new();
         for (place, (row, kept)) in self.runs.iter().zip(self.kept_by_row()).enumerate() {
             let fails = matches!(row.run.result.verdict, Verdict::Fails { .. });
@@ -143,16 +144,12 @@ impl Results {
                 lowest.insert(row.point, (place, kept));
             }
         }
-        let mut names = HashMap::new();
+        let mut mechanisms = HashMap::new();
         for (place, kept) in lowest.into_values() {
-            let name = kept
-                .read(store)?
-                .map_or(String::new(), |history| history.mechanism);
-            if !name.is_empty() {
-                names.insert(place, name);
-            }
+            let history = kept.read(store)?;
+            mechanisms.extend(history.and_then(|history| Some((place, history.mechanism?))));
         }
-        Ok(names)
+        Ok(mechanisms)
     }
 
     /// The run of each row, when it is one at the study's own resolution. Points of equal content share their runs,
