@@ -1,5 +1,6 @@
 //! What a store keeps when everything around it fails.
 
+mod acknowledged;
 mod faults;
 mod flipped;
 mod full_disk;

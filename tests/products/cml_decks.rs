@@ -89,6 +89,22 @@ fn a_deck_becomes_a_study_and_says_what_became_what() {
 }
 
 #[test]
+fn a_deck_without_ramp_becomes_a_study_that_runs() {
+    let at = tempfile::tempdir().unwrap();
+    let deck = "dynluls_shock_200G_0p5ms_no_ramp.def";
+    let done = import(at.path(), &decks(), deck, &[]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let study = Study::from_path(&at.path().join("out/study.toml"), &[]).unwrap();
+    assert_eq!(study.points.len(), 2);
+    assert!((study.points[0].scene.pulse.width_s - 5e-4).abs() < 1e-12);
+    let words =
+        "run out/study.toml --sign + --amplitude-g 200 --set resolution.preset=coarse --json";
+    let done = Done::of(at.path(), &words.split(' ').collect::<Vec<_>>());
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert_eq!(done.json()["verdict"], "survives", "{}", done.stderr);
+}
+
+#[test]
 fn damaged_decks_get_their_message() {
     let at = tempfile::tempdir().unwrap();
     let beside = at.path().join("beside");

@@ -139,6 +139,12 @@ fn a_stop_between_brackets_and_uncertainties_leaves_every_bracket() {
         assert!(high / low < 1.0101, "{low} to {high}");
     }
     let events = recorder.events();
+    let is_said = |event: &Event| matches!(event, Event::Finished { bracketed: 9, .. });
+    assert!(events.iter().any(is_said));
+    let table = opshock_study::report::table::terminal(&end.summary);
+    let words =
+        "9 points: 0 critical shocks found, 9 not finished (9 of them lack their uncertainty only)";
+    assert!(table.contains(words), "{table}");
     let purposes = events.iter().filter_map(|event| match event {
         Event::ProbeDone { purpose, .. } => Some(*purpose),
         _ => None,

@@ -130,10 +130,8 @@ pub fn terminal(summary: &Summary) -> String {
 /// How many points are answered, and what became of the others.
 pub fn counts(summary: &Summary) -> String {
     let totals = &summary.totals;
-    let lacks_uncertainty = |row: &&PointSummary| {
-        row.status == Status::Open && row.survived_g.and(row.failed_g).is_some()
-    };
-    let bracketed = summary.points.iter().filter(lacks_uncertainty).count();
+    let lacking = summary.points.iter().filter(|row| row.lacks_uncertainty());
+    let bracketed = lacking.count();
     let open = match bracketed {
         0 => "not finished".to_owned(),
         bracketed => format!("not finished ({bracketed} of them lack their uncertainty only)"),

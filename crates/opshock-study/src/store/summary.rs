@@ -122,6 +122,11 @@ pub struct PointSummary {
 }
 
 impl PointSummary {
+    /// Bracketed, and not finished since its uncertainty is missing.
+    pub fn lacks_uncertainty(&self) -> bool {
+        self.status == Status::Open && self.survived_g.and(self.failed_g).is_some()
+    }
+
     /// The critical shock, or the bound that is known of it, G.
     pub fn known_g(&self) -> Option<f64> {
         match self.status {

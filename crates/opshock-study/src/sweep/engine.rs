@@ -6,20 +6,19 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{RecvTimeoutError, Sender};
 
 use super::forgotten::forget_undecided;
 use super::guard;
-use super::histories::{self, Wanted};
 use super::input::SweepInput;
 use super::lucky::lucky;
 use super::neighbours::Neighbours;
 use super::options::{Ending, SweepEnd, SweepOptions};
 use super::outlook::Outlook;
 use super::progress::{Event, Progress};
+use super::recording::Recording;
 use super::registry::{AnsweredProbe, Job, Registry};
 use super::shard::Shard;
 use super::simulator::Simulator;
@@ -231,8 +230,10 @@ impl<'a> Run<'a> {
             core_use: self.busy_s / (wall_s * self.options.threads as f64),
         };
         self.send(Message::Checkpoint(Box::new(results)));
+        let rows = end.summary.points.iter();
         self.notify(Event::Finished {
             totals: end.summary.totals,
+            bracketed: rows.filter(|row| row.lacks_uncertainty()).count() as u64,
             wall_s,
             core_use: end.core_use,
         });
@@ -250,41 +251,26 @@ impl<'a> Run<'a> {
         pool: &rayon::ThreadPool,
         folder: &Path,
     ) -> Result<Option<Ending>, StoreError> {
-        let wanted = histories::wanted(self.input, &self.registry);
-        let busy_ms = AtomicU64::new(0);
-        let this = &*self;
-        // Warnings; the reason where a run was omitted.
-        let recorded = pool.install(|| {
-            use rayon::prelude::*;
-            let record = |one: &Wanted| {
-                let kept = one.is_kept(this.input, folder);
-                if kept == Ok(true) {
-                    return Ok(Ok(None));
-                }
-                if let Some(ending) = this.stopped() {
-                    return Ok(Err(ending));
-                }
-                let began = Instant::now();
-                let panicked = guard::record(this.input, simulator, one, folder)?;
-                busy_ms.fetch_add(began.elapsed().as_millis() as u64, Ordering::Relaxed);
-                Ok(Ok(panicked.or(kept.err())))
-            };
-            let recorded = wanted.par_iter().map(record);
-            recorded.collect::<Result<Vec<_>, StoreError>>()
-        })?;
-        self.busy_s += busy_ms.into_inner() as f64 * 1e-3;
-        let mut stopped = None;
-        for one in recorded {
-            match one {
-                Ok(None) => {}
-                Ok(Some(message)) => self.notify(Event::Warning {
-                    code: "history",
-                    message,
-                }),
-                Err(ending) => stopped = Some(ending),
-            }
+        let recorded = Recording {
+            input: self.input,
+            simulator,
+            pool,
+            folder,
+            stopped: &|| self.stopped(),
+            report: &|event| {
+                // The writer's error is taken when it is joined.
+                let _ = self.to_writer.send(Message::Report(event));
+            },
+        };
+        let recorded = recorded.of_final_points(&self.registry)?;
+        self.busy_s += recorded.busy_s;
+        for message in recorded.warnings {
+            self.notify(Event::Warning {
+                code: "history",
+                message,
+            });
         }
-        Ok(stopped)
+        Ok(recorded.stopped)
     }
 
     fn hand_out(&mut self, simulator: &dyn Simulator, pool: &rayon::ThreadPool) -> Ending {

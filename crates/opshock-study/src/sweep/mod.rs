@@ -26,6 +26,7 @@ mod pace;
 pub mod physics;
 mod probed;
 pub mod progress;
+mod recording;
 mod registry;
 mod remainder;
 mod replay;

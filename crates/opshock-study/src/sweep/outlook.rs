@@ -65,7 +65,13 @@ impl Outlook {
         self.due_at_runs = n_runs + 1 + n_runs / SHARE;
         self.renewed = Instant::now();
         self.not_before = self.renewed + REST * began.elapsed();
+        let count = |is_it: &dyn Fn(usize) -> bool| {
+            let all = 0..input.points.len();
+            all.filter(|&point| is_it(point)).count() as u64
+        };
         Some(Estimate {
+            bracketed: count(&|point| registry.campaign().is_final(point)),
+            answered: count(&|point| registry.is_final(point)),
             runs_done: n_runs as u64,
             runs_left: left.runs,
             core_s: is_measured.then(|| left.core_s.narrowed(done_s)),

@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 /// Time between two lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
+/// Time between two looks for a signal.
+const TICK: Duration = Duration::from_millis(50);
+
 /// A command that runs for long.
 pub struct LongRun<'a> {
     /// When nothing new begins.
@@ -26,6 +29,7 @@ impl<'a> LongRun<'a> {
     pub fn begin(budget: Option<Duration>, console: &'a Console) -> Result<Self, Failure> {
         let stop = StopFlag::default();
         stop.listen().context("cannot listen to signals")?;
+        acknowledge(stop.clone(), *console);
         let began = Instant::now();
         Ok(Self {
             until: Until::after(budget, stop),
@@ -62,4 +66,15 @@ impl<'a> LongRun<'a> {
         let signal = signal.and_then(|number| u8::try_from(number).ok());
         signal.map_or(Exit::Budget, Exit::Signal)
     }
+}
+
+/// Says at once that a signal has been heard: what is at work may take seconds.
+fn acknowledge(stop: StopFlag, console: Console) {
+    std::thread::spawn(move || {
+        while !stop.is_asked() {
+            std::thread::sleep(TICK);
+        }
+        console
+            .note("stopping: simulations at work end first; a second signal (Ctrl-C) ends at once");
+    });
 }

@@ -22,13 +22,16 @@ struct State {
     rows: BTreeMap<usize, (ProgressBar, u64)>,
     /// Number of changes, to find the row that changed longest ago.
     clock: u64,
-    answered: usize,
 }
 
 impl Bars {
     /// Begins with a line naming the study.
     pub fn start(study: &str) -> Bars {
-        let table = MultiProgress::with_draw_target(ProgressDrawTarget::stderr());
+        Bars::on(ProgressDrawTarget::stderr(), study)
+    }
+
+    fn on(target: ProgressDrawTarget, study: &str) -> Bars {
+        let table = MultiProgress::with_draw_target(target);
         let whole = table.add(ProgressBar::new_spinner().with_style(style("{spinner} {wide_msg}")));
         whole.set_message(format!("sweep of {study}"));
         whole.enable_steady_tick(Duration::from_millis(120));
@@ -39,7 +42,6 @@ impl Bars {
             points: Vec::new(),
             rows: BTreeMap::new(),
             clock: 0,
-            answered: 0,
         }))
     }
 }
@@ -107,7 +109,6 @@ impl Progress for Bars {
                 summary,
                 is_stored,
             } => {
-                state.answered += 1;
                 state.hide(*point);
                 // An earlier sweep or round printed it.
                 if *is_stored {
@@ -123,16 +124,15 @@ impl Progress for Bars {
                 );
                 state.say(line.trim_end());
             }
-            Event::Estimated(estimate) => state.whole.set_message(format!(
-                "{} of {} points, {}",
-                state.answered,
-                state.points.len(),
-                left(estimate)
-            )),
+            Event::Estimated(estimate) => {
+                let words = left(estimate, state.points.len());
+                state.whole.set_message(words);
+            }
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
             Event::Stopping { in_flight, ending } => state.say(&stopping(*in_flight, *ending)),
             Event::Finished {
                 totals,
+                bracketed,
                 wall_s,
                 core_use,
             } => {
@@ -141,9 +141,121 @@ impl Progress for Bars {
                     state.hide(point);
                 }
                 state.whole.finish_and_clear();
-                state.say(&finished(totals, *wall_s, *core_use));
+                state.say(&finished(totals, *bracketed, *wall_s, *core_use));
             }
             Event::ProbeDone { .. } | Event::Checkpoint { .. } => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Result;
+    use std::sync::Arc;
+
+    use indicatif::TermLike;
+
+    use super::*;
+    use crate::search::Sign;
+    use crate::store::summary::Totals;
+    use crate::sweep::progress::Estimate;
+    use crate::sweep::spread::Spread;
+
+    /// A terminal that keeps what is written.
+    #[derive(Clone, Debug, Default)]
+    struct Written(Arc<Mutex<String>>);
+
+    impl Written {
+        fn add(&self, text: &str) -> Result<()> {
+            self.0.lock().expect("sound").push_str(text);
+            Ok(())
+        }
+    }
+
+    impl TermLike for Written {
+        fn width(&self) -> u16 {
+            120
+        }
+        fn move_cursor_up(&self, _: usize) -> Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> Result<()> {
+            self.add(&format!("{text}\n"))
+        }
+        fn write_str(&self, text: &str) -> Result<()> {
+            self.add(text)
+        }
+        fn clear_line(&self) -> Result<()> {
+            Ok(())
+        }
+        fn flush(&self) -> Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn brackets_are_counted_before_answers_and_what_ends_early_says_what_it_has() {
+        let written = Written::default();
+        let target = ProgressDrawTarget::term_like(Box::new(written.clone()));
+        let bars = Bars::on(target, "Fig. 13");
+        let label = |pulse_ms| PointLabel {
+            ramp: "rigid".into(),
+            pulse_ms,
+            sign: Sign::Minus,
+            axes: Vec::new(),
+        };
+        bars.event(&Event::Started {
+            study: "Fig. 13".into(),
+            points: vec![label(0.5), label(1.0), label(2.0)],
+            threads: 2,
+            stored_runs: 0,
+        });
+        bars.event(&Event::Bracket {
+            point: 1,
+            survived_g: Some(331.25),
+            failed_g: Some(334.5),
+            runs: 9,
+        });
+        bars.event(&Event::Estimated(Estimate {
+            bracketed: 3,
+            answered: 0,
+            runs_done: 27,
+            runs_left: Spread {
+                min: 40.0,
+                likely: 50.0,
+                max: 60.0,
+            },
+            ..Estimate::default()
+        }));
+        // Drawn at most some times a second.
+        std::thread::sleep(Duration::from_millis(300));
+        bars.event(&Event::Finished {
+            totals: Totals {
+                points: 3,
+                open: 3,
+                runs: 27,
+                ..Totals::default()
+            },
+            bracketed: 3,
+            wall_s: 4.0,
+            core_use: 1.0,
+        });
+        let text = written.0.lock().expect("sound").clone();
+        for part in [
+            "331.2 to 334.5 G         9 runs",
+            "3 of 3 points bracketed, 0 answered; 27 runs done, 40 to 60 left",
+            "3 points: 3 bracketed without their uncertainty; 27 runs, 0 without verdict",
+        ] {
+            assert!(text.contains(part), "{part}: {text}");
         }
     }
 }

@@ -39,6 +39,10 @@ impl std::fmt::Display for PointLabel {
 /// What is left, with its range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
+    /// Points whose bracket is known.
+    pub bracketed: u64,
+    /// Points whose answer is known.
+    pub answered: u64,
     /// Simulations finished, stored ones included.
     pub runs_done: u64,
     /// Simulations left.
@@ -130,6 +134,8 @@ pub enum Event {
     Finished {
         /// Totals.
         totals: Totals,
+        /// Points that lack their uncertainty alone.
+        bracketed: u64,
         /// Measured time, s.
         wall_s: f64,
         /// Share of the threads' time spent simulating.

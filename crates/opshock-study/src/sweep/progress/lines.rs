@@ -84,15 +84,16 @@ impl<W: Write + Send> Progress for Lines<W> {
             }
             Event::Estimated(estimate) if state.reported_at.elapsed() >= EVERY => {
                 state.reported_at = Instant::now();
-                state.say(&left(estimate));
+                state.say(&left(estimate, state.points.len()));
             }
             Event::Warning { code, message } => state.say(&format!("warning {code}: {message}")),
             Event::Stopping { in_flight, ending } => state.say(&stopping(*in_flight, *ending)),
             Event::Finished {
                 totals,
+                bracketed,
                 wall_s,
                 core_use,
-            } => state.say(&finished(totals, *wall_s, *core_use)),
+            } => state.say(&finished(totals, *bracketed, *wall_s, *core_use)),
             Event::PointStarted { .. }
             | Event::ProbeDone { .. }
             | Event::Bracket { .. }
@@ -130,10 +131,11 @@ mod tests {
             });
             lines.event(&Event::Finished {
                 totals: Totals {
-                    points: 1,
-                    open: 1,
+                    points: 3,
+                    open: 3,
                     ..Totals::default()
                 },
+                bracketed: 2,
                 wall_s: 119.5,
                 core_use: 0.96,
             });
@@ -141,7 +143,7 @@ mod tests {
         assert_eq!(
             String::from_utf8(text).expect("text"),
             "sweep of Fig. 13\n1 points, 2 threads, 7 runs in the store\nwarning lucky: found\n\
-             1 points: 1 open; 0 runs, 0 without verdict; 2 min, cores 96 % busy\n"
+             3 points: 2 bracketed without their uncertainty, 1 not finished; 0 runs, 0 without verdict; 2 min, cores 96 % busy\n"
         );
     }
 }

@@ -25,12 +25,12 @@ fn short(value: f64) -> String {
     format!("{value:.*}", digits.max(0) as usize)
 }
 
-/// What is left, in words.
-pub(super) fn left(estimate: &Estimate) -> String {
+/// What is done of `points` and left, in words.
+pub(super) fn left(estimate: &Estimate, points: usize) -> String {
     let Spread { min, max, .. } = estimate.runs_left;
     let runs = format!(
-        "{} runs done, {min:.0} to {max:.0} left",
-        estimate.runs_done
+        "{} of {points} points bracketed, {} answered; {} runs done, {min:.0} to {max:.0} left",
+        estimate.bracketed, estimate.answered, estimate.runs_done
     );
     match estimate.left_s {
         Some(left_s) if max > 0.0 => {
@@ -59,15 +59,16 @@ pub(super) fn stopping(in_flight: usize, ending: Ending) -> String {
     }
 }
 
-/// Last line.
-pub(super) fn finished(totals: &Totals, wall_s: f64, core_use: f64) -> String {
+/// Last line. `bracketed` points lack their uncertainty alone.
+pub(super) fn finished(totals: &Totals, bracketed: u64, wall_s: f64, core_use: f64) -> String {
     let mut parts = Vec::new();
     for (count, word) in [
-        (totals.ok, "bracketed"),
+        (totals.ok, "answered"),
         (totals.above_range, "above the range"),
         (totals.below_range, "below the range"),
         (totals.undecided, "undecided"),
-        (totals.open, "open"),
+        (bracketed, "bracketed without their uncertainty"),
+        (totals.open - bracketed, "not finished"),
     ] {
         if count > 0 {
             parts.push(format!("{count} {word}"));
