@@ -42,13 +42,21 @@ const MIRRORED_CORRECTED: f64 = 1e-2;
 /// Of the preset standard.
 pub(super) const TOLERANCE: f64 = 0.02;
 
-/// A head of some 100 to 200 cells, light or heavy, fast or slow, and what its mirrored disk may change (`MIRRORED`); `None`
-/// when it does not fly.
+/// A random head.
+pub(super) struct RandomHead {
+    pub(super) model: HeadModel,
+    /// What its mirrored disk may change (`MIRRORED`).
+    mirrored: f64,
+    /// Speed of the disk under the slider.
+    pub(super) disk_m_per_s: f64,
+}
+
+/// A head of some 100 to 200 cells, light or heavy, fast or slow; `None` when it does not fly.
 pub(super) fn random_head(
     seeded: &mut Seeded,
     asperity_contact: AsperityContact,
     tolerance: f64,
-) -> Option<(HeadModel, f64)> {
+) -> Option<RandomHead> {
     let mut suspension = default_suspension();
     suspension.gram_load_n *= seeded.log_between(0.6, 1.6);
     suspension.dimple.stiffness_n_per_m *= seeded.log_between(0.3, 3.0);
@@ -83,13 +91,18 @@ pub(super) fn random_head(
     resolution.tolerance = tolerance;
     resolution.coupling_tolerance = 2e-3;
     let (slider, suspension) = (&drive.slider, &drive.suspension);
+    let [x, y] = film.disk_velocity_m_per_s();
     let model = HeadModel::build(suspension, slider, film, flight, &resolution, 0.0);
     let mirrored = if correction_cells > 0 {
         MIRRORED_CORRECTED
     } else {
         MIRRORED
     };
-    Some((model.expect("head"), mirrored))
+    Some(RandomHead {
+        model: model.expect("head"),
+        mirrored,
+        disk_m_per_s: x.hypot(y),
+    })
 }
 
 fn judge(run: &HeadRun) {
@@ -172,7 +185,9 @@ impl RandomShock {
 fn one(seed: u64) -> Option<bool> {
     let _named = OnPanic(seed);
     let mut seeded = Seeded::new(seed);
-    let (model, mirrored) = random_head(&mut seeded, AsperityContact::default(), TOLERANCE)?;
+    let RandomHead {
+        model, mirrored, ..
+    } = random_head(&mut seeded, AsperityContact::default(), TOLERANCE)?;
     let shock = RandomShock::of(&mut seeded, 20.0);
     let (load, disk, window_s) = (shock.load(), shock.disk(), shock.window_s);
     let mut workspace = HeadWorkspace::new(&model);

@@ -72,9 +72,15 @@ fn with_head_every(n: u64, seed: u64) -> Pair {
 #[test]
 #[ignore = "slow"]
 fn effects_slow_auto_is_full_for_random_scenes() {
-    let base = base();
+    let (smooth, rough) = (base(), rough_base());
     for seed in seeded::seeds(1000..3000) {
-        random_pair(&base, seed, with_head_every(4, seed));
+        // One head in eight has rough surfaces.
+        let base = if seed.is_multiple_of(32) {
+            &rough
+        } else {
+            &smooth
+        };
+        random_pair(base, seed, with_head_every(4, seed));
         if seed % 100 == 99 {
             println!("seeds below {} agree", seed + 1);
         }
@@ -122,7 +128,7 @@ struct Poison {
 
 /// Every effect that a plan can leave out, but arms, hub, oblique shock, base, limiters and lift tab: where a scene has none it has
 /// no numbers of them.
-const POISONS: [Poison; 11] = [
+const POISONS: [Poison; 12] = [
     Poison {
         effect: "disk.travelling_waves",
         ramp: "none",
@@ -194,6 +200,22 @@ const POISONS: [Poison; 11] = [
         poison: |s| {
             s.gap_forces.asperity_contact = AsperityContact {
                 roughness_m: 0.5e-9,
+                asperities_per_m2: f64::NAN,
+                tip_radius_m: f64::NAN,
+                modulus_pa: f64::NAN,
+                yield_pressure_pa: f64::NAN,
+                friction: f64::NAN,
+            };
+        },
+    },
+    // A head flies and fails between smooth surfaces.
+    Poison {
+        effect: "head.asperity_contact",
+        ramp: "none",
+        asked: Output::CriticalShock,
+        poison: |s| {
+            s.gap_forces.asperity_contact = AsperityContact {
+                roughness_m: 0.0,
                 asperities_per_m2: f64::NAN,
                 tip_radius_m: f64::NAN,
                 modulus_pa: f64::NAN,

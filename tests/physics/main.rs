@@ -33,6 +33,7 @@ mod head_rest;
 mod head_shock;
 mod head_touch;
 mod hub;
+mod impact;
 mod limiters;
 mod mechanism;
 mod mirror;
