@@ -67,6 +67,7 @@ fn a_deck_becomes_a_study_and_says_what_became_what() {
     for (what, found, wanted) in [
         ("load", suspension.gram_load_n, 2.5e-3 * 9.80665),
         ("preload", suspension.gimbal.dimple_preload_n, 1e-3),
+        ("dimple", suspension.dimple.stiffness_n_per_m, 1e8),
         ("flexure", suspension.gimbal.vertical_n_per_m, 15.0),
         ("its pitch", suspension.gimbal.pitch_n_m_per_rad, 1.745e-5),
         ("its roll", suspension.gimbal.roll_n_m_per_rad, 1.745e-5),

@@ -112,10 +112,43 @@ fn documents_slow_best_of_five_clearances_is_shown_as_it_is() {
     prints_in(at.path(), &page, "compare");
 }
 
-/// Rows of README.md are those of the committed table of Fig. 13.
+/// What the page on specifications shows of a drive of the reader's own.
 #[test]
-fn rows_of_the_first_page_are_those_of_the_committed_table() {
-    let page = page("README.md");
+#[ignore = "slow: a specification with its intervals, half a minute"]
+fn documents_slow_specification_of_the_own_drive_is_shown_as_it_is() {
+    let page = page("docs/qualify.md");
+    let at = tempfile::tempdir().unwrap();
+    let mut all = blocks(&page).into_iter();
+    let spec = all.find(|(kind, text)| *kind == "toml" && text.starts_with("spec_format"));
+    std::fs::write(at.path().join("spec.toml"), spec.unwrap().1).unwrap();
+    let (_, commands) = all.next().unwrap();
+    let words = |line: &str| -> Vec<String> {
+        let words = line.split_whitespace().skip(1);
+        words.map(str::to_owned).collect()
+    };
+    let [new, qualify] = [0, 1].map(|line| words(commands.lines().nth(line).unwrap()));
+    assert_eq!(new, ["new", ">", "my-drive.toml"]);
+    let drive = Done::of(at.path(), &["new"]).stdout;
+    std::fs::write(at.path().join("my-drive.toml"), drive).unwrap();
+    let qualify: Vec<&str> = qualify.iter().map(String::as_str).collect();
+    let done = Done::of(at.path(), &qualify);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let (_, shown) = all.next().unwrap();
+    for line in shown.lines() {
+        assert!(done.stdout.contains(line), "{line}\n{}", done.stdout);
+    }
+}
+
+/// Rows of Fig. 13 that pages show are those of its committed table.
+#[test]
+fn rows_of_pages_are_those_of_the_committed_table() {
+    assert!(rows_of_fig13("README.md") >= 2);
+    assert_eq!(rows_of_fig13("docs/paper.md"), 2);
+}
+
+/// Holds a page's rows against the table, and counts them.
+fn rows_of_fig13(name: &str) -> usize {
+    let page = page(name);
     let table = blocks(&page)
         .into_iter()
         .find(|(_, text)| text.starts_with("ramp  "));
@@ -146,7 +179,7 @@ fn rows_of_the_first_page_are_those_of_the_committed_table() {
         );
         found += 1;
     }
-    assert!(found >= 2);
+    found
 }
 
 /// The heading of the table that both pages show.

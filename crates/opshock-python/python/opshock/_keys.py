@@ -277,7 +277,7 @@ class HeadsSuspensionDimple:
     damping_ratio: float | None = None
     """Damping ratio of the closed dimple contact, on the slider's mass. Absent: the study's."""
     stiffness_n_per_m: float | None = None
-    """Stiffness of the closed dimple contact. In N/m. Absent: the study's."""
+    """Stiffness of the closed dimple contact; 1e8 is as good as rigid. In N/m. Absent: the study's."""
 
 
 @dataclass(frozen=True)
@@ -941,7 +941,7 @@ class SuspensionDimple:
     damping_ratio: float | tuple[float, ...] = MISSING
     """Damping ratio of the closed dimple contact, on the slider's mass."""
     stiffness_n_per_m: float | tuple[float, ...] = MISSING
-    """Stiffness of the closed dimple contact. In N/m."""
+    """Stiffness of the closed dimple contact; 1e8 is as good as rigid. In N/m."""
 
 
 @dataclass(frozen=True)
