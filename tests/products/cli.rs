@@ -178,3 +178,40 @@ fn manual_pages_are_written_for_every_command() {
     assert_eq!(both.code, 2);
     assert_eq!(Done::of(folder.path(), &["completions"]).code, 2);
 }
+
+/// A load in another unit: `check` warns, `sweep` starts nothing unless it is accepted.
+#[test]
+fn a_sweep_stops_on_what_is_outside_the_usual_range_unless_it_is_accepted() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("d.toml"), Done::of(at, &["new"]).stdout).unwrap();
+    let heavy = ["--set", "suspension.gram_load_gf=20"];
+    let checked = Done::of(at, &[&["check", "d.toml"], &heavy[..]].concat());
+    assert_eq!(checked.code, 0, "{}", checked.stderr);
+    let is_labelled = |line: &str| line.starts_with("warning: ") && line.contains(" W201 ");
+    assert!(
+        checked.stderr.lines().any(is_labelled),
+        "{}",
+        checked.stderr
+    );
+    assert!(
+        checked
+            .stdout
+            .starts_with("my drive: valid, with a warning that stops a sweep"),
+        "{}",
+        checked.stdout
+    );
+    let sweep = [
+        &["sweep", "d.toml", "--store", "s", "--budget", "0s"],
+        &heavy[..],
+    ]
+    .concat();
+    let stopped = Done::of(at, &sweep);
+    assert_eq!(stopped.code, 3, "{}", stopped.stderr);
+    let hint = "--accept W201 starts all the same";
+    assert!(stopped.stderr.contains(hint), "{}", stopped.stderr);
+    assert!(!at.join("s").exists());
+    let accepted = Done::of(at, &[&sweep[..], &["--accept", "W201"]].concat());
+    assert_eq!(accepted.code, 5, "{}", accepted.stderr);
+    assert!(at.join("s").exists());
+}

@@ -2,6 +2,15 @@
 
 use super::study_reading::{SHORT, read};
 
+/// Numbers with a unit whose valid range is a turn or a whole: no value in another unit stands out of a narrower one.
+const SCALELESS: [&str; 5] = [
+    "disk.run_out_deg",
+    "disk.waves[].phase_deg",
+    "ramp.angle_deg",
+    "slider.angle_deg",
+    "search.scan_gap_pct",
+];
+
 #[test]
 fn the_table_of_keys_is_consistent() {
     use opshock_study::study::key::{Kind, Presence};
@@ -58,6 +67,15 @@ fn the_table_of_keys_is_consistent() {
             "{}: {:?}",
             key.path,
             unit::of_path(key.path).map(|unit| unit.suffix)
+        );
+        // What has a unit can be given in another one.
+        let path = key.path.trim_start_matches("heads[].");
+        let has_scale = number && unit::of_path(key.path).is_some();
+        assert!(
+            !has_scale || key.usual.is_some() != SCALELESS.contains(&path),
+            "{}: {:?}",
+            key.path,
+            key.usual
         );
         if let (Kind::Number(range), Some((low, high))) = (key.kind, key.usual) {
             assert!(

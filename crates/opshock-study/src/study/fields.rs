@@ -63,12 +63,12 @@ fields! {
     PULSE_TABLE_ACCELERATION_UNIT: Option<AccelerationUnit> = Key::optional("pulse.table_acceleration_unit", AccelerationUnit::KIND, "relative numbers, for stretched pulses only", "\"g\"", "Unit of the file's accelerations.").fixed();
     PULSE_TABLE_COLUMNS: Numbers = Key::optional("pulse.table_columns", Kind::Numbers(ABOVE_ZERO), "[1, 2], and no others in the file", "[1, 3]", "Columns of time and acceleration in the file, counted from 1.").code("E153");
     PULSE_TABLE_SKIP_ROWS: Option<usize> = Key::optional("pulse.table_skip_rows", Integer(0, 10_000), "0", "12", "Rows at the beginning of the file that are not read. Rows without a number before the first sample are its header.").code("E153").fixed();
-    PULSE_TABLE_WINDOW_MS: Pair = Key::optional("pulse.table_window_ms", Kind::Pair(ANY), "the whole record", "[-0.5, 3.0]", "The part of the record that is the pulse, in the file's time.").code("E153");
+    PULSE_TABLE_WINDOW_MS: Pair = Key::optional("pulse.table_window_ms", Kind::Pair(ANY), "the whole record", "[-0.5, 3.0]", "The part of the record that is the pulse, in the file's time.").code("E153").usual(0.01, 1000.0);
     PULSE_TABLE_OFFSET: Option<TableOffset> = Key::optional("pulse.table_offset", TableOffset::KIND, "nothing is subtracted", "\"mean_before\"", "Zero line that is subtracted: mean of the samples before table_window_ms, or the straight line through those before and after it.").fixed();
     PULSE_TABLE_FILTER: Option<FilterClass> = Key::optional("pulse.table_filter", FilterClass::KIND, "no filter", "\"cfc_1000\"", "Channel frequency class of SAE J211: phaseless low-pass filter of the record.").fixed();
     PULSE_TABLE_CUTOFF_HZ: Option<f64> = Key::optional("pulse.table_cutoff_hz", Number(ABOVE_ZERO), "no filter", "2000.0", "Butterworth filter instead: frequency at which its two passes give -3 dB.").usual(10.0, 1e5).code("E153").fixed();
     PULSE_TABLE_FILTER_ORDER: Option<u32> = Key::optional("pulse.table_filter_order", Integer(1, 8), "no filter", "4", "Its order in each of the two passes.").code("E153").fixed();
-    PULSE_TABLE_TIME_MS: Numbers = Key::optional("pulse.table_time_ms", Kind::Numbers(FROM_ZERO), "no table", "[0.0, 0.5, 1.0]", "Times of a sampled pulse given here instead of in a file.").code("E153");
+    PULSE_TABLE_TIME_MS: Numbers = Key::optional("pulse.table_time_ms", Kind::Numbers(FROM_ZERO), "no table", "[0.0, 0.5, 1.0]", "Times of a sampled pulse given here instead of in a file.").code("E153").usual(0.001, 100.0);
     PULSE_TABLE_RELATIVE: Numbers = Key::optional("pulse.table_relative", Kind::Numbers(ANY), "no table", "[0.0, 1.0, 0.0]", "Relative accelerations of a sampled pulse; in G when table_scale is measured.").code("E153");
     PULSE_IN_PLANE_X: Option<f64> = Key::optional("pulse.in_plane_x", Number(ANY), "a straight shock", "0.5", "Share of the shock in the plane of the disk, along angle 0: load along x per axial load. Needs a hub.").usual(-10.0, 10.0).code("E138");
     PULSE_IN_PLANE_Y: Option<f64> = Key::optional("pulse.in_plane_y", Number(ANY), "a straight shock", "0.5", "The same a quarter turn on in the disk's sense of rotation.").usual(-10.0, 10.0).code("E138");
@@ -204,9 +204,9 @@ fields! {
     SLIDER_SURFACE_TAPER_ANGLE_DEG: f64 = Key::or("slider.surface.taper_angle_deg", Number(below(0.0, 45.0)), "0.0", "Angle of the taper at the leading edge.").usual(0.0, 5.0).code("E145") => |scene| scene.slider.surface.taper_angle_rad;
     SLIDER_SURFACE_RAIL: Tables = Key::optional("slider.surface.rail", Kind::Tables, "the rails of preset or file", "[{ kind = \"rect\", x_um = [20, 170], y_um = [30, 670], recess_um = 0.25 }]", "Rails; later ones overwrite earlier ones.").code("E135");
     SLIDER_SURFACE_RAIL_KIND: RailKind = Key::required("slider.surface.rail[].kind", RailKind::KIND, "\"rect\"", "Shape of the rail's outline.").fixed();
-    SLIDER_SURFACE_RAIL_X_UM: Pair = Key::optional("slider.surface.rail[].x_um", Kind::Pair(ANY), "a polygon", "[20, 170]", "Range along the length, from the leading edge.").code("E144");
-    SLIDER_SURFACE_RAIL_Y_UM: Pair = Key::optional("slider.surface.rail[].y_um", Kind::Pair(ANY), "a polygon", "[30, 670]", "Range across, from the inner edge.").code("E144");
-    SLIDER_SURFACE_RAIL_POINTS_UM: Corners = Key::optional("slider.surface.rail[].points_um", Kind::Points, "a rectangle", "[[20, 30], [170, 30], [170, 670]]", "Corners of a polygon.").code("E144");
+    SLIDER_SURFACE_RAIL_X_UM: Pair = Key::optional("slider.surface.rail[].x_um", Kind::Pair(ANY), "a polygon", "[20, 170]", "Range along the length, from the leading edge.").code("E144").usual(1.0, 2000.0);
+    SLIDER_SURFACE_RAIL_Y_UM: Pair = Key::optional("slider.surface.rail[].y_um", Kind::Pair(ANY), "a polygon", "[30, 670]", "Range across, from the inner edge.").code("E144").usual(1.0, 2000.0);
+    SLIDER_SURFACE_RAIL_POINTS_UM: Corners = Key::optional("slider.surface.rail[].points_um", Kind::Points, "a rectangle", "[[20, 30], [170, 30], [170, 670]]", "Corners of a polygon.").code("E144").usual(1.0, 2000.0);
     SLIDER_SURFACE_RAIL_RECESS_UM: f64 = Key::required("slider.surface.rail[].recess_um", Number(FROM_ZERO), "0.25", "Recess of the rail from the reference plane.").usual(0.005, 10.0).code("E145");
     // suspension
     SUSPENSION_GRAM_LOAD_GF: f64 = Key::or("suspension.gram_load_gf", LENGTH, "2.2", "Load at the slider's centre.").usual(0.1, 8.0) => |scene| scene.suspension.gram_load_n;
@@ -319,7 +319,7 @@ fields! {
     FAILURE_DAMAGE_PRESSURE_GPA: Option<f64> = Key::optional("failure.damage.pressure_gpa", LENGTH, "no limit", "1.0", "Limit of damage: contact pressure of a nominal area.").usual(0.01, 50.0).code("E127") => |scene| *damage(scene).pressure_pa.get_or_insert_default();
     FAILURE_DAMAGE_CONTACTS: Option<u64> = Key::optional("failure.damage.contacts", Integer(0, 1_000_000), "no limit", "3", "Limit of damage: number of contacts, each a force above 1 % of the steady force of the dimple.").code("E127") => |scene| *damage(scene).episodes.get_or_insert_default();
     // fields
-    FIELDS_TIMES_MS: Numbers = Key::optional("fields.times_ms", Kind::Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152");
+    FIELDS_TIMES_MS: Numbers = Key::optional("fields.times_ms", Kind::Numbers(FROM_ZERO), "no pressure field", "[0.6, 0.8]", "Times at which pressure_field is kept, on the time axis of every output: pressure and height of the film in every cell.").code("E152").usual(0.001, 100.0);
     // output
     OUTPUT_KEEP_HISTORIES: KeepHistories = Key::or("output.keep_histories", KeepHistories::KIND, "\"bracket\"", "Which time histories are stored.");
     OUTPUT_CHECKPOINT_S: f64 = Key::or("output.checkpoint_s", Number(above(0.0, 86_400.0)), "30", "Time between two refreshes of results.h5.").usual(1.0, 3600.0);
