@@ -196,7 +196,7 @@ verify-flight: bootstrap ## 1000 random drives with each gas model fly or cannot
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture flight_slow
 
 .PHONY: verify-contacts
-verify-contacts: bootstrap ## 2000 random shocks on rough surfaces through their contacts: works, pressures, energy balance (25 minutes; OPSHOCK_SEEDS=first..end goes on)
+verify-contacts: bootstrap ## random shocks on rough surfaces through their contacts: works, pressures, energy balance (2000; parts of 400, OPSHOCK_SEEDS=first..end, take some 25 minutes of two cores)
 	cargo test --release --locked -p opshock-tests --test hard -- --ignored --nocapture contacts_slow
 
 .PHONY: verify-yield

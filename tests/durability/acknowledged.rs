@@ -10,6 +10,9 @@ use opshock_tests::program::program as under_test;
 
 const OPSHOCK: &str = env!("CARGO_BIN_EXE_opshock-under-test");
 
+/// Each run takes longer than the time in question.
+const LONG: [&str; 2] = ["--set", "resolution.film_cells=2500"];
+
 fn studies() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies")
 }
@@ -24,8 +27,7 @@ fn sweep(folder: &Path, keep_histories: &str) -> Command {
     for set in sets.filter(|set| !set.starts_with("resolution.film_cells")) {
         command.args(["--set", set]);
     }
-    // Each run takes longer than the time in question.
-    command.args(["--set", "resolution.film_cells=2500"]);
+    command.args(LONG);
     command.args(["--set", &format!("output.keep_histories={keep_histories}")]);
     command
 }
@@ -39,6 +41,7 @@ fn population(folder: &Path) -> Command {
     command.arg("--tolerances").arg(at.join("tolerances.toml"));
     command.arg("--spec").arg(at.join("operating.toml"));
     command.args(["--store", "s.opshock", "-j1"]);
+    command.args(LONG);
     command
 }
 
@@ -59,7 +62,9 @@ fn acknowledged(mut command: Command, is_at_work: impl Fn() -> bool) -> Duration
     let began = Instant::now();
     let lines = BufReader::new(child.stderr.take().expect("piped")).lines();
     let mut lines = lines.map(|line| line.expect("reads"));
-    assert!(lines.any(|line| line.starts_with("stopping: ")));
+    // Where nothing is at work any more, the end is the acknowledgement.
+    let is_heard = |line: &str| line.starts_with("stopping: ") || line.starts_with("saved");
+    assert!(lines.any(|line| is_heard(&line)));
     let after = began.elapsed();
     child.kill().expect("ends");
     child.wait().expect("waits");

@@ -29,7 +29,6 @@ impl<'a> LongRun<'a> {
     pub fn begin(budget: Option<Duration>, console: &'a Console) -> Result<Self, Failure> {
         let stop = StopFlag::default();
         stop.listen().context("cannot listen to signals")?;
-        acknowledge(stop.clone(), *console);
         let began = Instant::now();
         Ok(Self {
             until: Until::after(budget, stop),
@@ -37,6 +36,19 @@ impl<'a> LongRun<'a> {
             last_line: Cell::new(began),
             console,
         })
+    }
+
+    /// From now on says at once that a signal has been heard: what is at work may take seconds. A sweep does so by itself.
+    pub fn acknowledge_signals(&self) {
+        let (stop, console) = (self.until.stop.clone(), *self.console);
+        std::thread::spawn(move || {
+            while !stop.is_asked() {
+                std::thread::sleep(TICK);
+            }
+            console.note(
+                "stopping: simulations at work end first; a second signal (Ctrl-C) ends at once",
+            );
+        });
     }
 
     /// Whole seconds since it began.
@@ -66,15 +78,4 @@ impl<'a> LongRun<'a> {
         let signal = signal.and_then(|number| u8::try_from(number).ok());
         signal.map_or(Exit::Budget, Exit::Signal)
     }
-}
-
-/// Says at once that a signal has been heard: what is at work may take seconds.
-fn acknowledge(stop: StopFlag, console: Console) {
-    std::thread::spawn(move || {
-        while !stop.is_asked() {
-            std::thread::sleep(TICK);
-        }
-        console
-            .note("stopping: simulations at work end first; a second signal (Ctrl-C) ends at once");
-    });
 }

@@ -44,11 +44,12 @@ pub fn run(arguments: &MatchArgs, global: &GlobalArgs, console: &Console) -> Res
     let problem = MatchProblem::from_path(&arguments.file, &study_file::sets(global)?, &Paper)?;
     check_memory(&problem, global)?;
     let folder = stored::folder_of_study(&arguments.file, global);
+    let running = LongRun::begin(arguments.budget, console)?;
+    running.acknowledge_signals();
     let store = problem.open_store(&folder)?;
     for note in &store.notes {
         console.note(&format!("warning: {note}"));
     }
-    let running = LongRun::begin(arguments.budget, console)?;
     let asked_to_stop = || running.until.is_over();
     let progress = |stage: Stage, done: usize, of: usize| {
         running.tell_progress(|| format!("{}: {done} of {of} parameter sets", stage.words()));

@@ -84,6 +84,8 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
         Some(folder) => folder.clone(),
         None => stored::folder_of_study(&arguments.study, global).with_extension("yield"),
     };
+    let running = LongRun::begin(arguments.budget, console)?;
+    running.acknowledge_signals();
     let mut store = tolerances.open_store(&folder, STORE)?;
     for other in &arguments.reuse {
         store.reuse(other)?;
@@ -91,7 +93,6 @@ pub fn run(arguments: &YieldArgs, global: &GlobalArgs, console: &Console) -> Res
     for note in &store.notes {
         console.note(&format!("warning: {note}"));
     }
-    let running = LongRun::begin(arguments.budget, console)?;
     let nominal = spec.requirements.iter();
     let nominal: Vec<Nominal> = nominal.map(|one| Nominal::of(&one.study)).collect();
     let population = Population {

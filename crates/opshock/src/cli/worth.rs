@@ -63,11 +63,11 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
         Some(folder) => folder.clone(),
         None => stored::folder_of_study(&arguments.study, global).with_extension("worth"),
     };
+    let running = LongRun::begin(arguments.budget, console)?;
     let mut store = tolerances.open_store(&folder, STORE)?;
     for note in &store.notes {
         console.note(&format!("warning: {note}"));
     }
-    let running = LongRun::begin(arguments.budget, console)?;
     // Where the pairs begin: critical shocks as a sweep finds them.
     SweepInput::of(&nominal).context("the study has no amplitudes to search")?;
     let kind = match console.quiet {
@@ -78,6 +78,7 @@ pub fn run(arguments: &WorthArgs, global: &GlobalArgs, console: &Console) -> Res
     let (threads, until) = (global.threads(), &running.until);
     let found = worth.starts(&folder.join("critical"), threads, until, kind);
     let found = found.and_then(|starts| {
+        running.acknowledge_signals();
         worth.simulate(&starts, &mut store, threads, until, |done, of| {
             running.tell_progress(|| format!("{done} of {of} pairs, {} s", running.seconds()));
         })
