@@ -90,6 +90,24 @@ fn documents_slow_sweep_of_the_own_drive_is_shown_as_it_is() {
     prints_what_is_shown("sweep");
 }
 
+/// Runs the commands of a block in a folder, what they print into the files that they name; the last one's output.
+fn run_block(at: &Path, commands: &str) -> Done {
+    let commands = commands.replace("\\\n", " ");
+    let one = |command: &str| {
+        let words = command.split_whitespace().skip(1);
+        let words: Vec<&str> = words.map(|word| word.trim_matches('\'')).collect();
+        let to_file = words.iter().position(|&word| word == ">");
+        let done = Done::of(at, &words[..to_file.unwrap_or(words.len())]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        if let Some(place) = to_file {
+            std::fs::write(at.join(words[place + 1]), &done.stdout).unwrap();
+        }
+        done
+    };
+    let mut all: Vec<Done> = commands.lines().map(one).collect();
+    all.pop().unwrap()
+}
+
 /// The best of five clearances: `new`, the sweep, and what `compare` prints.
 #[test]
 #[ignore = "slow: a sweep of 30 points, about a minute"]
@@ -97,18 +115,7 @@ fn documents_slow_best_of_five_clearances_is_shown_as_it_is() {
     let page = page("docs/your-own-drive.md");
     let at = tempfile::tempdir().unwrap();
     let is_it = |block: &(&str, &str)| block.1.contains("new > five.toml");
-    let commands = blocks(&page).into_iter().find(is_it);
-    let commands = commands.unwrap().1.replace("\\\n", " ");
-    for command in commands.lines() {
-        let words = command.split_whitespace().skip(1);
-        let words: Vec<&str> = words.map(|word| word.trim_matches('\'')).collect();
-        let to_file = words.iter().position(|&word| word == ">");
-        let done = Done::of(at.path(), &words[..to_file.unwrap_or(words.len())]);
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        if let Some(place) = to_file {
-            std::fs::write(at.path().join(words[place + 1]), done.stdout).unwrap();
-        }
-    }
+    run_block(at.path(), blocks(&page).into_iter().find(is_it).unwrap().1);
     prints_in(at.path(), &page, "compare");
 }
 
@@ -121,20 +128,8 @@ fn documents_slow_specification_of_the_own_drive_is_shown_as_it_is() {
     let mut all = blocks(&page).into_iter();
     let spec = all.find(|(kind, text)| *kind == "toml" && text.starts_with("spec_format"));
     std::fs::write(at.path().join("spec.toml"), spec.unwrap().1).unwrap();
-    let (_, commands) = all.next().unwrap();
-    let words = |line: &str| -> Vec<String> {
-        let words = line.split_whitespace().skip(1);
-        words.map(str::to_owned).collect()
-    };
-    let [new, qualify] = [0, 1].map(|line| words(commands.lines().nth(line).unwrap()));
-    assert_eq!(new, ["new", ">", "my-drive.toml"]);
-    let drive = Done::of(at.path(), &["new"]).stdout;
-    std::fs::write(at.path().join("my-drive.toml"), drive).unwrap();
-    let qualify: Vec<&str> = qualify.iter().map(String::as_str).collect();
-    let done = Done::of(at.path(), &qualify);
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let (_, shown) = all.next().unwrap();
-    for line in shown.lines() {
+    let done = run_block(at.path(), all.next().unwrap().1);
+    for line in all.next().unwrap().1.lines() {
         assert!(done.stdout.contains(line), "{line}\n{}", done.stdout);
     }
 }

@@ -3,22 +3,23 @@
 use super::check::{Check, largest};
 use super::naive::asperities as naive;
 use super::scenes::heads::{
-    SuddenDisk, default_resolution, default_slider, film_of, gap_load, rough_film,
+    SuddenDisk, default_resolution, default_slider, film_of, gap_load, rough_film, suspended_by,
 };
 use super::scenes::rough::{
     Bounces, ELASTIC, INTEGRALS, ROUGH, SOFT, film, level, moment_of_pressure, padded, plate,
-    struck, unit_pressure_pa,
+    restitution, struck, unit_pressure_pa,
 };
 use super::scenes::suspensions::default_suspension;
 use opshock_solver::air_bearing::Film;
 use opshock_solver::air_bearing::gap_forces::AsperityContact;
 use opshock_solver::air_bearing::steady::fly;
-use opshock_solver::head::{HeadModel, HeadResolution, HeadRun, HeadWorkspace, ShockLoad, Verdict};
+use opshock_solver::head::{HeadResolution, HeadRun, HeadWorkspace, ShockLoad, Verdict};
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::rough_contact::asperity::AsperityLaw;
 use opshock_solver::rough_contact::roughness::normal_density;
 use opshock_solver::shock::{Pulse, PulseShape};
 use opshock_solver::slider::RailOutline;
+use opshock_solver::suspension::SuspensionParameters;
 
 /// 2/12 to 9/12 of a slider's length and width: a pad on grid lines of [`film`].
 fn pad_m() -> [[f64; 2]; 2] {
@@ -119,8 +120,9 @@ pub(super) fn g4() -> Vec<Check> {
         yield_pressure_pa: 1e17,
         ..ROUGH
     };
+    let suspension = default_suspension();
     let [fine, coarse] =
-        [1e-4, 5e-2].map(|tolerance| approached(&stiff, 0.02, tolerance, Dimple::Opens));
+        [1e-4, 5e-2].map(|tolerance| approached(&stiff, 0.02, tolerance, &suspension));
     vec![
         Check::none(
             "runs of a head against such a disk without a verdict",
@@ -135,32 +137,19 @@ pub(super) fn g4() -> Vec<Check> {
     ]
 }
 
-/// Whether a dimple opens, or is pressed so that it never does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Dimple {
-    Opens,
-    Glued,
-}
-
 /// A head whose disk comes at a speed for 20 us, through its contacts.
 fn approached(
     rough: &AsperityContact,
     velocity_m_per_s: f64,
     tolerance: f64,
-    dimple: Dimple,
+    suspension: &SuspensionParameters,
 ) -> HeadRun {
     let (film, flight) = rough_film(300, rough);
     let resolution = HeadResolution {
         tolerance,
         ..default_resolution()
     };
-    let mut suspension = default_suspension();
-    if dimple == Dimple::Glued {
-        suspension.gimbal.dimple_preload_n = 10.0;
-    }
-    let slider = default_slider();
-    let model = HeadModel::build(&suspension, &slider, film, flight, &resolution, 0.0);
-    let model = model.expect("head builds");
+    let model = suspended_by(suspension, &film, &flight, &resolution);
     let pulse = Pulse {
         shape: PulseShape::HalfSine,
         width_s: 2e-3,
@@ -187,13 +176,6 @@ fn undecided(run: &HeadRun) -> usize {
 }
 
 pub(super) fn g5() -> Vec<Check> {
-    // Restitution e of a sphere at v times the speed of first yield, Thornton (1997), equation 30.
-    let published = |v: f64| {
-        let inverse = 1.0 / v;
-        let square = inverse * inverse;
-        let ratio = inverse / (inverse + 2.0 * (1.2 - 0.2 * square).sqrt());
-        (6.0 * 3.0_f64.sqrt() / 5.0 * (1.0 - square / 6.0) * ratio.sqrt()).sqrt()
-    };
     let law = AsperityLaw::new(2e-6, 1e11, 1e10);
     // Work of loading in units of the limit: 2/5 up to it, then that of a straight line.
     let unit_j = law.limit_n * law.limit_m;
@@ -205,7 +187,7 @@ pub(super) fn g5() -> Vec<Check> {
         let depth = (square / 0.75).sqrt() + 1.0 / 3.0;
         let deepest_m = depth * law.limit_m;
         let returned_j = law.unloading(deepest_m).energy(deepest_m, deepest_m);
-        ((returned_j / work(depth)).sqrt() / published(v) - 1.0).abs()
+        ((returned_j / work(depth)).sqrt() / restitution(v) - 1.0).abs()
     });
     vec![
         Check::new(
@@ -215,7 +197,7 @@ pub(super) fn g5() -> Vec<Check> {
         )
         .against(
             "a law that is a function of the depth alone gives everything back",
-            1.0 / published(100.0) - 1.0,
+            1.0 / restitution(100.0) - 1.0,
         ),
     ]
 }
@@ -384,8 +366,12 @@ pub(super) fn g11() -> Vec<Check> {
 
 pub(super) fn g12() -> Vec<Check> {
     // The impact throws the slider off the load beam while its asperities still bear.
-    let [run, glued] =
-        [Dimple::Opens, Dimple::Glued].map(|dimple| approached(&ROUGH, 0.3, 1e-4, dimple));
+    let suspension = default_suspension();
+    // Pressed so that it never opens.
+    let mut pressed = suspension.clone();
+    pressed.gimbal.dimple_preload_n = 10.0;
+    let [run, never_opens] =
+        [&suspension, &pressed].map(|suspension| approached(&ROUGH, 0.3, 1e-4, suspension));
     let never_open = |run: &HeadRun| {
         let columns = run.columns.as_ref().expect("recorded");
         let forces = columns.dimple_force_n.iter().zip(&columns.asperity_force_n);
@@ -398,7 +384,10 @@ pub(super) fn g12() -> Vec<Check> {
             "runs in which the dimple is never open while the asperities bear",
             never_open(&run),
         )
-        .against("a spring that presses and pulls", never_open(&glued) as f64),
+        .against(
+            "a spring that presses and pulls",
+            never_open(&never_opens) as f64,
+        ),
         Check::new(
             "energy imbalance at the end, of the largest energy",
             imbalance(&run),

@@ -22,6 +22,7 @@ use super::recording::Recording;
 use super::registry::{AnsweredProbe, Job, Registry};
 use super::shard::Shard;
 use super::simulator::Simulator;
+use super::stop::TICK;
 use super::writer::{self, Message};
 use crate::search::ProbeResult;
 use crate::store::{
@@ -31,8 +32,6 @@ use crate::store::{
 
 /// Room between the searches and the writer.
 const CHANNEL: usize = 1024;
-/// Time between two checks of stop, budget and checkpoint.
-const TICK: Duration = Duration::from_millis(50);
 
 /// Sweeps a study into the store in `folder`, or continues it.
 ///

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crossbeam_channel::RecvTimeoutError;
 
@@ -13,10 +13,8 @@ use super::options::Ending;
 use super::progress::Event;
 use super::registry::Registry;
 use super::simulator::Simulator;
+use super::stop::TICK;
 use crate::store::StoreError;
-
-/// Time between two looks for a stop.
-const TICK: Duration = Duration::from_millis(50);
 
 /// What recording came to.
 #[derive(Debug, Default)]

@@ -4,6 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+/// Time between two looks for a request.
+pub const TICK: Duration = Duration::from_millis(50);
+
 /// Request to stop a sweep. Clones share the same request.
 #[derive(Clone, Debug, Default)]
 pub struct StopFlag {

@@ -5,15 +5,13 @@ use super::console::Console;
 use super::exit::Exit;
 use super::failure::Failure;
 use anyhow::Context as _;
+use opshock_study::sweep::stop::TICK;
 use opshock_study::sweep::{StopFlag, Until};
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// Time between two lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-
-/// Time between two looks for a signal.
-const TICK: Duration = Duration::from_millis(50);
 
 /// A command that runs for long.
 pub struct LongRun<'a> {

@@ -11,6 +11,7 @@ use opshock_solver::head::{Coupling, HeadModel, HeadResolution};
 use opshock_solver::quantity::rad_per_s_from_rpm;
 use opshock_solver::scene::Scene;
 use opshock_solver::slider::{RailOutline, SliderParameters};
+use opshock_solver::suspension::SuspensionParameters;
 
 use super::suspensions::default_suspension;
 
@@ -109,8 +110,18 @@ pub fn default_head(cells: usize, resolution: &HeadResolution) -> HeadModel {
 
 /// Default head on an existing film.
 pub fn head_on(film: &Arc<Film>, flight: &Arc<Flight>, resolution: &HeadResolution) -> HeadModel {
+    suspended_by(&default_suspension(), film, flight, resolution)
+}
+
+/// The same on another suspension.
+pub fn suspended_by(
+    suspension: &SuspensionParameters,
+    film: &Arc<Film>,
+    flight: &Arc<Flight>,
+    resolution: &HeadResolution,
+) -> HeadModel {
     HeadModel::build(
-        &default_suspension(),
+        suspension,
         &default_slider(),
         Arc::clone(film),
         Arc::clone(flight),

@@ -54,6 +54,14 @@ pub fn unit_pressure_pa(rough: &AsperityContact) -> f64 {
         * rough.roughness_m.powf(1.5)
 }
 
+/// Restitution of a sphere at v times the speed of first yield, v >= 1: Thornton, J. Appl. Mech. 64 (1997) 383, equation 30.
+pub fn restitution(v: f64) -> f64 {
+    let inverse = 1.0 / v;
+    let square = inverse * inverse;
+    let ratio = inverse / (inverse + 2.0 * (1.2 - 0.2 * square).sqrt());
+    (6.0 * 3.0_f64.sqrt() / 5.0 * (1.0 - square / 6.0) * ratio.sqrt()).sqrt()
+}
+
 /// A plane slider at a skew.
 pub fn plate(skew_deg: f64) -> SliderParameters {
     SliderParameters {
