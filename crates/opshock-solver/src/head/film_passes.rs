@@ -55,14 +55,14 @@ pub(super) fn add_storage(
     });
 }
 
-/// Root of the mean of (e/ψ)².
+/// Root of the mean of (e/ψ)², with `least` for ψ where that is less.
 ///
 /// # Panics
 ///
 /// When slices differ in length.
-pub(super) fn relative_size(e: &[f64], psi: &[f64]) -> f64 {
+pub(super) fn relative_size(e: &[f64], psi: &[f64], least: f64) -> f64 {
     assert_eq!(e.len(), psi.len());
-    let (squares, square) = widest(RelativeSquares { e, psi });
+    let (squares, square) = widest(RelativeSquares { e, psi, least });
     ((total(squares) + square) / psi.len() as f64).sqrt()
 }
 
@@ -100,6 +100,7 @@ impl Kernel for AddStorage<'_> {
 struct RelativeSquares<'a> {
     e: &'a [f64],
     psi: &'a [f64],
+    least: f64,
 }
 
 impl Kernel for RelativeSquares<'_> {
@@ -112,16 +113,23 @@ impl Kernel for RelativeSquares<'_> {
         let mut squares = [0.0; SUMS];
         for (e, psi) in e.iter().zip(psi) {
             for k in 0..SUMS {
-                let relative = e[k] / psi[k];
+                let relative = e[k] / at_least(psi[k], self.least);
                 squares[k] = relative.mul_add(relative, squares[k]);
             }
         }
         let mut square = 0.0;
         for (e, psi) in e_rest.iter().zip(psi_rest) {
-            square = (e / psi).mul_add(e / psi, square);
+            let relative = e / at_least(*psi, self.least);
+            square = relative.mul_add(relative, square);
         }
         (squares, square)
     }
+}
+
+/// ψ, or `least` where that is more; NaN stays.
+#[inline(always)]
+fn at_least(psi: f64, least: f64) -> f64 {
+    if psi < least { least } else { psi }
 }
 
 struct Correct<'a> {
@@ -180,6 +188,23 @@ impl Kernel for Correct<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn errors_are_relative_to_the_gas_or_to_the_least() {
+        for n in [1, 7, 8, 29] {
+            let e: Vec<f64> = (0..n).map(|k| 0.1 + f64::from(k)).collect();
+            let gas = |k: i32| if k % 3 == 0 { 1e-6 } else { 2.0 };
+            let mut psi: Vec<f64> = (0..n).map(gas).collect();
+            let squares = e.iter().zip(&psi).map(|(e, psi)| {
+                let over = if *psi < 1.0 { 0.5 } else { 2.0 };
+                (e / over).powi(2)
+            });
+            let expected = (squares.sum::<f64>() / f64::from(n)).sqrt();
+            assert!((relative_size(&e, &psi, 0.5) / expected - 1.0).abs() < 1e-14);
+            psi[0] = f64::NAN;
+            assert!(relative_size(&e, &psi, 0.5).is_nan());
+        }
+    }
 
     #[test]
     fn whole_chunks_and_the_rest_follow_the_formula() {

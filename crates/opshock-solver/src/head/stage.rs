@@ -38,6 +38,9 @@ const REUSE: f64 = 2.0;
 /// Stages solved with factors made for another d before they are made for the present one. Where the film is slow, such
 /// factors contract by no more than |1 − d/d'|, and the remaining error can accumulate over many steps.
 const MOST_BORROWED: u32 = 32;
+/// A stage of a shorter d has velocities of its own: (x − x_known)/d has too few digits, and an error of x that the
+/// tolerance allows is one of the velocity that the step's error estimate does not, s.
+const SHORT_S: f64 = 1e-11;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;
 
@@ -61,6 +64,12 @@ pub(super) struct Instant {
     /// Motion of the pivot that is not in `a`, and its rate.
     pub pivot: [f64; 2],
     pub d_s: f64,
+}
+
+impl Instant {
+    fn is_short(&self) -> bool {
+        self.d_s < SHORT_S
+    }
 }
 
 impl Stages<'_> {
@@ -251,14 +260,13 @@ impl Stages<'_> {
         let tolerance = self.model.resolution.coupling_tolerance;
 
         let attitude = self.model.attitude(x, &instant.pose);
+        self.moved_from(x_known, x);
         let mut fresh = self.ensure_factors(psi, &attitude, instant.d_s)?;
         let mut previous = f64::INFINITY;
         let mut estimate = f64::INFINITY;
         for iteration in 0..MAX_ITERATIONS {
             let attitude = self.model.attitude(x, &instant.pose);
-            for ((v, x), known) in self.scratch.velocity.iter_mut().zip(&*x).zip(x_known) {
-                *v = (x - known) / instant.d_s;
-            }
+            self.velocities(instant, x_known, x);
             let film = self.film_residual(instant, &attitude, psi, psi_known);
             let spurious = sum(&self.scratch.residual);
             let condensed = self.scratch.solve_film();
@@ -270,7 +278,7 @@ impl Stages<'_> {
             };
             self.mechanical_step(&iterate, Some(condensed))?;
 
-            let (size, cut) = self.apply(psi, x)?;
+            let (size, cut) = self.apply(instant, psi, x)?;
             if cut {
                 self.scratch.discard_factors();
                 let attitude = self.model.attitude(x, &instant.pose);
@@ -294,9 +302,8 @@ impl Stages<'_> {
                 size
             };
             if estimate <= tolerance && contraction < 1.0 {
-                for ((v, x), known) in v.iter_mut().zip(&*x).zip(x_known) {
-                    *v = (x - known) / instant.d_s;
-                }
+                self.velocities(instant, x_known, x);
+                v.copy_from_slice(&self.scratch.velocity);
                 self.note_imbalance(spurious * instant.d_s * contraction, psi);
                 let counters = &mut self.scratch.counters;
                 counters.max_residual = counters.max_residual.max(estimate);
@@ -316,13 +323,39 @@ impl Stages<'_> {
         Err(StageFailure::NotConverged(estimate))
     }
 
+    /// Keeps the way from `x_known` to `x`.
+    fn moved_from(&mut self, x_known: &[f64], x: &[f64]) {
+        for ((moved, x), known) in self.scratch.moved.iter_mut().zip(x).zip(x_known) {
+            *moved = x - known;
+        }
+    }
+
+    /// Velocities (x − x_known)/d of an iterate into the scratch.
+    fn velocities(&mut self, instant: &Instant, x_known: &[f64], x: &[f64]) {
+        if !instant.is_short() {
+            self.moved_from(x_known, x);
+        }
+        let s = &mut *self.scratch;
+        for (v, moved) in s.velocity.iter_mut().zip(&s.moved) {
+            *v = moved / instant.d_s;
+        }
+    }
+
     /// Applies the correction in the scratch (A⁻¹ r_f and δx) to (ψ, x). Returns its size relative to the gap, and
     /// whether it was shortened.
-    fn apply(&mut self, psi: &mut [f64], x: &mut [f64]) -> Result<(f64, bool), StageFailure> {
+    fn apply(
+        &mut self,
+        instant: &Instant,
+        psi: &mut [f64],
+        x: &mut [f64],
+    ) -> Result<(f64, bool), StageFailure> {
         let s = &mut *self.scratch;
         let dq = [s.mechanical[0], s.mechanical[1], s.mechanical[2]];
         let (square, loss) = correct_film(&mut s.residual, &s.z, psi, dq);
-        let gap = self.model.gap_change(&dq) / self.gap_m;
+        let mut gap = self.model.gap_change(&dq) / self.gap_m;
+        if instant.is_short() {
+            gap *= self.model.velocity_to_gap_s / instant.d_s;
+        }
         let size = gap + (square / psi.len() as f64).sqrt();
         if !size.is_finite() {
             return Err(StageFailure::NotFinite("film pressure"));
@@ -335,6 +368,9 @@ impl Stages<'_> {
         add_scaled(psi, factor, &s.residual);
         for (x, delta) in x.iter_mut().zip(&s.mechanical) {
             *x += factor * delta;
+        }
+        for (moved, delta) in s.moved.iter_mut().zip(&s.mechanical) {
+            *moved += factor * delta;
         }
         Ok((size, factor < 1.0))
     }

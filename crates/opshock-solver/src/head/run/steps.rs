@@ -17,6 +17,9 @@ const SMALLEST_STEP_S: f64 = 1e-14;
 /// Largest step, s: a share of the shortest period in the disk's motion that matters here.
 const LARGEST_STEP_S: f64 = 10e-6;
 
+/// Ambient air of this thickness is the least gas to which errors of a cell's gas are relative, m.
+const LEAST_GAS_M: f64 = 3e-12;
+
 /// First step of a run, s.
 const FIRST_STEP_S: f64 = 1e-7;
 
@@ -173,7 +176,7 @@ impl Run<'_> {
         let (e_psi, rest) = self.w.stepper.error().split_at(n_cells);
         let (e_x, e_v) = rest.split_at(n);
         let psi = &self.w.stepper.value()[..n_cells];
-        let film = relative_size(e_psi, psi);
+        let film = relative_size(e_psi, psi, LEAST_GAS_M * model.film.ambient_pa());
         let gap = model.gap_change(e_x) + model.velocity_to_gap_s * model.gap_change(e_v);
         let forces = &mut self.w.scratch.mechanical;
         let force = model.mechanics.suspension_force_error(e_x, forces);
