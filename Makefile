@@ -16,7 +16,7 @@ build: bootstrap ## build the optimised program
 	cargo build --release --locked -p opshock
 
 .PHONY: results
-results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance damage touch thresholds qualify yield worth answers paper match-paper accuracy bench presets finest" (needs python3)
+results: build ## every committed result anew, in order, with its time in results/times.csv (hours; goes on where it stopped): ONLY="fig13 fig13-converged fig13-stiffness fig13-geometry clearance damage touch thresholds minimum-height qualify yield worth answers paper match-paper accuracy bench presets finest" (needs python3)
 	scripts/results --jobs $(JOBS) $(ONLY)
 
 # Exit code 4: some points are open, which the table says.
@@ -80,6 +80,15 @@ thresholds: build ## critical shocks by the clearance that is called failure and
 	$(OPSHOCK) sweep studies/fig13/study.toml --set pulse.widths_ms=2 --set 'failure.clearance_nm=[0.0,0.6,1.0]' --set 'resolution.min_film_height_nm=[0.3,0.15,0.075]' \
 		--set search.uncertainty=false --store results/thresholds/thresholds.opshock -j $(JOBS) $(OR_OPEN)
 	$(OPSHOCK) report results/thresholds/thresholds.opshock --out results/thresholds --x failure.clearance_nm $(OR_OPEN)
+
+.PHONY: minimum-height
+ROUGH = $(OPSHOCK) sweep studies/fig13/study.toml --set 'ramp.models=["none"]' --set search.uncertainty=false --set 'asperity_contact.roughness_nm=[0.3,0.6]' \
+	--set 'resolution.min_film_height_nm=[0.3,0.15]' --set failure.criterion=damage --set failure.damage.overlap_nm=2.0 -j $(JOBS)
+minimum-height: build ## critical shocks of damage between rough surfaces, with the minimum film height and with half of it: results/minimum-height/ (half an hour of two cores, resumes)
+	$(ROUGH) --set search.monotonicity_scan=full --set 'search.amplitude_g={min=370,max=799}' --store results/minimum-height/below-799g.opshock $(OR_OPEN)
+	$(OPSHOCK) report results/minimum-height/below-799g.opshock --out results/minimum-height/below-799g $(OR_OPEN)
+	$(ROUGH) --set 'pulse.widths_ms=[1.5,2.0,3.0]' --set 'pulse.signs=["-"]' --set 'search.amplitude_g={min=799,max=2000}' --store results/minimum-height/from-799g.opshock $(OR_OPEN)
+	$(OPSHOCK) report results/minimum-height/from-799g.opshock --out results/minimum-height/from-799g $(OR_OPEN)
 
 .PHONY: yield
 yield: build ## share of drives with tolerances that survives a specification, for two lines of drives: results/yield/ (half an hour of two idle cores, resumes)
