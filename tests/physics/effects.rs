@@ -4,6 +4,7 @@
 
 use opshock_solver::air_bearing::SurfaceForces;
 use opshock_solver::air_bearing::gap_forces::AsperityContact;
+use opshock_solver::head::DamageLimits;
 use opshock_solver::scene::Scene;
 use opshock_solver::scene::plan::{Effect, Mode, Needs, Output, Plan, State, Touch};
 use opshock_solver::simulation::Model;
@@ -44,20 +45,32 @@ fn effects_auto_is_full_for_random_scenes() {
     }
 }
 
-/// Runs through contacts of rough surfaces, and runs that stop at the first touch.
+/// Runs through contacts of rough surfaces, and runs that stop at the first touch or at damage.
 #[test]
 fn effects_auto_is_full_for_rough_surfaces() {
-    let base = rough_base();
-    for seed in 0..2 {
-        for output in [Output::SliderContact, Output::CriticalShock] {
-            let pair = Pair {
-                with_head: true,
-                output: Some(output),
-                ..Pair::default()
-            };
-            random_pair(&base, seed, pair);
+    for base in [rough_base(), damaged_base()] {
+        for seed in 0..2 {
+            for output in [Output::SliderContact, Output::CriticalShock] {
+                let pair = Pair {
+                    with_head: true,
+                    output: Some(output),
+                    ..Pair::default()
+                };
+                random_pair(&base, seed, pair);
+            }
         }
     }
+}
+
+/// Rough surfaces, where an overlap of 1 nm is the failure.
+fn damaged_base() -> Scene {
+    let mut scene = rough_base();
+    scene.damage = Some(DamageLimits {
+        pressure_pa: None,
+        overlap_m: Some(1e-9),
+        episodes: None,
+    });
+    scene
 }
 
 /// The head is most of the cost of a pair: one pair in `n` has it.
@@ -72,13 +85,13 @@ fn with_head_every(n: u64, seed: u64) -> Pair {
 #[test]
 #[ignore = "slow"]
 fn effects_slow_auto_is_full_for_random_scenes() {
-    let (smooth, rough) = (base(), rough_base());
+    let (smooth, rough, damaged) = (base(), rough_base(), damaged_base());
     for seed in seeded::seeds(1000..3000) {
-        // One head in eight has rough surfaces.
-        let base = if seed.is_multiple_of(32) {
-            &rough
-        } else {
-            &smooth
+        // One head in eight has rough surfaces, one in sixteen fails by damage.
+        let base = match seed % 64 {
+            0 => &damaged,
+            32 => &rough,
+            _ => &smooth,
         };
         random_pair(base, seed, with_head_every(4, seed));
         if seed % 100 == 99 {

@@ -193,6 +193,10 @@ fn headings_of_tables_are_those_of_the_program() {
         "pulse.widths_ms=2",
         "--set",
         "ramp.models=[\"rigid\"]",
+        "--set",
+        "resolution.film_cells=200",
+        "--set",
+        "resolution.disk_cut_khz=10",
     ];
     let done = Done::of(
         at.path(),

@@ -7,6 +7,7 @@
 //! its head's cost can only be larger.
 
 use opshock_solver::air_bearing::SurfaceForces;
+use opshock_solver::air_bearing::steady::SteadyError;
 use opshock_solver::disk::{DiskDamping, HubParameters, Wave};
 use opshock_solver::quantity::m_per_s2_from_g;
 use opshock_solver::ramp::{ArmMode, Arms, NoRamp, RampBody, RigidRamp};
@@ -14,8 +15,8 @@ use opshock_solver::scene::plan::{Mode, Needs, Output, Plan};
 use opshock_solver::scene::{Scene, Window};
 use opshock_solver::shock::{BaseMode, ObliqueShock, PulseShape};
 use opshock_solver::simulation::{
-    Cost, HeadColumns, History, Model, Outcome, Request, StructureColumns, Verdict, Warning,
-    Workspace, simulate,
+    Bearing, BuildError, Cost, HeadColumns, History, Model, Outcome, Request, StructureColumns,
+    Verdict, Warning, Workspace, simulate,
 };
 use opshock_solver::suspension::{ContactLaw, LiftTab, Limiter};
 use opshock_study::search::{self, ProbeResult};
@@ -360,11 +361,15 @@ pub fn random_scene(base: &Scene, seeded: &mut Seeded) -> Scene {
         }];
     }
     if seeded.once_in(4) {
-        scene.gap_forces.surface_forces = SurfaceForces {
+        let surface_forces = SurfaceForces {
             hamaker_j: seeded.between(0.0, 2e-19),
             repulsion_j_m6: 1e-76,
             potential_v: seeded.between(0.0, 0.5),
         };
+        // A study with both is refused.
+        if scene.gap_forces.asperity_contact.roughness_m == 0.0 {
+            scene.gap_forces.surface_forces = surface_forces;
+        }
     }
     scene
 }
@@ -387,7 +392,11 @@ pub struct Pair {
 /// border that the contact march itself finds.
 pub fn random_pair(base: &Scene, seed: u64, pair: Pair) {
     let mut seeded = Seeded::new(seed);
-    let scene = random_scene(base, &mut seeded);
+    let mut scene = random_scene(base, &mut seeded);
+    let pulled_in = |error| matches!(error, BuildError::Steady(SteadyError::PulledIn { .. }));
+    if pair.with_head && Bearing::build(&scene, None).is_err_and(pulled_in) {
+        scene.gap_forces.surface_forces = SurfaceForces::default();
+    }
     let allowed: Vec<Output> = Output::ALL
         .into_iter()
         .filter(|output| pair.with_head || output.needs() == Needs::Structure)

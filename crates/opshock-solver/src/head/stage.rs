@@ -38,8 +38,9 @@ const REUSE: f64 = 2.0;
 /// Stages solved with factors made for another d before they are made for the present one. Where the film is slow, such
 /// factors contract by no more than |1 − d/d'|, and the remaining error can accumulate over many steps.
 const MOST_BORROWED: u32 = 32;
-/// A stage of a shorter d has velocities of its own: (x − x_known)/d has too few digits, and an error of x that the
-/// tolerance allows is one of the velocity that the step's error estimate does not, s.
+/// Below this d, s, velocities are summed by themselves: (x − x_known)/d has too few digits, and an error of x that the
+/// tolerance allows is one of the velocity that the step's error estimate does not. Both begin at some 1e-8 s; ordinary
+/// runs keep their bits with this limit.
 const SHORT_S: f64 = 1e-11;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;

@@ -14,7 +14,7 @@ pub(super) const FIRST_CONTRACTION: f64 = 0.1;
 /// Why a stage was given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StageFailure {
-    /// The iteration did not converge; the last estimate of its error relative to the gap.
+    /// The iteration did not converge; the last estimate of its error relative to the gap, in short stages of a velocity's.
     NotConverged(f64),
     /// A number was not finite.
     NotFinite(&'static str),
@@ -38,7 +38,7 @@ pub(super) struct StageScratch {
     pub residual: Vec<f64>,
     pub mechanical: Vec<f64>,
     pub velocity: Vec<f64>,
-    /// x − x_known of the present iterate.
+    /// x − x_known of the present iterate; in short stages summed, and so the more exact of the two.
     pub moved: Vec<f64>,
     /// Coordinates, velocities and known velocities over a pivot that moves.
     pub seen: [Vec<f64>; 3],
