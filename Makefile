@@ -75,22 +75,22 @@ qualify: build ## a drive that passes a specification, one that fails, one that 
 	$(QUALIFY) studies/qualify/operating.toml --set ramp.clearance_um=40 --store results/qualify/fails.opshock --out results/qualify/fails || test $$? -eq 8
 	$(QUALIFY) studies/qualify/operating-433g.toml --store results/qualify/undecided.opshock --out results/qualify/undecided $(OR_OPEN)
 
-.PHONY: thresholds
 # Of today's drive and of the one that Fig. 13 was made with before.
 THRESHOLDS = --set pulse.widths_ms=2 --set 'failure.clearance_nm=[0.0,0.6,1.0]' --set 'resolution.min_film_height_nm=[0.3,0.15,0.075]' --set search.uncertainty=false -j $(JOBS)
+.PHONY: thresholds
 thresholds: build ## critical shocks by the clearance that is called failure and by the minimum film height, of two drives: results/thresholds/ (minutes, resumes)
 	$(OPSHOCK) sweep studies/fig13/study.toml $(THRESHOLDS) --store results/thresholds/thresholds.opshock $(OR_OPEN)
 	$(OPSHOCK) report results/thresholds/thresholds.opshock --out results/thresholds --x failure.clearance_nm $(OR_OPEN)
 	$(OPSHOCK) sweep studies/fig13-stiffness/study.toml --set 'ramp.models=["none"]' $(THRESHOLDS) --store results/thresholds/stiffness.opshock $(OR_OPEN)
 	$(OPSHOCK) report results/thresholds/stiffness.opshock --out results/thresholds/stiffness --x failure.clearance_nm $(OR_OPEN)
 
-.PHONY: minimum-height
-ROUGH = $(OPSHOCK) sweep studies/fig13/study.toml --set 'ramp.models=["none"]' --set search.uncertainty=false --set 'asperity_contact.roughness_nm=[0.3,0.6]' \
+HEIGHTS = $(OPSHOCK) sweep studies/fig13/study.toml --set 'ramp.models=["none"]' --set search.uncertainty=false --set 'asperity_contact.roughness_nm=[0.3,0.6]' \
 	--set 'resolution.min_film_height_nm=[0.3,0.15]' --set failure.criterion=damage --set failure.damage.overlap_nm=2.0 -j $(JOBS)
-minimum-height: build ## critical shocks of damage between rough surfaces, with the minimum film height and with half of it: results/minimum-height/ (half an hour of two cores, resumes)
-	$(ROUGH) --set search.monotonicity_scan=full --set 'search.amplitude_g={min=370,max=799}' --store results/minimum-height/below-799g.opshock $(OR_OPEN)
+.PHONY: minimum-height
+minimum-height: build ## critical shocks of damage between rough surfaces, with the minimum film height and with half of it: results/minimum-height/ (23 minutes of a core, resumes)
+	$(HEIGHTS) --set search.monotonicity_scan=full --set 'search.amplitude_g={min=370,max=799}' --store results/minimum-height/below-799g.opshock $(OR_OPEN)
 	$(OPSHOCK) report results/minimum-height/below-799g.opshock --out results/minimum-height/below-799g $(OR_OPEN)
-	$(ROUGH) --set 'pulse.widths_ms=[1.5,2.0,3.0]' --set 'pulse.signs=["-"]' --set 'search.amplitude_g={min=799,max=2000}' --store results/minimum-height/from-799g.opshock $(OR_OPEN)
+	$(HEIGHTS) --set 'pulse.widths_ms=[1.5,2.0,3.0]' --set 'pulse.signs=["-"]' --set 'search.amplitude_g={min=799,max=2000}' --store results/minimum-height/from-799g.opshock $(OR_OPEN)
 	$(OPSHOCK) report results/minimum-height/from-799g.opshock --out results/minimum-height/from-799g $(OR_OPEN)
 
 .PHONY: yield

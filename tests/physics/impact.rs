@@ -205,7 +205,7 @@ fn a_yielding_ball_returns_as_fast_as_thorntons() {
     }
 }
 
-/// A plate that slides on its asperities: way, height, speed along the way and upwards.
+/// A plate that slides on its asperities: distance, height, speed along the disk and upwards.
 struct Sliding {
     film: Film,
     weight_n: f64,
@@ -283,6 +283,6 @@ fn friction_stops_a_plate_after_the_distance_of_coulombs_law() {
         SHEET,
         "distance to a stop by friction, relative",
         relative([stops_after_m, coulomb_m]),
-        1e-6,
+        1e-9,
     );
 }

@@ -38,9 +38,9 @@ const REUSE: f64 = 2.0;
 /// Stages solved with factors made for another d before they are made for the present one. Where the film is slow, such
 /// factors contract by no more than |1 − d/d'|, and the remaining error can accumulate over many steps.
 const MOST_BORROWED: u32 = 32;
-/// Below this d, s, velocities are summed by themselves: (x − x_known)/d has too few digits, and an error of x that the
-/// tolerance allows is one of the velocity that the step's error estimate does not. Both begin at some 1e-8 s; ordinary
-/// runs keep their bits with this limit.
+/// Below this d, s, the increment x − x_known is accumulated separately: the difference has too few digits for a velocity,
+/// and an error of x that the tolerance allows is one of the velocity that the step's error estimate does not. Both begin
+/// at some 1e-8 s; ordinary runs keep their bits with this limit.
 const SHORT_S: f64 = 1e-11;
 /// Share of a cell's gas that one iterate may take.
 const LARGEST_LOSS: f64 = 0.9;
@@ -261,7 +261,11 @@ impl Stages<'_> {
         let tolerance = self.model.resolution.coupling_tolerance;
 
         let attitude = self.model.attitude(x, &instant.pose);
-        self.moved_from(x_known, x);
+        if instant.is_short() {
+            let from_known = x.iter().zip(x_known).map(|(x, known)| x - known);
+            self.scratch.increment.clear();
+            self.scratch.increment.extend(from_known);
+        }
         let mut fresh = self.ensure_factors(psi, &attitude, instant.d_s)?;
         let mut previous = f64::INFINITY;
         let mut estimate = f64::INFINITY;
@@ -324,21 +328,17 @@ impl Stages<'_> {
         Err(StageFailure::NotConverged(estimate))
     }
 
-    /// Keeps the way from `x_known` to `x`.
-    fn moved_from(&mut self, x_known: &[f64], x: &[f64]) {
-        for ((moved, x), known) in self.scratch.moved.iter_mut().zip(x).zip(x_known) {
-            *moved = x - known;
-        }
-    }
-
     /// Velocities (x − x_known)/d of an iterate into the scratch.
     fn velocities(&mut self, instant: &Instant, x_known: &[f64], x: &[f64]) {
-        if !instant.is_short() {
-            self.moved_from(x_known, x);
-        }
         let s = &mut *self.scratch;
-        for (v, moved) in s.velocity.iter_mut().zip(&s.moved) {
-            *v = moved / instant.d_s;
+        if instant.is_short() {
+            for (v, increment) in s.velocity.iter_mut().zip(&s.increment) {
+                *v = increment / instant.d_s;
+            }
+        } else {
+            for ((v, x), known) in s.velocity.iter_mut().zip(x).zip(x_known) {
+                *v = (x - known) / instant.d_s;
+            }
         }
     }
 
@@ -370,8 +370,8 @@ impl Stages<'_> {
         for (x, delta) in x.iter_mut().zip(&s.mechanical) {
             *x += factor * delta;
         }
-        for (moved, delta) in s.moved.iter_mut().zip(&s.mechanical) {
-            *moved += factor * delta;
+        if instant.is_short() {
+            add_scaled(&mut s.increment, factor, &s.mechanical);
         }
         Ok((size, factor < 1.0))
     }

@@ -38,8 +38,8 @@ pub(super) struct StageScratch {
     pub residual: Vec<f64>,
     pub mechanical: Vec<f64>,
     pub velocity: Vec<f64>,
-    /// x − x_known of the present iterate; in short stages summed, and so the more exact of the two.
-    pub moved: Vec<f64>,
+    /// x − x_known of the present iterate of a short stage, accumulated.
+    pub increment: Vec<f64>,
     /// Coordinates, velocities and known velocities over a pivot that moves.
     pub seen: [Vec<f64>; 3],
     pub first_order: FirstOrderCells,
@@ -88,7 +88,7 @@ impl StageScratch {
             residual: vec![0.0; n_cells],
             mechanical: vec![0.0; n],
             velocity: vec![0.0; n],
-            moved: vec![0.0; n],
+            increment: Vec::with_capacity(n),
             seen: [0, 1, 2].map(|_| vec![0.0; n]),
             first_order: FirstOrderCells::default(),
             matrix: StageMatrix::new(model.mechanics.n_modes()),
